@@ -1,0 +1,38 @@
+// Primitives in canonical form, and the questions that the subdivision asks of them. A new
+// primitive is one file that answers these questions (see sphere.cpp, frustum.cpp).
+#pragma once
+
+#include "csgcore/primitive.hpp"
+
+namespace csgcore {
+
+/// Where a primitive lies against a cell. Conservative: kInside and kOutside are certain.
+enum class Classification : uint8_t { kOutside, kInside, kCrosses };
+
+/// Canonical space: x_canonical = world_to_canonical · (x_world − center).
+///   kSphere:  the unit ball.
+///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
+struct CanonicalPrimitive {
+  Shape shape = Shape::kSphere;
+  double radius_mid = 1;
+  double radius_slope = 0;
+  Vec3 center{0.0};               // world position of the canonical origin
+  Mat3 world_to_canonical{1.0};
+  Mat3 canonical_to_world{1.0};
+  Box bounds;                     // tight, in world space
+  /// Radius in world space of what is a true ball there, else 0.
+  double ball_radius = 0;
+  std::optional<Color> color;
+  uint32_t id = 0;
+};
+
+/// Precondition: is_valid(primitive).
+CanonicalPrimitive canonicalize(const Primitive& primitive);
+
+/// The cell is a closed, non-empty box.
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
+
+/// Membership in the closed solid, as exact as double evaluates it.
+bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world);
+
+}  // namespace csgcore

@@ -1,0 +1,47 @@
+// Vectors, axis-aligned boxes and affine maps, all in double (design.md §3: "Double is the
+// precision of csgcore").
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace csgcore {
+
+using Vec3 = glm::dvec3;
+using Mat3 = glm::dmat3;  // column-major, as GLM stores it: m[column][row]
+
+/// Closed axis-aligned box. A default-constructed box is empty (min > max) and is the identity of
+/// `merge`.
+struct Box {
+  Vec3 min{std::numeric_limits<double>::infinity()};
+  Vec3 max{-std::numeric_limits<double>::infinity()};
+
+  bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+  Vec3 center() const { return 0.5 * min + 0.5 * max; }
+  Vec3 size() const { return max - min; }
+  /// Length of the space diagonal; 0 for an empty box.
+  double diagonal() const;
+  void merge(const Box& other);
+  void merge(const Vec3& point);
+};
+
+/// x ↦ linear·x + translation.
+struct Affine {
+  Mat3 linear{1.0};
+  Vec3 translation{0.0};
+
+  Vec3 point(const Vec3& p) const { return linear * p + translation; }
+  Vec3 direction(const Vec3& d) const { return linear * d; }
+  double determinant() const;
+  /// True if all 12 entries are finite.
+  bool finite() const;
+};
+
+/// (a ∘ b)(x) = a(b(x)).
+Affine compose(const Affine& a, const Affine& b);
+
+/// The inverse of the linear part; its determinant must not be 0.
+Mat3 inverse(const Mat3& m);
+
+}  // namespace csgcore

@@ -1,0 +1,26 @@
+// A picture with its measured channels (design.md §2, `-o x.exr`).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
+
+/// Row-major from the top left corner. `rgb` always holds width·height entries; the other channels
+/// hold as many or, where they were not asked for, none.
+struct Image {
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  std::vector<std::array<uint8_t, 3>> rgb;
+  std::vector<float> z;            // View's s; +inf at a miss
+  std::vector<glm::vec3> normal;   // unit, world space, outward of the solid; 0 at a miss
+  std::vector<glm::vec3> position; // world space; 0 at a miss
+  std::vector<uint32_t> id;        // Primitive::id of the surface that is hit; kNoPrimitive at a miss
+};
+
+}  // namespace csgcore

@@ -1,0 +1,44 @@
+// The primitives: convex solids, each the image of a simple local solid under an affine map
+// (paper §3.2; design.md §3: "A primitive is convex and closed under affine maps").
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+/// Linear RGBA as the file gives it, each in [0, 1].
+struct Color {
+  float r, g, b, a;
+  bool operator==(const Color&) const = default;
+};
+
+enum class Shape : uint8_t {
+  kSphere,   // centred at the local origin, radius `r_bottom`
+  kFrustum,  // local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between
+};
+
+/// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.
+struct Primitive {
+  Shape shape = Shape::kSphere;
+  double r_bottom = 0;  // the sphere's radius, or the frustum's at z_min (0: pointed)
+  double r_top = 0;     // the frustum's radius at z_max (0: pointed)
+  double z_min = 0;     // frustum only, z_min < z_max
+  double z_max = 0;
+  Affine local_to_world;       // nonsingular; a mirror (det < 0) is fine
+  std::optional<Color> color;  // none: the scheme's front colour, or its back colour on cut faces
+  /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
+  uint32_t id = 0;
+};
+
+Primitive make_sphere(double radius, const Affine& local_to_world = {});
+Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
+                       const Affine& local_to_world = {});
+
+/// False for what is the empty set by openscad.md §2 (a size that is ≤ 0, infinite or nan; a matrix
+/// that is not finite), and for a singular matrix, which flattens the solid to nothing.
+bool is_valid(const Primitive& primitive);
+
+}  // namespace csgcore

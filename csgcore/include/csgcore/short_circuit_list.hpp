@@ -1,0 +1,69 @@
+// A CSG expression as a list of tests with jumps.
+//
+// The Boolean function of a cell is kept as the order in which short-circuit evaluation would test
+// its primitives, each test with the place to go on from if the point is inside the primitive and
+// the place if it is outside (the Blist form that Hable and Rossignac [paper, ref. 7, 12] evaluate
+// on the GPU). Why this form and neither a tree nor a truth table:
+// - one form serves a cell of two primitives and the whole scene: evaluation needs no stack, at any
+//   depth of nesting, on the CPU and in a shader;
+// - n-ary and binary operations, differences and complements are all the same jumps: a complement
+//   swaps the two targets;
+// - evaluation visits only what decides, so that primitives which don't matter on a ray are never
+//   intersected; a truth table needs all of them, and 2^K bits;
+// - restricting it to a cell (paper §2.2.1) is two linear passes, bottom up, and yields the
+//   irreducible expression.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+
+namespace csgcore {
+
+/// Jump targets that end the evaluation.
+constexpr uint32_t kListTrue = 0xFFFFFFFFu;
+constexpr uint32_t kListFalse = 0xFFFFFFFEu;
+
+/// One test. Targets are positions in the list, always greater than the test's own, or kListTrue or
+/// kListFalse.
+struct Literal {
+  uint32_t primitive : 31;
+  /// The primitive's complement bounds the solid: its surface is a cut face and its outward normal
+  /// points into the primitive (paper §3.2, step 4).
+  uint32_t complement : 1;
+  uint32_t if_inside;
+  uint32_t if_outside;
+
+  uint32_t if_true() const { return complement ? if_outside : if_inside; }
+  uint32_t if_false() const { return complement ? if_inside : if_outside; }
+  bool operator==(const Literal&) const = default;
+};
+
+/// A list with no literals is constant: `constant` tells whether it holds everywhere or nowhere.
+struct ShortCircuitList {
+  std::vector<Literal> literals;
+  bool constant = false;
+};
+
+/// Compiles a tree, in time proportional to its tokens and without recursion. The empty tree is the
+/// constant false.
+ShortCircuitList compile(const CsgTree& tree);
+
+/// Evaluates a non-empty list; `inside(primitive)` answers for each primitive that decides.
+template <typename Inside>
+bool evaluate(std::span<const Literal> literals, Inside&& inside) {
+  uint32_t i = 0;
+  do {
+    const Literal& literal = literals[i];
+    i = inside(static_cast<uint32_t>(literal.primitive)) ? literal.if_inside : literal.if_outside;
+  } while (i < kListFalse);
+  return i == kListTrue;
+}
+
+/// True if the list is a union of its literals: the paper's case 2 (§2.2). A single literal is one.
+bool is_union(std::span<const Literal> literals);
+
+}  // namespace csgcore

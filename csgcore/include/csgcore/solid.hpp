@@ -1,0 +1,41 @@
+// A scene made ready for subdivision and ray tracing: primitives in canonical form, and a tree
+// compiled to a short-circuit list.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/scene.hpp"
+#include "csgcore/short_circuit_list.hpp"
+
+namespace csgcore {
+
+/// The canonical primitives of a scene, index for index. Shared by the solids of its trees.
+using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
+std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene);
+
+/// One tree of a scene, immutable.
+class Solid {
+ public:
+  /// Every index in `tree` must be below primitives->size().
+  Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
+
+  std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
+  /// The whole tree, as a list that is valid everywhere.
+  const ShortCircuitList& list() const { return list_; }
+  /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
+  /// intersection's their intersection, a difference's that of its first operand. Empty if the
+  /// solid is.
+  const Box& bounds() const { return bounds_; }
+  /// Point membership in the closed primitives; on a surface either answer may come.
+  bool contains(const Vec3& point) const;
+
+ private:
+  std::shared_ptr<const CanonicalPrimitives> primitives_;
+  ShortCircuitList list_;
+  Box bounds_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,45 @@
+// The camera as a geometric object: which ray belongs to which pixel.
+#pragma once
+
+#include <cstdint>
+
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+enum class Projection : uint8_t { kPerspective, kOrthographic };
+
+/// A camera in world space. `right`, `up` and `forward` are orthonormal, right × up = −forward.
+/// A pixel (x, y), y downwards from the top left corner, is seen along the ray through its centre:
+///   u = (2(x + ½) − width)/height · half_height,  v = (height − 2(y + ½))/height · half_height
+///   perspective:  p(s) = eye + s·(forward + u·right + v·up), s > 0, half_height = tan(fov/2)
+///   orthographic: p(s) = eye + u·right + v·up + s·forward, any s, half_height in world units
+/// In both, s is the Z channel: the distance from the eye's plane along the view axis.
+/// (openscad.md §4: nothing is clipped at a near or far plane; an orthographic picture also shows
+/// what lies behind the eye.)
+struct View {
+  Projection projection = Projection::kPerspective;
+  Vec3 eye{0.0};
+  Vec3 right{1, 0, 0};
+  Vec3 up{0, 1, 0};
+  Vec3 forward{0, 0, -1};
+  double half_height = 1;
+  uint32_t width_px = 512;
+  uint32_t height_px = 512;
+};
+
+/// origin + s·direction, in world space.
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+};
+
+/// The ray of the pixel whose centre is (x_px + ½, y_px + ½), parametrised by s as above.
+Ray pixel_ray(const View& view, double x_px, double y_px);
+
+/// Upper bound of the size, in pixels, of the box's projection: the larger side of its bounding
+/// rectangle on the screen; +inf if the box reaches the eye's plane of a perspective view; 0 if it
+/// lies wholly behind the eye of a perspective view.
+double projected_size_px(const View& view, const Box& box);
+
+}  // namespace csgcore

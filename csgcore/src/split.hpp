@@ -1,0 +1,27 @@
+// Where a cell is divided in two.
+#pragma once
+
+#include <span>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/short_circuit_list.hpp"
+#include "csgcore/subdivision.hpp"
+
+namespace csgcore {
+
+struct Split {
+  uint32_t axis;
+  double position;
+};
+
+/// Paper §2.1: the middle of axis depth mod 3.
+Split cyclic_split(const Box& cell, uint32_t depth);
+
+/// The plane of least Σ (surface area of a side · primitives whose boxes reach into it), the
+/// expected cost of a ray that enters the cell (MacDonald and Booth, "Heuristics for ray tracing
+/// using space subdivision", 1990), among evenly spaced planes of every axis; the middle of the
+/// longest axis where no plane separates anything.
+Split surface_area_split(std::span<const CanonicalPrimitive> primitives,
+                         std::span<const Literal> literals, const Box& cell);
+
+}  // namespace csgcore

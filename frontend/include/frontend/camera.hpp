@@ -1,0 +1,42 @@
+// OpenSCAD's camera (openscad.md §4): its numbers, and the csgcore::View that they mean.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "csgcore/geometry.hpp"
+#include "csgcore/view.hpp"
+
+namespace frontend {
+
+/// OpenSCAD's $vpt, $vpr and $vpd. The eye stands at target + R·(0, 0, distance), where R is
+/// OpenSCAD's rotate(rotation_deg), and looks at the target.
+struct Camera {
+  csgcore::Vec3 target{0.0};
+  csgcore::Vec3 rotation_deg{55, 0, 25};
+  double distance = 140;
+};
+
+/// What the command line says of the camera and of the picture's size.
+struct CameraOptions {
+  std::optional<Camera> camera;  // none: as with view_all and auto_center
+  bool view_all = false;
+  bool auto_center = false;
+  csgcore::Projection projection = csgcore::Projection::kPerspective;
+  uint32_t width_px = 512;
+  uint32_t height_px = 512;
+};
+
+/// The camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target). Throws Error
+/// for any other count.
+Camera camera_from_numbers(std::span<const double> numbers);
+
+/// Applies view_all and auto_center to the design's box. An empty box leaves the camera as it is.
+/// Throws Error where the distance is not positive and nothing replaces it.
+Camera choose_camera(const CameraOptions& options, const csgcore::Box& view_box);
+
+/// The rays of that camera. Precondition: the distance is positive.
+csgcore::View make_view(const Camera& camera, const CameraOptions& options);
+
+}  // namespace frontend

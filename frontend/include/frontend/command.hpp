@@ -1,0 +1,22 @@
+// The program `scadray`, from its arguments to its exit code.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "frontend/render.hpp"
+
+namespace frontend {
+
+/// design.md §2. (2, a disagreement, is for `validate`.)
+enum class ExitCode : int { kDone = 0, kFailure = 1 };
+
+/// frontend::render, or another with its contract.
+using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,
+                                              const RenderSettings&, RenderStats&)>;
+
+/// Runs the command. Messages go to stderr; nothing is thrown.
+ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer);
+
+}  // namespace frontend

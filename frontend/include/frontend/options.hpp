@@ -1,0 +1,54 @@
+// The command line, as OpenSCAD's own parser reads it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frontend/camera.hpp"
+#include "frontend/importer.hpp"
+#include "frontend/render.hpp"
+
+namespace frontend {
+
+enum class PictureFormat : uint8_t { kPng, kExr };
+
+struct Output {
+  std::string path;  // "-": standard output
+  PictureFormat format;
+};
+
+/// What the command is to do.
+enum class Action : uint8_t { kDraw, kHelp, kVersion, kInfo };
+
+/// The whole command line, checked: every value is in its documented range.
+struct Options {
+  Action action = Action::kDraw;
+  std::string input;            // "-": a .csg from standard input
+  std::vector<Output> outputs;  // kDraw: at least one, at most one of them "-"
+  std::string stats_path;       // empty: none; "-": standard output
+  CameraOptions camera;
+  bool axes = false;
+  ImportOptions import;
+  RenderSettings render;
+  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> warnings;            // what is ignored, without the word "warning"
+  bool quiet = false;
+  bool info = false;
+};
+
+/// A run that writes more files than this is refused: each needs a slot for the clean-up at an
+/// interruption (see interrupt.hpp).
+constexpr std::size_t kMaxOutputs = 16;
+
+/// Larger pictures than this a side are refused; it is the largest texture and viewport side that
+/// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
+constexpr uint32_t kMaxPictureSide_px = 16384;
+
+/// Throws Error for anything that is wrong with the arguments (without the program's name).
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// The text of --help.
+std::string help_text();
+
+}  // namespace frontend

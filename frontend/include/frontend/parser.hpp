@@ -1,0 +1,16 @@
+// Text → syntax tree.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "frontend/syntax_tree.hpp"
+
+namespace frontend {
+
+/// Parses a .csg file (openscad.md §1: every version's spelling, and what a person may write by
+/// hand). Time and memory are in proportion to the text; nesting may be arbitrarily deep.
+/// `file_name` is used in messages only. Throws Error.
+SyntaxTree parse(std::string_view text, std::string file_name);
+
+}  // namespace frontend

@@ -1,0 +1,23 @@
+// Image → the bytes of a picture file (design.md §2, `-o x.png` and `-o x.exr`).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "csgcore/image.hpp"
+#include "frontend/options.hpp"
+
+namespace frontend {
+
+using Bytes = std::vector<std::byte>;
+
+/// 8-bit RGB. The same image gives the same bytes. Throws Error if memory runs out.
+Bytes encode_png(const csgcore::Image& image);
+
+/// Float channels R, G, B, A, Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and the uint channel id.
+/// Precondition: the image has its measured channels.
+Bytes encode_exr(const csgcore::Image& image);
+
+Bytes encode_picture(const csgcore::Image& image, PictureFormat format);
+
+}  // namespace frontend

@@ -1,0 +1,32 @@
+// What --stats writes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "frontend/render.hpp"
+
+namespace frontend {
+
+/// One run of the command. Times in ms.
+struct RunStats {
+  std::string file;
+  uint64_t file_bytes = 0;       // of the .csg text that is parsed
+  uint64_t nodes = 0;            // of the syntax tree
+  uint64_t primitive_nodes = 0;  // in the file, empty and invalid ones included
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  RenderStats render;
+  double export_ms = 0;  // openscad, for a .scad
+  double read_ms = 0;
+  double parse_ms = 0;
+  double import_ms = 0;
+  double encode_ms = 0;  // overlays and all pictures
+  double total_ms = 0;   // from the start to the last encoded picture, without what only the
+                         // measuring of the paper's times draws again
+};
+
+/// The keys are fixed; the README lists them.
+std::string to_json(const RunStats& stats);
+
+}  // namespace frontend

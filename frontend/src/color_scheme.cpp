@@ -1,0 +1,43 @@
+#include "frontend/color_scheme.hpp"
+
+#include <array>
+
+namespace frontend {
+namespace {
+
+constexpr Rgb rgb(uint32_t hex) {
+  return {static_cast<uint8_t>(hex >> 16), static_cast<uint8_t>(hex >> 8),
+          static_cast<uint8_t>(hex)};
+}
+
+constexpr ColorScheme scheme(const char* name, uint32_t background, uint32_t front, uint32_t back,
+                             uint32_t axes, uint32_t crosshair) {
+  return {name, rgb(background), rgb(front), rgb(back), rgb(axes), rgb(crosshair)};
+}
+
+constexpr std::array kSchemes = {
+    scheme("Cornfield", 0xffffe5, 0xf9d72c, 0x9dcb51, 0x000000, 0x800000),
+    scheme("Metallic", 0xaaaaff, 0xddddff, 0xdd22dd, 0x222233, 0x800000),
+    scheme("Sunset", 0xaa4444, 0xffaaaa, 0x882233, 0x220d0d, 0x800000),
+    scheme("Starnight", 0x000000, 0xffffe0, 0x00ffff, 0xe5e5e5, 0xf0f0f0),
+    scheme("BeforeDawn", 0x333333, 0xcccccc, 0x5563dd, 0xc1c1c1, 0xf0f0f0),
+    scheme("Nature", 0xfafafa, 0x16a085, 0xdbf4da, 0x323232, 0x111111),
+    scheme("DeepOcean", 0x333333, 0xeeeeee, 0x0babc8, 0xc1c1c1, 0xf0f0f0),
+    scheme("Solarized", 0xfdf6e3, 0xb58800, 0x882233, 0x191816, 0x800000),
+    scheme("Tomorrow", 0xf8f8f8, 0x4271ae, 0xf5871f, 0x181818, 0x8959a8),
+    scheme("Tomorrow Night", 0x1d1f21, 0x81a2be, 0xde935f, 0xe8e8e8, 0xb294bb),
+    scheme("Monotone", 0xffffe5, 0xf9d72c, 0xf9d72c, 0x191916, 0x800000),
+};
+
+}  // namespace
+
+std::span<const ColorScheme> color_schemes() { return kSchemes; }
+
+const ColorScheme* find_color_scheme(std::string_view name) {
+  for (const ColorScheme& candidate : kSchemes) {
+    if (candidate.name == name) return &candidate;
+  }
+  return nullptr;
+}
+
+}  // namespace frontend

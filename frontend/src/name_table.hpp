@@ -1,0 +1,54 @@
+// Compile-time hash tables of the words a .csg is made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace frontend {
+
+/// Finds a word's index in a fixed list. The hash looks at the length and at the first, the last
+/// and the middle letter: the words that OpenSCAD writes then seldom meet in one slot.
+template <size_t kCount>
+class NameTable {
+ public:
+  static constexpr uint8_t kNone = 255;
+  static_assert(kCount < kNone);
+
+  explicit consteval NameTable(const std::array<std::string_view, kCount>& names) : names_(names) {
+    slots_.fill(kNone);
+    for (size_t i = 0; i < kCount; ++i) {
+      size_t slot = hash(names[i]);
+      while (slots_[slot] != kNone) slot = (slot + 1) % kSlots;
+      slots_[slot] = static_cast<uint8_t>(i);
+    }
+  }
+
+  /// Index of `word` (which is not empty) in the list, or kNone.
+  uint8_t find(std::string_view word) const {
+    for (size_t slot = hash(word); slots_[slot] != kNone; slot = (slot + 1) % kSlots) {
+      if (names_[slots_[slot]] == word) return slots_[slot];
+    }
+    return kNone;
+  }
+
+  std::string_view operator[](uint8_t index) const { return names_[index]; }
+
+ private:
+  static constexpr size_t kSlots = 256;  // several times the words, so that most have their own
+
+  static constexpr size_t hash(std::string_view word) {
+    const auto at = [&](size_t i) { return static_cast<size_t>(static_cast<uint8_t>(word[i])); };
+    return (word.size() * 5 + at(0) * 7 + at(word.size() - 1) * 3 + at(word.size() / 2) * 11) %
+           kSlots;
+  }
+
+  std::array<std::string_view, kCount> names_;
+  std::array<uint8_t, kSlots> slots_{};
+};
+
+template <size_t kCount>
+NameTable(const std::array<std::string_view, kCount>&) -> NameTable<kCount>;
+
+}  // namespace frontend

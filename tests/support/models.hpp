@@ -1,0 +1,26 @@
+// Scenes made in memory for tests and benchmarks.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "csgcore/scene.hpp"
+
+namespace test_support {
+
+/// The paper's CSn: a cylinder r = 10, h = 20 minus n spheres of radius 20/√n, centred uniformly on
+/// its surface.
+csgcore::Scene cylinder_minus_spheres(uint32_t n, uint32_t seed = 1);
+
+/// The paper's CCn: the same cylinder minus n cones that bite through the surface, apex inwards:
+/// base radius 26/√n, height 4 times that, two thirds of it inside, tilted by up to 40°.
+csgcore::Scene cylinder_minus_cones(uint32_t n, uint32_t seed = 1);
+
+/// A random tree of `primitives` spheres, cylinders and cones under random affine maps (sheared,
+/// mirrored, unevenly scaled), within about [-10, 10]³.
+csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);
+
+/// A random affine map of moderate condition.
+csgcore::Affine random_affine(std::mt19937& random);
+
+}  // namespace test_support
