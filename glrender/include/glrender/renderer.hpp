@@ -1,0 +1,87 @@
+// Draws a subdivision by OpenGL (paper §3): the front faces of the leaf cells are rasterised, and a
+// fragment shader traces the ray of the pixel within its cell.
+//
+// Needs OpenGL 3.3 core. Uses more where the driver has it: ARB_conservative_depth and
+// ARB_clip_control together let the driver skip fragments behind what is drawn already.
+//
+// GL state: works in framebuffers, textures, buffers and programs of its own; leaves depth test,
+// depth clamp, face culling, clip control and viewport as it set them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "csgcore/image.hpp"
+#include "csgcore/subdivision.hpp"
+#include "csgcore/view.hpp"
+#include "glrender/context.hpp"
+
+namespace glrender {
+
+enum class Shading : uint8_t {
+  kOpenScad,  // rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space (openscad.md §4)
+  kPhong,     // positional light, ambient, diffuse and specular (paper §3.2; csgcore/phong.hpp)
+};
+
+enum class Subject : uint8_t {
+  kSurface,
+  kCells,  // the leaf cells with a surface in them, as boxes (paper, figure 5b)
+};
+
+struct FrameSettings {
+  glm::vec3 background{1.0f};  // each 0…1, as the picture stores it
+  glm::vec3 front{1.0f};       // of what has no colour of its own
+  glm::vec3 back{1.0f};        // of cut faces that have none
+  glm::vec3 edge{0.0f};        // of the cells' edges
+  Shading shading = Shading::kOpenScad;
+  Subject subject = Subject::kSurface;
+  bool measured_channels = false;  // fill Image's z, normal, position and id
+};
+
+/// Of one frame. Times in ms; GL is finished before a clock is read.
+struct FrameStats {
+  uint64_t draw_calls = 0;
+  uint64_t cells_drawn = 0;  // instances: a union of n counts n times (paper §3.3.3)
+  double traverse_ms = 0;    // front-to-back order, and the parameters' way to the GPU
+  double draw_ms = 0;
+  double read_ms = 0;  // from the GPU into the Image
+};
+
+/// Renders one solid. The solid and the context must outlive it. Shader variants are compiled when
+/// a cell first needs them.
+class Renderer {
+ public:
+  Renderer(HeadlessContext& context, const csgcore::Solid& solid);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Uploads the cells' functions; again after Subdivision::refine. The subdivision must be of this
+  /// renderer's solid and outlive its draws.
+  void load(const csgcore::Subdivision& subdivision);
+
+  /// Draws what was loaded, from any view, in its front-to-back order (paper §2.3). Throws GlError.
+  csgcore::Image draw(const csgcore::View& view, const FrameSettings& settings, FrameStats& stats);
+
+  /// What lies behind the last draw(), which must have had the same view and measured channels: the
+  /// boundary at which each ray leaves the piece of the solid (or the gap, if the eye is inside)
+  /// whose front draw() showed. For translucent parts.
+  csgcore::Image draw_behind(const csgcore::View& view, const FrameSettings& settings,
+                             FrameStats& stats);
+
+  /// The paper's T_S (§4.1): traverses and passes the parameters with no pixel shader active.
+  /// Returns ms.
+  double traversal_ms(const csgcore::View& view);
+
+  /// Paper §2.3: draws the cells in batches while another thread subdivides. The picture equals
+  /// draw()'s; what was loaded is replaced by nothing. stats.draw_ms is the paper's S_R.
+  csgcore::Image draw_while_subdividing(const csgcore::SubdivisionOptions& options,
+                                        const csgcore::View& view, const FrameSettings& settings,
+                                        FrameStats& stats);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace glrender

@@ -1,0 +1,33 @@
+// Colour of a hit (paper §3.2, step 9).
+
+uniform vec3 u_front, u_back;      // of what has no colour of its own
+uniform vec3 u_light_position;     // SHADING_PHONG
+
+vec3 unpack_rgb8(uint packed_color) {
+  return vec3((uvec3(packed_color) >> uvec3(0u, 8u, 16u)) & 255u) / 255.0;
+}
+
+vec3 base_color(uint primitive, bool complement) {
+  uvec4 surface = texelFetch(u_surfaces, int(primitive));
+  if (surface.y == 0u) return complement ? u_back : u_front;
+  return unpack_rgb8(surface.x);
+}
+
+// `normal` points out of the solid.
+vec3 shade(vec3 color, vec3 point, vec3 normal, vec3 ray_direction) {
+#if SHADING == SHADING_PHONG
+  vec3 to_eye = -normalize(ray_direction);
+  vec3 n = dot(normal, to_eye) < 0.0 ? -normal : normal;
+  vec3 to_light = normalize(u_light_position - point);
+  float cosine = dot(n, to_light);
+  vec3 result = color * (PHONG_AMBIENT + PHONG_DIFFUSE * max(cosine, 0.0));
+  if (cosine > 0.0) {
+    vec3 reflected = 2.0 * cosine * n - to_light;
+    result += PHONG_SPECULAR * pow(max(dot(reflected, to_eye), 0.0), PHONG_EXPONENT);
+  }
+  return min(result, vec3(1.0));
+#else
+  vec3 n_eye = vec3(dot(normal, u_right), dot(normal, u_up), -dot(normal, u_forward));
+  return min(color * (0.2 + abs(dot(n_eye, vec3(-1.0, 1.0, 1.0))) / sqrt(3.0)), vec3(1.0));
+#endif
+}

@@ -1,0 +1,104 @@
+#include "glrender/context.hpp"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <utility>
+#include <vector>
+
+namespace glrender {
+namespace {
+
+/// Displays to try, hardware first. A device without a DRM node is Mesa's software rasteriser.
+std::vector<EGLDisplay> candidate_displays() {
+  std::vector<EGLDisplay> hardware;
+  std::vector<EGLDisplay> software;
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
+      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
+    EGLint count = 0;
+    std::vector<EGLDeviceEXT> devices;
+    if (eglQueryDevicesEXT(0, nullptr, &count) && count > 0) {
+      devices.resize(static_cast<size_t>(count));
+      if (!eglQueryDevicesEXT(count, devices.data(), &count)) count = 0;
+    }
+    for (EGLint i = 0; i < count; ++i) {
+      const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
+      const std::string list = extensions ? extensions : "";
+      const bool is_software = list.find("EGL_MESA_device_software") != std::string::npos;
+      const EGLDisplay display =
+          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
+      if (display != EGL_NO_DISPLAY) (is_software ? software : hardware).push_back(display);
+    }
+  }
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    const EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display != EGL_NO_DISPLAY) software.insert(software.begin(), display);
+  }
+  hardware.insert(hardware.end(), software.begin(), software.end());
+  return hardware;
+}
+
+}  // namespace
+
+struct HeadlessContext::Impl {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+  std::string renderer_name;
+
+  /// False, with nothing left over, if this display cannot give an OpenGL 3.3 core context.
+  bool start(EGLDisplay candidate) {
+    if (!eglInitialize(candidate, nullptr, nullptr)) return false;
+    display = candidate;
+    const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE,
+                                        EGL_PBUFFER_BIT, EGL_NONE};
+    const EGLint context_attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                         3,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         3,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglBindAPI(EGL_OPENGL_API) &&
+        eglChooseConfig(display, config_attributes, &config, 1, &count) && count == 1) {
+      context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_attributes);
+    }
+    if (context != EGL_NO_CONTEXT &&
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+      renderer_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+      return true;
+    }
+    stop();
+    return false;
+  }
+
+  void stop() {
+    if (display == EGL_NO_DISPLAY) return;
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    eglTerminate(display);
+    display = EGL_NO_DISPLAY;
+    context = EGL_NO_CONTEXT;
+  }
+
+  ~Impl() { stop(); }
+};
+
+HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
+  for (const EGLDisplay display : candidate_displays()) {
+    if (impl_->start(display)) return;
+  }
+  throw GlError(
+      "no OpenGL 3.3 context without a display can be had through EGL (install libegl1 and "
+      "libgl1-mesa-dri, or a graphics driver)");
+}
+
+HeadlessContext::~HeadlessContext() = default;
+HeadlessContext::HeadlessContext(HeadlessContext&&) noexcept = default;
+HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = default;
+
+const std::string& HeadlessContext::renderer_name() const { return impl_->renderer_name; }
+
+}  // namespace glrender

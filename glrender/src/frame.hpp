@@ -1,0 +1,31 @@
+// A view made ready for the shaders: everything relative to a focus, in float.
+#pragma once
+
+#include "csgcore/view.hpp"
+#include "gl_object.hpp"
+
+namespace glrender {
+
+using csgcore::Vec3;
+
+/// Rays are o + t·d with t = 0 in the plane through the focus, a point on the view axis in the
+/// middle of the scene's depth range: what reaches the GPU is small where it matters, however far
+/// the eye or the model's origin is (design.md §3, §4).
+struct Frame {
+  csgcore::View view;
+  Vec3 focus{0.0};
+  double eye_distance = 0;  // from the eye's plane to the focus, along the axis
+  double depth_scale = 0;   // see frame.glsl
+  double far_t = 0;
+  double pixel_size = 0;  // world units at depth 1 (perspective) or anywhere (orthographic)
+  bool visible = false;   // false: the whole scene lies behind the eye
+
+  bool perspective() const { return view.projection == csgcore::Projection::kPerspective; }
+  glm::vec3 relative(const Vec3& point) const { return glm::vec3(point - focus); }
+};
+
+Frame make_frame(const csgcore::View& view, const csgcore::Box& scene_box);
+
+void set_frame_uniforms(GLuint program, const Frame& frame, double overlap);
+
+}  // namespace glrender

@@ -1,0 +1,68 @@
+// The constants that C++ and the shaders share; every shader is compiled with a #define of each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "csgcore/phong.hpp"
+#include "csgcore/short_circuit_list.hpp"
+
+namespace glrender {
+
+/// How a cell's primitives are combined: one draw call for all cells of a path.
+enum class Path : int {
+  kSingle,   // a primitive or its complement; unions by the depth buffer (paper §3.2, §3.3.3)
+  kBoth,     // §3.3.4 case 1
+  kMinus,    // cases 2 and 3
+  kNeither,  // case 4
+  kList,     // any function
+  kBoxes,    // the cells themselves
+};
+constexpr int kPaths = 6;
+
+constexpr unsigned kLocationBoxMin = 0;
+constexpr unsigned kLocationBoxMax = 1;
+constexpr unsigned kLocationList = 2;
+
+/// Texels of the primitive buffer: centre; three rows of world_to_canonical, with radius_mid,
+/// radius_slope and the shape beside them.
+constexpr int kPrimitiveTexels = 4;
+constexpr float kShapeSphere = 0;
+constexpr float kShapeFrustum = 1;
+
+struct ShaderConstant {
+  std::string_view name;
+  double value;
+  bool is_integer;
+};
+
+inline constexpr std::array kShaderConstants = {
+    ShaderConstant{"PATH_SINGLE", double(Path::kSingle), true},
+    ShaderConstant{"PATH_BOTH", double(Path::kBoth), true},
+    ShaderConstant{"PATH_MINUS", double(Path::kMinus), true},
+    ShaderConstant{"PATH_NEITHER", double(Path::kNeither), true},
+    ShaderConstant{"PATH_LIST", double(Path::kList), true},
+    ShaderConstant{"PATH_BOXES", double(Path::kBoxes), true},
+    ShaderConstant{"LOCATION_BOX_MIN", kLocationBoxMin, true},
+    ShaderConstant{"LOCATION_BOX_MAX", kLocationBoxMax, true},
+    ShaderConstant{"LOCATION_LIST", kLocationList, true},
+    ShaderConstant{"PRIMITIVE_TEXELS", kPrimitiveTexels, true},
+    ShaderConstant{"SHAPE_SPHERE", kShapeSphere, false},
+    ShaderConstant{"SHAPE_FRUSTUM", kShapeFrustum, false},
+    ShaderConstant{"SHADING_OPENSCAD", 0, true},
+    ShaderConstant{"SHADING_PHONG", 1, true},
+    ShaderConstant{"PHONG_AMBIENT", csgcore::kPhongAmbient, false},
+    ShaderConstant{"PHONG_DIFFUSE", csgcore::kPhongDiffuse, false},
+    ShaderConstant{"PHONG_SPECULAR", csgcore::kPhongSpecular, false},
+    ShaderConstant{"PHONG_EXPONENT", csgcore::kPhongExponent, false},
+    // A pixel's share that a cell's outline is pushed out: several steps of the coarsest sub-pixel
+    // grid that OpenGL allows (1/16 pixel).
+    ShaderConstant{"INFLATION_PX", 0.25, false},
+    // Below this cosine between ray and surface the tolerance along the ray stops growing: at a
+    // pixel's resolution nothing flatter is seen of a face.
+    ShaderConstant{"GRAZING_COSINE", 1.0 / 256, false},
+    ShaderConstant{"EDGE_WIDTH_PX", 0.75, false},
+};
+
+}  // namespace glrender

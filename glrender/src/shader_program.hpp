@@ -1,0 +1,41 @@
+// Shader variants: compiled from the embedded sources when first needed.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "gl_object.hpp"
+#include "glrender/renderer.hpp"
+#include "shader_constants.hpp"
+
+namespace glrender {
+
+/// Everything that a variant is compiled for.
+struct ProgramKey {
+  Path path = Path::kSingle;
+  Shading shading = Shading::kOpenScad;
+  bool perspective = true;
+  bool measured = false;
+  bool has_sphere = true;
+  bool has_frustum = true;
+  bool conservative_depth = false;
+  bool clip_zero_to_one = false;
+  bool behind = false;  // Renderer::draw_behind
+
+  auto operator<=>(const ProgramKey&) const = default;
+};
+
+/// Compiles and links one variant. Throws GlError with the driver's log.
+Program compile_program(const ProgramKey& key);
+
+/// The variants compiled so far.
+class ProgramCache {
+ public:
+  GLuint get(const ProgramKey& key);
+  size_t size() const { return programs_.size(); }
+
+ private:
+  std::map<ProgramKey, Program> programs_;
+};
+
+}  // namespace glrender

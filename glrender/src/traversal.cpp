@@ -1,0 +1,149 @@
+#include "traversal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace glrender {
+
+using csgcore::Box;
+using csgcore::KdNode;
+using csgcore::Leaf;
+using csgcore::LeafKind;
+using csgcore::Literal;
+
+void InstanceStreams::clear() {
+  for (auto& stream : front_faces) stream.clear();
+  for (auto& stream : back_faces) stream.clear();
+}
+
+uint64_t InstanceStreams::size() const {
+  uint64_t sum = 0;
+  for (const auto& stream : front_faces) sum += stream.size();
+  for (const auto& stream : back_faces) sum += stream.size();
+  return sum;
+}
+
+/// Generous: the back faces serve any cell, front faces only those that the eye is surely outside
+/// of after the vertex shader has pushed them out.
+bool InstanceSorter::surrounds_eye(const Box& box) const {
+  if (!frame_.perspective()) return false;
+  const Vec3 from_eye =
+      glm::max(glm::abs(box.min - frame_.view.eye), glm::abs(box.max - frame_.view.eye));
+  const double margin = glm::length(from_eye) * (frame_.pixel_size + 0x1p-10) + 2 * overlap_;
+  const Vec3& eye = frame_.view.eye;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (eye[axis] < box.min[axis] - margin || eye[axis] > box.max[axis] + margin) return false;
+  }
+  return true;
+}
+
+void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uint32_t count) {
+  const glm::vec3 low = frame_.relative(box.min);
+  const glm::vec3 high = frame_.relative(box.max);
+  auto& streams = surrounds_eye(box) ? streams_.back_faces : streams_.front_faces;
+  streams[static_cast<size_t>(path)].push_back({{low.x, low.y, low.z},
+                                                {high.x, high.y, high.z},
+                                                static_cast<uint32_t>(first_literal),
+                                                count});
+}
+
+void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
+  if (leaf.kind == LeafKind::kEmpty || leaf.kind == LeafKind::kDropped ||
+      leaf.kind == LeafKind::kRefined) {
+    return;
+  }
+  if (boxes_) {
+    push(Path::kBoxes, leaf.box, 0, 0);
+  } else if (leaf.kind == LeafKind::kUnion && !(eye_inside_ && leaf.literal_count > 1)) {
+    // Paper §3.3.3: the depth buffer unites. A primitive is looked for in no more of the cell than
+    // its own box; its complement in all of it.
+    for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+      Box box = leaf.box;
+      if (!literals[i].complement) {
+        const Box& bounds = solid_.primitives()[literals[i].primitive].bounds;
+        box = {glm::max(box.min, bounds.min - overlap_), glm::min(box.max, bounds.max + overlap_)};
+        if (box.empty()) continue;
+      }
+      push(eye_inside_ ? Path::kList : Path::kSingle, box, leaf.first_literal + i, 1);
+    }
+  } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {
+    const int complements = literals[0].complement + literals[1].complement;
+    const Path path =
+        complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);
+    push(path, leaf.box, leaf.first_literal, 2);
+  } else {
+    push(Path::kList, leaf.box, leaf.first_literal, leaf.literal_count);
+  }
+}
+
+namespace {
+
+/// The four side planes of the view, through the eye (perspective) or parallel (orthographic).
+class Frustum {
+ public:
+  explicit Frustum(const Frame& frame) {
+    const csgcore::View& view = frame.view;
+    const double half_width = view.half_height * view.width_px / view.height_px;
+    const auto plane = [&](const Vec3& outward, double half) {
+      return frame.perspective() ? Plane{outward - half * view.forward,
+                                         glm::dot(outward - half * view.forward, view.eye)}
+                                 : Plane{outward, glm::dot(outward, view.eye) + half};
+    };
+    planes_ = {plane(view.right, half_width), plane(-view.right, half_width),
+               plane(view.up, view.half_height), plane(-view.up, view.half_height)};
+  }
+
+  bool misses(const Box& box) const {
+    for (const Plane& plane : planes_) {
+      double lowest = -plane.offset;
+      for (int axis = 0; axis < 3; ++axis) {
+        lowest += plane.outward[axis] * (plane.outward[axis] > 0 ? box.min : box.max)[axis];
+      }
+      if (lowest > 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Plane {
+    Vec3 outward;
+    double offset;  // outward·x > offset: outside
+  };
+  std::array<Plane, 4> planes_{};
+};
+
+}  // namespace
+
+void traverse_front_to_back(const csgcore::Subdivision& subdivision, const Frame& frame,
+                            InstanceSorter& sorter) {
+  if (subdivision.nodes().empty() || !frame.visible) return;
+  const Frustum frustum(frame);
+  struct Visit {
+    uint32_t node;
+    Box box;
+  };
+  std::vector<Visit> stack{{0, subdivision.root_box()}};
+  while (!stack.empty()) {
+    const Visit visit = stack.back();
+    stack.pop_back();
+    if (frustum.misses(visit.box)) continue;
+    const KdNode& node = subdivision.nodes()[visit.node];
+    if (node.axis == KdNode::kLeafAxis) {
+      const Leaf& leaf = subdivision.leaves()[node.below];
+      sorter.add(leaf, subdivision.literals_of(leaf));
+      continue;
+    }
+    const int axis = static_cast<int>(node.axis);
+    Visit below{node.below, visit.box};
+    Visit above{node.above, visit.box};
+    below.box.max[axis] = above.box.min[axis] = node.split;
+    const bool below_first =
+        frame.perspective() ? frame.view.eye[axis] < node.split : frame.view.forward[axis] > 0;
+    stack.push_back(below_first ? above : below);
+    stack.push_back(below_first ? below : above);
+  }
+}
+
+}  // namespace glrender

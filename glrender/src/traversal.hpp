@@ -1,0 +1,61 @@
+// The kd-tree in front-to-back order (paper §2.3), as instances for the GPU.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "csgcore/subdivision.hpp"
+#include "frame.hpp"
+#include "shader_constants.hpp"
+
+namespace glrender {
+
+/// One cell, or one primitive of a union cell, as the vertex shader reads it.
+struct Instance {
+  float box_min[3];
+  float box_max[3];
+  uint32_t first_literal;
+  uint32_t literal_count;
+};
+
+/// Instances by path, each in front-to-back order. Cells around the eye are drawn by their back
+/// faces, as the front ones lie behind it.
+struct InstanceStreams {
+  std::array<std::vector<Instance>, kPaths> front_faces;
+  std::array<std::vector<Instance>, kPaths> back_faces;
+  void clear();
+  uint64_t size() const;
+};
+
+/// Sorts leaves into streams.
+class InstanceSorter {
+ public:
+  /// `eye_inside`: what is drawn is the solid's complement, to which only the general path applies.
+  InstanceSorter(const Frame& frame, const csgcore::Solid& solid, double overlap, bool eye_inside,
+                 bool boxes, InstanceStreams& streams)
+      : frame_(frame),
+        solid_(solid),
+        overlap_(overlap),
+        eye_inside_(eye_inside),
+        boxes_(boxes),
+        streams_(streams) {}
+
+  void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals);
+
+ private:
+  void push(Path path, const csgcore::Box& box, uint64_t first_literal, uint32_t count);
+  bool surrounds_eye(const csgcore::Box& box) const;
+
+  const Frame& frame_;
+  const csgcore::Solid& solid_;
+  double overlap_;
+  bool eye_inside_;
+  bool boxes_;
+  InstanceStreams& streams_;
+};
+
+/// Calls `sorter.add` for every leaf that may be on the screen, nearest first.
+void traverse_front_to_back(const csgcore::Subdivision& subdivision, const Frame& frame,
+                            InstanceSorter& sorter);
+
+}  // namespace glrender

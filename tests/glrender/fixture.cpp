@@ -1,0 +1,107 @@
+#include "fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+
+namespace gl_test {
+
+using csgcore::Image;
+using csgcore::Projection;
+using csgcore::Scene;
+using csgcore::SubdivisionOptions;
+using csgcore::Vec3;
+using csgcore::View;
+
+glrender::HeadlessContext& context() {
+  static glrender::HeadlessContext shared;
+  return shared;
+}
+
+View view_from(const Scene& scene, Projection projection, double around_deg, double above_deg,
+               double distance) {
+  const csgcore::Box box = csgcore::reference_box(scene);
+  const double size = box.diagonal();
+  const double around = around_deg * std::numbers::pi / 180;
+  const double above = above_deg * std::numbers::pi / 180;
+  const Vec3 towards_eye{std::cos(above) * std::cos(around), std::cos(above) * std::sin(around),
+                         std::sin(above)};
+  View view;
+  view.projection = projection;
+  view.forward = -towards_eye;
+  view.right = {-std::sin(around), std::cos(around), 0};
+  view.up = glm::cross(view.right, view.forward);
+  view.eye = box.center() + distance * size * towards_eye;
+  const double half_height = 0.55 * size;
+  view.half_height =
+      projection == Projection::kPerspective ? half_height / (distance * size) : half_height;
+  view.width_px = 320;
+  view.height_px = 240;
+  return view;
+}
+
+SubdivisionOptions leaves_of(uint32_t leaf_primitives) {
+  SubdivisionOptions options;
+  options.leaf_primitives = leaf_primitives;
+  return options;
+}
+
+Image draw(const Scene& scene, const View& view, const SubdivisionOptions& options,
+           glrender::FrameStats* stats) {
+  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
+  const csgcore::Subdivision subdivision(solid, options);
+  glrender::Renderer renderer(context(), solid);
+  renderer.load(subdivision);
+  glrender::FrameSettings settings;
+  settings.background = {0, 0, 0};
+  settings.measured_channels = true;
+  glrender::FrameStats unused;
+  return renderer.draw(view, settings, stats ? *stats : unused);
+}
+
+Comparison compare(const Image& picture, const Image& oracle, double model_size) {
+  constexpr double kPositionError = 1e-4;  // of the model's size
+  const double least_cosine = std::cos(0.5 * std::numbers::pi / 180);
+  Comparison result;
+  for (size_t i = 0; i < oracle.z.size(); ++i) {
+    const bool hit = std::isfinite(picture.z[i]);
+    const bool expected = std::isfinite(oracle.z[i]);
+    result.hits += expected;
+    const char* wrong = nullptr;
+    if (hit != expected) {
+      ++result.hit_or_miss;
+      wrong = "hit or miss";
+    } else if (hit && glm::length(picture.position[i] - oracle.position[i]) >
+                          kPositionError * model_size) {
+      ++result.position;
+      wrong = "position";
+    } else if (hit && picture.id[i] != oracle.id[i]) {
+      ++result.id;
+    } else if (hit && glm::dot(picture.normal[i], oracle.normal[i]) < least_cosine) {
+      ++result.normal;
+    }
+    if (wrong && result.first.empty()) {
+      std::ostringstream text;
+      text << wrong << " at pixel " << i % oracle.width_px << ", " << i / oracle.width_px << ": z "
+           << picture.z[i] << " instead of " << oracle.z[i] << ", id " << picture.id[i]
+           << " instead of " << oracle.id[i];
+      result.first = text.str();
+    }
+  }
+  return result;
+}
+
+void expect_right(const Scene& scene, const View& view, const SubdivisionOptions& options) {
+  const Image picture = draw(scene, view, options);
+  const Image oracle = csgcore::reference_render(scene, view);
+  const Comparison result = compare(picture, oracle, csgcore::reference_box(scene).diagonal());
+  EXPECT_LE(result.wrong() * 10000, std::max<uint64_t>(result.hits, 10000)) << result.first;
+  // At an edge two primitives are equally right, and either normal.
+  EXPECT_LE(result.id * 1000, std::max<uint64_t>(result.hits, 1000));
+  EXPECT_LE(result.normal * 1000, std::max<uint64_t>(result.hits, 1000));
+}
+
+}  // namespace gl_test

@@ -1,0 +1,48 @@
+// GL pictures held against the brute-force oracle.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "csgcore/image.hpp"
+#include "csgcore/scene.hpp"
+#include "csgcore/subdivision.hpp"
+#include "glrender/renderer.hpp"
+#include "support/reference.hpp"
+
+namespace gl_test {
+
+/// The context that all tests of a program share.
+glrender::HeadlessContext& context();
+
+/// A view from the direction given by two angles (degrees: around z, above the xy plane) towards
+/// the centre of the model, `distance` model diagonals away, the model filling most of the picture.
+csgcore::View view_from(const csgcore::Scene& scene, csgcore::Projection projection,
+                        double around_deg, double above_deg, double distance = 3);
+
+csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view,
+                    const csgcore::SubdivisionOptions& options,
+                    glrender::FrameStats* stats = nullptr);
+
+/// The default rule at a given K.
+csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
+
+struct Comparison {
+  uint64_t hits = 0;         // of the oracle
+  uint64_t hit_or_miss = 0;  // pixels that only one of the two hits
+  uint64_t position = 0;     // positions further apart than 1e-4 of the model's diagonal
+  uint64_t id = 0;           // same position, another primitive
+  uint64_t normal = 0;       // same primitive, normals more than 0.5° apart
+  std::string first;         // where and how the first wrong pixel is wrong
+  uint64_t wrong() const { return hit_or_miss + position; }
+};
+
+Comparison compare(const csgcore::Image& picture, const csgcore::Image& oracle, double model_size);
+
+/// Draws and compares; expects at most 1 wrong pixel in 10,000 hits (issue's bar) and consistent
+/// channels.
+void expect_right(const csgcore::Scene& scene, const csgcore::View& view,
+                  const csgcore::SubdivisionOptions& options);
+
+}  // namespace gl_test
