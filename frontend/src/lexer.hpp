@@ -177,7 +177,9 @@ inline bool is_below_one(std::string_view number) {
   const int64_t first =
       static_cast<int64_t>(std::min(digits.find_first_of("123456789"), digits.size()));
   const int64_t point = static_cast<int64_t>(std::min(digits.find('.'), digits.size()));
-  return point - first + shift <= 0;
+  // No text is long enough to make up for an exponent of 2^40 (the parser takes 4 GiB).
+  constexpr int64_t kFar = int64_t{1} << 40;
+  return point - first + std::clamp(shift, -kFar, kFar) <= 0;
 }
 
 inline double Lexer::number_by_library() {
@@ -198,7 +200,7 @@ inline double Lexer::number_by_library() {
 inline const char* Lexer::closing_quote(const char* from, const char* to) {
   for (const char* p = from; p < to; ++p) {
     if (*p == '"') return p;
-    if (*p == '\\') ++p;
+    if (*p == '\\' && p + 1 < to) ++p;
   }
   return to;
 }

@@ -37,6 +37,8 @@ constexpr uint32_t kMaxListDepth = 1u << 20;
 /// In SyntaxNode::modifiers while the node is open: its one child stands without braces.
 constexpr uint8_t kSingleChild = 0x80;
 
+constexpr const char* kValueHint = "write a number, true, false, undef, a \"string\" or a [list]";
+
 bool is_modifier(char c) { return c == '%' || c == '#' || c == '!' || c == '*'; }
 
 Modifier modifier_of(char c) {
@@ -101,6 +103,7 @@ class Parser {
   uint32_t close_list(uint32_t list);
   [[noreturn]] void fail_unclosed() const;
   [[noreturn]] void fail_value() const;
+  [[noreturn]] void fail_word(const char* start, std::string_view word) const;
 
   SyntaxTree tree_;  // before lexer_, which refers to its file name
   Lexer lexer_;
@@ -232,8 +235,7 @@ void Parser::argument() {
     lexer_.skip_space();
     argument.value = value();
   } else if (!constant(word, argument.value)) {
-    lexer_.fail(start, "no value is called " + quoted(word),
-                "write a number, true, false, undef, a \"string\" or a [list]");
+    fail_word(start, word);
   }
 }
 
@@ -267,20 +269,19 @@ Value Parser::scalar() {
     fail_value();
   } else if (const std::string_view word = lexer_.word();
              !constant(word, value) || (sign && value.kind != ValueKind::kNumber)) {
-    lexer_.fail(start, "no value is called " + quoted(word),
-                "write a number, true, false, undef, a \"string\" or a [list]");
+    fail_word(start, word);
   }
   if (negative) value.number = -value.number;
   return value;
 }
 
 Value Parser::list() {
-  uint32_t list = open_list(kNone);
+  uint32_t open = open_list(kNone);
   for (;;) {
     lexer_.skip_space();
     const char c = lexer_.peek();
     if (c == '[') {
-      list = open_list(list);
+      open = open_list(open);
       continue;
     }
     if (c != ']') lists_.push_back(scalar());
@@ -291,8 +292,8 @@ Value Parser::list() {
       if (!lexer_.take(']')) {
         lexer_.fail_expected("',' or ']'", "separate values by commas");
       }
-      list = close_list(list);
-      if (list == kNone) {
+      open = close_list(open);
+      if (open == kNone) {
         const Value whole = lists_.front();
         lists_.clear();
         return whole;
@@ -360,8 +361,11 @@ void Parser::fail_unclosed() const {
               "add a '}'; if the file is cut off, export it again");
 }
 
-void Parser::fail_value() const {
-  lexer_.fail_expected("a value", "write a number, true, false, undef, a \"string\" or a [list]");
+void Parser::fail_value() const { lexer_.fail_expected("a value", kValueHint); }
+
+void Parser::fail_word(const char* start, std::string_view word) const {
+  if (lexer_.at_end()) fail_value();  // the word may be cut off
+  lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
 }  // namespace

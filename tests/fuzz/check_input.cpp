@@ -1,0 +1,78 @@
+#include "check_input.hpp"
+
+#include "frontend/error.hpp"
+#include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
+
+namespace fuzz {
+namespace {
+
+using frontend::SyntaxTree;
+using frontend::Value;
+using frontend::ValueKind;
+
+bool is_within(const SyntaxTree& tree, const Value& value) {
+  const size_t size = value.kind == ValueKind::kList     ? tree.values.size()
+                      : value.kind == ValueKind::kString ? tree.strings.size()
+                                                         : SIZE_MAX;
+  return size == SIZE_MAX || (value.first <= size && value.count <= size - value.first);
+}
+
+/// Every subtree ends within its parent's, and no node keeps a bit that only the parser uses.
+bool is_nested(const SyntaxTree& tree) {
+  std::vector<size_t> ends = {tree.nodes.size()};
+  for (size_t i = 0; i < tree.nodes.size(); ++i) {
+    while (ends.back() == i && ends.size() > 1) ends.pop_back();
+    const frontend::SyntaxNode& node = tree.nodes[i];
+    if (node.subtree_end <= i || node.subtree_end > ends.back() || node.modifiers > 15)
+      return false;
+    ends.push_back(node.subtree_end);
+  }
+  return true;
+}
+
+std::string fault_of(const SyntaxTree& tree) {
+  if (!is_nested(tree)) return "subtrees are not nested";
+  size_t arguments = 0;
+  for (const frontend::SyntaxNode& node : tree.nodes) {
+    if (node.first_argument != arguments) return "arguments are not in the nodes' order";
+    arguments += node.argument_count;
+    if (node.location.line == 0 || node.location.column == 0) return "a node has no place";
+  }
+  if (arguments != tree.arguments.size()) return "an argument belongs to no node";
+  for (const frontend::Argument& argument : tree.arguments) {
+    if (!is_within(tree, argument.value)) return "an argument refers out of the tree";
+    for (const char c : argument.name) {
+      if (c != '$' && c != '_' && !std::isalnum(static_cast<unsigned char>(c))) {
+        return "an argument's name is no identifier";
+      }
+    }
+  }
+  for (size_t i = 0; i < tree.values.size(); ++i) {
+    const Value& value = tree.values[i];
+    if (!is_within(tree, value)) return "a value refers out of the tree";
+    // Inner lists are stored first, so whoever walks down a list comes to an end.
+    if (value.kind == ValueKind::kList && value.first + value.count > i)
+      return "a list holds itself";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string fault_of(std::string_view text) {
+  try {
+    const SyntaxTree tree = frontend::parse(text, "fuzz.csg");
+    std::string fault = fault_of(tree);
+    if (fault.empty()) frontend::import_design(tree, {.skip_unsupported = true});
+    return fault;
+  } catch (const frontend::Error& error) {
+    const std::string_view message = error.what();
+    if (!message.starts_with("fuzz.csg:"))
+      return "an error without its place: " + std::string(message);
+    if (message.find(": error: ") == std::string_view::npos) return "an error of another form";
+    return "";
+  }
+}
+
+}  // namespace fuzz

@@ -1,0 +1,13 @@
+// What must hold for any bytes that are read as a .csg; for libFuzzer and for mutate_test.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fuzz {
+
+/// Parses and imports `text`. Empty: it gave an Error with the file's name, or a tree whose parts
+/// all lie within each other. Else what is wrong. (Reads out of bounds are the sanitizers' to see.)
+std::string fault_of(std::string_view text);
+
+}  // namespace fuzz
