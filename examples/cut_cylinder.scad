@@ -21,12 +21,14 @@ cone_height = 4 * cone_radius;
 cone_inside = 2 / 3;
 max_tilt_deg = 40;
 
-// Random numbers in [0, 1), one list for each quantity that is drawn.
-where = rands(0, 1, n, seed);
-along = rands(0, 1, n, seed + 1);
-turn = rands(0, 360, n, seed + 2);
-tilt_deg = rands(0, max_tilt_deg, n, seed + 3);
-tilt_turn = rands(0, 360, n, seed + 4);
+// Random numbers in [0, 1), five for each cutter, all from one list.
+draws = 5;
+drawn = rands(0, 1, draws * n, seed);
+function draw(i, which) = drawn[draws * i + which];
+function along(i) = draw(i, 1);
+function turn_deg(i) = 360 * draw(i, 2);
+function tilt_deg(i) = max_tilt_deg * draw(i, 3);
+function tilt_turn_deg(i) = 360 * draw(i, 4);
 
 // Shares of the surface's area.
 wall_area = 2 * radius * height;
@@ -37,30 +39,29 @@ top_share = cap_area / (wall_area + 2 * cap_area);
 // OpenSCAD 2021.01 refuses ranges of 10,000 numbers and more.
 chunk = 1000;
 
-// Puts the children on the surface at the i-th random point, +z pointing outwards.
-module on_surface(i) {
-    if (where[i] < wall_share)
-        rotate([0, 0, turn[i]]) translate([radius, 0, (along[i] - 0.5) * height])
-            rotate([0, 90, 0]) children();
-    else if (where[i] < wall_share + top_share)
-        rotate([0, 0, turn[i]]) translate([radius * sqrt(along[i]), 0, height / 2]) children();
-    else
-        rotate([0, 0, turn[i]]) translate([radius * sqrt(along[i]), 0, -height / 2])
-            rotate([180, 0, 0]) children();
-}
+// The i-th point, uniformly by area, and the surface's outward normal there.
+function is_wall(i) = draw(i, 0) < wall_share;
+function is_top(i) = draw(i, 0) < wall_share + top_share;
+function round_z(a) = [cos(a), sin(a), 0];
+function point(i) =
+    is_wall(i) ? [radius * cos(turn_deg(i)), radius * sin(turn_deg(i)), (along(i) - 0.5) * height]
+               : radius * sqrt(along(i)) * round_z(turn_deg(i)) + normal(i) * height / 2;
+function normal(i) = is_wall(i) ? round_z(turn_deg(i)) : [0, 0, is_top(i) ? 1 : -1];
 
-module cut(i) {
-    if (cutter == "sphere")
-        on_surface(i) sphere(r = sphere_radius);
-    else
-        on_surface(i) rotate([0, 0, tilt_turn[i]]) rotate([0, tilt_deg[i], 0])
-            translate([0, 0, -cone_inside * cone_height])
-                cylinder(h = cone_height, r1 = 0, r2 = cone_radius);
-}
+// A unit vector across the normal, and the normal tilted towards a random side.
+function across(i) =
+    is_wall(i) ? cos(tilt_turn_deg(i)) * round_z(turn_deg(i) + 90) + [0, 0, sin(tilt_turn_deg(i))]
+               : round_z(tilt_turn_deg(i));
+function tilted(i) = cos(tilt_deg(i)) * normal(i) + sin(tilt_deg(i)) * across(i);
 
 difference() {
     cylinder(h = height, r = radius, center = true);
     for (first = [0 : chunk : n - 1])
         for (i = [first : min(first + chunk, n) - 1])
-            cut(i);
+            if (cutter == "sphere")
+                translate(point(i)) sphere(r = sphere_radius);
+            else
+                translate(point(i) - cone_inside * cone_height * tilted(i))
+                    rotate([0, acos(tilted(i).z), atan2(tilted(i).y, tilted(i).x)])
+                        cylinder(h = cone_height, r1 = 0, r2 = cone_radius);
 }

@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "full_run.hpp"
+
 namespace csgcore {
 namespace {
 
@@ -151,6 +153,19 @@ TEST(Reference, CoincidentFacesLeaveNoSkin) {
   EXPECT_EQ(shell.id[kCenter], 0u);
 }
 
+TEST(Reference, NormalsUnderAShear) {
+  // x' = x + z/2: points of the ellipsoid satisfy (x − z/2)² + y² + z² = 1.
+  Primitive ball = sphere(1);
+  ball.local_to_world.linear[2] = {0.5, 0, 1};
+  const Image image =
+      reference_render(scene_of(Op::kUnion, {ball}), from_above(5, Projection::kOrthographic));
+  const glm::vec3 at = image.position[kCenter + 5];
+  const float x = at.x - at.z / 2;
+  const glm::vec3 gradient = glm::normalize(glm::vec3(x, at.y, at.z - x / 2));
+  EXPECT_NEAR(image.normal[kCenter + 5].x, gradient.x, 1e-6);
+  EXPECT_NEAR(image.normal[kCenter + 5].z, gradient.z, 1e-6);
+}
+
 TEST(Reference, AGapOfRoundingIsClosed) {
   const Scene scene = scene_of(Op::kUnion, {frustum(0, 1, 1, 1), frustum(1 + 1e-12, 2, 1, 1, 1)});
   const Image image = reference_render(scene, from_above(1.5));  // inside the upper one
@@ -159,12 +174,12 @@ TEST(Reference, AGapOfRoundingIsClosed) {
 }
 
 TEST(Reference, FarEyeKeepsPrecision) {
-  Scene scene = scene_of(Op::kUnion, {sphere(1)});
-  View view = from_above(1e6);
-  view.half_height = 2e-6;
+  const Scene scene = scene_of(Op::kUnion, {frustum(0, 2, 1, 0)});
+  View view = from_above(1e9);
+  view.half_height = 2e-9;
   const Image image = reference_render(scene, view);
   const double x = 8 * 4.0 / 65;
-  EXPECT_NEAR(image.position[kCenter + 8].z, std::sqrt(1 - x * x), 1e-5);
+  EXPECT_NEAR(image.position[kCenter + 8].z, 2 * (1 - x), 1e-5);
 }
 
 TEST(Reference, PhongColoursOfFrontAndCutFaces) {
@@ -291,7 +306,8 @@ void check_pixel(const Scene& scene, const Vec3& origin, const Vec3& direction, 
 
 TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
   int hits = 0, inside = 0;
-  for (uint64_t seed = 0; seed < 60; ++seed) {
+  const uint64_t seeds = test_support::full_run() ? 60 : 15;
+  for (uint64_t seed = 0; seed < seeds; ++seed) {
     const Scene scene = RandomScene(seed).make();
     View view = from_above(seed % 3 == 0 ? 0.1 : 4,
                            seed % 2 ? Projection::kPerspective : Projection::kOrthographic);
@@ -311,8 +327,8 @@ TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
       inside += eye_inside;
     }
   }
-  EXPECT_GT(hits, 500);  // the test has seen something
-  EXPECT_GT(inside, 50);
+  EXPECT_GT(hits, 150);  // the test has seen something
+  EXPECT_GT(inside, 20);
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// POV-Ray as an outside judge (paper §4.2): scenes written in its language, and its pictures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "csgcore/phong.hpp"
+#include "csgcore/scene.hpp"
+#include "csgcore/view.hpp"
+#include "reference.hpp"
+
+namespace povray {
+
+/// The scene's model with the view's camera, the light and phong.hpp's finish, on a black
+/// background, as POV-Ray 3.7 text with linear colours. Precondition: `may_be_told_from_black`.
+std::string scene_text(const csgcore::Scene& scene, const csgcore::View& view,
+                       const csgcore::PhongLight& light, const csgcore::ReferenceColors& colors);
+
+/// True if every surface's ambient part alone is brighter than 8-bit black, so that a black pixel
+/// is a miss.
+bool may_be_told_from_black(const csgcore::Scene& scene, const csgcore::ReferenceColors& colors);
+
+using Pixels = std::vector<std::array<uint8_t, 3>>;  // row-major from the top left corner
+
+/// Runs povray at the paper's quality (+Q3: no shadows), without antialiasing. Throws
+/// std::runtime_error with povray's messages.
+Pixels render(const std::string& scene_text, uint32_t width_px, uint32_t height_px);
+
+/// True if there is a povray to run.
+bool installed();
+
+}  // namespace povray
