@@ -20,8 +20,9 @@ double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
 /// Exact at multiples of 30°, where the sine is 0, ±½ or ±1, so that straight views are straight.
 double sine_of_degrees(double angle_deg) {
-  constexpr std::array<double, 12> kSines = {0, 0.5,  std::numbers::sqrt3 / 2,  1,  std::numbers::sqrt3 / 2,  0.5,
-                                             0, -0.5, -std::numbers::sqrt3 / 2, -1, -std::numbers::sqrt3 / 2, -0.5};
+  constexpr std::array<double, 12> kSines = {
+      0, 0.5,  std::numbers::sqrt3 / 2,  1,  std::numbers::sqrt3 / 2,  0.5,
+      0, -0.5, -std::numbers::sqrt3 / 2, -1, -std::numbers::sqrt3 / 2, -0.5};
   double turn = std::fmod(angle_deg, 360.0);
   if (turn < 0) turn += 360;
   const double twelfth = turn / 30;
@@ -80,10 +81,10 @@ Camera choose_camera(const CameraOptions& options, const Box& view_box) {
   const bool view_all = options.view_all || !options.camera;
   const bool auto_center = options.auto_center || !options.camera;
   if (!view_box.empty()) {
-    if (auto_center) camera.target = view_box.center();
+    // Alone, auto_center does nothing: every OpenSCAD looks at it only where it views all.
+    if (view_all && auto_center) camera.target = view_box.center();
     if (view_all) {
-      const double radius =
-          length(view_box.center() - camera.target) + view_box.diagonal() / 2;
+      const double radius = length(view_box.center() - camera.target) + view_box.diagonal() / 2;
       if (radius > 0) camera.distance = radius / std::sin(radians(kHalfFov_deg));
     }
   }

@@ -183,8 +183,7 @@ FileText read_descriptor(int descriptor, const std::string& name) {
   room.grow(std::max(std::min(expected, kMaxInputBytes) + 1, kFirstRoom));
   while (true) {
     if (room.size == room.capacity) room.grow(room.capacity * 2);
-    const ssize_t count =
-        read(descriptor, room.bytes.get() + room.size, room.capacity - room.size);
+    const ssize_t count = read(descriptor, room.bytes.get() + room.size, room.capacity - room.size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw cannot_read(name, errno);
     if (count == 0) break;

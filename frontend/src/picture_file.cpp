@@ -1,6 +1,5 @@
 #include "frontend/picture_file.hpp"
 
-
 namespace frontend {
 
 Bytes encode_picture(const csgcore::Image& image, PictureFormat format) {

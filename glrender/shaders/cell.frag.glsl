@@ -26,16 +26,15 @@ struct Hit {
   float t;
   uint primitive;
   bool complement;
-  bool on_cap;
   bool at_end;   // the primitive's segment ends here, rather than starts
 };
 
-const Hit NO_HIT = Hit(INFINITY, 0u, false, false, false);
+const Hit NO_HIT = Hit(INFINITY, 0u, false, false);
 
 // How long, in t, a piece that starts at this boundary must be to exist: a piece of the solid thinner
 // than the tolerance, measured along the normal, is none (regularised operations, design.md §3).
 float shortest_piece(Ray ray, Hit hit) {
-  vec3 normal = normal_at(ray, hit.primitive, hit.t, hit.on_cap, hit.at_end);
+  vec3 normal = normal_at(ray, hit.primitive, hit.t, hit.at_end);
   return u_tolerance / max(abs(dot(normal, ray.direction)), GRAZING_COSINE);
 }
 
@@ -43,10 +42,10 @@ float shortest_piece(Ray ray, Hit hit) {
 float surely_long() { return u_tolerance / GRAZING_COSINE; }
 
 Hit start_of(Segment segment, Literal literal) {
-  return Hit(segment.start, literal.primitive, literal.complement, segment.start_on_cap, false);
+  return Hit(segment.start, literal.primitive, literal.complement, false);
 }
 Hit end_of(Segment segment, Literal literal) {
-  return Hit(segment.end, literal.primitive, literal.complement, segment.end_on_cap, true);
+  return Hit(segment.end, literal.primitive, literal.complement, true);
 }
 
 bool piece_exists(Ray ray, Hit from, float to) {
@@ -127,7 +126,12 @@ Hit first_hit(Ray ray, float enter, float leave) {
   return behind.t > enter && behind.t <= leave ? behind : NO_HIT;
 }
 
-#elif PATH == PATH_LIST
+#elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
+
+#if PATH == PATH_SHORT_LIST
+// Few primitives: each is intersected once, and the segments are kept.
+vec2 kept[SHORT_LIST];  // start and end
+#endif
 
 // Any function: the short-circuit list is evaluated at t, and with it the next t at which one of
 // the primitives that decided may change its mind; from boundary to boundary until it holds.
@@ -141,7 +145,11 @@ Evaluation evaluate(Ray ray, float t) {
   uint i = 0u;
   do {
     Literal literal = fetch_literal(v_list.x + i);
+#if PATH == PATH_SHORT_LIST
+    Segment segment = Segment(kept[i].x, kept[i].y, false, false);
+#else
     Segment segment = intersect(ray, literal.primitive);
+#endif
     bool inside = segment.start <= t && t < segment.end;
     if (inside) {
       if (segment.end < result.next.t) result.next = end_of(segment, literal);
@@ -155,6 +163,12 @@ Evaluation evaluate(Ray ray, float t) {
 }
 
 Hit first_hit(Ray ray, float enter, float leave) {
+#if PATH == PATH_SHORT_LIST
+  for (uint i = 0u; i < v_list.y; ++i) {
+    Segment segment = intersect(ray, fetch_literal(v_list.x + i).primitive);
+    kept[i] = vec2(segment.start, segment.end);
+  }
+#endif
   float t = enter;
   Evaluation now = evaluate(ray, t);
   if (now.value) {
@@ -195,7 +209,7 @@ void main() {
   if (hit.t == INFINITY) discard;
   vec3 point = ray.origin + hit.t * ray.direction;
   // Paper §3.2, step 4: a complement's normal is turned round.
-  vec3 normal = normal_at(ray, hit.primitive, hit.t, hit.on_cap, hit.at_end);
+  vec3 normal = normal_at(ray, hit.primitive, hit.t, hit.at_end);
   if (hit.complement) normal = -normal;
   vec3 color = base_color(hit.primitive, hit.complement && !u_eye_inside);
   o_color = vec4(shade(color, point, normal, ray.direction), 1.0);

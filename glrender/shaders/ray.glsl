@@ -154,26 +154,30 @@ Segment intersect_frustum(CanonicalRay ray) {
   return Segment(offset + start, offset + end, start_on_cap, end_on_cap);
 }
 
-Segment intersect(Ray ray, uint primitive) {
-  CanonicalRay canonical = canonical_ray(ray, primitive);
+Segment intersect(CanonicalRay ray) {
 #if HAS_SPHERE && HAS_FRUSTUM
-  if (canonical.is_sphere) return intersect_sphere(canonical);
-  return intersect_frustum(canonical);
+  if (ray.is_sphere) return intersect_sphere(ray);
+  return intersect_frustum(ray);
 #elif HAS_SPHERE
-  return intersect_sphere(canonical);
+  return intersect_sphere(ray);
 #else
-  return intersect_frustum(canonical);
+  return intersect_frustum(ray);
 #endif
 }
 
-// The primitive's own outward unit normal, in world space, where its segment ends at t.
-vec3 normal_at(Ray ray, uint primitive, float t, bool on_cap, bool at_end) {
+Segment intersect(Ray ray, uint primitive) { return intersect(canonical_ray(ray, primitive)); }
+
+// The primitive's own outward unit normal, in world space, where its segment starts or ends at t.
+// Which of its faces that is, is asked of the intersection once more, so that only the hit that is
+// shown pays for knowing it.
+vec3 normal_at(Ray ray, uint primitive, float t, bool at_end) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
+  Segment segment = intersect(canonical);
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
   vec3 gradient;
   if (canonical.is_sphere) {
     gradient = q;
-  } else if (on_cap) {
+  } else if (at_end ? segment.end_on_cap : segment.start_on_cap) {
     gradient = vec3(0.0, 0.0, (canonical.direction.z > 0.0) == at_end ? 1.0 : -1.0);
   } else {
     gradient = vec3(q.xy, -canonical.radius_slope *

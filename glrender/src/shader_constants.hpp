@@ -16,10 +16,14 @@ enum class Path : int {
   kBoth,     // §3.3.4 case 1
   kMinus,    // cases 2 and 3
   kNeither,  // case 4
-  kList,     // any function
+  kShortList,  // any function of up to kShortList primitives
+  kList,       // any function
   kBoxes,    // the cells themselves
 };
-constexpr int kPaths = 6;
+constexpr int kPaths = 7;
+
+/// Up to so many primitives a fragment keeps all segments: the default K.
+constexpr uint32_t kShortList = 8;
 
 constexpr unsigned kLocationBoxMin = 0;
 constexpr unsigned kLocationBoxMax = 1;
@@ -42,6 +46,8 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"PATH_BOTH", double(Path::kBoth), true},
     ShaderConstant{"PATH_MINUS", double(Path::kMinus), true},
     ShaderConstant{"PATH_NEITHER", double(Path::kNeither), true},
+    ShaderConstant{"PATH_SHORT_LIST", double(Path::kShortList), true},
+    ShaderConstant{"SHORT_LIST", kShortList, true},
     ShaderConstant{"PATH_LIST", double(Path::kList), true},
     ShaderConstant{"PATH_BOXES", double(Path::kBoxes), true},
     ShaderConstant{"LOCATION_BOX_MIN", kLocationBoxMin, true},

@@ -74,7 +74,8 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
         complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);
     push(path, leaf.box, leaf.first_literal, 2);
   } else {
-    push(Path::kList, leaf.box, leaf.first_literal, leaf.literal_count);
+    const Path path = leaf.literal_count <= kShortList ? Path::kShortList : Path::kList;
+    push(path, leaf.box, leaf.first_literal, leaf.literal_count);
   }
 }
 

@@ -22,14 +22,14 @@ struct Camera {
 struct CameraOptions {
   std::optional<Camera> camera;  // none: as with view_all and auto_center
   bool view_all = false;
-  bool auto_center = false;
+  bool auto_center = false;  // only together with view_all, as in OpenSCAD
   csgcore::Projection projection = csgcore::Projection::kPerspective;
   uint32_t width_px = 512;
   uint32_t height_px = 512;
 };
 
-/// The camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target). Throws Error
-/// for any other count.
+/// The camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target). Throws
+/// Error for any other count.
 Camera camera_from_numbers(std::span<const double> numbers);
 
 /// Applies view_all and auto_center to the design's box. An empty box leaves the camera as it is.

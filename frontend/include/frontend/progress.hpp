@@ -21,8 +21,8 @@ class ProgressLine {
   /// Removes the line, before anything else is written to stderr.
   void clear();
 
-  static constexpr std::chrono::milliseconds kSilence{500};    // short runs show nothing
-  static constexpr std::chrono::milliseconds kInterval{100};   // enough for an eye
+  static constexpr std::chrono::milliseconds kSilence{500};   // short runs show nothing
+  static constexpr std::chrono::milliseconds kInterval{100};  // enough for an eye
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,0 +1,225 @@
+#include "frontend/command.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+#include "frontend/axes_overlay.hpp"
+#include "frontend/channel_picture.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/openscad_export.hpp"
+#include "frontend/options.hpp"
+#include "frontend/parser.hpp"
+#include "frontend/picture_file.hpp"
+#include "frontend/progress.hpp"
+#include "frontend/statistics.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+bool has_suffix(const std::string& path, std::string_view suffix) {
+  if (path.size() < suffix.size()) return false;
+  return std::equal(
+      suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
+      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
+}
+
+Image background_picture(const csgcore::View& view, Rgb color, bool with_channels) {
+  Image image;
+  image.width_px = view.width_px;
+  image.height_px = view.height_px;
+  const std::size_t pixels = std::size_t{view.width_px} * view.height_px;
+  image.rgb.assign(pixels, {color.r, color.g, color.b});
+  if (with_channels) {
+    image.z.assign(pixels, std::numeric_limits<float>::infinity());
+    image.normal.assign(pixels, glm::vec3(0.0f));
+    image.position.assign(pixels, glm::vec3(0.0f));
+    image.id.assign(pixels, csgcore::kNoPrimitive);
+  }
+  return image;
+}
+
+/// One run that draws.
+class Run {
+ public:
+  Run(const Options& options, const Renderer& renderer)
+      : options_(options),
+        renderer_(renderer),
+        progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+
+  void execute() {
+    check_outputs();
+    for (const std::string& warning : options_.warnings) say("warning: " + warning);
+    const ImportedDesign design = import();
+    const Camera camera = choose_camera(options_.camera, design.view_box);
+    const csgcore::View view = make_view(camera, options_.camera);
+    Image image = draw(design.scene, view);
+    const std::vector<PendingOutput> outputs = encode(image, view, camera);
+    progress_.clear();
+    write_outputs(outputs);
+  }
+
+ private:
+  void check_outputs() const {
+    for (const Output& output : options_.outputs) check_output(output.path);
+    if (!options_.stats_path.empty()) check_output(options_.stats_path);
+  }
+
+  /// A line on stderr, unless -q.
+  void say(const std::string& text) {
+    if (options_.quiet) return;
+    progress_.clear();
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+
+  FileText read_csg() {
+    const Clock::time_point start = Clock::now();
+    FileText text = read_file(options_.input);  // for a .scad, to see that it can be read
+    stats_.read_ms = ms_since(start);
+    if (!has_suffix(options_.input, ".scad")) return text;
+    const Clock::time_point export_start = Clock::now();
+    text = export_with_openscad(
+        options_.input, options_.openscad_arguments,
+        [this](const std::string& line) {
+          if (!options_.quiet || line.starts_with("ERROR")) {
+            progress_.clear();
+            std::fprintf(stderr, "%s\n", line.c_str());
+          }
+        },
+        [this] { progress_.update("openscad", -1); });
+    stats_.export_ms = ms_since(export_start);
+    return text;
+  }
+
+  ImportedDesign import() {
+    const FileText text = read_csg();
+    const std::string name = options_.input == "-" ? "standard input" : options_.input;
+    stats_.file = name;
+    stats_.file_bytes = text.view().size();
+    progress_.update("parsing", -1);
+    const Clock::time_point parse_start = Clock::now();
+    const SyntaxTree tree = parse(text.view(), name);
+    stats_.parse_ms = ms_since(parse_start);
+    stats_.nodes = tree.nodes.size();
+    progress_.update("importing", -1);
+    const Clock::time_point import_start = Clock::now();
+    ImportedDesign design = import_design(tree, options_.import);
+    stats_.import_ms = ms_since(import_start);
+    stats_.primitive_nodes = design.primitive_nodes;
+    for (const Warning& warning : design.warnings) say(warning.text);
+    return design;
+  }
+
+  bool writes_exr() const {
+    return std::any_of(options_.outputs.begin(), options_.outputs.end(),
+                       [](const Output& o) { return o.format == PictureFormat::kExr; });
+  }
+
+  Image draw(const csgcore::Scene& scene, const csgcore::View& view) {
+    RenderSettings settings = options_.render;
+    const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
+    settings.measured_channels = shows_channel || options_.axes || writes_exr();
+    settings.measure_paper_times = !options_.stats_path.empty();
+    settings.progress = [this](const char* stage, double fraction) {
+      progress_.update(stage, fraction);
+    };
+    const Clock::time_point start = Clock::now();
+    Image image;
+    if (scene.model.empty() && scene.background.empty() && scene.highlight.empty()) {
+      // Nothing to draw needs no GPU: this works where there is none.
+      image = background_picture(view, settings.scheme.background, settings.measured_channels);
+      stats_.render.renderer = "none";
+      stats_.render.render_ms = ms_since(start);
+    } else {
+      image = renderer_(scene, view, settings, stats_.render);
+      const RenderStats& r = stats_.render;
+      const double drawing = r.context_ms + r.subdivide_ms + r.traverse_ms + r.render_ms;
+      if (settings.measure_paper_times) measuring_ms_ = std::max(0.0, ms_since(start) - drawing);
+    }
+    if (options_.info) say("renderer: " + stats_.render.renderer);
+    return image;
+  }
+
+  std::vector<PendingOutput> encode(Image& image, const csgcore::View& view, const Camera& camera) {
+    progress_.update("encoding", -1);
+    const Clock::time_point start = Clock::now();
+    const ColorScheme& scheme = options_.render.scheme;
+    show_channel(image, options_.render.show, scheme.background);
+    if (options_.axes) draw_axes(image, view, camera, scheme.axes);
+    std::vector<PendingOutput> outputs;
+    for (const Output& output : options_.outputs) {
+      outputs.push_back({output.path, encode_picture(image, output.format)});
+    }
+    stats_.width_px = image.width_px;
+    stats_.height_px = image.height_px;
+    stats_.encode_ms = ms_since(start);
+    stats_.total_ms = ms_since(start_) - measuring_ms_;
+    if (!options_.stats_path.empty()) {
+      const std::string json = to_json(stats_);
+      const auto* first = reinterpret_cast<const std::byte*>(json.data());
+      outputs.push_back({options_.stats_path, Bytes(first, first + json.size())});
+    }
+    return outputs;
+  }
+
+  const Options& options_;
+  const Renderer& renderer_;
+  Clock::time_point start_ = Clock::now();
+  RunStats stats_;
+  double measuring_ms_ = 0;  // spent on the paper's times alone
+  ProgressLine progress_;
+};
+
+void print_info() {
+  std::printf("scadray %s\npictures: PNG (libspng), EXR (OpenEXR)\nrenderers: gl\n.scad by: %s\n",
+              SCADRAY_VERSION, "openscad on PATH, or $OPENSCAD");
+}
+
+void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  const Options options = parse_options(arguments);
+  switch (options.action) {
+    case Action::kHelp:
+      std::fputs(help_text().c_str(), stdout);
+      break;
+    case Action::kVersion:
+      std::printf("scadray version %s\n", SCADRAY_VERSION);
+      break;
+    case Action::kInfo:
+      print_info();
+      break;
+    case Action::kDraw:
+      Run(options, renderer).execute();
+      break;
+  }
+}
+
+}  // namespace
+
+ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  try {
+    run(arguments, renderer);
+    if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
+    return ExitCode::kDone;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: out of memory (try a smaller --imgsize or design)\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return ExitCode::kFailure;
+}
+
+}  // namespace frontend

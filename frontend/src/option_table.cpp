@@ -1,0 +1,125 @@
+#include "option_table.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontend/color_scheme.hpp"
+
+namespace frontend {
+namespace {
+
+namespace po = boost::program_options;
+
+enum class Takes : uint8_t {
+  kNothing,
+  kText,
+  kTexts,         // may be given more than once
+  kOptionalText,  // may stand without a value, but takes the next word as one if there is one
+  kCount,
+};
+
+struct Row {
+  const char* names;  // "long,short"
+  Takes takes;
+  const char* value_name;
+  const char* help;
+};
+
+// Where OpenSCAD has a long name of one letter for a short option, so have we.
+constexpr Row kOpenScadOptions[] = {
+    {"o,o", Takes::kTexts, "OUT",
+     "picture to write: .png or .exr; - is standard output, with --export-format; may be given "
+     "more than once"},
+    {"export-format", Takes::kText, "FORMAT", "png or exr, whatever OUT's suffix is"},
+    {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
+    {"camera", Takes::kText, "NUMBERS",
+     "translation x,y,z, rotation x,y,z in degrees, distance; or eye x,y,z, centre x,y,z; default: "
+     "--viewall --autocenter"},
+    {"viewall", Takes::kNothing, "", "take the distance at which the whole design is seen"},
+    {"autocenter", Takes::kNothing, "", "with --viewall: look at the design's centre"},
+    {"projection", Takes::kText, "P", "(o)rtho or (p)erspective, the default"},
+    {"colorscheme", Takes::kText, "NAME", nullptr},  // its help lists the schemes
+    {"view", Takes::kText, "WHAT", "axes; also accepted: crosshairs, edges, scales, wireframe"},
+    {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
+    {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad"},
+    {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
+    {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses"},
+    {"hardwarnings", Takes::kNothing, "", "a .scad's first warning stops it"},
+    {"check-parameters", Takes::kText, "BOOL",
+     "check the parameters of a .scad's modules and functions"},
+    {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters"},
+    {"quiet,q", Takes::kNothing, "", "errors only"},
+    {"info", Takes::kNothing, "",
+     "log the renderer that is chosen; without FILE: describe this program"},
+    {"version,v", Takes::kNothing, "", "print the version"},
+    {"help,h", Takes::kNothing, "", "print this text"},
+    {"render", Takes::kOptionalText, "HOW", "accepted, without effect: every picture is exact"},
+    {"preview", Takes::kOptionalText, "HOW", "accepted, without effect"},
+    {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
+    {"animate", Takes::kCount, "N", "accepted, without effect"},
+    {"debug", Takes::kText, "WHAT", "accepted, without effect"},
+    {"d,d", Takes::kText, "DEPS", "accepted, without effect"},
+    {"s,s", Takes::kText, "OUT", "the same as -o"},
+    {"x,x", Takes::kText, "OUT", "the same as -o"},
+};
+
+constexpr Row kOwnOptions[] = {
+    {"renderer", Takes::kText, "R", "auto or gl; default auto"},
+    {"leaf-primitives", Takes::kText, "K",
+     "a cell is a leaf once at most K primitives' surfaces cross it; default 8"},
+    {"threshold", Takes::kText, "PX",
+     "cells that project below PX pixels are not subdivided; default 0: none"},
+    {"facets", Takes::kText, "N",
+     "N, all or none; accepted, without effect: everything round is smooth"},
+    {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface"},
+    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad"},
+    {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output"},
+    {"skip-unsupported", Takes::kNothing, "", "draw what is supported and list the rest"},
+    {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
+};
+
+std::string scheme_names() {
+  std::string names = "colour scheme: ";
+  for (const ColorScheme& scheme : color_schemes()) {
+    if (&scheme != color_schemes().data()) names += " | ";
+    names += scheme.name;
+  }
+  return names;
+}
+
+/// Owned by the table that it is added to.
+const po::value_semantic* value_of(const Row& row) {
+  switch (row.takes) {
+    case Takes::kNothing:
+      break;
+    case Takes::kText:
+      return po::value<std::string>()->value_name(row.value_name);
+    case Takes::kTexts:
+      return po::value<std::vector<std::string>>()->value_name(row.value_name);
+    case Takes::kOptionalText:
+      return po::value<std::string>()->value_name(row.value_name)->implicit_value("", "");
+    case Takes::kCount:
+      return po::value<unsigned>()->value_name(row.value_name);
+  }
+  return new po::untyped_value(true);
+}
+
+po::options_description table_of(const char* title, std::span<const Row> rows) {
+  po::options_description table(title);
+  for (const Row& row : rows) {
+    const std::string help = row.help ? row.help : scheme_names();
+    table.add_options()(row.names, value_of(row), help.c_str());
+  }
+  return table;
+}
+
+}  // namespace
+
+po::options_description openscad_options() {
+  return table_of("OpenSCAD's options", kOpenScadOptions);
+}
+
+po::options_description own_options() { return table_of("scadray's own options", kOwnOptions); }
+
+}  // namespace frontend

@@ -1,0 +1,406 @@
+#include "frontend/options.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "frontend/color_scheme.hpp"
+#include "frontend/error.hpp"
+#include "option_table.hpp"
+
+namespace frontend {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr unsigned kMaxThreads = 1024;
+
+[[noreturn]] void fail(const std::string& what, const std::string& todo) {
+  throw Error("", {}, what, todo);
+}
+
+[[noreturn]] void bad_value(const std::string& option, const std::string& value,
+                            const std::string& todo) {
+  fail("--" + option + "=" + value + " is not understood", todo);
+}
+
+/// The whole text as a finite number; a leading + is allowed.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number number{};
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failed != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(number)) return std::nullopt;
+  }
+  return number;
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    parts.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::optional<PictureFormat> format_of(const std::string& name) {
+  if (name == "png") return PictureFormat::kPng;
+  if (name == "exr") return PictureFormat::kExr;
+  return std::nullopt;
+}
+
+/// The words of the command line, sorted by option; not checked further.
+class Arguments {
+ public:
+  explicit Arguments(const std::vector<std::string>& words);
+
+  bool has(const char* option) const { return values_.count(option) > 0; }
+  const std::string& text(const char* option) const { return values_[option].as<std::string>(); }
+  std::vector<std::string> texts(const char* option) const {
+    return has(option) ? values_[option].as<std::vector<std::string>>()
+                       : std::vector<std::string>{};
+  }
+  /// The option's value as a number in [least, most], or `missing`.
+  template <typename Number>
+  Number number(const char* option, Number least, Number most, Number missing,
+                const char* todo) const {
+    if (!has(option)) return missing;
+    const std::optional<Number> number = parse_number<Number>(text(option));
+    if (!number || !(*number >= least && *number <= most)) bad_value(option, text(option), todo);
+    return *number;
+  }
+  /// Calls visit(option, value) for every option in the order of the command line.
+  template <typename Visit>
+  void for_each(Visit visit) const {
+    for (const po::option& option : parsed_.options) {
+      if (option.position_key < 0) {
+        visit(option.string_key, option.value.empty() ? std::string() : option.value[0]);
+      }
+    }
+  }
+
+ private:
+  static std::pair<std::string, std::string> openscad_prefix(
+      const po::options_description& openscad, const po::options_description& own,
+      const std::string& word);
+
+  po::options_description table_;
+  po::parsed_options parsed_{nullptr};
+  po::variables_map values_;
+};
+
+/// An abbreviation that is clear among OpenSCAD's options stays clear although ours are there, too:
+/// `--rend` is `--render`. Gives {option, value}, or nothing to leave the word to the library.
+std::pair<std::string, std::string> Arguments::openscad_prefix(
+    const po::options_description& openscad, const po::options_description& own,
+    const std::string& word) {
+  if (!word.starts_with("--") || word.size() == 2) return {};
+  const std::size_t equals = word.find('=');
+  const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
+  const auto matches = [&name](const po::options_description& table) {
+    std::vector<std::string> found;
+    for (const auto& option : table.options()) {
+      if (option->long_name() == name) return std::vector<std::string>{};
+      if (option->long_name().starts_with(name)) found.push_back(option->long_name());
+    }
+    return found;
+  };
+  const std::vector<std::string> meant = matches(openscad);
+  if (meant.size() != 1 || matches(own).empty()) return {};
+  return {meant[0], equals == std::string::npos ? "" : word.substr(equals + 1)};
+}
+
+Arguments::Arguments(const std::vector<std::string>& words) {
+  const po::options_description openscad = openscad_options();
+  const po::options_description own = own_options();
+  po::options_description files;
+  files.add_options()("file", po::value<std::vector<std::string>>());
+  table_.add(openscad).add(own).add(files);
+  po::positional_options_description positions;
+  positions.add("file", -1);
+  try {
+    parsed_ = po::command_line_parser(words)
+                  .options(table_)
+                  .positional(positions)
+                  .extra_parser(
+                      [&](const std::string& word) { return openscad_prefix(openscad, own, word); })
+                  .run();
+    po::store(parsed_, values_);
+    po::notify(values_);
+  } catch (const po::error& error) {
+    fail(error.what(), "see scadray --help");
+  }
+}
+
+uint32_t picture_side(std::string_view text, const std::string& value) {
+  const std::optional<uint32_t> side = parse_number<uint32_t>(text);
+  if (!side || *side == 0 || *side > kMaxPictureSide_px) {
+    bad_value("imgsize", value,
+              "give width,height in pixels, each from 1 to " + std::to_string(kMaxPictureSide_px));
+  }
+  return *side;
+}
+
+void read_image_size(const Arguments& arguments, CameraOptions& camera) {
+  if (!arguments.has("imgsize")) return;
+  const std::string& value = arguments.text("imgsize");
+  const std::vector<std::string_view> sides = split_at_commas(value);
+  if (sides.size() != 2) bad_value("imgsize", value, "give two numbers: width,height");
+  camera.width_px = picture_side(sides[0], value);
+  camera.height_px = picture_side(sides[1], value);
+}
+
+void read_camera(const Arguments& arguments, CameraOptions& camera) {
+  camera.view_all = arguments.has("viewall");
+  camera.auto_center = arguments.has("autocenter");
+  if (arguments.has("camera")) {
+    const std::string& value = arguments.text("camera");
+    std::vector<double> numbers;
+    for (const std::string_view part : split_at_commas(value)) {
+      const std::optional<double> number = parse_number<double>(part);
+      if (!number) bad_value("camera", value, "give 6 or 7 finite numbers, with commas between");
+      numbers.push_back(*number);
+    }
+    camera.camera = camera_from_numbers(numbers);
+  }
+  if (arguments.has("projection")) {
+    const std::string& value = arguments.text("projection");
+    if (value == "o" || value == "ortho" || value == "orthogonal") {
+      camera.projection = csgcore::Projection::kOrthographic;
+    } else if (value != "p" && value != "perspective") {
+      bad_value("projection", value, "give o, ortho, p or perspective");
+    }
+  }
+}
+
+void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
+  render.scheme = color_schemes().front();
+  if (!arguments.has("colorscheme")) return;
+  const ColorScheme* scheme = find_color_scheme(arguments.text("colorscheme"));
+  if (!scheme) {
+    std::string names;
+    for (const ColorScheme& known : color_schemes()) {
+      names += (names.empty() ? "" : ", ") + std::string(known.name);
+    }
+    bad_value("colorscheme", arguments.text("colorscheme"), "give one of " + names);
+  }
+  render.scheme = *scheme;
+}
+
+void read_shading(const Arguments& arguments, RenderSettings& render) {
+  if (!arguments.has("shading")) return;
+  const std::string& value = arguments.text("shading");
+  if (value == "phong") {
+    render.shading = Shading::kPhong;
+  } else if (value != "openscad") {
+    bad_value("shading", value, "give openscad or phong");
+  }
+}
+
+void read_show(const Arguments& arguments, RenderSettings& render) {
+  if (!arguments.has("show")) return;
+  constexpr std::pair<std::string_view, Show> kNames[] = {{"surface", Show::kSurface},
+                                                          {"cells", Show::kCells},
+                                                          {"depth", Show::kDepth},
+                                                          {"normals", Show::kNormals},
+                                                          {"id", Show::kId}};
+  const std::string& value = arguments.text("show");
+  const auto* found = std::find_if(std::begin(kNames), std::end(kNames),
+                                   [&value](const auto& name) { return name.first == value; });
+  if (found == std::end(kNames)) {
+    bad_value("show", value, "give surface, cells, depth, normals or id");
+  }
+  render.show = found->second;
+}
+
+void check_renderer(const Arguments& arguments) {
+  if (!arguments.has("renderer")) return;
+  const std::string& value = arguments.text("renderer");
+  if (value == "cpu")
+    fail("this version has no CPU renderer", "give --renderer=gl or leave it out");
+  if (value != "auto" && value != "gl") bad_value("renderer", value, "give auto or gl");
+}
+
+void check_facets(const Arguments& arguments) {
+  if (!arguments.has("facets")) return;
+  const std::string& value = arguments.text("facets");
+  if (value != "all" && value != "none" && !parse_number<uint32_t>(value)) {
+    bad_value("facets", value, "give a number from 0, all or none");
+  }
+}
+
+void read_render(const Arguments& arguments, RenderSettings& render) {
+  read_color_scheme(arguments, render);
+  read_shading(arguments, render);
+  read_show(arguments, render);
+  check_renderer(arguments);
+  check_facets(arguments);
+  render.leaf_primitives =
+      arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, 8, "give a whole number from 1");
+  render.threshold_px =
+      arguments.number<double>("threshold", 0, HUGE_VAL, 0, "give a number of pixels from 0");
+  render.threads = arguments.number<unsigned>("threads", 1, kMaxThreads, 0,
+                                              "give a whole number from 1 to 1024");
+}
+
+/// OpenSCAD says that it ignores a view it does not know, and goes on.
+void read_view(const Arguments& arguments, Options& options) {
+  if (!arguments.has("view")) return;
+  constexpr std::string_view kWithoutEffect[] = {"crosshairs", "edges", "scales", "wireframe"};
+  for (const std::string_view part : split_at_commas(arguments.text("view"))) {
+    const std::string name(part);
+    if (part == "axes") {
+      options.axes = true;
+    } else if (std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), part) !=
+               std::end(kWithoutEffect)) {
+      options.warnings.push_back("--view=" + name + " has no effect in this version");
+    } else {
+      options.warnings.push_back("--view=" + name + " is not known and ignored (give axes)");
+    }
+  }
+}
+
+Output make_output(const std::string& path, std::optional<PictureFormat> given) {
+  if (given) return {path, *given};
+  const std::size_t dot = path.rfind('.');
+  const std::size_t slash = path.rfind('/');
+  const bool has_suffix = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::optional<PictureFormat> format =
+      has_suffix ? format_of(lower_case(path.substr(dot + 1))) : std::nullopt;
+  if (!format) {
+    throw Error(path, {}, "is no picture that this version can write",
+                "end it in .png or .exr, or give --export-format=png or exr");
+  }
+  return {path, *format};
+}
+
+void read_outputs(const Arguments& arguments, Options& options) {
+  std::optional<PictureFormat> given;
+  if (arguments.has("export-format")) {
+    const std::string& value = arguments.text("export-format");
+    given = format_of(lower_case(value));
+    if (!given) bad_value("export-format", value, "this version writes png and exr");
+  }
+  arguments.for_each([&](const std::string& option, const std::string& value) {
+    if (option == "o" || option == "s" || option == "x") {
+      options.outputs.push_back(make_output(value, given));
+    }
+  });
+  if (arguments.has("stats")) options.stats_path = arguments.text("stats");
+  const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(),
+                                       [](const Output& output) { return output.path == "-"; });
+  if (to_stdout + (options.stats_path == "-" ? 1 : 0) > 1) {
+    fail("more than one output goes to standard output", "give all but one a file");
+  }
+  if (options.outputs.size() > kMaxOutputs) {
+    fail("more than " + std::to_string(kMaxOutputs) + " -o", "give fewer");
+  }
+}
+
+/// Options that only an OpenSCAD can follow are handed on to it.
+void read_openscad_arguments(const Arguments& arguments, Options& options) {
+  arguments.for_each([&](const std::string& option, const std::string& value) {
+    if (option == "D" || option == "p" || option == "P" || option == "m") {
+      options.openscad_arguments.insert(options.openscad_arguments.end(), {"-" + option, value});
+    } else if (option == "check-parameters" || option == "check-parameter-ranges") {
+      options.openscad_arguments.push_back("--" + option + "=" + value);
+    } else if (option == "hardwarnings") {
+      options.openscad_arguments.push_back("--hardwarnings");
+    }
+  });
+}
+
+void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
+  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "animate",
+                                        "debug",  "d",       "facets"};
+  constexpr const char* kForScad[] = {
+      "D", "p", "P", "m", "hardwarnings", "check-parameters", "check-parameter-ranges"};
+  const auto given = [&arguments](std::span<const char* const> names) {
+    std::string list;
+    for (const char* name : names) {
+      if (!arguments.has(name)) continue;
+      list += (list.empty() ? "" : ", ") + std::string(name[1] == '\0' ? "-" : "--") + name;
+    }
+    return list;
+  };
+  if (const std::string list = given(kNeverUsed); !list.empty()) {
+    options.warnings.push_back("without effect in this version: " + list);
+  }
+  if (arguments.has("autocenter") && arguments.has("camera") && !arguments.has("viewall")) {
+    options.warnings.push_back("--autocenter has no effect without --viewall, as in OpenSCAD");
+  }
+  const bool is_scad = lower_case(options.input).ends_with(".scad");
+  if (const std::string list = given(kForScad); !list.empty() && !is_scad) {
+    options.warnings.push_back("without effect on a .csg: " + list);
+  }
+}
+
+/// The action of the options that need no design.
+std::optional<Action> action_without_file(const Arguments& arguments) {
+  if (arguments.has("help")) return Action::kHelp;
+  if (arguments.has("version")) return Action::kVersion;
+  if (arguments.has("info") && !arguments.has("file")) return Action::kInfo;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Options parse_options(const std::vector<std::string>& words) {
+  const Arguments arguments(words);
+  Options options;
+  if (const std::optional<Action> action = action_without_file(arguments)) {
+    options.action = *action;
+    return options;
+  }
+  const std::vector<std::string> files = arguments.texts("file");
+  if (files.empty()) {
+    fail("no file to draw",
+         "give a .csg or .scad file, or - for a .csg from standard input; an option before it may "
+         "have taken its name as a value");
+  }
+  if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
+  options.input = files[0];
+  options.quiet = arguments.has("quiet");
+  options.info = arguments.has("info");
+  options.import.skip_unsupported = arguments.has("skip-unsupported");
+  read_image_size(arguments, options.camera);
+  read_camera(arguments, options.camera);
+  read_render(arguments, options.render);
+  read_view(arguments, options);
+  read_outputs(arguments, options);
+  if (options.outputs.empty()) {
+    fail("this version has no live window", "give -o FILE.png or -o FILE.exr");
+  }
+  read_openscad_arguments(arguments, options);
+  warn_of_what_is_ignored(arguments, options);
+  return options;
+}
+
+std::string help_text() {
+  constexpr unsigned kColumns = 100;
+  po::options_description all(
+      "Usage: scadray -o OUT [options] FILE\n"
+      "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
+      ".csg from standard input",
+      kColumns);
+  all.add(openscad_options()).add(own_options());
+  std::ostringstream text;
+  text << all;
+  return text.str();
+}
+
+}  // namespace frontend

@@ -1,0 +1,52 @@
+#include "frontend/statistics.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace frontend {
+
+std::string to_json(const RunStats& stats) {
+  const RenderStats& render = stats.render;
+  const nlohmann::ordered_json json = {
+      {"file", stats.file},
+      {"file_bytes", stats.file_bytes},
+      {"width_px", stats.width_px},
+      {"height_px", stats.height_px},
+      {"renderer", render.renderer},
+      {"nodes", stats.nodes},
+      {"primitive_nodes", stats.primitive_nodes},
+      {"primitives", render.primitives},
+      {"cells", render.cells},
+      {"leaves",
+       {{"total", render.leaves},
+        {"empty", render.leaves_empty},
+        {"union", render.leaves_union},
+        {"pair", render.leaves_pair},
+        {"general", render.leaves_general},
+        {"full", render.leaves_full},
+        {"dropped", render.leaves_dropped}}},
+      {"leaf_primitives", render.leaf_primitives},
+      {"subdivision_bytes", render.bytes},
+      {"draw_calls", render.draw_calls},
+      {"cells_drawn", render.cells_drawn},
+      {"times_ms",
+       {{"export", stats.export_ms},
+        {"read", stats.read_ms},
+        {"parse", stats.parse_ms},
+        {"import", stats.import_ms},
+        {"context", render.context_ms},
+        {"subdivide", render.subdivide_ms},
+        {"traverse", render.traverse_ms},
+        {"render", render.render_ms},
+        {"encode", stats.encode_ms},
+        {"total", stats.total_ms}}},
+      {"paper_ms",
+       {{"S", render.subdivide_ms},
+        {"T_S", render.paper_ts_ms},
+        {"T_R", render.paper_tr_ms},
+        {"S_R", render.paper_sr_ms}}},
+  };
+  // A file's name may hold bytes that are no UTF-8: they are replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace frontend

@@ -1,0 +1,421 @@
+// The whole command but the drawing, whose part a function plays.
+#include "frontend/command.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <spng.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <thread>
+
+#include "frontend/error.hpp"
+#include "frontend/interrupt.hpp"
+#include "frontend/progress.hpp"
+#include "temporary_folder.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kSphere = "sphere($fn = 0, $fa = 12, $fs = 2, r = 1);\n";
+
+using Pixel = std::array<uint8_t, 3>;
+
+struct Outcome {
+  ExitCode code;
+  std::string out;
+  std::string err;
+};
+
+class Command : public testing::Test {
+ protected:
+  Command() : file_(folder_.write("a.csg", kSphere)) {}
+
+  /// Plays the renderer: the left half is a surface 5 away, the right half background.
+  Image draw(const csgcore::Scene& scene, const csgcore::View& view, const RenderSettings& settings,
+             RenderStats& stats) {
+    ++drawings_;
+    scene_ = scene;
+    view_ = view;
+    settings_ = settings;
+    stats.renderer = "played";
+    stats.cells = 12;
+    stats.draw_calls = 3;
+    stats.subdivide_ms = 1.5;
+    stats.paper_sr_ms = 4.5;
+    Image image;
+    image.width_px = view.width_px;
+    image.height_px = view.height_px;
+    for (uint32_t i = 0; i < view.width_px * view.height_px; ++i) {
+      const bool hit = i % view.width_px < view.width_px / 2;
+      image.rgb.push_back(hit ? Pixel{200, 100, 50} : Pixel{1, 2, 3});
+      if (!settings.measured_channels) continue;
+      image.z.push_back(hit ? 5 : std::numeric_limits<float>::infinity());
+      image.normal.push_back(hit ? glm::vec3(0, 0, 1) : glm::vec3(0));
+      image.position.push_back(glm::vec3(0));
+      image.id.push_back(hit ? 0 : csgcore::kNoPrimitive);
+    }
+    return image;
+  }
+
+  Outcome run(const std::vector<std::string>& arguments) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const ExitCode code = run_command(arguments, renderer_);
+    Outcome outcome{code, {}, {}};
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.err = testing::internal::GetCapturedStderr();
+    return outcome;
+  }
+
+  struct Picture {
+    uint32_t width, height;
+    std::vector<Pixel> pixels;
+  };
+  static Picture decode(const std::string& png) {
+    spng_ctx* context = spng_ctx_new(0);
+    spng_set_png_buffer(context, png.data(), png.size());
+    spng_ihdr header{};
+    EXPECT_EQ(spng_get_ihdr(context, &header), 0);
+    Picture picture{header.width, header.height, {}};
+    picture.pixels.resize(std::size_t{header.width} * header.height);
+    EXPECT_EQ(spng_decode_image(context, picture.pixels.data(), picture.pixels.size() * 3,
+                                SPNG_FMT_RGB8, 0),
+              0);
+    spng_ctx_free(context);
+    return picture;
+  }
+
+  TemporaryFolder folder_;
+  std::string file_;
+  std::string png_ = folder_ / "x.png";
+  Renderer renderer_ = [this](const csgcore::Scene& scene, const csgcore::View& view,
+                              const RenderSettings& settings,
+                              RenderStats& stats) { return draw(scene, view, settings, stats); };
+  int drawings_ = 0;
+  csgcore::Scene scene_;
+  csgcore::View view_;
+  RenderSettings settings_;
+};
+
+TEST_F(Command, DrawsAPicture) {
+  const Outcome outcome = run({"-o", png_, "--imgsize=4,3", file_});
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  const Picture picture = decode(folder_.read("x.png"));
+  EXPECT_EQ(picture.width, 4u);
+  EXPECT_EQ(picture.height, 3u);
+  EXPECT_THAT(
+      std::vector(picture.pixels.begin(), picture.pixels.begin() + 4),
+      ElementsAre(Pixel{200, 100, 50}, Pixel{200, 100, 50}, Pixel{1, 2, 3}, Pixel{1, 2, 3}));
+  ASSERT_EQ(scene_.primitives.size(), 1u);
+  EXPECT_FALSE(scene_.model.empty());
+  EXPECT_FALSE(settings_.measured_channels);
+  EXPECT_FALSE(settings_.measure_paper_times);
+}
+
+TEST_F(Command, HandsItsOptionsToTheRenderer) {
+  run({"-o", png_, "--imgsize=4,3", "--shading=phong", "--show=cells", "--leaf-primitives=2",
+       "--threshold=1", "--threads=2", "--colorscheme=Nature", "--projection=o",
+       "--camera=1,2,3,90,0,0,10", file_});
+  EXPECT_EQ(settings_.shading, Shading::kPhong);
+  EXPECT_EQ(settings_.show, Show::kCells);
+  EXPECT_EQ(settings_.leaf_primitives, 2u);
+  EXPECT_EQ(settings_.threshold_px, 1);
+  EXPECT_EQ(settings_.threads, 2u);
+  EXPECT_STREQ(settings_.scheme.name, "Nature");
+  EXPECT_EQ(view_.projection, csgcore::Projection::kOrthographic);
+  EXPECT_EQ(view_.eye, csgcore::Vec3(1, -8, 3));
+  EXPECT_EQ(view_.width_px, 4u);
+}
+
+TEST_F(Command, WithoutACameraTheDesignFillsThePicture) {
+  const std::string round = folder_.write("round.csg", "sphere($fn = 200, r = 1);\n");
+  run({"-o", png_, round});
+  const double half_fov = 11.25 * std::numbers::pi / 180;
+  // The facets' box is smaller than the ball's by at most 1 - cos(180°/200), 0.02%.
+  EXPECT_NEAR(std::sqrt(glm::dot(view_.eye, view_.eye)), std::sqrt(3.0) / std::sin(half_fov),
+              1e-3 * std::sqrt(3.0) / std::sin(half_fov));
+}
+
+TEST_F(Command, SeveralOutputsAreDrawnOnce) {
+  const Outcome outcome =
+      run({"-o", png_, "-o", folder_ / "y.exr", "-o", folder_ / "z.png", file_});
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(drawings_, 1);
+  EXPECT_TRUE(settings_.measured_channels);
+  EXPECT_THAT(folder_.read("y.exr"), StartsWith("\x76\x2f\x31\x01"));
+  EXPECT_EQ(folder_.read("x.png"), folder_.read("z.png"));
+  EXPECT_THAT(folder_.names(), ElementsAre("a.csg", "x.png", "y.exr", "z.png"));
+}
+
+TEST_F(Command, StandardOutput) {
+  const Outcome outcome = run({"-o", "-", "--export-format=png", "--imgsize=4,3", file_});
+  EXPECT_EQ(decode(outcome.out).width, 4u);
+  EXPECT_EQ(run({"-o", "/dev/stdout", "--export-format=png", "--imgsize=4,3", file_}).out,
+            outcome.out);
+}
+
+TEST_F(Command, ChannelsAreShown) {
+  const auto first_pixel = [this](const std::string& show) {
+    run({"-o", png_, "--imgsize=4,3", "--show=" + show, file_});
+    const Picture picture = decode(folder_.read("x.png"));
+    EXPECT_EQ(picture.pixels[3], (Pixel{0xff, 0xff, 0xe5})) << show;  // the scheme's background
+    return picture.pixels[0];
+  };
+  EXPECT_EQ(first_pixel("depth"), (Pixel{255, 255, 255}));
+  EXPECT_EQ(first_pixel("normals"), (Pixel{128, 128, 255}));
+  EXPECT_NE(first_pixel("id"), (Pixel{200, 100, 50}));
+}
+
+TEST_F(Command, AxesAreDrawn) {
+  run({"-o", png_, "--imgsize=64,64", "--view=axes", "--camera=0,0,0,0,0,0,4", file_});
+  EXPECT_TRUE(settings_.measured_channels);
+  const Picture picture = decode(folder_.read("x.png"));
+  EXPECT_EQ(picture.pixels[32 * 64 + 60], (Pixel{0, 0, 0}));  // +x, in front of the background
+  const Pixel red{255, 0, 0};
+  EXPECT_NE(std::find(picture.pixels.begin(), picture.pixels.end(), red), picture.pixels.end());
+}
+
+TEST_F(Command, AnEmptyDesignIsBackgroundWithoutARenderer) {
+  for (const char* text : {"\n", "", "group();\n", "sphere(r = 0);\n"}) {
+    const std::string empty = folder_.write("empty.csg", text);
+    const Outcome outcome = run({"-o", png_, "-o", folder_ / "x.exr", "--imgsize=2,2",
+                                 "--colorscheme=Starnight", "--info", empty});
+    EXPECT_EQ(outcome.code, ExitCode::kDone) << text;
+    EXPECT_THAT(decode(folder_.read("x.png")).pixels, testing::Each(Pixel{0, 0, 0}));
+    EXPECT_THAT(outcome.err, HasSubstr("renderer: none"));
+  }
+  EXPECT_EQ(drawings_, 0);
+}
+
+TEST_F(Command, Statistics) {
+  const Outcome outcome = run({"-o", png_, "--imgsize=4,3", "--stats=-", file_});
+  EXPECT_TRUE(settings_.measure_paper_times);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["file"], file_);
+  EXPECT_EQ(json["file_bytes"], std::string(kSphere).size());
+  EXPECT_EQ(json["nodes"], 1);
+  EXPECT_EQ(json["primitive_nodes"], 1);
+  EXPECT_EQ(json["width_px"], 4);
+  EXPECT_EQ(json["height_px"], 3);
+  EXPECT_EQ(json["renderer"], "played");
+  EXPECT_EQ(json["cells"], 12);
+  EXPECT_EQ(json["draw_calls"], 3);
+  EXPECT_EQ(json["times_ms"]["subdivide"], 1.5);
+  EXPECT_EQ(json["paper_ms"]["S"], 1.5);
+  EXPECT_EQ(json["paper_ms"]["S_R"], 4.5);
+  EXPECT_GT(json["times_ms"]["parse"], 0);
+  EXPECT_GT(json["times_ms"]["encode"], 0);
+  EXPECT_GT(json["times_ms"]["total"], 0);
+  EXPECT_EQ(json["times_ms"]["export"], 0);
+  run({"-o", png_, "--stats", folder_ / "s.json", file_});
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("s.json"))["cells"], 12);
+}
+
+TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
+  const auto json =
+      nlohmann::json::parse(run({"-o", png_, "--stats=-", "--imgsize=1,1", file_}).out);
+  const auto keys = [](const nlohmann::json& object) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : object.items()) names.push_back(key);
+    return names;
+  };
+  EXPECT_THAT(keys(json),
+              ElementsAre("cells", "cells_drawn", "draw_calls", "file", "file_bytes", "height_px",
+                          "leaf_primitives", "leaves", "nodes", "paper_ms", "primitive_nodes",
+                          "primitives", "renderer", "subdivision_bytes", "times_ms", "width_px"));
+  EXPECT_THAT(keys(json["leaves"]),
+              ElementsAre("dropped", "empty", "full", "general", "pair", "total", "union"));
+  EXPECT_THAT(keys(json["times_ms"]),
+              ElementsAre("context", "encode", "export", "import", "parse", "read", "render",
+                          "subdivide", "total", "traverse"));
+  EXPECT_THAT(keys(json["paper_ms"]), ElementsAre("S", "S_R", "T_R", "T_S"));
+}
+
+TEST_F(Command, HelpVersionInfo) {
+  Outcome outcome = run({"--help"});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_THAT(outcome.out, HasSubstr("--imgsize"));
+  outcome = run({"-v"});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_THAT(outcome.out, testing::MatchesRegex("scadray version [0-9.]+\n"));
+  outcome = run({"--info"});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_THAT(outcome.out, HasSubstr("OpenEXR"));
+  EXPECT_THAT(run({"--info", "-o", png_, file_}).err, "renderer: played\n");
+}
+
+TEST_F(Command, QuietShowsErrorsOnly) {
+  const std::vector<std::string> loud = {"-o", png_, "--render=x", "--view=edges", file_};
+  EXPECT_THAT(run(loud).err, AllOf(HasSubstr("--render"), HasSubstr("edges")));
+  std::vector<std::string> quiet = loud;
+  quiet.push_back("-q");
+  EXPECT_EQ(run(quiet).err, "");
+  EXPECT_THAT(run({"-q", "-o", png_, folder_ / "none.csg"}).err, HasSubstr("none.csg: error: "));
+}
+
+/// Each is run where x.png exists already; none may touch it.
+TEST_F(Command, FailuresExitWith1AndTouchNothing) {
+  folder_.write("x.png", "before");
+  folder_.write("bad.csg", "sphere(r = 1);\ncube(;\n");
+  folder_.write("cube.csg", "sphere(r = 1);\n  cube(size = [1, 1, 1], center = false);\n");
+  const auto names = folder_.names();
+  const auto expect_failure = [&](const std::vector<std::string>& arguments,
+                                  const std::string& text) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, ExitCode::kFailure) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(text));
+    EXPECT_THAT(outcome.err, HasSubstr("error: "));
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(folder_.names(), names);
+    EXPECT_EQ(folder_.read("x.png"), "before");
+  };
+  expect_failure({}, "error: no file to draw (");
+  expect_failure({file_}, "error: this version has no live window (");
+  expect_failure({"-o", png_, "--bogus", file_}, "--bogus");
+  expect_failure({"-o", png_, folder_ / "none.csg"}, "none.csg: error: ");
+  expect_failure({"-o", png_, folder_ / "none.scad"}, "none.scad: error: ");
+  expect_failure({"-o", png_, folder_.path()}, "is a folder");
+  expect_failure({"-o", png_, "validate"}, "validate: error: ");
+  expect_failure({"-o", png_, folder_ / "bad.csg"}, "bad.csg:2:");
+  expect_failure({"-o", png_, folder_ / "cube.csg"}, "cube.csg:2:3: error: ");
+  expect_failure({"-o", png_, "-o", folder_ / "none/y.png", file_}, "none/y.png: error: ");
+  expect_failure({"-o", png_, "--stats", folder_ / "none/s.json", file_}, "none/s.json");
+  expect_failure({"-o", png_, "--camera=0,0,0,0,0,0,0", file_}, "distance");
+  EXPECT_EQ(drawings_, 0) << "what can be seen beforehand is";
+  renderer_ = [](const auto&, const auto&, const auto&, auto&) -> Image {
+    throw Error("", {}, "no OpenGL", "install a driver");
+  };
+  expect_failure({"-o", png_, "-o", folder_ / "y.exr", file_},
+                 "error: no OpenGL (install a driver)");
+  renderer_ = [](const auto&, const auto&, const auto&, auto&) -> Image { throw std::bad_alloc(); };
+  expect_failure({"-o", png_, file_}, "out of memory");
+  renderer_ = [](const auto&, const auto&, const auto&, auto&) -> Image {
+    throw std::runtime_error("something else");
+  };
+  expect_failure({"-o", png_, file_}, "something else");
+}
+
+TEST_F(Command, SkipUnsupportedDrawsTheRest) {
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\ncube(size = 1);\n");
+  const Outcome outcome = run({"-o", png_, "--skip-unsupported", mixed});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_THAT(outcome.err, HasSubstr("cube"));
+  EXPECT_EQ(drawings_, 1);
+}
+
+TEST_F(Command, ReadsStandardInput) {
+  const int saved = dup(STDIN_FILENO);
+  const int input = open(file_.c_str(), O_RDONLY);
+  dup2(input, STDIN_FILENO);
+  close(input);
+  const Outcome outcome = run({"-o", png_, "--stats=-", "-"});
+  dup2(saved, STDIN_FILENO);
+  close(saved);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["primitive_nodes"], 1);
+}
+
+TEST_F(Command, ExportsAScad) {
+  const Environment openscad(
+      "OPENSCAD",
+      folder_.script("openscad", "echo \"$@\" >" + (folder_ / "arguments") +
+                                     "; echo 'WARNING: careful' >&2; echo 'sphere(r = 1);'"));
+  const std::string scad = folder_.write("a.SCAD", "sphere(1);");
+  const Outcome outcome = run({"-o", png_, "-D", "x=1", "--stats=-", scad});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_EQ(outcome.err, "WARNING: careful\n");
+  EXPECT_EQ(folder_.read("arguments"), "-o - --export-format=csg -D x=1 -- " + scad + "\n");
+  EXPECT_GT(nlohmann::json::parse(outcome.out)["times_ms"]["export"], 0);
+  EXPECT_EQ(run({"-q", "-o", png_, scad}).err, "");
+}
+
+TEST_F(Command, AFailedExportLeavesNothing) {
+  const Environment openscad(
+      "OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'; echo 'ERROR: no' >&2"));
+  const std::string scad = folder_.write("a.scad", "sphere(1);");
+  const Outcome outcome = run({"-q", "-o", png_, scad});
+  EXPECT_EQ(outcome.code, ExitCode::kFailure);
+  EXPECT_EQ(outcome.err,
+            scad + ": error: no (correct the design; this is what openscad reports)\n");
+  EXPECT_FALSE(folder_.has("x.png"));
+}
+
+TEST_F(Command, InterruptionLeavesNoOutputAndAnOldOneUntouched) {
+  folder_.write("x.png", "before");
+  const std::string started = folder_ / "started";
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      handle_interrupts();
+      const Renderer endless = [&](const auto&, const auto&, const auto&, auto&) -> Image {
+        folder_.write("started", "");
+        while (true) pause();
+      };
+      run_command({"-o", png_, "-o", folder_ / "y.exr", file_}, endless);
+      _exit(99);
+    }
+    while (!folder_.has("started")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    kill(pid, signal_number);
+    int status = 0;
+    waitpid(pid, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+    std::filesystem::remove(started);
+    EXPECT_THAT(folder_.names(), ElementsAre("a.csg", "x.png"));
+    EXPECT_EQ(folder_.read("x.png"), "before");
+  }
+}
+
+TEST_F(Command, NoProgressInAPipe) {
+  renderer_ = [this](const auto& scene, const auto& view, const RenderSettings& settings,
+                     RenderStats& stats) {
+    std::this_thread::sleep_for(ProgressLine::kSilence + std::chrono::milliseconds(50));
+    settings.progress("subdivide", 0.5);
+    return draw(scene, view, settings, stats);
+  };
+  EXPECT_EQ(run({"-o", png_, file_}).err, "");
+}
+
+TEST(Progress, ShowsOneLineAfterHalfASecondAndRemovesIt) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressLine line(true);
+    line.update("early", 0.1);
+    std::this_thread::sleep_for(ProgressLine::kSilence + std::chrono::milliseconds(20));
+    line.update("subdivide", 0.5);
+    line.update("too soon", 0.6);
+    std::this_thread::sleep_for(ProgressLine::kInterval + std::chrono::milliseconds(20));
+    line.update("openscad", -1);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "\r\033[Ksubdivide  50%\r\033[Kopenscad ...\r\033[K");
+}
+
+TEST(Progress, DisabledSaysNothing) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressLine line(false);
+    std::this_thread::sleep_for(ProgressLine::kSilence + std::chrono::milliseconds(20));
+    line.update("subdivide", 0.5);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,197 @@
+// Running openscad: with programs that play its part, and with the installed one.
+#include "frontend/openscad_export.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "frontend/error.hpp"
+#include "frontend/interrupt.hpp"
+#include "temporary_folder.hpp"
+
+namespace frontend {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct Result {
+  std::string csg;
+  std::vector<std::string> messages;
+  std::string error;
+  int waits = 0;
+};
+
+Result run_export(const std::string& path, const std::vector<std::string>& arguments = {}) {
+  Result result;
+  try {
+    result.csg =
+        export_with_openscad(
+            path, arguments, [&](const std::string& line) { result.messages.push_back(line); },
+            [&] { ++result.waits; })
+            .view();
+  } catch (const Error& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+class FakeOpenScad : public testing::Test {
+ protected:
+  Result run(const std::string& body, const std::vector<std::string>& arguments = {}) {
+    const Environment openscad("OPENSCAD", folder_.script("openscad", body));
+    return run_export("dir/a.scad", arguments);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
+  const Result result =
+      run("for a in \"$@\"; do echo \"<$a>\"; done", {"-D", "s=\"$(x) ;`y` 'z'\""});
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.csg,
+            "<-o>\n<->\n<--export-format=csg>\n<-D>\n<s=\"$(x) ;`y` 'z'\">\n<-->\n<dir/a.scad>\n");
+}
+
+TEST_F(FakeOpenScad, ItsMessagesAreShownLineByLine) {
+  const Result result = run("echo 'WARNING: one' >&2; printf 'ECHO: two' >&2; echo ';'");
+  EXPECT_THAT(result.messages, ElementsAre("WARNING: one", "ECHO: two"));
+  EXPECT_EQ(result.csg, ";\n");
+}
+
+TEST_F(FakeOpenScad, AnErrorCountsAlthoughItExits0) {
+  const Result result =
+      run("echo 'sphere(r = 1);'; echo 'ERROR: Assertion failed in file a.scad, line 12' >&2;"
+          "echo 'TRACE: called' >&2; exit 0");
+  EXPECT_THAT(result.error, StartsWith("dir/a.scad:12: error: Assertion failed ("));
+  EXPECT_THAT(result.messages, ElementsAre("TRACE: called"));
+  EXPECT_THAT(run("echo x; echo 'ERROR: in general' >&2").error,
+              StartsWith("dir/a.scad: error: in general ("));
+  EXPECT_THAT(run("echo x; echo 'ERROR: bad in file lib/b.scad, line 3' >&2").error,
+              StartsWith("lib/b.scad:3: error: bad ("));
+}
+
+TEST_F(FakeOpenScad, Failures) {
+  EXPECT_THAT(run("echo x; exit 3").error, HasSubstr("exit code 3"));
+  EXPECT_THAT(run("echo x; kill -9 $$").error, HasSubstr("exit code 137"));
+  EXPECT_THAT(run("exit 0").error, HasSubstr("wrote no .csg"));
+}
+
+TEST_F(FakeOpenScad, MissingOrNotAProgram) {
+  const Environment nowhere("OPENSCAD", folder_ / "none");
+  EXPECT_THAT(run_export("a.scad").error,
+              AllOf(HasSubstr("was not found"), HasSubstr("apt-get install openscad")));
+  const Environment no_name("OPENSCAD", "");
+  const Environment no_path("PATH", folder_.path());
+  EXPECT_THAT(run_export("a.scad").error, HasSubstr("openscad was not found"));
+  const Environment no_program("OPENSCAD", folder_.write("text", "x"));
+  EXPECT_THAT(run_export("a.scad").error, HasSubstr("cannot be run"));
+}
+
+TEST_F(FakeOpenScad, IsFoundOnPath) {
+  folder_.script("openscad", "echo found");
+  const Environment no_name("OPENSCAD", "");
+  const Environment path("PATH", folder_.path() + ":/usr/bin:/bin");
+  EXPECT_EQ(run_export("a.scad").csg, "found\n");
+}
+
+TEST_F(FakeOpenScad, MuchOnBothPipesDoesNotBlock) {
+  const Result result =
+      run("i=0; while [ $i -lt 3000 ]; do echo 'WARNING: 0123456789012345678901234567890123456789'"
+          " >&2; echo 'sphere(r = 1); sphere(r = 1); sphere(r = 1);'; i=$((i+1)); done");
+  EXPECT_EQ(result.messages.size(), 3000u);
+  EXPECT_EQ(result.csg.size(), 3000u * 45);
+}
+
+TEST_F(FakeOpenScad, WaitingIsReported) { EXPECT_GE(run("sleep 0.35; echo x").waits, 2); }
+
+TEST_F(FakeOpenScad, ReadsNothingFromOurStandardInput) {
+  const int saved = dup(STDIN_FILENO);
+  const int input = open(folder_.write("input", "ours\n").c_str(), O_RDONLY);
+  dup2(input, STDIN_FILENO);
+  const Result result = run("cat; echo end");
+  dup2(saved, STDIN_FILENO);
+  close(saved);
+  close(input);
+  EXPECT_EQ(result.csg, "end\n");
+}
+
+TEST_F(FakeOpenScad, AnInterruptionKillsItAndWhatItStarted) {
+  const std::string pid_file = folder_ / "pid";
+  const Environment openscad(
+      "OPENSCAD", folder_.script("openscad", "sleep 60 & echo $! > " + pid_file + ".new; mv " +
+                                                 pid_file + ".new " + pid_file + "; wait"));
+  const pid_t pid = fork();
+  if (pid == 0) {
+    handle_interrupts();
+    run_export("a.scad");
+    _exit(99);
+  }
+  while (!folder_.has("pid")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const pid_t grandchild = std::stoi(folder_.read("pid"));
+  kill(pid, SIGTERM);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  // Killed at once; it is gone when whoever adopts it has reaped it, or a zombie until then.
+  const auto is_running = [grandchild] {
+    std::ifstream stat("/proc/" + std::to_string(grandchild) + "/stat");
+    std::string number, name, state;
+    return stat >> number >> name >> state && state != "Z";
+  };
+  for (int i = 0; i < 200 && is_running(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_FALSE(is_running());
+}
+
+/// The installed openscad; tests/run installs it.
+class InstalledOpenScad : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v openscad >/dev/null") != 0) GTEST_SKIP() << "no openscad";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(InstalledOpenScad, Exports) {
+  const Result result =
+      run_export(folder_.write("-a.scad", "s=1; echo(s); sphere(s, $fn=9);"), {"-D", "s=3"});
+  EXPECT_EQ(result.error, "");
+  EXPECT_THAT(result.csg, HasSubstr("sphere($fn = 9, $fa = 12, $fs = 2, r = 3);"));
+  EXPECT_THAT(result.messages, ElementsAre("ECHO: 3"));
+}
+
+TEST_F(InstalledOpenScad, PassesParameterSets) {
+  const std::string sets =
+      folder_.write("p.json", R"({"parameterSets":{"big":{"s":"7"}},"fileFormatVersion":"1"})");
+  const Result result =
+      run_export(folder_.write("a.scad", "s=1;\nsphere(s);\n"), {"-p", sets, "-P", "big"});
+  EXPECT_THAT(result.csg, HasSubstr("r = 7"));
+}
+
+TEST_F(InstalledOpenScad, ReportsErrorsWithTheirPlace) {
+  const std::string path = folder_.write("a.scad", "\nsphere(1\n");
+  EXPECT_THAT(run_export(path).error, StartsWith(path + ":"));
+  EXPECT_THAT(run_export(path).error, HasSubstr("syntax error"));
+  const std::string failing = folder_.write("b.scad", "sphere(1);\nassert(false);\n");
+  EXPECT_THAT(run_export(failing).error, StartsWith(failing + ":2: error: Assertion"));
+}
+
+TEST_F(InstalledOpenScad, ShowsWarningsAndGoesOn) {
+  const Result result = run_export(folder_.write("a.scad", "sphere(1); nothing();"));
+  EXPECT_THAT(result.messages, ElementsAre(HasSubstr("Ignoring unknown module 'nothing'")));
+  EXPECT_THAT(result.csg, HasSubstr("sphere"));
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,289 @@
+// The command line: OpenSCAD's syntax and options, scadray's own, and every error.
+#include "frontend/options.hpp"
+
+#include <gmock/gmock.h>
+
+#include "frontend/color_scheme.hpp"
+#include "frontend/error.hpp"
+
+namespace frontend {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using Words = std::vector<std::string>;
+
+/// Parses `words` with what every drawing needs before them.
+Options parse_drawing(Words words) {
+  words.insert(words.begin(), {"-o", "x.png", "a.csg"});
+  return parse_options(words);
+}
+
+std::string error_of(const Words& words) {
+  try {
+    parse_options(words);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string drawing_error(Words words) {
+  words.insert(words.begin(), {"-o", "x.png", "a.csg"});
+  return error_of(words);
+}
+
+TEST(Options, Defaults) {
+  const Options options = parse_drawing({});
+  EXPECT_EQ(options.action, Action::kDraw);
+  EXPECT_EQ(options.input, "a.csg");
+  ASSERT_EQ(options.outputs.size(), 1u);
+  EXPECT_EQ(options.outputs[0].path, "x.png");
+  EXPECT_EQ(options.outputs[0].format, PictureFormat::kPng);
+  EXPECT_EQ(options.camera.width_px, 512u);
+  EXPECT_EQ(options.camera.height_px, 512u);
+  EXPECT_FALSE(options.camera.camera);
+  EXPECT_EQ(options.camera.projection, csgcore::Projection::kPerspective);
+  EXPECT_STREQ(options.render.scheme.name, "Cornfield");
+  EXPECT_EQ(options.render.shading, Shading::kOpenScad);
+  EXPECT_EQ(options.render.show, Show::kSurface);
+  EXPECT_EQ(options.render.leaf_primitives, 8u);
+  EXPECT_EQ(options.render.threshold_px, 0);
+  EXPECT_EQ(options.render.threads, 0u);
+  EXPECT_FALSE(options.import.skip_unsupported);
+  EXPECT_FALSE(options.axes);
+  EXPECT_FALSE(options.quiet);
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_THAT(options.stats_path, IsEmpty());
+}
+
+TEST(Options, EveryOutputOption) {
+  const Options options = parse_options(
+      {"-o", "a.png", "-ob.EXR", "--o", "c.exr", "--o=d.PNG", "-s", "e.png", "-x", "f.exr", "in"});
+  std::vector<std::string> names;
+  std::string formats;
+  for (const Output& output : options.outputs) {
+    names.push_back(output.path);
+    formats += output.format == PictureFormat::kPng ? 'p' : 'e';
+  }
+  EXPECT_THAT(names, ElementsAre("a.png", "b.EXR", "c.exr", "d.PNG", "e.png", "f.exr"));
+  EXPECT_EQ(formats, "peeppe");
+}
+
+TEST(Options, ExportFormatStandsAboveTheSuffix) {
+  EXPECT_EQ(parse_options({"-o", "-", "--export-format=exr", "a"}).outputs[0].format,
+            PictureFormat::kExr);
+  EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
+            PictureFormat::kPng);
+  EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
+  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=stl", "a"}), HasSubstr("png and exr"));
+}
+
+TEST(Options, OutputsThatCannotBe) {
+  for (const char* name : {"x.stl", "x", "a.png/x", ".", "x.png.gz"}) {
+    EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
+  }
+  EXPECT_THAT(error_of({"-o", "-", "-o", "-", "--export-format=png", "a"}),
+              HasSubstr("standard output"));
+  EXPECT_THAT(error_of({"-o", "-", "--stats=-", "--export-format=png", "a"}),
+              HasSubstr("standard output"));
+  Words many;
+  for (std::size_t i = 0; i <= kMaxOutputs; ++i) many.insert(many.end(), {"-o", "x.png"});
+  many.push_back("a");
+  EXPECT_THAT(error_of(many), HasSubstr("-o"));
+  EXPECT_THAT(error_of({"a.csg"}), HasSubstr("no live window"));
+}
+
+TEST(Options, File) {
+  EXPECT_EQ(parse_options({"-o", "x.png", "-"}).input, "-");
+  EXPECT_EQ(parse_options({"-o", "x.png", "--", "-a.csg"}).input, "-a.csg");
+  EXPECT_EQ(parse_options({"validate", "-o", "x.png"}).input, "validate");
+  EXPECT_THAT(error_of({"-o", "x.png"}), HasSubstr("no file"));
+  EXPECT_THAT(error_of({}), HasSubstr("no file"));
+  EXPECT_THAT(error_of({"-o", "x.png", "a", "b"}), HasSubstr("more than one file"));
+}
+
+TEST(Options, ImageSize) {
+  const Options options = parse_drawing({"--imgsize=640,480"});
+  EXPECT_EQ(options.camera.width_px, 640u);
+  EXPECT_EQ(options.camera.height_px, 480u);
+  EXPECT_EQ(parse_drawing({"--imgsize", "16384,1"}).camera.width_px, 16384u);
+  for (const char* value : {"640", "640,480,1", "0,1", "1,0", "-1,2", "1.5,2", "a,b", ",", "1,",
+                            "16385,1", "1,99999999999", "1 ,2"}) {
+    EXPECT_THAT(drawing_error({"--imgsize", value}), HasSubstr("--imgsize")) << value;
+  }
+}
+
+TEST(Options, CameraFlags) {
+  const Options options =
+      parse_drawing({"--camera=1,-2,+3.5,4e1,5,6,7", "--viewall", "--autocenter"});
+  ASSERT_TRUE(options.camera.camera);
+  EXPECT_EQ(options.camera.camera->target, csgcore::Vec3(1, -2, 3.5));
+  EXPECT_EQ(options.camera.camera->rotation_deg, csgcore::Vec3(40, 5, 6));
+  EXPECT_EQ(options.camera.camera->distance, 7);
+  EXPECT_TRUE(options.camera.view_all);
+  EXPECT_TRUE(options.camera.auto_center);
+  for (const char* value : {"1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,", "1,2,3,4,5,nan",
+                            "1,2,3,4,5,6,inf", "1,2,3,4,5,6,7,8"}) {
+    EXPECT_THAT(drawing_error({"--camera", value}), HasSubstr("--camera")) << value;
+  }
+}
+
+TEST(Options, AutoCenterAloneIsSaidToDoNothing) {
+  EXPECT_THAT(parse_drawing({"--camera=1,2,3,4,5,6,7", "--autocenter"}).warnings,
+              ElementsAre(HasSubstr("--autocenter")));
+  EXPECT_THAT(parse_drawing({"--camera=1,2,3,4,5,6,7", "--autocenter", "--viewall"}).warnings,
+              IsEmpty());
+  EXPECT_THAT(parse_drawing({"--autocenter"}).warnings, IsEmpty());
+}
+
+TEST(Options, Projection) {
+  for (const char* value : {"o", "ortho", "orthogonal"}) {
+    EXPECT_EQ(parse_drawing({"--projection", value}).camera.projection,
+              csgcore::Projection::kOrthographic);
+  }
+  for (const char* value : {"p", "perspective"}) {
+    EXPECT_EQ(parse_drawing({"--projection", value}).camera.projection,
+              csgcore::Projection::kPerspective);
+  }
+  EXPECT_THAT(drawing_error({"--projection=z"}), HasSubstr("--projection"));
+}
+
+TEST(Options, EveryColorScheme) {
+  EXPECT_EQ(color_schemes().size(), 11u);
+  for (const ColorScheme& scheme : color_schemes()) {
+    EXPECT_STREQ(parse_drawing({"--colorscheme", scheme.name}).render.scheme.name, scheme.name);
+  }
+  EXPECT_THAT(drawing_error({"--colorscheme=cornfield"}), HasSubstr("Tomorrow Night"));
+  const Rgb back = find_color_scheme("Tomorrow Night")->back;
+  EXPECT_THAT((std::vector<int>{back.r, back.g, back.b}), ElementsAre(0xde, 0x93, 0x5f));
+}
+
+TEST(Options, View) {
+  EXPECT_TRUE(parse_drawing({"--view=axes"}).axes);
+  const Options options = parse_drawing({"--view", "edges,axes,scales"});
+  EXPECT_TRUE(options.axes);
+  EXPECT_THAT(options.warnings, ElementsAre(HasSubstr("edges"), HasSubstr("scales")));
+  // OpenSCAD goes on, too.
+  EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
+}
+
+TEST(Options, ShadingAndShow) {
+  EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
+  EXPECT_EQ(parse_drawing({"--shading=openscad"}).render.shading, Shading::kOpenScad);
+  EXPECT_THAT(drawing_error({"--shading=x"}), HasSubstr("--shading"));
+  EXPECT_EQ(parse_drawing({"--show=surface"}).render.show, Show::kSurface);
+  EXPECT_EQ(parse_drawing({"--show=cells"}).render.show, Show::kCells);
+  EXPECT_EQ(parse_drawing({"--show=depth"}).render.show, Show::kDepth);
+  EXPECT_EQ(parse_drawing({"--show=normals"}).render.show, Show::kNormals);
+  EXPECT_EQ(parse_drawing({"--show=id"}).render.show, Show::kId);
+  EXPECT_THAT(drawing_error({"--show=x"}), HasSubstr("--show"));
+}
+
+TEST(Options, Numbers) {
+  EXPECT_EQ(parse_drawing({"--leaf-primitives=2"}).render.leaf_primitives, 2u);
+  EXPECT_EQ(parse_drawing({"--threshold=1.5"}).render.threshold_px, 1.5);
+  EXPECT_EQ(parse_drawing({"--threads=3"}).render.threads, 3u);
+  for (const char* option : {"--leaf-primitives", "--threads"}) {
+    for (const char* value : {"0", "-1", "x", "1.5", "", "99999999999"}) {
+      EXPECT_THAT(drawing_error({option, value}), HasSubstr(option)) << value;
+    }
+  }
+  for (const char* value : {"-1", "nan", "inf", "x", ""}) {
+    EXPECT_THAT(drawing_error({"--threshold", value}), HasSubstr("--threshold")) << value;
+  }
+}
+
+TEST(Options, RendererAndFacets) {
+  EXPECT_THAT(drawing_error({"--renderer=auto"}), "no error");
+  EXPECT_THAT(drawing_error({"--renderer=gl"}), "no error");
+  EXPECT_THAT(drawing_error({"--renderer=cpu"}), HasSubstr("no CPU renderer"));
+  EXPECT_THAT(drawing_error({"--renderer=x"}), HasSubstr("--renderer"));
+  for (const char* value : {"0", "8", "all", "none"}) {
+    EXPECT_THAT(parse_drawing({"--facets", value}).warnings, ElementsAre(HasSubstr("--facets")));
+  }
+  EXPECT_THAT(drawing_error({"--facets=x"}), HasSubstr("--facets"));
+}
+
+TEST(Options, OtherFlags) {
+  const Options options = parse_drawing({"--skip-unsupported", "-q", "--info", "--stats=s.json"});
+  EXPECT_TRUE(options.import.skip_unsupported);
+  EXPECT_TRUE(options.quiet);
+  EXPECT_TRUE(options.info);
+  EXPECT_EQ(options.stats_path, "s.json");
+  EXPECT_TRUE(parse_drawing({"--quiet"}).quiet);
+}
+
+TEST(Options, Actions) {
+  for (const char* word : {"-h", "--help"}) {
+    EXPECT_EQ(parse_options({word}).action, Action::kHelp);
+  }
+  for (const char* word : {"-v", "--version"}) {
+    EXPECT_EQ(parse_options({word, "a.csg"}).action, Action::kVersion);
+  }
+  EXPECT_EQ(parse_options({"--info"}).action, Action::kInfo);
+  for (const char* name : {"--imgsize", "--renderer", "-D", "--skip-unsupported", "--csglimit"}) {
+    EXPECT_THAT(help_text(), HasSubstr(name));
+  }
+}
+
+TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
+  const Options options =
+      parse_options({"-o", "x.png", "-D", "a=1", "-Db=2", "--D", "c=\"x y\"", "-p", "f.json", "-P",
+                     "set", "--hardwarnings", "--check-parameters=true", "--check-parameter-ranges",
+                     "false", "-m", "make", "a.SCAD"});
+  EXPECT_THAT(options.openscad_arguments,
+              ElementsAre("-D", "a=1", "-D", "b=2", "-D", "c=\"x y\"", "-p", "f.json", "-P", "set",
+                          "--hardwarnings", "--check-parameters=true",
+                          "--check-parameter-ranges=false", "-m", "make"));
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"-D", "a=1"}).warnings, ElementsAre(HasSubstr(".csg: -D")));
+}
+
+TEST(Options, WhatHasNoEffectIsSaidOnce) {
+  const Options options =
+      parse_drawing({"--render=cgal", "--preview=throwntogether", "--csglimit=10", "--animate", "3",
+                     "--debug=all", "-d", "deps"});
+  EXPECT_THAT(options.warnings,
+              ElementsAre("without effect in this version: --render, --preview, --csglimit, "
+                          "--animate, --debug, -d"));
+  EXPECT_THAT(drawing_error({"--csglimit=x"}), HasSubstr("csglimit"));
+}
+
+// Each line was tried with openscad 2021.01.
+TEST(Options, SyntaxIsOpenScads) {
+  // An option whose value may be missing swallows the next word.
+  EXPECT_THAT(error_of({"-o", "x.png", "--render", "a.scad"}), HasSubstr("no file"));
+  EXPECT_EQ(parse_options({"a.scad", "-o", "x.png", "--render"}).input, "a.scad");
+  EXPECT_EQ(parse_options({"--render", "-o", "x.png", "a.scad"}).input, "a.scad");
+  EXPECT_THAT(error_of({"-o", "x.png", "--preview", "a.scad"}), HasSubstr("no file"));
+  // Abbreviations.
+  EXPECT_EQ(parse_drawing({"--imgs", "10,20"}).camera.width_px, 10u);
+  EXPECT_TRUE(parse_drawing({"--cam=0,0,0,1,1,1"}).camera.camera);
+  EXPECT_EQ(parse_drawing({"--pro=o"}).camera.projection, csgcore::Projection::kOrthographic);
+  EXPECT_THAT(drawing_error({"--vi=axes"}), HasSubstr("ambiguous"));
+  EXPECT_TRUE(parse_drawing({"--viewa"}).camera.view_all);
+  // Clusters of short options.
+  EXPECT_TRUE(parse_options({"-qo", "x.png", "a"}).quiet);
+  // What it refuses.
+  EXPECT_THAT(drawing_error({"--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(drawing_error({"-z"}), HasSubstr("-z"));
+  EXPECT_THAT(drawing_error({"-camera=0,0,0,0,0,0"}), HasSubstr("-c"));
+  EXPECT_THAT(drawing_error({"--Camera=0,0,0,0,0,0"}), HasSubstr("--Camera"));
+  EXPECT_THAT(drawing_error({"--viewall=1"}), HasSubstr("viewall"));
+  EXPECT_THAT(drawing_error({"--camera="}), HasSubstr("camera"));
+  EXPECT_THAT(drawing_error({"--imgsize=1,1", "--imgsize=2,2"}), HasSubstr("more than once"));
+  EXPECT_THAT(error_of({"a", "-o"}), HasSubstr("missing"));
+}
+
+TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
+  EXPECT_THAT(parse_drawing({"--rend"}).warnings, ElementsAre(HasSubstr("--render")));
+  EXPECT_THAT(parse_drawing({"--rend=cgal"}).warnings, ElementsAre(HasSubstr("--render")));
+  EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
+  EXPECT_THAT(drawing_error({"--renderer=cpu"}), HasSubstr("no CPU renderer"));
+}
+
+}  // namespace
+}  // namespace frontend
