@@ -1,5 +1,5 @@
-# What `cmake --install` puts in place: the program, the libraries with their public headers, and a
-# CMake package config. Include it after the folders' own CMakeLists: every library that
+# What `cmake --install` puts in place besides the program: the libraries with their public headers,
+# and a CMake package config. Include it after the folders' own CMakeLists: every library that
 # csgcore/, glrender/ and frontend/ define is installed, as scadray::<name>.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -21,9 +21,8 @@ foreach(folder IN LISTS scadray_components)
     get_target_property(type ${target} TYPE)
     if(type MATCHES "^(STATIC|SHARED|INTERFACE)_LIBRARY$")
       install(TARGETS ${target} EXPORT scadray)
+      target_compile_features(${target} INTERFACE cxx_std_20) # the headers need it
       add_library(scadray::${target} ALIAS ${target})
-    elseif(type STREQUAL "EXECUTABLE")
-      install(TARGETS ${target})
     endif()
   endforeach()
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/include/" TYPE INCLUDE)

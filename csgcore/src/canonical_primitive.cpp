@@ -1,8 +1,10 @@
 #include "csgcore/canonical_primitive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "canonical_slack.hpp"
 #include "shapes.hpp"
@@ -13,11 +15,6 @@ namespace {
 bool contains_canonical(const CanonicalPrimitive& primitive, const Vec3& point) {
   return primitive.shape == Shape::kSphere ? sphere::contains(point)
                                            : frustum::contains(primitive, point);
-}
-
-bool separated(const CanonicalPrimitive& primitive, const CanonicalCell& cell) {
-  return primitive.shape == Shape::kSphere ? sphere::separated(cell)
-                                           : frustum::separated(primitive, cell);
 }
 
 /// A ball against a box, by the exact distances of the box's nearest and furthest points.
@@ -38,18 +35,17 @@ Classification classify_ball(const Vec3& center, double radius, const Box& cell)
   return Classification::kCrosses;
 }
 
-/// By convexity, a cell whose 8 corners are inside is inside. The corners are pushed out from the
-/// primitive's centre by the slack, so that rounding cannot make the claim.
-Classification classify_corners(const CanonicalPrimitive& primitive, const CanonicalCell& cell) {
-  int inside = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 point = cell.center + ((corner & 1) ? 1.0 : -1.0) * cell.half[0] +
-                       ((corner & 2) ? 1.0 : -1.0) * cell.half[1] +
-                       ((corner & 4) ? 1.0 : -1.0) * cell.half[2];
-    if (contains_canonical(primitive, point * (1.0 + kCanonicalSlack))) ++inside;
-    if (inside != 0 && inside != corner + 1) return Classification::kCrosses;
+/// Relative error of canonical coordinates: the rounding of the map's application, of the centre,
+/// and of its inversion (x' = W·C·x for the true x, so that W·C − 1 is the error).
+double canonical_error(const CanonicalPrimitive& primitive) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  const Mat3 error = primitive.world_to_canonical * primitive.canonical_to_world - Mat3{1.0};
+  double largest = 0;
+  for (int row = 0; row < 3; ++row) {
+    largest = std::max(largest,
+                       std::abs(error[0][row]) + std::abs(error[1][row]) + std::abs(error[2][row]));
   }
-  return inside == 8 ? Classification::kInside : Classification::kOutside;
+  return kRounding + largest;
 }
 
 }  // namespace
@@ -57,6 +53,7 @@ Classification classify_corners(const CanonicalPrimitive& primitive, const Canon
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
   CanonicalPrimitive result = primitive.shape == Shape::kSphere ? sphere::canonicalize(primitive)
                                                                 : frustum::canonicalize(primitive);
+  result.canonical_error = canonical_error(result);
   result.color = primitive.color;
   result.id = primitive.id;
   return result;
@@ -71,13 +68,28 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell) {
   if (primitive.ball_radius > 0) {
     return classify_ball(primitive.center, primitive.ball_radius, cell);
   }
+  return classify_within_bounds(primitive, cell);
+}
+
+Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell) {
+  return primitive.shape == Shape::kSphere ? sphere::classify(primitive, cell)
+                                           : frustum::classify(primitive, cell);
+}
+
+CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell) {
   const Vec3 half = 0.5 * (cell.max - cell.min);
+  const Vec3 offset = cell.center() - primitive.center;
   const Mat3& map = primitive.world_to_canonical;
-  const CanonicalCell canonical{map * (cell.center() - primitive.center),
-                                Mat3{map[0] * half.x, map[1] * half.y, map[2] * half.z}};
-  const Classification corners = classify_corners(primitive, canonical);
-  if (corners != Classification::kOutside) return corners;
-  return separated(primitive, canonical) ? Classification::kOutside : Classification::kCrosses;
+  CanonicalCell canonical;
+  canonical.center = map * offset;
+  canonical.half = Mat3{map[0] * half.x, map[1] * half.y, map[2] * half.z};
+  // The sum of the absolute values of all products that the coordinates are sums of.
+  const Vec3 reach = glm::abs(offset) + half;
+  const Vec3 magnitude =
+      glm::abs(map[0]) * reach.x + glm::abs(map[1]) * reach.y + glm::abs(map[2]) * reach.z;
+  canonical.slack = kCanonicalSlack +
+                    primitive.canonical_error * std::max({magnitude.x, magnitude.y, magnitude.z});
+  return canonical;
 }
 
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world) {

@@ -1,35 +1,42 @@
-// Restricting a short-circuit list to a cell (paper §2.2.1).
+// Restricting a cell's function to the cell's two halves (paper §2.2.1).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "cell_list.hpp"
 #include "csgcore/canonical_primitive.hpp"
-#include "csgcore/short_circuit_list.hpp"
+#include "csgcore/extent.hpp"
+#include "extent_tests.hpp"
 
 namespace csgcore {
 
-/// Working memory of `Restrictor`, and the stack on which nested cells keep their lists.
+/// Not to be shared between threads: it keeps its working memory.
 class Restrictor {
  public:
-  explicit Restrictor(std::span<const CanonicalPrimitive> primitives) : primitives_(primitives) {}
+  Restrictor(std::span<const CanonicalPrimitive> primitives, const Extents& extents)
+      : primitives_(primitives), extents_(extents) {}
 
-  /// The simplest list that equals `list` within `cell`, appended to `out`, to which `list` must not
-  /// point. Returns kListTrue or kListFalse if that is constant (nothing is appended then), else the
-  /// number of literals appended.
-  uint32_t restrict(std::span<const Literal> list, const Box& cell, std::vector<Literal>& out);
+  /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
+  /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
+  /// reach. `list` is not constant, is neither of the two, and comes from a restriction to the
+  /// whole cell.
+  void restrict(const CellList& list, const Halves& halves, CellList& below, CellList& above);
+  /// The same for one cell and any list.
+  void restrict(const CellList& list, const Box& cell, CellList& result);
 
  private:
-  enum class State : uint8_t { kUnreached, kReached, kInside, kOutside, kCrosses };
-
-  void classify_reached(std::span<const Literal> list, const Box& cell);
-  uint32_t resolve(uint32_t target) const { return target >= kListFalse ? target : map_[target]; }
+  template <int kSides>
+  void restrict_sides(const CellList& list, const Halves& halves, CellList* const* results);
+  void decide_open(const CellList& list, uint32_t first, uint64_t open, const Box& half, int side,
+                   ExtentAnswers& answers) const;
+  bool all_have_jumps(const CellList& list);
+  void drop_unreached(CellList& list);
 
   std::span<const CanonicalPrimitive> primitives_;
-  std::vector<State> states_;
-  std::vector<uint32_t> map_;   // per literal: the literal that stands for it, or a constant
-  std::vector<Literal> kept_;   // what remains, last literal first
-  std::vector<uint32_t> kept_index_;
+  const Extents& extents_;
+  std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
+  std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
 };
 
 }  // namespace csgcore

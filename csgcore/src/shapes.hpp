@@ -9,19 +9,28 @@ namespace csgcore {
 struct CanonicalCell {
   Vec3 center;
   Mat3 half;  // columns: the half edges
+  /// How far rounding may have displaced it. A claim of certainty must hold in spite of that.
+  double slack;
+
+  /// corner: 0 to 7.
+  Vec3 corner(int corner) const {
+    return center + ((corner & 1) ? 1.0 : -1.0) * half[0] + ((corner & 2) ? 1.0 : -1.0) * half[1] +
+           ((corner & 4) ? 1.0 : -1.0) * half[2];
+  }
 };
+
+CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell);
 
 namespace sphere {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const Vec3& point_canonical);
-/// Certain that the cell and the primitive do not meet.
-bool separated(const CanonicalCell& cell);
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 }  // namespace sphere
 
 namespace frustum {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_canonical);
-bool separated(const CanonicalPrimitive& primitive, const CanonicalCell& cell);
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 }  // namespace frustum
 
 }  // namespace csgcore

@@ -41,7 +41,13 @@ std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& sce
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree)
     : primitives_(std::move(primitives)),
       list_(compile(tree)),
-      bounds_(bounds_of(*primitives_, tree)) {}
+      bounds_(bounds_of(*primitives_, tree)) {
+  if (tree.empty()) return;
+  extents_.reserve(primitives_->size());
+  for (const CanonicalPrimitive& primitive : *primitives_) {
+    extents_.push_back(extent_of(primitive));
+  }
+}
 
 bool Solid::contains(const Vec3& point) const {
   if (list_.literals.empty()) return list_.constant;

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "canonical_slack.hpp"
 #include "shapes.hpp"
 
 namespace csgcore::sphere {
@@ -45,7 +44,17 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
 
 bool contains(const Vec3& p) { return glm::dot(p, p) <= 1.0; }
 
-bool separated(const CanonicalCell& cell) {
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
+  const CanonicalCell cell = to_canonical(primitive, cell_world);
+  // By convexity, a cell whose 8 corners are inside is inside.
+  const double inner = 1.0 - cell.slack;
+  if (contains(cell.center)) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 point = cell.corner(corner);
+      if (!(glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
+    }
+    return Classification::kInside;
+  }
   // The cell's point nearest to the ball's centre, by cyclic coordinate descent on the box of the
   // three edge parameters: convex, and exact after one sweep where the edges are orthogonal. Each
   // sweep ends with a proof: the plane through that point, if it separates.
@@ -61,13 +70,13 @@ bool separated(const CanonicalCell& cell) {
       parameter[i] = clamped;
     }
     const double distance2 = glm::dot(nearest, nearest);
-    if (distance2 <= 1.0) return false;
+    if (distance2 <= 1.0) return Classification::kCrosses;
     const double low = glm::dot(nearest, cell.center) - std::abs(glm::dot(nearest, cell.half[0])) -
                        std::abs(glm::dot(nearest, cell.half[1])) -
                        std::abs(glm::dot(nearest, cell.half[2]));
-    if (low > std::sqrt(distance2) * (1.0 + kCanonicalSlack)) return true;
+    if (low > std::sqrt(distance2) * (1.0 + cell.slack)) return Classification::kOutside;
   }
-  return false;
+  return Classification::kCrosses;
 }
 
 }  // namespace csgcore::sphere

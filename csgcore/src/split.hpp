@@ -1,11 +1,10 @@
 // Where a cell is divided in two.
 #pragma once
 
-#include <span>
+#include <cstdint>
 
-#include "csgcore/canonical_primitive.hpp"
-#include "csgcore/short_circuit_list.hpp"
-#include "csgcore/subdivision.hpp"
+#include "cell_list.hpp"
+#include "csgcore/extent.hpp"
 
 namespace csgcore {
 
@@ -21,7 +20,6 @@ Split cyclic_split(const Box& cell, uint32_t depth);
 /// expected cost of a ray that enters the cell (MacDonald and Booth, "Heuristics for ray tracing
 /// using space subdivision", 1990), among evenly spaced planes of every axis; the middle of the
 /// longest axis where no plane separates anything.
-Split surface_area_split(std::span<const CanonicalPrimitive> primitives,
-                         std::span<const Literal> literals, const Box& cell);
+Split surface_area_split(const Extents& extents, const CellList& list, const Box& cell);
 
 }  // namespace csgcore

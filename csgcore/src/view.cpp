@@ -17,30 +17,45 @@ Ray pixel_ray(const View& view, double x_px, double y_px) {
 
 double projected_size_px(const View& view, const Box& box) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double min_u = kInfinity, max_u = -kInfinity, min_v = kInfinity, max_v = -kInfinity;
-  int behind = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 point{(corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
-                     (corner & 4) ? box.max.z : box.min.z};
-    const Vec3 offset = point - view.eye;
-    double scale = 1;
-    if (view.projection == Projection::kPerspective) {
-      const double depth = glm::dot(offset, view.forward);
-      if (depth <= 0) {
-        ++behind;
-        continue;
-      }
-      scale = 1 / depth;
+  constexpr int kCorners = 8;
+  // A corner's coordinates along the view's axes are those of the lowest corner plus, for each axis
+  // of the box that it is at the far end of, that edge's. In loops over all corners, without
+  // branches: every cell of a subdivision with a threshold asks.
+  const Vec3 low = box.min - view.eye;
+  const Vec3 size = box.size();
+  double u[kCorners], v[kCorners], depth[kCorners];
+  u[0] = glm::dot(low, view.right);
+  v[0] = glm::dot(low, view.up);
+  depth[0] = glm::dot(low, view.forward);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int first = 1 << axis;
+    for (int corner = first; corner < 2 * first; ++corner) {
+      u[corner] = u[corner - first] + size[axis] * view.right[axis];
+      v[corner] = v[corner - first] + size[axis] * view.up[axis];
+      depth[corner] = depth[corner - first] + size[axis] * view.forward[axis];
     }
-    const double u = glm::dot(offset, view.right) * scale;
-    const double v = glm::dot(offset, view.up) * scale;
-    min_u = std::min(min_u, u);
-    max_u = std::max(max_u, u);
-    min_v = std::min(min_v, v);
-    max_v = std::max(max_v, v);
   }
-  if (behind == 8) return 0;
-  if (behind > 0) return kInfinity;
+  if (view.projection == Projection::kPerspective) {
+    double nearest = depth[0], furthest = depth[0];
+    for (int corner = 1; corner < kCorners; ++corner) {
+      nearest = std::min(nearest, depth[corner]);
+      furthest = std::max(furthest, depth[corner]);
+    }
+    if (furthest <= 0) return 0;
+    if (nearest <= 0) return kInfinity;
+    for (int corner = 0; corner < kCorners; ++corner) {
+      const double scale = 1 / depth[corner];
+      u[corner] *= scale;
+      v[corner] *= scale;
+    }
+  }
+  double min_u = u[0], max_u = u[0], min_v = v[0], max_v = v[0];
+  for (int corner = 1; corner < kCorners; ++corner) {
+    min_u = std::min(min_u, u[corner]);
+    max_u = std::max(max_u, u[corner]);
+    min_v = std::min(min_v, v[corner]);
+    max_v = std::max(max_v, v[corner]);
+  }
   return std::max(max_u - min_u, max_v - min_v) * 0.5 * view.height_px / view.half_height;
 }
 

@@ -16,12 +16,14 @@ struct CanonicalPrimitive {
   Shape shape = Shape::kSphere;
   double radius_mid = 1;
   double radius_slope = 0;
-  Vec3 center{0.0};               // world position of the canonical origin
+  Vec3 center{0.0};  // world position of the canonical origin
   Mat3 world_to_canonical{1.0};
   Mat3 canonical_to_world{1.0};
-  Box bounds;                     // tight, in world space
+  Box bounds;  // tight, in world space
   /// Radius in world space of what is a true ball there, else 0.
   double ball_radius = 0;
+  /// Bound of the rounding error of canonical coordinates, relative to the terms they are sums of.
+  double canonical_error = 0;
   std::optional<Color> color;
   uint32_t id = 0;
 };
@@ -31,6 +33,9 @@ CanonicalPrimitive canonicalize(const Primitive& primitive);
 
 /// The cell is a closed, non-empty box.
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
+
+/// The same for what is no true ball and a cell that meets the bounds.
+Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell);
 
 /// Membership in the closed solid, as exact as double evaluates it.
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world);

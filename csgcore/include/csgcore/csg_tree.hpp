@@ -14,8 +14,8 @@ enum class Op : uint8_t { kUnion, kIntersection, kDifference };
 /// `operand_count` subtrees that precede it.
 struct CsgToken {
   bool is_primitive;
-  Op op;                  // meaningful for operations only
-  uint32_t value;         // the primitive's index, or the operand count (≥ 2)
+  Op op;           // meaningful for operations only
+  uint32_t value;  // the primitive's index, or the operand count (≥ 2)
 };
 
 /// A CSG tree in postfix order, in normal form: no empty operands, no operation with fewer than
@@ -53,10 +53,10 @@ class CsgTreeBuilder {
  private:
   struct Frame {
     Op op;
-    uint32_t first_token;      // where this operation's operands start
-    uint32_t operand_count;    // operands that are not empty, after flattening
-    bool is_empty;             // the result is known to be the empty set
-    bool has_first;            // the first operand was seen
+    uint32_t first_token;    // where this operation's operands start
+    uint32_t operand_count;  // operands that are not empty, after flattening
+    bool is_empty;           // the result is known to be the empty set
+    bool has_first;          // the first operand was seen
   };
   enum class Operand { kEmpty, kTokens };
   void add_operand(Operand operand);

@@ -17,10 +17,10 @@ struct Image {
   uint32_t width_px = 0;
   uint32_t height_px = 0;
   std::vector<std::array<uint8_t, 3>> rgb;
-  std::vector<float> z;            // View's s; +inf at a miss
-  std::vector<glm::vec3> normal;   // unit, world space, outward of the solid; 0 at a miss
-  std::vector<glm::vec3> position; // world space; 0 at a miss
-  std::vector<uint32_t> id;        // Primitive::id of the surface that is hit; kNoPrimitive at a miss
+  std::vector<float> z;             // View's s; +inf at a miss
+  std::vector<glm::vec3> normal;    // unit, world space, outward of the solid; 0 at a miss
+  std::vector<glm::vec3> position;  // world space; 0 at a miss
+  std::vector<uint32_t> id;  // Primitive::id of the surface that is hit; kNoPrimitive at a miss
 };
 
 }  // namespace csgcore

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "csgcore/canonical_primitive.hpp"
+#include "csgcore/extent.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/short_circuit_list.hpp"
 
@@ -23,6 +24,8 @@ class Solid {
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
 
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
+  /// Index for index those of `primitives()`; none if the tree is empty.
+  const Extents& extents() const { return extents_; }
   /// The whole tree, as a list that is valid everywhere.
   const ShortCircuitList& list() const { return list_; }
   /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
@@ -34,6 +37,7 @@ class Solid {
 
  private:
   std::shared_ptr<const CanonicalPrimitives> primitives_;
+  Extents extents_;
   ShortCircuitList list_;
   Box bounds_;
 };

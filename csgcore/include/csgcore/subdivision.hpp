@@ -41,14 +41,15 @@ enum class LeafKind : uint8_t {
   kUnion,    // case 2: one primitive, or the union of several
   kPair,     // case 3: an intersection of two, complemented or not
   kGeneral,  // up to K primitives, any function
-  kFull,     // more than K that no further subdivision separates (they coincide or meet in a point):
-             // evaluated in full
+  kFull,  // more than K that no further subdivision separates (they coincide or meet in a point):
+          // evaluated in full
   kDropped,  // case 4: below the threshold
   kRefined,  // was dropped; the node that held it is subdivided by now (Subdivision::refine)
 };
 constexpr size_t kLeafKinds = 7;
 
-/// `literals` of Subdivision [first_literal, first_literal + literal_count) are the cell's function.
+/// `literals` of Subdivision [first_literal, first_literal + literal_count) are the cell's
+/// function.
 struct Leaf {
   Box box;
   uint64_t first_literal = 0;
@@ -76,6 +77,9 @@ struct LeafBatch {
 /// Called with each batch as the subdivision delivers it (paper §2.3, "render the CSG object while
 /// subdividing it"), from any thread, one call at a time; the spans live during the call only.
 using BatchSink = std::function<void(const LeafBatch&)>;
+
+/// How far beyond a cell its function is valid (Subdivision::overlap), for a solid of these bounds.
+double cell_overlap(const Box& solid_bounds);
 
 /// The finished kd-tree. nodes[0] is the root; empty if the solid is.
 class Subdivision {

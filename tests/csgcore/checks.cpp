@@ -1,0 +1,196 @@
+#include "checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <set>
+
+#include "support/models.hpp"
+
+namespace csgcore::checks {
+
+double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Vec3 random_point(std::mt19937& random, const Box& box) {
+  return {uniform(random, box.min.x, box.max.x), uniform(random, box.min.y, box.max.y),
+          uniform(random, box.min.z, box.max.z)};
+}
+
+Vec3 random_direction(std::mt19937& random) {
+  for (;;) {
+    const Vec3 v = random_point(random, {Vec3(-1.0), Vec3(1.0)});
+    const double length = glm::length(v);
+    if (length > 0.1 && length < 1) return v / length;
+  }
+}
+
+Primitive random_primitive(std::mt19937& random) {
+  const Affine map = test_support::random_affine(random);
+  switch (random() % 5) {
+    case 0:
+      return make_sphere(uniform(random, 0.2, 3), map);
+    case 1: {  // a ball: the matrix is a similarity
+      const double scale = uniform(random, 0.2, 3);
+      return make_sphere(1, {Mat3{scale}, map.translation});
+    }
+    case 2:
+      return make_frustum(-uniform(random, 0, 2), 1, 0, uniform(random, 0.2, 3), map);
+    case 3:
+      return make_frustum(0.5, uniform(random, 1, 3), uniform(random, 0.2, 3), 0, map);
+    default:
+      return make_frustum(-1, uniform(random, 0, 3), uniform(random, 0.2, 3),
+                          uniform(random, 0.2, 3), map);
+  }
+}
+
+bool holds(const Primitive& primitive, const Vec3& point) {
+  const Affine& map = primitive.local_to_world;
+  const Vec3 local = glm::inverse(map.linear) * (point - map.translation);
+  if (primitive.shape == Shape::kSphere) return glm::length(local) <= primitive.r_bottom;
+  const double share = (local.z - primitive.z_min) / (primitive.z_max - primitive.z_min);
+  const double radius = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
+  return share >= 0 && share <= 1 && std::hypot(local.x, local.y) <= radius;
+}
+
+bool evaluate_tree(const CsgTree& tree, const std::function<bool(uint32_t)>& inside) {
+  std::vector<bool> stack;
+  for (const CsgToken& token : tree.tokens()) {
+    if (token.is_primitive) {
+      stack.push_back(inside(token.value));
+      continue;
+    }
+    const size_t first = stack.size() - token.value;
+    const auto begin = stack.begin() + static_cast<std::ptrdiff_t>(first);
+    const bool rest = std::find(begin + 1, stack.end(), true) != stack.end();
+    bool value = false;
+    if (token.op == Op::kUnion) value = stack[first] || rest;
+    if (token.op == Op::kIntersection) value = std::find(begin, stack.end(), false) == stack.end();
+    if (token.op == Op::kDifference) value = stack[first] && !rest;
+    stack.resize(first);
+    stack.push_back(value);
+  }
+  return !stack.empty() && stack.back();
+}
+
+bool holds(const Scene& scene, const Vec3& point) {
+  return evaluate_tree(scene.model, [&](uint32_t i) { return holds(scene.primitives[i], point); });
+}
+
+bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) {
+  if (leaf.literal_count == 0) return leaf.solid;
+  return evaluate(subdivision.literals_of(leaf), [&](uint32_t primitive) {
+    return contains(subdivision.solid().primitives()[primitive], point);
+  });
+}
+
+Scene scene_of(Op op, std::vector<Primitive> primitives) {
+  Scene scene;
+  CsgTreeBuilder builder;
+  builder.open(op);
+  for (uint32_t i = 0; i < primitives.size(); ++i) {
+    primitives[i].id = i;
+    builder.primitive(i);
+  }
+  builder.close();
+  scene.primitives = std::move(primitives);
+  scene.model = builder.finish();
+  return scene;
+}
+
+View view_of(const Box& box, const Vec3& direction, double distance) {
+  View view;
+  view.forward = direction;
+  const Vec3 helper = std::abs(direction.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  view.right = glm::normalize(glm::cross(direction, helper));
+  view.up = glm::cross(view.right, direction);
+  view.eye = box.center() - distance * direction;
+  view.half_height = 0.2;
+  view.width_px = 640;
+  view.height_px = 480;
+  return view;
+}
+
+namespace {
+
+void expect_kind(const Subdivision& subdivision, const Leaf& leaf) {
+  const SubdivisionOptions& options = subdivision.options();
+  const auto literals = subdivision.literals_of(leaf);
+  std::set<uint32_t> distinct;
+  for (const Literal& literal : literals) distinct.insert(literal.primitive);
+  const bool few = distinct.size() <= options.leaf_primitives;
+  if (leaf.kind != LeafKind::kEmpty) {
+    EXPECT_FALSE(leaf.solid);
+  }
+  switch (leaf.kind) {
+    case LeafKind::kEmpty:
+      EXPECT_EQ(leaf.literal_count, 0u);
+      break;
+    case LeafKind::kUnion:
+      EXPECT_TRUE(is_union(literals));
+      EXPECT_TRUE(few || options.stop_at_unions);
+      break;
+    case LeafKind::kPair:
+      EXPECT_EQ(literals.size(), 2u);
+      EXPECT_FALSE(is_union(literals));
+      EXPECT_TRUE(few);
+      break;
+    case LeafKind::kGeneral:
+      EXPECT_NE(literals.size(), 2u);
+      EXPECT_FALSE(is_union(literals));
+      EXPECT_TRUE(few);
+      break;
+    case LeafKind::kFull:
+      EXPECT_FALSE(few);
+      break;
+    case LeafKind::kDropped:
+      EXPECT_FALSE(few);
+      EXPECT_LT(projected_size_px(*options.view, leaf.box), options.threshold_px);
+      break;
+    case LeafKind::kRefined:
+      break;
+  }
+}
+
+double volume(const Box& box) {
+  const Vec3 size = box.size();
+  return size.x * size.y * size.z;
+}
+
+}  // namespace
+
+void expect_correct(const Subdivision& subdivision, const Scene& scene, int points_per_leaf) {
+  std::mt19937 random(7);
+  double sum = 0;
+  size_t wrong = 0;
+  for (const Leaf& leaf : subdivision.leaves()) {
+    expect_kind(subdivision, leaf);
+    if (leaf.kind == LeafKind::kRefined) continue;
+    sum += volume(leaf.box);
+    for (int i = 0; i < points_per_leaf; ++i) {
+      const Vec3 point = random_point(random, leaf.box);
+      wrong += holds(subdivision, leaf, point) != holds(scene, point);
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_EQ(wrong, 0u) << "of " << subdivision.leaves().size() << " leaves";
+  if (subdivision.nodes().empty()) return;
+  EXPECT_NEAR(sum / volume(subdivision.root_box()), 1, 1e-9);
+  // The tree leads to the leaves' cells.
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 point = random_point(random, subdivision.root_box());
+    const Leaf* leaf = subdivision.find(point);
+    ASSERT_NE(leaf, nullptr);
+    ASSERT_NE(leaf->kind, LeafKind::kRefined);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_GE(point[axis], leaf->box.min[axis]);
+      ASSERT_LE(point[axis], leaf->box.max[axis]);
+    }
+  }
+}
+
+}  // namespace csgcore::checks

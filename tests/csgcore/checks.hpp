@@ -1,0 +1,42 @@
+// What the tests of csgcore share: random input, and an evaluation of trees that shares nothing
+// with csgcore's.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <span>
+
+#include "csgcore/scene.hpp"
+#include "csgcore/subdivision.hpp"
+
+namespace csgcore::checks {
+
+double uniform(std::mt19937& random, double low, double high);
+Vec3 random_point(std::mt19937& random, const Box& box);
+Vec3 random_direction(std::mt19937& random);
+
+/// A random sphere or frustum (also pointed at either end), under a random affine map.
+Primitive random_primitive(std::mt19937& random);
+
+/// Membership by the definition of the primitive in its local space.
+bool holds(const Primitive& primitive, const Vec3& point_world);
+
+/// The tree's value where `inside` tells what each primitive holds, by its postfix form.
+bool evaluate_tree(const CsgTree& tree, const std::function<bool(uint32_t)>& inside);
+
+/// The scene's model, by the two above.
+bool holds(const Scene& scene, const Vec3& point_world);
+
+/// The value of a leaf's function at a point.
+bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point_world);
+
+Scene scene_of(Op op, std::vector<Primitive> primitives);
+
+/// A view of the box from outside, along `direction` (unit).
+View view_of(const Box& box, const Vec3& direction, double distance);
+
+/// Fails unless, at random points of each leaf's cell, the leaf's function is the scene's; kinds
+/// are what the enum says; and the leaves' cells make up the root box.
+void expect_correct(const Subdivision& subdivision, const Scene& scene, int points_per_leaf);
+
+}  // namespace csgcore::checks

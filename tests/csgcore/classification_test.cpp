@@ -1,0 +1,221 @@
+// Classification is judged by points: what is claimed must hold at every one, and what the points
+// show to be decided should be claimed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "checks.hpp"
+
+namespace csgcore {
+namespace {
+
+/// A cell whose size is a share of the primitive's, near its surface.
+Box random_cell(std::mt19937& random, const CanonicalPrimitive& primitive) {
+  const Box& bounds = primitive.bounds;
+  const Vec3 center = checks::random_point(
+      random, {bounds.min - 0.2 * bounds.size(), bounds.max + 0.2 * bounds.size()});
+  const double share = std::exp(checks::uniform(random, std::log(0.01), std::log(1.0)));
+  const Vec3 half = share * bounds.size() * checks::random_point(random, {Vec3(0.1), Vec3(0.5)});
+  return {center - half, center + half};
+}
+
+/// Points of the primitive, from its axis and centre to its surface, by its local form.
+std::vector<Vec3> points_of(const Primitive& primitive, int steps) {
+  std::vector<Vec3> points;
+  const double turn = 2 * std::acos(-1.0) / (2 * steps);
+  for (int i = 0; i <= steps; ++i) {
+    const double share = double(i) / steps;
+    double z = primitive.z_min + share * (primitive.z_max - primitive.z_min);
+    double r = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
+    if (primitive.shape == Shape::kSphere) {
+      z = primitive.r_bottom * std::cos(std::acos(-1.0) * share);
+      r = primitive.r_bottom * std::sin(std::acos(-1.0) * share);
+    }
+    for (int k = 0; k < 2 * steps; ++k) {
+      for (const double inner : {1.0, 0.9, 0.5, 0.0}) {
+        points.push_back(primitive.local_to_world.point(
+            {inner * r * std::cos(k * turn), inner * r * std::sin(k * turn), z}));
+      }
+    }
+  }
+  return points;
+}
+
+bool is_in(const Box& box, const Vec3& p) {
+  return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
+         p.z >= box.min.z && p.z <= box.max.z;
+}
+
+/// What a grid of the cell's points, and points of the primitive, show.
+struct Sampled {
+  bool meets = false;   // some point is in both
+  bool leaves = false;  // some point of the cell is not in the primitive
+};
+
+Sampled sample(const Primitive& primitive, const std::vector<Vec3>& points, const Box& cell) {
+  constexpr int kGrid = 12;
+  Sampled result;
+  for (int i = 0; i <= kGrid; ++i) {
+    for (int j = 0; j <= kGrid; ++j) {
+      for (int k = 0; k <= kGrid; ++k) {
+        const Vec3 p = glm::mix(cell.min, cell.max, Vec3(i, j, k) / double(kGrid));
+        (checks::holds(primitive, p) ? result.meets : result.leaves) = true;
+      }
+    }
+  }
+  for (size_t i = 0; i < points.size() && !result.meets; ++i) {
+    result.meets = is_in(cell, points[i]);
+  }
+  return result;
+}
+
+struct Tally {
+  int outside = 0, inside = 0, crossing = 0;
+  int missed_outside = 0;  // nothing shows that they meet, yet they are said to cross
+  int missed_inside = 0;
+};
+
+void classify_cells(std::mt19937& random, const Primitive& primitive, int cells, Tally& tally) {
+  const CanonicalPrimitive canonical = canonicalize(primitive);
+  const std::vector<Vec3> points = points_of(primitive, 40);
+  for (int i = 0; i < cells; ++i) {
+    const Box cell = random_cell(random, canonical);
+    const Sampled sampled = sample(primitive, points, cell);
+    switch (classify(canonical, cell)) {
+      case Classification::kOutside:
+        ++tally.outside;
+        ASSERT_FALSE(sampled.meets);
+        break;
+      case Classification::kInside:
+        ++tally.inside;
+        ASSERT_FALSE(sampled.leaves);
+        break;
+      case Classification::kCrosses:
+        ++tally.crossing;
+        tally.missed_outside += !sampled.meets;
+        tally.missed_inside += !sampled.leaves;
+        break;
+    }
+  }
+}
+
+void expect_tight(const Tally& tally) {
+  // Half of what the samples miss is for the samples' own coarseness.
+  EXPECT_LT(tally.missed_outside, 0.04 * (tally.outside + tally.missed_outside));
+  EXPECT_EQ(tally.missed_inside, 0);  // exact: the corners decide
+  EXPECT_GT(tally.outside, tally.crossing / 20);
+  EXPECT_GT(tally.inside, tally.crossing / 50);
+  testing::Test::RecordProperty("missed_outside", tally.missed_outside);
+}
+
+Affine similarity(std::mt19937& random) {
+  const Vec3 z = checks::random_direction(random);
+  const Vec3 x = glm::normalize(glm::cross(z, checks::random_direction(random)));
+  const double scale = checks::uniform(random, 0.1, 10);
+  return {Mat3{x * scale, glm::cross(z, x) * scale, z * scale}, 10.0 * x};
+}
+
+Affine axis_aligned(std::mt19937& random) {
+  Affine map;
+  for (int axis = 0; axis < 3; ++axis) {
+    map.linear[axis][axis] = (random() % 2 ? 1 : -1) * checks::uniform(random, 0.2, 3);
+  }
+  return map;
+}
+
+Affine affine(std::mt19937& random) {
+  Affine map = similarity(random);
+  const Affine shear = axis_aligned(random);
+  map.linear = map.linear * shear.linear * similarity(random).linear;
+  return map;
+}
+
+using MakeMap = Affine (*)(std::mt19937&);
+using MakeShape = Primitive (*)(std::mt19937&, const Affine&);
+
+Primitive sphere(std::mt19937&, const Affine& map) { return make_sphere(1.5, map); }
+Primitive cylinder(std::mt19937& random, const Affine& map) {
+  return make_frustum(-1, checks::uniform(random, 0, 3), 0.7, 0.7, map);
+}
+Primitive frustum(std::mt19937& random, const Affine& map) {
+  return make_frustum(-1, checks::uniform(random, 0, 3), checks::uniform(random, 0.1, 2), 0.7, map);
+}
+Primitive cone_up(std::mt19937& random, const Affine& map) {
+  return make_frustum(0, checks::uniform(random, 0.5, 3), 1, 0, map);
+}
+Primitive cone_down(std::mt19937& random, const Affine& map) {
+  return make_frustum(0, checks::uniform(random, 0.5, 3), 0, 1, map);
+}
+
+class ClassificationOf : public testing::TestWithParam<std::tuple<MakeShape, MakeMap>> {};
+
+TEST_P(ClassificationOf, IsNeverWrongAndTight) {
+  const auto [make_shape, make_map] = GetParam();
+  std::mt19937 random(5);
+  Tally tally;
+  for (int i = 0; i < 12; ++i) {
+    const Primitive primitive = make_shape(random, make_map(random));
+    ASSERT_TRUE(is_valid(primitive));
+    ASSERT_NO_FATAL_FAILURE(classify_cells(random, primitive, 150, tally));
+  }
+  expect_tight(tally);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryShapeAndMap, ClassificationOf,
+                         testing::Combine(testing::Values(sphere, cylinder, frustum, cone_up,
+                                                          cone_down),
+                                          testing::Values(similarity, axis_aligned, affine)));
+
+TEST(Classification, CellsThatTouch) {
+  const CanonicalPrimitive ball = canonicalize(make_sphere(1));
+  EXPECT_EQ(classify(ball, {{1 + 1e-9, -1, -1}, {2, 1, 1}}), Classification::kOutside);
+  EXPECT_EQ(classify(ball, {{1 - 1e-9, -1, -1}, {2, 1, 1}}), Classification::kCrosses);
+  const double corner = 1 / std::sqrt(3.0);
+  EXPECT_EQ(classify(ball, {Vec3(-corner * (1 - 1e-9)), Vec3(corner * (1 - 1e-9))}),
+            Classification::kInside);
+  EXPECT_EQ(classify(ball, {Vec3(-corner * (1 + 1e-9)), Vec3(corner)}), Classification::kCrosses);
+  const CanonicalPrimitive cylinder = canonicalize(make_frustum(0, 2, 1, 1));
+  EXPECT_EQ(classify(cylinder, {{-1, -1, 2 + 1e-9}, {1, 1, 3}}), Classification::kOutside);
+  EXPECT_EQ(classify(cylinder, {{-1, -1, 2 - 1e-9}, {1, 1, 3}}), Classification::kCrosses);
+  EXPECT_EQ(classify(cylinder, {{-0.7, -0.7, 1e-9}, {0.7, 0.7, 2 - 1e-9}}),
+            Classification::kInside);
+  EXPECT_EQ(classify(cylinder, {{-0.7, -0.7, -1e-9}, {0.7, 0.7, 2 - 1e-9}}),
+            Classification::kCrosses);
+}
+
+TEST(Classification, ApexHasNoSecondNappe) {
+  const CanonicalPrimitive cone = canonicalize(make_frustum(0, 1, 1, 0));
+  EXPECT_EQ(classify(cone, {{-0.1, -0.1, 1.001}, {0.1, 0.1, 1.2}}), Classification::kOutside);
+  EXPECT_EQ(classify(cone, {{-0.1, -0.1, 0.999}, {0.1, 0.1, 1.2}}), Classification::kCrosses);
+}
+
+/// Far from the origin, far larger than the other axes, far smaller than the cell: never wrong.
+TEST(Classification, ExtremeSizes) {
+  std::mt19937 random(6);
+  for (int round = 0; round < 300; ++round) {
+    Affine map = affine(random);
+    for (int axis = 0; axis < 3; ++axis) {
+      map.linear[axis] *= std::pow(10.0, checks::uniform(random, -5, 5));
+    }
+    map.translation = 1e12 * checks::random_direction(random);
+    const Primitive primitive =
+        round % 2 == 0 ? make_sphere(1, map) : make_frustum(-1, 1, 0, 1, map);
+    if (!is_valid(primitive)) continue;
+    const CanonicalPrimitive canonical = canonicalize(primitive);
+    for (int i = 0; i < 20; ++i) {
+      // A point of the solid, as exactly as coordinates of 1e12 allow, and a cell around it.
+      const Vec3 local = 0.99 * checks::uniform(random, 0, 1) * checks::random_direction(random);
+      const Vec3 on_axis = primitive.shape == Shape::kSphere ? local : Vec3(0, 0, local.z);
+      const Vec3 point = map.point(on_axis);
+      const double size = std::pow(10.0, checks::uniform(random, -2, 8));
+      const Box cell{point - size - 1e-3, point + size + 1e-3};
+      ASSERT_NE(classify(canonical, cell), Classification::kOutside);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace csgcore
