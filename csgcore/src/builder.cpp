@@ -20,6 +20,17 @@ constexpr double kSmallestCellOverlaps = 16;
 /// rule (case 4) ends such cells instead.
 constexpr uint32_t kStalledDivisions = 9;
 
+/// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
+/// literals for each of the solid's, and this many in any case; a cell whose share is used up is
+/// not divided further. It bounds memory and time where surfaces lie so close that dividing hardly
+/// separates them (a thousand nested shells). CSn and CCn need 3 to 6 for each at K = 8, and 70 to
+/// 120 by the paper's rule.
+constexpr double kLiteralsPerLiteral = 512;
+constexpr double kLiteralsInAnyCase = 0x1p18;
+/// With a pixel threshold, which bounds the number of cells, lists this short go on all the same:
+/// so short are they where surfaces meet in points, whose cells the paper's rule alone ends.
+constexpr uint32_t kFewLiterals = 32;
+
 /// Lists longer than this are divided as two tasks. A property of the data alone, so that the
 /// result is the same for every number of threads.
 constexpr uint32_t kTaskLiterals = 256;
@@ -52,10 +63,13 @@ Cell child_of(const Cell& cell, const Split& split, bool above) {
   return child;
 }
 
-Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count_before,
-              uint32_t count) {
+/// One half of a divided cell; `count` literals were divided into `halves`.
+Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
+              const CellList (&halves)[2]) {
   Cell child = child_of(cell, split, above);
-  child.stalled = count < count_before ? 0 : cell.stalled + 1;
+  child.stalled = halves[above].count() < count ? 0 : cell.stalled + 1;
+  const double sum = static_cast<double>(halves[0].count()) + halves[1].count();
+  if (sum > 0) child.allowance = cell.allowance * count / sum;
   return child;
 }
 
@@ -76,12 +90,13 @@ Builder::Builder(const Solid& solid, const SubdivisionOptions& options, double o
       sink_(sink),
       repeats_(has_repeats(solid.list().literals, solid.primitives().size())) {}
 
-std::unique_ptr<Part> Builder::build(const Cell& cell, std::span<const Literal> literals) {
+std::unique_ptr<Part> Builder::build(Cell cell, std::span<const Literal> literals) {
   CellList whole, list;
   assign(whole, literals);
   auto workspace = acquire();
   workspace->restrictor.restrict(whole, inflated(cell.box), list);
   release(std::move(workspace));
+  cell.allowance = kLiteralsPerLiteral + kLiteralsInAnyCase / std::max(list.count(), 1u);
   // Small scenes don't start the thread pool; one task alone needs no assembling afterwards.
   const bool small = list.count() <= size_t{kTaskLiterals} * options_.leaf_primitives;
   in_parallel_ = options_.threads != 1 && !small;
@@ -109,8 +124,7 @@ std::unique_ptr<Part> Builder::build_part(const Cell& cell, const CellList& list
   workspace->restrictor.restrict(list, halves_of(cell, part->split), halves[0], halves[1]);
   release(std::move(workspace));
   const auto side = [&](bool above) {
-    const CellList& half = halves[above];
-    return build_part(child_of(cell, part->split, above, list.count(), half.count()), half);
+    return build_part(child_of(cell, part->split, above, list.count(), halves), halves[above]);
   };
   if (!in_parallel_) {
     part->below = side(false);
@@ -153,8 +167,7 @@ void Builder::divide(const Cell& cell, const CellList& list, size_t level, Works
   for (const bool above : {false, true}) {
     const uint32_t index = static_cast<uint32_t>(chunk.nodes.size());
     (above ? chunk.nodes[node].above : chunk.nodes[node].below) = index;
-    const CellList& half = halves[above];
-    divide(child_of(cell, split, above, list.count(), half.count()), half, level + 1, workspace,
+    divide(child_of(cell, split, above, list.count(), halves), halves[above], level + 1, workspace,
            chunk);
   }
 }
@@ -170,11 +183,13 @@ LeafKind Builder::leaf_kind(const Cell& cell, const CellList& list,
     return list.count() == 2 ? LeafKind::kPair : LeafKind::kGeneral;
   }
   if (options_.threshold_px > 0 &&
-      projected_size_px(*options_.view, cell.box) < options_.threshold_px) {
+      projects_below(*options_.view, cell.box, options_.threshold_px)) {
     return LeafKind::kDropped;
   }
   const bool stalled = options_.threshold_px <= 0 && cell.stalled >= kStalledDivisions;
-  return stalled || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
+  const bool few = options_.threshold_px > 0 && list.count() <= kFewLiterals;
+  const bool spent = cell.allowance < 1 && !few;
+  return stalled || spent || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
 }
 
 bool Builder::is_small(const Cell& cell) const {

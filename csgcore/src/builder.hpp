@@ -30,6 +30,9 @@ struct Cell {
   Box box;
   uint32_t depth = 0;
   uint32_t stalled = 0;  // divisions since a primitive last left
+  /// How many literals the leaves below may hold for each of the cell's own. Each division hands
+  /// its cell's share on to the halves, in proportion to what they hold.
+  double allowance = 0;
 };
 
 class Builder {
@@ -40,7 +43,7 @@ class Builder {
 
   /// `literals`, not empty, equal the solid within the cell. Uses as many threads as the options
   /// say; the result does not depend on them.
-  std::unique_ptr<Part> build(const Cell& cell, std::span<const Literal> literals);
+  std::unique_ptr<Part> build(Cell cell, std::span<const Literal> literals);
 
  private:
   /// The lists of one level of the recursion, reused by all cells of that level.

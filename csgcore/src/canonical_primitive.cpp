@@ -35,17 +35,39 @@ Classification classify_ball(const Vec3& center, double radius, const Box& cell)
   return Classification::kCrosses;
 }
 
-/// Relative error of canonical coordinates: the rounding of the map's application, of the centre,
-/// and of its inversion (x' = W·C·x for the true x, so that W·C − 1 is the error).
-double canonical_error(const CanonicalPrimitive& primitive) {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
-  const Mat3 error = primitive.world_to_canonical * primitive.canonical_to_world - Mat3{1.0};
-  double largest = 0;
-  for (int row = 0; row < 3; ++row) {
-    largest = std::max(largest,
-                       std::abs(error[0][row]) + std::abs(error[1][row]) + std::abs(error[2][row]));
-  }
-  return kRounding + largest;
+double largest_row_sum(const Mat3& m) {
+  const Vec3 sums = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]);
+  return std::max({sums.x, sums.y, sums.z});
+}
+
+Mat3 absolute(const Mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
+
+/// What is rounded in the middle of a cell, its offset from the primitive and three products, each.
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kTermRounding = 8 * kEpsilon;
+
+double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// With W for the rounded inverse of C, canonical coordinates come out as W·C·x for the true x, so
+/// that W·C − 1 is their relative error (which is itself a sum of three rounded products).
+double inversion_error(const CanonicalPrimitive& primitive) {
+  const Mat3& w = primitive.world_to_canonical;
+  const Mat3& c = primitive.canonical_to_world;
+  return largest_row_sum(w * c - Mat3{1.0}) +
+         4 * kEpsilon * largest_row_sum(absolute(w) * absolute(c));
+}
+
+/// Bound of the rounding of a cell's canonical coordinates; `terms` bounds the world coordinates
+/// that they are computed from. A quick bound does wherever it is small; the sharp one is for maps
+/// that are nearly singular.
+double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell& cell,
+                       const Vec3& terms) {
+  constexpr double kSmall = 1e-9;  // no cell of interest is so small against the primitive
+  const double quick = primitive.canonical_error * largest(terms);
+  if (quick < kSmall) return kCanonicalSlack + quick;
+  const Vec3 sums = glm::abs(cell.center) + absolute(cell.half) * Vec3{1.0};
+  return kCanonicalSlack + kTermRounding * largest(absolute(primitive.world_to_canonical) * terms) +
+         primitive.inversion_error * largest(sums);
 }
 
 }  // namespace
@@ -53,7 +75,9 @@ double canonical_error(const CanonicalPrimitive& primitive) {
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
   CanonicalPrimitive result = primitive.shape == Shape::kSphere ? sphere::canonicalize(primitive)
                                                                 : frustum::canonicalize(primitive);
-  result.canonical_error = canonical_error(result);
+  result.inversion_error = inversion_error(result);
+  result.canonical_error =
+      (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);
   result.color = primitive.color;
   result.id = primitive.id;
   return result;
@@ -78,17 +102,14 @@ Classification classify_within_bounds(const CanonicalPrimitive& primitive, const
 
 CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell) {
   const Vec3 half = 0.5 * (cell.max - cell.min);
-  const Vec3 offset = cell.center() - primitive.center;
+  const Vec3 middle = cell.center();
+  const Vec3 offset = middle - primitive.center;
   const Mat3& map = primitive.world_to_canonical;
   CanonicalCell canonical;
   canonical.center = map * offset;
   canonical.half = Mat3{map[0] * half.x, map[1] * half.y, map[2] * half.z};
-  // The sum of the absolute values of all products that the coordinates are sums of.
-  const Vec3 reach = glm::abs(offset) + half;
-  const Vec3 magnitude =
-      glm::abs(map[0]) * reach.x + glm::abs(map[1]) * reach.y + glm::abs(map[2]) * reach.z;
-  canonical.slack = kCanonicalSlack +
-                    primitive.canonical_error * std::max({magnitude.x, magnitude.y, magnitude.z});
+  canonical.slack =
+      canonical_slack(primitive, canonical, glm::abs(offset) + half + glm::abs(middle));
   return canonical;
 }
 

@@ -51,7 +51,7 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell_wor
   if (contains(cell.center)) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 point = cell.corner(corner);
-      if (!(glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
+      if (!(inner > 0 && glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
     }
     return Classification::kInside;
   }

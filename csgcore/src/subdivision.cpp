@@ -127,8 +127,7 @@ bool Subdivision::refine(const View& view) {
       continue;
     }
     Leaf& leaf = all.leaves[node.below];
-    if (leaf.kind != LeafKind::kDropped ||
-        projected_size_px(view, leaf.box) < options_.threshold_px) {
+    if (leaf.kind != LeafKind::kDropped || projects_below(view, leaf.box, options_.threshold_px)) {
       continue;
     }
     leaf.kind = LeafKind::kRefined;

@@ -1,6 +1,7 @@
 #include "csgcore/view.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -57,6 +58,24 @@ double projected_size_px(const View& view, const Box& box) {
     max_v = std::max(max_v, v[corner]);
   }
   return std::max(max_u - min_u, max_v - min_v) * 0.5 * view.height_px / view.half_height;
+}
+
+bool projects_below(const View& view, const Box& box, double size_px) {
+  // One diagonal of the box is mostly enough to tell that it is larger.
+  const Vec3 low = box.min - view.eye;
+  const Vec3 high = box.max - view.eye;
+  double low_scale = 1, high_scale = 1;
+  if (view.projection == Projection::kPerspective) {
+    low_scale = 1 / glm::dot(low, view.forward);
+    high_scale = 1 / glm::dot(high, view.forward);
+  }
+  if (low_scale > 0 && high_scale > 0) {
+    const Vec3 across = high * high_scale - low * low_scale;
+    const double reach =
+        std::max(std::abs(glm::dot(across, view.right)), std::abs(glm::dot(across, view.up)));
+    if (reach * 0.5 * view.height_px >= size_px * view.half_height) return false;
+  }
+  return projected_size_px(view, box) < size_px;
 }
 
 }  // namespace csgcore

@@ -110,7 +110,9 @@ class Run {
     stats_.file_bytes = text.view().size();
     progress_.update("parsing", -1);
     const Clock::time_point parse_start = Clock::now();
-    const SyntaxTree tree = parse(text.view(), name);
+    // Places in an exported design are not those of the .scad, and must not look as if they were.
+    const bool is_exported = has_suffix(options_.input, ".scad");
+    const SyntaxTree tree = parse(text.view(), is_exported ? name + " (its .csg)" : name);
     stats_.parse_ms = ms_since(parse_start);
     stats_.nodes = tree.nodes.size();
     progress_.update("importing", -1);

@@ -11,6 +11,7 @@
 #include "csgcore/subdivision.hpp"
 #include "frontend/error.hpp"
 #include "glrender/renderer.hpp"
+#include "scene_scale.hpp"
 #include "translucent_layer.hpp"
 
 namespace frontend {
@@ -194,7 +195,13 @@ Image render(const csgcore::Scene& scene, const csgcore::View& view, const Rende
              RenderStats& stats) {
   try {
     stats = {};
-    return SceneRenderer(scene, view, settings, stats).draw();
+    const int exponent = scale_exponent(scene);
+    if (exponent == 0) return SceneRenderer(scene, view, settings, stats).draw();
+    const csgcore::Scene scaled_scene = scaled(scene, exponent);
+    const csgcore::View scaled_view = scaled(view, exponent);
+    Image image = SceneRenderer(scaled_scene, scaled_view, settings, stats).draw();
+    undo_scale(exponent, image);
+    return image;
   } catch (const glrender::GlError& error) {
     throw Error({}, {}, error.what(), {});
   }

@@ -12,13 +12,13 @@ namespace glrender {
 
 /// How a cell's primitives are combined: one draw call for all cells of a path.
 enum class Path : int {
-  kSingle,   // a primitive or its complement; unions by the depth buffer (paper §3.2, §3.3.3)
-  kBoth,     // §3.3.4 case 1
-  kMinus,    // cases 2 and 3
-  kNeither,  // case 4
+  kSingle,     // a primitive or its complement; unions by the depth buffer (paper §3.2, §3.3.3)
+  kBoth,       // §3.3.4 case 1
+  kMinus,      // cases 2 and 3
+  kNeither,    // case 4
   kShortList,  // any function of up to kShortList primitives
   kList,       // any function
-  kBoxes,    // the cells themselves
+  kBoxes,      // the cells themselves
 };
 constexpr int kPaths = 7;
 

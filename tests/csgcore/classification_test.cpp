@@ -103,12 +103,13 @@ void classify_cells(std::mt19937& random, const Primitive& primitive, int cells,
 }
 
 void expect_tight(const Tally& tally) {
-  // Half of what the samples miss is for the samples' own coarseness.
-  EXPECT_LT(tally.missed_outside, 0.04 * (tally.outside + tally.missed_outside));
+  // Some of these do meet, between the sampled points.
+  EXPECT_LT(tally.missed_outside, 0.01 * (tally.outside + tally.missed_outside));
   EXPECT_EQ(tally.missed_inside, 0);  // exact: the corners decide
   EXPECT_GT(tally.outside, tally.crossing / 20);
   EXPECT_GT(tally.inside, tally.crossing / 50);
-  testing::Test::RecordProperty("missed_outside", tally.missed_outside);
+  testing::Test::RecordProperty(
+      "missed_per_mille", 1000 * tally.missed_outside / (tally.outside + tally.missed_outside));
 }
 
 Affine similarity(std::mt19937& random) {
@@ -156,10 +157,10 @@ TEST_P(ClassificationOf, IsNeverWrongAndTight) {
   const auto [make_shape, make_map] = GetParam();
   std::mt19937 random(5);
   Tally tally;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 24; ++i) {
     const Primitive primitive = make_shape(random, make_map(random));
     ASSERT_TRUE(is_valid(primitive));
-    ASSERT_NO_FATAL_FAILURE(classify_cells(random, primitive, 150, tally));
+    ASSERT_NO_FATAL_FAILURE(classify_cells(random, primitive, 250, tally));
   }
   expect_tight(tally);
 }
@@ -190,6 +191,50 @@ TEST(Classification, ApexHasNoSecondNappe) {
   const CanonicalPrimitive cone = canonicalize(make_frustum(0, 1, 1, 0));
   EXPECT_EQ(classify(cone, {{-0.1, -0.1, 1.001}, {0.1, 0.1, 1.2}}), Classification::kOutside);
   EXPECT_EQ(classify(cone, {{-0.1, -0.1, 0.999}, {0.1, 0.1, 1.2}}), Classification::kCrosses);
+}
+
+/// How far a point lies outside the unit ball's or the unit cylinder's image, in canonical units,
+/// in more than double precision; the map is taken as exact.
+long double exact_excess(const Primitive& primitive, const Vec3& point) {
+  using Long3 = glm::vec<3, long double>;
+  const Affine& map = primitive.local_to_world;
+  const Long3 local = glm::inverse(glm::mat<3, 3, long double>(map.linear)) *
+                      (Long3(point) - Long3(map.translation));
+  if (primitive.shape == Shape::kSphere) return glm::length(local) - 1;
+  return std::max(std::hypot(local.x, local.y) - 1, std::abs(local.z) - 1);
+}
+
+/// Single points next to the surface, under maps that lose digits: rounding makes no claim.
+TEST(Classification, RoundingIsAllowedFor) {
+  std::mt19937 random(8);
+  int inner = 0, outer = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Affine map = affine(random);
+    for (int axis = 0; axis < 3; ++axis) {
+      map.linear[axis] *= std::pow(10.0, checks::uniform(random, -3, 3));
+    }
+    map.linear[2] += 1e3 * map.linear[0];  // nearly parallel edges
+    const Primitive primitive =
+        round % 2 == 0 ? make_sphere(1, map) : make_frustum(-1, 1, 1, 1, map);
+    const CanonicalPrimitive canonical = canonicalize(primitive);
+    for (int i = 0; i < 20; ++i) {
+      Vec3 local = checks::random_direction(random);
+      if (round % 2 == 1) local /= std::max(std::hypot(local.x, local.y), std::abs(local.z));
+      const Vec3 point = map.point(local);
+      const long double excess = exact_excess(primitive, point);
+      const Classification claim = classify(canonical, {point, point});
+      inner += excess < 0;
+      outer += excess > 0;
+      if (excess < 0) {
+        ASSERT_NE(claim, Classification::kOutside) << excess;
+      }
+      if (excess > 0) {
+        ASSERT_NE(claim, Classification::kInside) << excess;
+      }
+    }
+  }
+  EXPECT_GT(inner, 5000);
+  EXPECT_GT(outer, 5000);
 }
 
 /// Far from the origin, far larger than the other axes, far smaller than the cell: never wrong.

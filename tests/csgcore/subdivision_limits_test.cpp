@@ -66,6 +66,14 @@ Scene spheres_through_a_circle() {
   return checks::scene_of(Op::kIntersection, spheres);
 }
 
+/// 1,000 spheres one within the other, whose gaps a division halves only while it doubles the cells
+/// along them: separated to 8 a cell they would need millions.
+Scene shells_that_slowly_separate() {
+  std::vector<Primitive> primitives{make_frustum(-15, 15, 12, 12)};
+  for (int i = 0; i < 1000; ++i) primitives.push_back(make_sphere(10 - 1e-3 * i));
+  return checks::scene_of(Op::kDifference, primitives);
+}
+
 /// 100 shells one within the other, 1e-6 apart.
 Scene nested_shells() {
   Scene scene;
@@ -150,6 +158,7 @@ const Limit kLimits[] = {
     {"WallsThroughALine", walls_through_a_line, 8, 60000, 200000},
     {"SpheresThroughACircle", spheres_through_a_circle, 8, 40000, 120000},
     {"NestedShells", nested_shells, 8, 600, 80000},
+    {"ShellsThatSlowlySeparate", shells_that_slowly_separate, 8, 20000, 1200000},
     {"TangentSpheres", tangent_spheres, 2, 40000, 80000},
     {"NeedleAndPlate", needle_and_plate, 1, 1000, 1000},
     {"FarAndSmall", far_and_small, 2, 1000, 1600},

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <mutex>
+#include <thread>
 #include <tuple>
 
 #include "checks.hpp"
@@ -72,6 +74,32 @@ TEST(Subdivision, FunctionHoldsBeyondTheCellByTheOverlap) {
       point[i % 3] = i < 3 ? leaf.box.min[i % 3] - beyond : leaf.box.max[i % 3] + beyond;
       ASSERT_EQ(checks::holds(subdivision, leaf, point), checks::holds(scene, point));
     }
+  }
+}
+
+/// A sphere that ends short of a cell, by less than the overlap, stands in the cell's function; one
+/// that ends further away does not.
+TEST(Subdivision, WhatIsWithinTheOverlapCounts) {
+  for (const bool within : {true, false}) {
+    const double overlap = cell_overlap({Vec3(-3.0), Vec3(3.0)});
+    const double gap = within ? 0.5 * overlap : 2 * overlap;
+    std::vector<Primitive> spheres;
+    for (const double x : {-2.0, -2.0, 1 + gap, 2.0}) {
+      const double y = spheres.empty() ? -2 : (spheres.size() == 1 ? 2 : 0);
+      spheres.push_back(make_sphere(1, {Mat3{1.0}, {x, y, 0}}));
+    }
+    spheres.push_back(make_sphere(1, {Mat3{1.0}, {2, 0, 2}}));
+    spheres.push_back(make_sphere(1, {Mat3{1.0}, {2, 0, -2}}));
+    const Scene scene = checks::scene_of(Op::kUnion, spheres);
+    const Solid solid = solid_of(scene);
+    ASSERT_EQ(solid.bounds().center(), Vec3(0.0));
+    const Subdivision subdivision(solid, options_of(3, SplitRule::kCyclic));  // divided at x = 0
+    const Leaf* leaf = subdivision.find({-1e-9, 0, 0});
+    ASSERT_NE(leaf, nullptr);
+    ASSERT_EQ(leaf->box.max.x, 0);
+    bool found = false;
+    for (const Literal& literal : subdivision.literals_of(*leaf)) found |= literal.primitive == 2;
+    EXPECT_EQ(found, within);
   }
 }
 
@@ -197,6 +225,7 @@ TEST(Subdivision, BatchesDeliverItsLeaves) {
         EXPECT_EQ(inside.fetch_add(1), 0) << "two calls at a time";
         for (const Leaf& leaf : batch.leaves) add(delivered, leaf, batch.literals);
         ++batches;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));  // a second call would show
         inside.fetch_sub(1);
       });
       for (const Leaf& leaf : subdivision.leaves()) add(kept, leaf, subdivision.literals());

@@ -67,6 +67,8 @@ TEST(ProjectedSize, IsThatOfSampledPoints) {
     if (round % 2 == 0) view.projection = Projection::kOrthographic;
     const double expected = sampled_size(view, box, 5);
     EXPECT_NEAR(projected_size_px(view, box), expected, 1e-9 * expected);
+    EXPECT_TRUE(projects_below(view, box, (1 + 1e-9) * expected));
+    EXPECT_FALSE(projects_below(view, box, (1 - 1e-9) * expected));
   }
 }
 
@@ -78,6 +80,8 @@ TEST(ProjectedSize, AtTheEyesPlaneAndBehind) {
   EXPECT_DOUBLE_EQ(projected_size_px(view, in_front), 256);
   EXPECT_EQ(projected_size_px(view, around), std::numeric_limits<double>::infinity());
   EXPECT_EQ(projected_size_px(view, behind), 0);
+  EXPECT_FALSE(projects_below(view, around, 1e9));
+  EXPECT_TRUE(projects_below(view, behind, 1));
   view.projection = Projection::kOrthographic;
   EXPECT_DOUBLE_EQ(projected_size_px(view, behind), 512);
   EXPECT_DOUBLE_EQ(projected_size_px(view, around), 512);

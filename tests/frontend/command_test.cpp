@@ -346,6 +346,13 @@ TEST_F(Command, ExportsAScad) {
   EXPECT_EQ(run({"-q", "-o", png_, scad}).err, "");
 }
 
+TEST_F(Command, PlacesInAnExportedCsgAreNotShownAsPlacesInTheScad) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'cube(size = 1);'"));
+  const std::string scad = folder_.write("a.scad", "// a comment\ncube(1);");
+  EXPECT_THAT(run({"-o", png_, scad}).err,
+              StartsWith(scad + " (its .csg):1:1: error: cube cannot be drawn"));
+}
+
 TEST_F(Command, AFailedExportLeavesNothing) {
   const Environment openscad(
       "OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'; echo 'ERROR: no' >&2"));

@@ -22,8 +22,12 @@ struct CanonicalPrimitive {
   Box bounds;  // tight, in world space
   /// Radius in world space of what is a true ball there, else 0.
   double ball_radius = 0;
-  /// Bound of the rounding error of canonical coordinates, relative to the terms they are sums of.
+  /// Bound of the rounding error of canonical coordinates, per unit of the largest world coordinate
+  /// (or offset from the centre) that they are computed from.
   double canonical_error = 0;
+  /// Bound of what the rounding of world_to_canonical alone does, relative to the largest canonical
+  /// coordinate.
+  double inversion_error = 0;
   std::optional<Color> color;
   uint32_t id = 0;
 };

@@ -12,10 +12,14 @@
 //   intersected; a truth table needs all of them, and 2^K bits;
 // - restricting it to a cell (paper §2.2.1) is two linear passes, bottom up, and yields the
 //   irreducible expression.
+//
+// Example: (A ∪ B) − C is
+//   0: A   inside → 2      outside → 1
+//   1: B   inside → 2      outside → false
+//   2: C   inside → false  outside → true     (complement: C's surface bounds from outside)
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 

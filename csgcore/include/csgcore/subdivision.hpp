@@ -26,7 +26,7 @@ struct SubdivisionOptions {
   bool stop_at_unions = false;
   /// Paper §2.2 case 4: a cell that projects to fewer pixels in `view` is dropped. 0: none is.
   double threshold_px = 0;
-  /// Needed with threshold_px > 0.
+  /// Must be set if threshold_px > 0; not used otherwise.
   std::optional<View> view;
   SplitRule split = SplitRule::kSurfaceArea;
   /// Worker threads; 0: as many as there are. The result does not depend on it.
@@ -41,8 +41,8 @@ enum class LeafKind : uint8_t {
   kUnion,    // case 2: one primitive, or the union of several
   kPair,     // case 3: an intersection of two, complemented or not
   kGeneral,  // up to K primitives, any function
-  kFull,  // more than K that no further subdivision separates (they coincide or meet in a point):
-          // evaluated in full
+  kFull,  // more than K that no sensible subdivision separates (they coincide, meet in a point, or
+          // lie so close that dividing repeats more than it separates): evaluated in full
   kDropped,  // case 4: below the threshold
   kRefined,  // was dropped; the node that held it is subdivided by now (Subdivision::refine)
 };

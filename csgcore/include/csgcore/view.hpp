@@ -42,4 +42,7 @@ Ray pixel_ray(const View& view, double x_px, double y_px);
 /// lies wholly behind the eye of a perspective view.
 double projected_size_px(const View& view, const Box& box);
 
+/// projected_size_px(view, box) < size_px, up to rounding, and quicker.
+bool projects_below(const View& view, const Box& box, double size_px);
+
 }  // namespace csgcore

@@ -27,13 +27,14 @@ struct ColorScheme {
 
 /// Every setting of a picture that is not the camera's. The defaults are the command's.
 struct RenderSettings {
-  ColorScheme scheme;
+  ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
+                     {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00}};
   Shading shading = Shading::kOpenScad;
   Show show = Show::kSurface;
-  uint32_t leaf_primitives = 8;  // --leaf-primitives: K ≥ 1
-  double threshold_px = 0;       // --threshold ≥ 0; 0: no cell is dropped
-  unsigned threads = 0;          // 0: as many as the machine has
-  bool measured_channels = false;  // fill Image's z, normal, position and id too
+  uint32_t leaf_primitives = 8;      // --leaf-primitives: K ≥ 1
+  double threshold_px = 0;           // --threshold ≥ 0; 0: no cell is dropped
+  unsigned threads = 0;              // 0: as many as the machine has
+  bool measured_channels = false;    // fill Image's z, normal, position and id too
   bool measure_paper_times = false;  // fill RenderStats' T_S and S_R, by drawing again
   /// Called with what is done in [0, 1] while long work goes on; may be empty.
   std::function<void(const char* stage, double fraction)> progress;
@@ -41,25 +42,27 @@ struct RenderSettings {
 
 /// What `--stats` reports of the drawing. Times in ms.
 struct RenderStats {
-  std::string renderer;         // "gl: " and GL_RENDERER
-  uint64_t primitives = 0, cells = 0, leaves = 0;
-  uint64_t leaves_empty = 0;    // paper §2.2 case 1
-  uint64_t leaves_union = 0;    // case 2
-  uint64_t leaves_pair = 0;     // case 3
-  uint64_t leaves_general = 0;  // up to K primitives
-  uint64_t leaves_full = 0;     // more than K, where no subdivision separates them
-  uint64_t leaves_dropped = 0;  // case 4
-  uint64_t leaf_primitives = 0; // literals in all leaves
-  uint64_t bytes = 0;           // of the subdivision
+  std::string renderer;  // "gl: " and GL_RENDERER
+  uint64_t primitives = 0;
+  uint64_t cells = 0;  // inner ones and leaves
+  uint64_t leaves = 0;
+  uint64_t leaves_empty = 0;     // paper §2.2 case 1
+  uint64_t leaves_union = 0;     // case 2
+  uint64_t leaves_pair = 0;      // case 3
+  uint64_t leaves_general = 0;   // up to K primitives
+  uint64_t leaves_full = 0;      // more than K, where no subdivision separates them
+  uint64_t leaves_dropped = 0;   // case 4
+  uint64_t leaf_primitives = 0;  // literals in all leaves
+  uint64_t bytes = 0;            // of the subdivision
   uint64_t draw_calls = 0;
   uint64_t cells_drawn = 0;
-  double subdivide_ms = 0;      // the paper's S
-  double traverse_ms = 0;       // T_S without the pass over the vertices: order and upload
-  double render_ms = 0;         // draw and read back
-  double context_ms = 0;        // starting OpenGL, compiling shaders
-  double paper_ts_ms = 0;       // T_S: traverse and pass the parameters, no pixel shader
-  double paper_tr_ms = 0;       // T_R: traverse and render
-  double paper_sr_ms = 0;       // S_R: render while subdividing
+  double subdivide_ms = 0;  // the paper's S
+  double traverse_ms = 0;   // T_S without the pass over the vertices: order and upload
+  double render_ms = 0;     // draw and read back
+  double context_ms = 0;    // starting OpenGL, compiling shaders
+  double paper_ts_ms = 0;   // T_S: traverse and pass the parameters, no pixel shader
+  double paper_tr_ms = 0;   // T_R: traverse and render
+  double paper_sr_ms = 0;   // S_R: render while subdividing
 };
 
 /// Draws the scene by OpenGL, without a display. Throws Error if no OpenGL can be had.

@@ -74,7 +74,7 @@ class Renderer {
   double traversal_ms(const csgcore::View& view);
 
   /// Paper §2.3: draws the cells in batches while another thread subdivides. The picture equals
-  /// draw()'s; what was loaded is replaced by nothing. stats.draw_ms is the paper's S_R.
+  /// draw()'s; afterwards nothing is loaded. stats.draw_ms is the paper's S_R.
   csgcore::Image draw_while_subdividing(const csgcore::SubdivisionOptions& options,
                                         const csgcore::View& view, const FrameSettings& settings,
                                         FrameStats& stats);
