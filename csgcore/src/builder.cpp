@@ -1,6 +1,5 @@
 #include "builder.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
@@ -14,11 +13,20 @@ namespace {
 /// A cell whose longest side is below this many overlaps is not divided further.
 constexpr double kSmallestCellOverlaps = 16;
 
-/// A cell in whose ancestors' last so many divisions not one primitive left is not divided further:
-/// by then it has an eighth of the size along every axis, so that what still crosses it coincides
-/// with, or meets, the rest there (CSG: paper, figure 2). With a pixel threshold the paper's own
-/// rule (case 4) ends such cells instead.
+/// A cell in whose ancestors' last so many divisions not one primitive left, and hardly any empty
+/// space was cut off, is not divided further: what still crosses it coincides with, or meets, the
+/// rest there (paper, figure 2). With a pixel threshold the paper's own rule (case 4) ends the
+/// cells where surfaces meet in a point, which one half of each division contains. Surfaces that
+/// coincide over a face stand in both halves; such cells end here under every rule, as else the
+/// whole face would be dropped.
 constexpr uint32_t kStalledDivisions = 9;
+/// Where it is the view that never ends a division (at the eye), coincident surfaces end after so
+/// many of which both halves kept every primitive.
+constexpr uint32_t kCoincidentDivisions = 14;
+/// A cell below the threshold is asked whether its surfaces coincide if so many divisions in a row
+/// have repeated them all. If so, all of them cross at least n² of n³ smaller cells; surfaces that
+/// meet in a point or along a curve cross about n or fewer.
+constexpr uint32_t kSuspectDivisions = 2;
 
 /// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
 /// literals for each of the solid's, and this many in any case; a cell whose share is used up is
@@ -67,7 +75,16 @@ Cell child_of(const Cell& cell, const Split& split, bool above) {
 Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
               const CellList (&halves)[2]) {
   Cell child = child_of(cell, split, above);
-  child.stalled = halves[above].count() < count ? 0 : cell.stalled + 1;
+  const CellList& other = halves[!above];
+  if (halves[above].count() < count) {
+    child.stalled = child.doubled = 0;
+  } else {
+    // Cutting off more than half of the cell as empty space is progress too.
+    const int axis = static_cast<int>(split.axis);
+    const bool halved = child.box.size()[axis] >= 0.5 * cell.box.size()[axis];
+    if (!other.is_constant() || halved) ++child.stalled;
+    if (!other.is_constant()) child.doubled = other.count() == count ? cell.doubled + 1 : 0;
+  }
   const double sum = static_cast<double>(halves[0].count()) + halves[1].count();
   if (sum > 0) child.allowance = cell.allowance * count / sum;
   return child;
@@ -105,8 +122,6 @@ std::unique_ptr<Part> Builder::build(Cell cell, std::span<const Literal> literal
   }
   const unsigned threads =
       options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    std::max(threads, 1u));
   tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));
   return arena.execute([&] { return build_part(cell, list); });
 }
@@ -152,8 +167,11 @@ std::unique_ptr<Part> Builder::finish_part(const Cell& cell, const CellList& lis
 /// where that separates primitives, down to kSmallestCellOverlaps.
 void Builder::divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
                      Chunk& chunk) const {
-  const LeafKind kind =
-      list.is_constant() ? LeafKind::kEmpty : leaf_kind(cell, list, workspace.distinct);
+  LeafKind kind = list.is_constant() ? LeafKind::kEmpty : leaf_kind(cell, list, workspace.distinct);
+  if (kind == LeafKind::kDropped && cell.doubled >= kSuspectDivisions &&
+      coincides(cell, list, workspace)) {
+    kind = LeafKind::kFull;
+  }
   if (list.is_constant() || kind != LeafKind::kEmpty) {
     add_leaf(cell, list, kind, chunk);
     return;
@@ -172,24 +190,42 @@ void Builder::divide(const Cell& cell, const CellList& list, size_t level, Works
   }
 }
 
+/// Whether the cell's surfaces coincide over a face, as far as grids of smaller cells tell: a
+/// coarse one, which answers no to most, and a finer one.
+bool Builder::coincides(const Cell& cell, const CellList& list, Workspace& workspace) const {
+  for (const int side : {2, 4}) {
+    const Vec3 step = cell.box.size() / double(side);
+    int crossed = 0;
+    for (int probe = 0; probe < side * side * side; ++probe) {
+      const Vec3 place{probe % side, probe / side % side, probe / (side * side)};
+      const Vec3 low = cell.box.min + step * place;
+      workspace.restrictor.restrict(list, inflated({low, low + step}), workspace.probe);
+      crossed += workspace.probe.count() == list.count();
+    }
+    if (crossed < side * side) return false;
+  }
+  return true;
+}
+
 /// The paper's conditions (§2.2), generalised by K; kEmpty: none holds, the cell is divided.
 LeafKind Builder::leaf_kind(const Cell& cell, const CellList& list,
                             std::vector<uint32_t>& distinct) const {
   const uint32_t limit = options_.leaf_primitives;
+  const bool coincident = cell.doubled >= kCoincidentDivisions;
   if ((options_.stop_at_unions || list.count() <= limit) && is_union(list)) {
     return LeafKind::kUnion;
   }
   if (list.count() <= limit || (repeats_ && has_at_most(limit, list, distinct))) {
     return list.count() == 2 ? LeafKind::kPair : LeafKind::kGeneral;
   }
-  if (options_.threshold_px > 0 &&
+  if (!coincident && options_.threshold_px > 0 &&
       projects_below(*options_.view, cell.box, options_.threshold_px)) {
     return LeafKind::kDropped;
   }
   const bool stalled = options_.threshold_px <= 0 && cell.stalled >= kStalledDivisions;
   const bool few = options_.threshold_px > 0 && list.count() <= kFewLiterals;
   const bool spent = cell.allowance < 1 && !few;
-  return stalled || spent || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
+  return stalled || coincident || spent || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
 }
 
 bool Builder::is_small(const Cell& cell) const {
@@ -198,9 +234,14 @@ bool Builder::is_small(const Cell& cell) const {
 }
 
 Split Builder::choose_split(const Cell& cell, const CellList& list) const {
-  return options_.split == SplitRule::kCyclic
-             ? cyclic_split(cell.box, cell.depth)
-             : surface_area_split(solid_.extents(), list, cell.box);
+  const Split split = options_.split == SplitRule::kCyclic
+                          ? cyclic_split(cell.box, cell.depth)
+                          : surface_area_split(solid_.extents(), list, cell.box);
+  // Where coordinates are too coarse for a plane there, the longest side still has room for one
+  // (is_small).
+  const int axis = static_cast<int>(split.axis);
+  const bool divides = split.position > cell.box.min[axis] && split.position < cell.box.max[axis];
+  return divides ? split : longest_split(cell.box);
 }
 
 Halves Builder::halves_of(const Cell& cell, const Split& split) const {

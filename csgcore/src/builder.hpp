@@ -1,7 +1,6 @@
 // Builds kd subtrees: the recursive division of paper §2.2, as tasks.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -30,6 +29,8 @@ struct Cell {
   Box box;
   uint32_t depth = 0;
   uint32_t stalled = 0;  // divisions since a primitive last left
+  uint32_t doubled = 0;  // divisions in a row of which both halves kept every primitive, but for
+                         // those that only cut off empty space
   /// How many literals the leaves below may hold for each of the cell's own. Each division hands
   /// its cell's share on to the halves, in proportion to what they hold.
   double allowance = 0;
@@ -56,6 +57,7 @@ class Builder {
     Restrictor restrictor;
     std::vector<std::unique_ptr<Level>> levels;
     std::vector<uint32_t> distinct;
+    CellList probe;
   };
 
   std::unique_ptr<Part> build_part(const Cell& cell, const CellList& list);
@@ -64,6 +66,7 @@ class Builder {
               Chunk& chunk) const;
 
   LeafKind leaf_kind(const Cell& cell, const CellList& list, std::vector<uint32_t>& distinct) const;
+  bool coincides(const Cell& cell, const CellList& list, Workspace& workspace) const;
   bool is_small(const Cell& cell) const;
   Split choose_split(const Cell& cell, const CellList& list) const;
   Box inflated(const Box& box) const { return {box.min - overlap_, box.max + overlap_}; }

@@ -24,15 +24,19 @@ Split cyclic_split(const Box& cell, uint32_t depth) {
   return {axis, cell.center()[static_cast<int>(axis)]};
 }
 
+Split longest_split(const Box& cell) {
+  const uint32_t axis = longest_axis(cell.size());
+  return {axis, cell.center()[static_cast<int>(axis)]};
+}
+
 Split surface_area_split(const Extents& extents, const CellList& list, const Box& cell) {
   EndCounts counts;
   count_ends(extents.data(), list.primitive.data(), list.count(), cell, counts);
   const Vec3 size = cell.size();
-  const uint32_t longest = longest_axis(size);
-  Split best{longest, cell.center()[static_cast<int>(longest)]};
+  Split best = longest_split(cell);
   // The middle of the longest axis is what a plane must beat: both halves with all primitives.
   Vec3 half = size;
-  half[static_cast<int>(longest)] *= 0.5;
+  half[static_cast<int>(best.axis)] *= 0.5;
   double best_cost = kWorthwhile * 2.0 * area(half) * static_cast<double>(list.count());
   for (int axis = 0; axis < 3; ++axis) {
     // A side's area is what does not depend on the plane and what grows with the side's width.

@@ -16,6 +16,9 @@ struct Split {
 /// Paper §2.1: the middle of axis depth mod 3.
 Split cyclic_split(const Box& cell, uint32_t depth);
 
+/// The middle of the longest axis.
+Split longest_split(const Box& cell);
+
 /// The plane of least Σ (surface area of a side · primitives whose boxes reach into it), the
 /// expected cost of a ray that enters the cell (MacDonald and Booth, "Heuristics for ray tracing
 /// using space subdivision", 1990), among evenly spaced planes of every axis; the middle of the

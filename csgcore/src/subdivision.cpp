@@ -1,6 +1,7 @@
 #include "csgcore/subdivision.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "builder.hpp"
@@ -12,6 +13,8 @@ namespace {
 /// side: 16 times the rounding (2^-24) of a float coordinate in the model's own units, which is how
 /// far a renderer in float may misplace a cell's boundary.
 constexpr double kOverlap = 0x1p-20;
+/// And at least some steps of a double this far from the origin, as a fraction of the coordinate.
+constexpr double kCoordinateRounding = 0x1p-50;
 
 /// Appends parts in the order in which one task alone would have produced them: a node before its
 /// two sides, the one below first.
@@ -76,15 +79,16 @@ SubdivisionOptions SubdivisionOptions::paper(double threshold_px, const View& vi
 double cell_overlap(const Box& solid_bounds) {
   if (solid_bounds.empty()) return 0;
   const Vec3 size = solid_bounds.size();
-  return kOverlap * std::max({size.x, size.y, size.z});
+  const Vec3 reach = glm::max(glm::abs(solid_bounds.min), glm::abs(solid_bounds.max));
+  return std::max(kOverlap * std::max({size.x, size.y, size.z}),
+                  kCoordinateRounding * std::max({reach.x, reach.y, reach.z}));
 }
 
 Subdivision::Subdivision(const Solid& solid, SubdivisionOptions options, const BatchSink& sink)
     : solid_(&solid), options_(std::move(options)) {
   const Box& bounds = solid.bounds();
   if (bounds.empty() || solid.list().literals.empty()) return;
-  const Vec3 size = bounds.size();
-  overlap_ = kOverlap * std::max({size.x, size.y, size.z});
+  overlap_ = cell_overlap(bounds);
   root_box_ = {bounds.min - overlap_, bounds.max + overlap_};
   const auto part =
       Builder(solid, options_, overlap_, sink).build(Cell{root_box_}, solid.list().literals);

@@ -110,6 +110,11 @@ class SceneRenderer {
                                                          : glrender::Shading::kOpenScad;
     frame_.subject =
         settings.show == Show::kCells ? glrender::Subject::kCells : glrender::Subject::kSurface;
+    for (const auto* tree : {&scene.model, &scene.background, &scene.highlight}) {
+      if (!has_translucent_parts()) break;  // the model's own box serves
+      const csgcore::Box bounds = Solid(primitives_, *tree).bounds();
+      if (!bounds.empty()) frame_.scene_box.merge(bounds);
+    }
     frame_.measured_channels = settings.measured_channels || has_translucent_parts();
   }
 
@@ -176,8 +181,9 @@ class SceneRenderer {
     add(frame_stats);
     // openscad.md §4: of a translucent body the back faces first.
     const LayerOpacity opacity(solid, kind);
-    blend_layer(behind, opacity, image);
-    blend_layer(front, opacity, image);
+    const double scene_size = frame_.scene_box.diagonal();
+    blend_layer(behind, opacity, scene_size, image);
+    blend_layer(front, opacity, scene_size, image);
   }
 
   const csgcore::Scene& scene_;

@@ -13,9 +13,10 @@ struct LayerColor {
 constexpr LayerColor kBackgroundColor{180, 180, 180, 128};
 constexpr LayerColor kHighlightColor{255, 81, 81, 128};
 
-/// Two depths that differ by less than this share are those of the same surface, drawn twice in
-/// float: some ulps. A `#` part's own faces in the model are overlaid, all of them.
-constexpr float kSameDepth = 0x1p-20f;
+/// Two depths that differ by less than this share of depth and scene size are those of the same
+/// surface, drawn twice in float: some ulps of each. A `#` part's own faces in the model are
+/// overlaid, all of them.
+constexpr double kSameDepth = 0x1p-20;
 
 const LayerColor& color_of(LayerKind kind) {
   return kind == LayerKind::kBackground ? kBackgroundColor : kHighlightColor;
@@ -49,11 +50,12 @@ float LayerOpacity::of(uint32_t id) const {
   return own == own_.end() ? layer_ : own->second;
 }
 
-void blend_layer(const csgcore::Image& layer, const LayerOpacity& opacity, csgcore::Image& image) {
+void blend_layer(const csgcore::Image& layer, const LayerOpacity& opacity, double scene_size,
+                 csgcore::Image& image) {
   for (size_t pixel = 0; pixel < layer.rgb.size(); ++pixel) {
     // A miss of the layer is at infinity, and in front of nothing.
     if (std::isinf(layer.z[pixel])) continue;
-    const float reach = std::abs(layer.z[pixel]) * kSameDepth;
+    const double reach = (std::abs(layer.z[pixel]) + scene_size) * kSameDepth;
     if (layer.z[pixel] - reach > image.z[pixel]) continue;
     const float alpha = opacity.of(layer.id[pixel]);
     for (size_t channel = 0; channel < 3; ++channel) {

@@ -31,8 +31,10 @@ class LayerOpacity {
   std::unordered_map<uint32_t, float> own_;
 };
 
-/// Blends the layer over `image` where it lies in front of what is drawn there. Both pictures have
-/// z and id channels; the image's measured channels stay those of the model.
-void blend_layer(const csgcore::Image& layer, const LayerOpacity& opacity, csgcore::Image& image);
+/// Blends the layer over `image` where it lies in front of what is drawn there, or on it: nearer
+/// than a rounding error of a picture of a scene of this size (world units). Both pictures have z
+/// and id channels; the image's measured channels stay those of the model.
+void blend_layer(const csgcore::Image& layer, const LayerOpacity& opacity, double scene_size,
+                 csgcore::Image& image);
 
 }  // namespace frontend

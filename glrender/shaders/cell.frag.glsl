@@ -140,16 +140,20 @@ struct Evaluation {
   Hit next;   // next.t = +∞: never
 };
 
+Segment segment_of(Ray ray, uint index, uint primitive) {
+#if PATH == PATH_SHORT_LIST
+  return Segment(kept[index].x, kept[index].y, false, false);
+#else
+  return intersect(ray, primitive);
+#endif
+}
+
 Evaluation evaluate(Ray ray, float t) {
   Evaluation result = Evaluation(false, NO_HIT);
   uint i = 0u;
   do {
     Literal literal = fetch_literal(v_list.x + i);
-#if PATH == PATH_SHORT_LIST
-    Segment segment = Segment(kept[i].x, kept[i].y, false, false);
-#else
-    Segment segment = intersect(ray, literal.primitive);
-#endif
+    Segment segment = segment_of(ray, i, literal.primitive);
     bool inside = segment.start <= t && t < segment.end;
     if (inside) {
       if (segment.end < result.next.t) result.next = end_of(segment, literal);
@@ -196,6 +200,84 @@ Hit first_hit(Ray ray, float enter, float leave) {
 
 #endif
 
+// Faces that coincide are crossed together, whichever of them rounding puts first: what is seen does
+// not depend on it (design.md §3: no speckle). `reach`: how far apart, in t, they may be.
+#if PATH == PATH_SINGLE
+
+// In a union the earliest operand with that face draws it. v_list.y operands come before this one.
+bool is_seen(Ray ray, Hit hit, float reach, out Hit seen) {
+  seen = hit;
+  float apart = INFINITY;
+  for (uint i = 1u; i <= v_list.y; ++i) {
+    Literal earlier = fetch_literal(v_list.x - i);
+    Segment segment = intersect(ray, earlier.primitive);
+    apart = min(apart, abs((earlier.complement ? segment.end : segment.start) - hit.t));
+  }
+  return !(apart <= reach);
+}
+
+#elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
+
+// Whether the solid holds at t if the ray has not crossed the boundary of `primitive` there.
+bool holds_without(Ray ray, float t, uint primitive) {
+  uint i = 0u;
+  do {
+    Literal literal = fetch_literal(v_list.x + i);
+    Segment segment = segment_of(ray, i, literal.primitive);
+    bool inside = (segment.start <= t && t < segment.end) != (literal.primitive == primitive);
+    i = inside ? literal.if_inside : literal.if_outside;
+  } while (i < LIST_FALSE);
+  return (i == LIST_TRUE) != u_eye_inside;
+}
+
+// A face without which the solid would not start here, if there is one, and of these the earliest.
+// Two loops, as a software driver takes every branch of a loop: most hits have one face only.
+bool is_seen(Ray ray, Hit hit, float reach, out Hit seen) {
+  seen = hit;
+  uint others = 0u;
+  uint last = min(v_list.y, 32u);  // one bit each
+  for (uint i = 0u; i < last; ++i) {
+    Literal literal = fetch_literal(v_list.x + i);
+    Segment segment = segment_of(ray, i, literal.primitive);
+    float t = literal.complement == u_eye_inside ? segment.start : segment.end;
+    if (literal.primitive != hit.primitive && abs(t - hit.t) <= reach) others |= 1u << i;
+  }
+  if (others == 0u) return true;
+  float behind = hit.t + reach;
+  bool decides = !holds_without(ray, behind, hit.primitive);
+  for (uint i = 0u; others != 0u; ++i, others >>= 1) {
+    if ((others & 1u) == 0u) continue;
+    Literal other = fetch_literal(v_list.x + i);
+    bool other_decides = !holds_without(ray, behind, other.primitive);
+    if (other_decides == decides ? other.primitive < seen.primitive : other_decides) {
+      seen.primitive = other.primitive;
+      seen.complement = other.complement;
+      decides = other_decides;
+    }
+  }
+  return true;
+}
+
+#else
+
+// Of a pair, each bounds it: the earlier one.
+bool is_seen(Ray ray, Hit hit, float reach, out Hit seen) {
+  Literal a = fetch_literal(v_list.x);
+  Literal b = fetch_literal(v_list.x + 1u);
+  Literal other = a;
+  if (a.primitive == hit.primitive) other = b;
+  Segment segment = intersect(ray, other.primitive);
+  float t = other.complement ? segment.end : segment.start;
+  seen = hit;
+  if (abs(t - hit.t) <= reach && other.primitive < hit.primitive) {
+    seen.primitive = other.primitive;
+    seen.complement = other.complement;
+  }
+  return true;
+}
+
+#endif
+
 void main() {
   Ray ray = pixel_ray();
   vec2 range = box_range(ray, v_box_min, v_box_max);
@@ -211,11 +293,14 @@ void main() {
   // Paper §3.2, step 4: a complement's normal is turned round.
   vec3 normal = normal_at(ray, hit.primitive, hit.t, hit.at_end);
   if (hit.complement) normal = -normal;
-  vec3 color = base_color(hit.primitive, hit.complement && !u_eye_inside);
+  float reach = u_tolerance / max(abs(dot(normal, ray.direction)), GRAZING_COSINE);
+  Hit seen;
+  if (!is_seen(ray, hit, reach, seen)) discard;
+  vec3 color = base_color(seen.primitive, seen.complement && !u_eye_inside);
   o_color = vec4(shade(color, point, normal, ray.direction), 1.0);
 #if MEASURED
   o_measured = vec4(normal, hit.t);
-  o_id = texelFetch(u_surfaces, int(hit.primitive)).z;
+  o_id = texelFetch(u_surfaces, int(seen.primitive)).z;
 #endif
   float depth = u_depth_scale * (u_far - hit.t);
   if (PERSPECTIVE != 0) depth /= u_eye_distance + hit.t;

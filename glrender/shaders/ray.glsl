@@ -133,7 +133,7 @@ Segment intersect_frustum(CanonicalRay ray) {
     if (a >= 0.0 && !(discriminant > 0.0)) return NO_SEGMENT;
     float q = -(h + (h < 0.0 ? -1.0 : 1.0) * sqrt(max(discriminant, 0.0)));
     float root_a = q / a;
-    float root_b = c / q;
+    float root_b = q != 0.0 ? c / q : 0.0;  // q = 0: the ray passes through the apex, at 0
     if (a >= 0.0) {
       wall_start = min(root_a, root_b);
       wall_end = max(root_a, root_b);

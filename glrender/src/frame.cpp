@@ -10,6 +10,9 @@ namespace {
 /// The nearest depth that the depth buffer tells apart, as a fraction of the furthest. It is a
 /// float that falls as 1/z, so that this costs no precision further away.
 constexpr double kNearestDepth = 1e-6;
+/// Where the scene begins nearer than this share of where it ends, errors must shrink towards the
+/// eye, as pixels do: the focus is the eye.
+constexpr double kCloseUp = 1.0 / 16;
 /// The far end is moved out by this fraction of the depth range, so that rounding never clamps it.
 constexpr double kFarMargin = 1e-4;
 
@@ -40,7 +43,8 @@ Frame make_frame(const csgcore::View& view, const csgcore::Box& scene_box) {
     frame.visible = true;
     frame.depth_scale = 1 / (furthest - nearest);
   }
-  frame.eye_distance = 0.5 * nearest + 0.5 * furthest;
+  const bool close_up = frame.perspective() && nearest < kCloseUp * furthest;
+  frame.eye_distance = close_up ? 0 : 0.5 * nearest + 0.5 * furthest;
   frame.far_t = furthest - frame.eye_distance;
   frame.focus = view.eye + frame.eye_distance * view.forward;
   return frame;

@@ -1,6 +1,7 @@
 #include "glrender/renderer.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -137,11 +138,15 @@ class Renderer::Impl {
   }
 
   Image draw_behind(const View& view, const FrameSettings& settings, FrameStats& stats) {
+    assert(target_ && target_->measured_texture() != 0);
     first_target_ = std::move(target_);
     target_.reset();
-    Image image = draw_loaded(view, settings, stats);
-    first_target_.reset();
-    return image;
+    // Whatever happens, later pictures lie behind nothing.
+    struct Forget {
+      std::optional<RenderTarget>& target;
+      ~Forget() { target.reset(); }
+    } forget{first_target_};
+    return draw_loaded(view, settings, stats);
   }
 
   double traversal_ms(const View& view) {
@@ -155,9 +160,13 @@ class Renderer::Impl {
       Stopwatch watch;
       traverse(frame, settings.subject);
       upload_instances();
-      glEnable(GL_RASTERIZER_DISCARD);
-      draw_streams(frame, settings, stats);
-      glDisable(GL_RASTERIZER_DISCARD);
+      {
+        struct Discard {
+          Discard() { glEnable(GL_RASTERIZER_DISCARD); }
+          ~Discard() { glDisable(GL_RASTERIZER_DISCARD); }
+        } discard;
+        draw_streams(frame, settings, stats);
+      }
       glFinish();
       ms = watch.lap();
     }
@@ -213,8 +222,8 @@ class Renderer::Impl {
     return image;
   }
 
-  csgcore::Box scene_box() const {
-    csgcore::Box box = solid_.bounds();
+  csgcore::Box scene_box(const FrameSettings& settings) const {
+    csgcore::Box box = settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
     if (!box.empty()) box = {box.min - overlap(), box.max + overlap()};
     return box;
   }
@@ -223,7 +232,7 @@ class Renderer::Impl {
 
   /// Prepares the target, the state and the primitives for a frame.
   Frame begin(const View& view, const FrameSettings& settings) {
-    const Frame frame = make_frame(view, scene_box());
+    const Frame frame = make_frame(view, scene_box(settings));
     if (!target_ || !target_->fits(view.width_px, view.height_px, settings.measured_channels)) {
       target_.reset();
       target_.emplace(view.width_px, view.height_px, settings.measured_channels);
@@ -313,7 +322,9 @@ class Renderer::Impl {
     set_color("u_front", settings.front);
     set_color("u_back", settings.back);
     set_color("u_edge", settings.edge);
-    const csgcore::Vec3 light = csgcore::phong_light(frame.view, solid_.bounds()).position_world;
+    const csgcore::Box& light_box =
+        settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
+    const csgcore::Vec3 light = csgcore::phong_light(frame.view, light_box).position_world;
     set_color("u_light_position", frame.relative(light));
     glUniform1f(glGetUniformLocation(program, "u_tolerance"), static_cast<float>(tolerance_));
     glUniform1i(glGetUniformLocation(program, "u_eye_inside"), eye_inside_);

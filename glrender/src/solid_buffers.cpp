@@ -25,15 +25,18 @@ uint32_t pack_rgba8(const csgcore::Color& color) {
   return packed;
 }
 
+constexpr const char* kFewerPrimitives = "draw the design in parts";
+
 }  // namespace
 
-void TextureBuffer::upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes) {
+void TextureBuffer::upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes,
+                           const char* what, const char* todo) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   if (bytes / texel_bytes > static_cast<size_t>(limit)) {
-    throw GlError("the scene needs a buffer of " + std::to_string(bytes / texel_bytes) +
-                  " texels and this OpenGL driver allows " + std::to_string(limit) +
-                  " (use a larger --leaf-primitives or --threshold)");
+    throw GlError(std::string("the ") + what + " need a buffer of " +
+                  std::to_string(bytes / texel_bytes) + " texels, and this OpenGL driver allows " +
+                  std::to_string(limit) + " (" + todo + ")");
   }
   if (!buffer_) {
     buffer_ = Buffer::make();
@@ -59,7 +62,7 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid) : solid_(&solid) {
     (primitive.shape == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
   }
   surfaces_.upload(GL_RGBA32UI, surfaces.data(), surfaces.size() * sizeof surfaces[0],
-                   sizeof surfaces[0]);
+                   sizeof surfaces[0], "primitives", kFewerPrimitives);
 }
 
 void SolidBuffers::place(const Frame& frame) {
@@ -78,7 +81,8 @@ void SolidBuffers::place(const Frame& frame) {
       texels.push_back(static_cast<float>(beside[row]));
     }
   }
-  primitives_.upload(GL_RGBA32F, texels.data(), texels.size() * sizeof(float), 4 * sizeof(float));
+  primitives_.upload(GL_RGBA32F, texels.data(), texels.size() * sizeof(float), 4 * sizeof(float),
+                     "primitives", kFewerPrimitives);
   placed_at_ = frame.focus;
 }
 
@@ -89,7 +93,8 @@ void SolidBuffers::upload_literals(std::span<const Literal> literals) {
     texels.push_back({literal.primitive | (static_cast<uint32_t>(literal.complement) << 31),
                       literal.if_inside, literal.if_outside, 0u});
   }
-  literals_.upload(GL_RGBA32UI, texels.data(), texels.size() * sizeof texels[0], sizeof texels[0]);
+  literals_.upload(GL_RGBA32UI, texels.data(), texels.size() * sizeof texels[0], sizeof texels[0],
+                   "cells", "use a larger --leaf-primitives or --threshold");
 }
 
 void SolidBuffers::bind(GLuint program) const {

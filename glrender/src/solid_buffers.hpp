@@ -14,7 +14,9 @@ namespace glrender {
 class TextureBuffer {
  public:
   /// Replaces the contents. Throws GlError if they exceed what the driver can address.
-  void upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes);
+  /// `what` and `todo` are for the message.
+  void upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes, const char* what,
+              const char* todo);
   void bind(GLuint unit) const;
 
  private:

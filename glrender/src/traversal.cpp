@@ -66,7 +66,12 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
         box = {glm::max(box.min, bounds.min - overlap_), glm::min(box.max, bounds.max + overlap_)};
         if (box.empty()) continue;
       }
-      push(eye_inside_ ? Path::kList : Path::kSingle, box, leaf.first_literal + i, 1);
+      if (eye_inside_) {
+        push(Path::kList, box, leaf.first_literal + i, 1);
+      } else {
+        // How many operands before it may have the same face; in long unions nobody looks.
+        push(Path::kSingle, box, leaf.first_literal + i, leaf.literal_count <= kShortList ? i : 0);
+      }
     }
   } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {
     const int complements = literals[0].complement + literals[1].complement;

@@ -213,5 +213,61 @@ TEST(SubdivisionLimit, FullCellsAreSolid) {
   EXPECT_TRUE(inner->solid);
 }
 
+/// Leaves of one kind.
+uint64_t leaves_of_kind(const Subdivision& subdivision, LeafKind kind) {
+  return census(subdivision).by_kind[static_cast<size_t>(kind)];
+}
+
+TEST(SubdivisionLimits, ADensePartFarFromAnotherIsDivided) {
+  Scene scene = test_support::cylinder_minus_spheres(500);
+  CsgTreeBuilder tree;
+  tree.open(Op::kUnion);
+  tree.open(Op::kDifference);
+  for (uint32_t i = 0; i <= 500; ++i) tree.primitive(i);
+  tree.close();
+  scene.primitives.push_back(sphere_at({1e4, 1e4, 0}, 1));
+  tree.primitive(501);
+  tree.close();
+  scene.model = tree.finish();
+  const Solid solid(canonical_primitives(scene), scene.model);
+  const Subdivision subdivision(solid, {});
+  EXPECT_GT(leaves_of_kind(subdivision, LeafKind::kGeneral), 100u);
+  EXPECT_LT(leaves_of_kind(subdivision, LeafKind::kFull), 100u);
+}
+
+TEST(SubdivisionLimits, EndsWhereCoordinatesAreTooCoarse) {
+  const Scene scene = checks::scene_of(
+      Op::kIntersection,
+      {sphere_at({1e12, 0, 0}, 1), sphere_at({1e12, 0.5, 0}, 1), sphere_at({1e12, 0, 0.5}, 1)});
+  const Solid solid(canonical_primitives(scene), scene.model);
+  View view;
+  view.eye = {1e12, 0, 10};
+  const Subdivision subdivision(solid, SubdivisionOptions::paper(1e-9, view));
+  EXPECT_LT(subdivision.leaves().size(), 200000u);
+}
+
+/// Three plates with a common upper face: by the paper's rule alone, all of it would be dropped.
+TEST(SubdivisionLimits, CoincidentFacesAreNotDropped) {
+  std::vector<Primitive> plates;
+  for (const Vec3& center : {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{1, 2, 0}}) {
+    plates.push_back(make_frustum(0, 1, 5, 5, {Mat3{1.0}, center}));
+  }
+  const Scene scene = checks::scene_of(Op::kIntersection, plates);
+  const Solid solid(canonical_primitives(scene), scene.model);
+  View view;
+  view.projection = Projection::kOrthographic;
+  view.eye = {1, 1, 50};
+  view.half_height = 10;
+  view.width_px = view.height_px = 100;
+  const Subdivision subdivision(solid, SubdivisionOptions::paper(1, view));
+  const uint64_t kept = leaves_of_kind(subdivision, LeafKind::kFull);
+  EXPECT_GT(kept, 4 * leaves_of_kind(subdivision, LeafKind::kDropped));
+  // With the eye in the model, cells in front of it never become small.
+  view.projection = Projection::kPerspective;
+  view.eye = {1, 0.5, 0.999};
+  const Subdivision close(solid, SubdivisionOptions::paper(1, view));
+  EXPECT_LT(close.leaves().size(), 3000000u);
+}
+
 }  // namespace
 }  // namespace csgcore

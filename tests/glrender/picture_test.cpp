@@ -205,6 +205,58 @@ TEST(CoincidentFacesTest, LeaveNoSpeckle) {
   }
 }
 
+/// Discs of one top plane, z = 2, and what of each is seen of it from above.
+struct SharedTop {
+  const char* name;
+  Scene scene;
+  uint32_t id_near_axis;  // of the pixels within `radius` of the z axis
+  double radius;
+};
+
+std::vector<SharedTop> shared_tops() {
+  const Primitive wide = make_frustum(0, 2, 5, 5);
+  const Primitive narrow = make_frustum(0, 2, 3, 3);
+  const Primitive above = make_frustum(2, 4, 3, 3);
+  const Primitive lid = make_frustum(1, 2, 3, 3);
+  Scene inlay;
+  inlay.primitives = {wide, lid, lid};
+  for (uint32_t i = 0; i < 3; ++i) inlay.primitives[i].id = i;
+  CsgTreeBuilder tree;
+  tree.open(Op::kDifference);
+  tree.primitive(0);
+  tree.primitive(1);
+  tree.close();
+  tree.primitive(2);
+  inlay.model = tree.finish();
+  return {{"union", combine(Op::kUnion, {wide, narrow}), 0, 2.9},
+          {"union, the other way round", combine(Op::kUnion, {narrow, wide}), 0, 2.9},
+          {"intersection", combine(Op::kIntersection, {wide, narrow}), 0, 2.9},
+          {"cut that only touches", combine(Op::kDifference, {wide, above}), 0, 4.9},
+          {"inlay", inlay, 2, 2.9}};
+}
+
+TEST(CoincidentFacesTest, ShowTheEarliestThatBoundsTheSolid) {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    for (const uint32_t leaf_primitives : {1u, 2u, 8u}) {
+      for (const SharedTop& top : shared_tops()) {
+        const View view = view_from(top.scene, projection, 25, 35);
+        const Image image = draw(top.scene, view, leaves_of(leaf_primitives));
+        uint64_t seen = 0;
+        uint64_t of_another = 0;
+        for (size_t i = 0; i < image.z.size(); ++i) {
+          const glm::vec3& p = image.position[i];
+          if (std::isinf(image.z[i]) || std::abs(p.z - 2) > 1e-4) continue;
+          if (std::hypot(p.x, p.y) > top.radius) continue;
+          ++seen;
+          of_another += image.id[i] != top.id_near_axis;
+        }
+        EXPECT_GT(seen, 1000u) << top.name;
+        EXPECT_EQ(of_another, 0u) << top.name << ", K = " << leaf_primitives;
+      }
+    }
+  }
+}
+
 TEST(RendererTest, MeasuredChannelsAgreeWithEachOther) {
   const Scene scene = test_support::cylinder_minus_spheres(40);
   const View view = view_from(scene, Projection::kPerspective, 25, 35);

@@ -58,8 +58,8 @@ struct RenderStats {
   uint64_t cells_drawn = 0;
   double subdivide_ms = 0;  // the paper's S
   double traverse_ms = 0;   // T_S without the pass over the vertices: order and upload
-  double render_ms = 0;     // draw and read back
-  double context_ms = 0;    // starting OpenGL, compiling shaders
+  double render_ms = 0;     // draw and read back; compiles the shaders
+  double context_ms = 0;    // starting OpenGL
   double paper_ts_ms = 0;   // T_S: traverse and pass the parameters, no pixel shader
   double paper_tr_ms = 0;   // T_R: traverse and render
   double paper_sr_ms = 0;   // S_R: render while subdividing

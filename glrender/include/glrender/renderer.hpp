@@ -36,6 +36,9 @@ struct FrameSettings {
   Shading shading = Shading::kOpenScad;
   Subject subject = Subject::kSurface;
   bool measured_channels = false;  // fill Image's z, normal, position and id
+  /// What the frame's precision and its light are fitted to; empty: the solid's own box. Pictures
+  /// that are laid over each other need the same one, holding all of their solids.
+  csgcore::Box scene_box;
 };
 
 /// Of one frame. Times in ms; GL is finished before a clock is read.
