@@ -26,7 +26,7 @@ constexpr uint32_t kCoincidentDivisions = 14;
 /// A cell below the threshold is asked whether its surfaces coincide if so many divisions in a row
 /// have repeated them all. If so, all of them cross at least n² of n³ smaller cells; surfaces that
 /// meet in a point or along a curve cross about n or fewer.
-constexpr uint32_t kSuspectDivisions = 2;
+constexpr uint32_t kSuspectDivisions = 4;
 
 /// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
 /// literals for each of the solid's, and this many in any case; a cell whose share is used up is
