@@ -1,5 +1,6 @@
 #include "builder.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
@@ -33,7 +34,7 @@ constexpr uint32_t kSuspectDivisions = 4;
 /// not divided further. It bounds memory and time where surfaces lie so close that dividing hardly
 /// separates them (a thousand nested shells). CSn and CCn need 3 to 6 for each at K = 8, and 70 to
 /// 120 by the paper's rule.
-constexpr double kLiteralsPerLiteral = 512;
+constexpr double kLiteralsPerLiteral = 128;
 constexpr double kLiteralsInAnyCase = 0x1p18;
 /// With a pixel threshold, which bounds the number of cells, lists this short go on all the same:
 /// so short are they where surfaces meet in points, whose cells the paper's rule alone ends.
@@ -122,6 +123,9 @@ std::unique_ptr<Part> Builder::build(Cell cell, std::span<const Literal> literal
   }
   const unsigned threads =
       options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
+  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    std::max(threads, 1u));
   tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));
   return arena.execute([&] { return build_part(cell, list); });
 }

@@ -2,15 +2,14 @@
 #include "frontend/render.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
-#include <unordered_map>
-#include <utility>
+#include <optional>
 
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
 #include "frontend/error.hpp"
 #include "glrender/renderer.hpp"
+#include "glrender/stopwatch.hpp"
 #include "scene_scale.hpp"
 #include "translucent_layer.hpp"
 
@@ -22,17 +21,6 @@ using csgcore::LeafKind;
 using csgcore::Solid;
 using csgcore::Subdivision;
 
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 glm::vec3 to_vec3(const Rgb& color) { return glm::vec3(color.r, color.g, color.b) / 255.0f; }
 
 csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
@@ -42,7 +30,7 @@ csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
   options.threshold_px = settings.threshold_px;
   options.view = view;
   options.threads = settings.threads;
-  // K = 2 with a threshold is the paper's rule to the letter (§2.1, §2.2).
+  // K = 2 with a threshold is the paper's rule (§2.1, §2.2).
   if (settings.leaf_primitives == 2 && settings.threshold_px > 0) {
     const unsigned threads = options.threads;
     options = csgcore::SubdivisionOptions::paper(settings.threshold_px, view);
@@ -96,7 +84,7 @@ class SceneRenderer {
   SceneRenderer(const csgcore::Scene& scene, const csgcore::View& view,
                 const RenderSettings& settings, RenderStats& stats)
       : scene_(scene), view_(view), settings_(settings), stats_(stats) {
-    Stopwatch watch;
+    glrender::Stopwatch watch;
     context_.emplace();
     stats_.context_ms = watch.lap();
     stats_.renderer = "gl: " + context_->renderer_name();
@@ -142,7 +130,7 @@ class SceneRenderer {
     const Solid solid(primitives_, scene_.model);
     const auto options = subdivision_options(view_, settings_);
     SubdivisionProgress progress(solid, settings_);
-    Stopwatch watch;
+    glrender::Stopwatch watch;
     const Subdivision subdivision(solid, options, progress.sink());
     stats_.subdivide_ms = watch.lap();
     count_cells(subdivision, stats_);

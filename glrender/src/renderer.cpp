@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -15,6 +14,7 @@
 
 #include "csgcore/phong.hpp"
 #include "frame.hpp"
+#include "glrender/stopwatch.hpp"
 #include "render_target.hpp"
 #include "shader_program.hpp"
 #include "solid_buffers.hpp"
@@ -37,18 +37,6 @@ using csgcore::View;
 /// of a float t: about 2^-24 of the scene's size, times the few operations that lead to it.
 /// (Measured on coincident faces at several angles: no speckle down to 2^-22, some at 2^-23.)
 constexpr double kThinnestPiece = 0x1p-21;
-
-class Stopwatch {
- public:
-  /// ms since the last call, or since construction.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// The corners of a box as one triangle strip, wound counter-clockwise as seen from outside. Corner
 /// i is at the upper end of x, y, z where bits 0, 1, 2 of i are set.

@@ -25,6 +25,10 @@ constexpr int kPaths = 7;
 /// Up to so many primitives a fragment keeps all segments: the default K.
 constexpr uint32_t kShortList = 8;
 
+/// A cell with more primitives is refused: Mesa's software renderer ends a shader's loop silently
+/// after 65,535 rounds, each at least one literal, and a pixel may need two evaluations.
+constexpr uint32_t kLongestList = 30000;
+
 constexpr unsigned kLocationBoxMin = 0;
 constexpr unsigned kLocationBoxMax = 1;
 constexpr unsigned kLocationList = 2;

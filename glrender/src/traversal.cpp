@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <string>
+
+#include "glrender/context.hpp"
 
 namespace glrender {
 
@@ -53,6 +56,11 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
   if (leaf.kind == LeafKind::kEmpty || leaf.kind == LeafKind::kDropped ||
       leaf.kind == LeafKind::kRefined) {
     return;
+  }
+  if (leaf.literal_count > kLongestList && leaf.kind != LeafKind::kUnion) {
+    throw GlError(std::to_string(leaf.literal_count) +
+                  " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
+                  "(leave out the repeated ones)");
   }
   if (boxes_) {
     push(Path::kBoxes, leaf.box, 0, 0);

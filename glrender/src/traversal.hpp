@@ -40,6 +40,7 @@ class InstanceSorter {
         boxes_(boxes),
         streams_(streams) {}
 
+  /// Throws GlError for a cell of more than kLongestList primitives.
   void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals);
 
  private:

@@ -425,6 +425,12 @@ TEST(RendererTest, DrawsWhatLiesBehindAFront) {
   }
 }
 
+TEST(RendererTest, RefusesWhatAShaderCannotEvaluate) {
+  const Scene scene = combine(Op::kIntersection, std::vector<Primitive>(40000, make_sphere(1)));
+  const View view = view_from(scene, Projection::kPerspective, 0, 0);
+  EXPECT_THROW(draw(scene, view, leaves_of(8)), glrender::GlError);
+}
+
 TEST(RendererTest, RefusesPicturesThatTheDriverCannotMake) {
   const Scene scene = combine(Op::kUnion, {make_sphere(1)});
   View view = view_from(scene, Projection::kPerspective, 0, 0);
