@@ -26,16 +26,15 @@ glm::vec3 to_vec3(const Rgb& color) { return glm::vec3(color.r, color.g, color.b
 csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
                                                 const RenderSettings& settings) {
   csgcore::SubdivisionOptions options;
-  options.leaf_primitives = settings.leaf_primitives;
-  options.threshold_px = settings.threshold_px;
-  options.view = view;
-  options.threads = settings.threads;
-  // K = 2 with a threshold is the paper's rule (§2.1, §2.2).
   if (settings.leaf_primitives == 2 && settings.threshold_px > 0) {
-    const unsigned threads = options.threads;
+    // K = 2 with a threshold is the paper's rule (§2.1, §2.2).
     options = csgcore::SubdivisionOptions::paper(settings.threshold_px, view);
-    options.threads = threads;
+  } else {
+    options.leaf_primitives = settings.leaf_primitives;
+    options.threshold_px = settings.threshold_px;
+    options.view = view;
   }
+  options.threads = settings.threads;
   return options;
 }
 
@@ -98,12 +97,13 @@ class SceneRenderer {
                                                          : glrender::Shading::kOpenScad;
     frame_.subject =
         settings.show == Show::kCells ? glrender::Subject::kCells : glrender::Subject::kSurface;
-    for (const auto* tree : {&scene.model, &scene.background, &scene.highlight}) {
-      if (!has_translucent_parts()) break;  // the model's own box serves
-      const csgcore::Box bounds = Solid(primitives_, *tree).bounds();
-      if (!bounds.empty()) frame_.scene_box.merge(bounds);
+    frame_.measured_channels = settings.measured_channels;
+    if (has_translucent_parts()) {
+      frame_.measured_channels = true;
+      for (const auto* tree : {&scene.model, &scene.background, &scene.highlight}) {
+        frame_.scene_box.merge(Solid(primitives_, *tree).bounds());
+      }
     }
-    frame_.measured_channels = settings.measured_channels || has_translucent_parts();
   }
 
   Image draw() {

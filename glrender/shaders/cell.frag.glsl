@@ -53,6 +53,9 @@ bool piece_exists(Ray ray, Hit from, float to) {
   return thickness > surely_long() || thickness > shortest_piece(ray, from);
 }
 
+// The hit lies in the cell, and the solid does not already hold where the ray enters the cell (step 8).
+bool starts_within(Hit hit, float enter, float leave) { return hit.t > enter && hit.t <= leave; }
+
 #if PATH == PATH_SINGLE
 
 // Paper §3.2: one primitive or its complement. Step 8 is the condition t > enter: a segment that
@@ -61,7 +64,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
   Literal a = fetch_literal(v_list.x);
   Segment segment = intersect(ray, a.primitive);
   Hit hit = a.complement ? end_of(segment, a) : start_of(segment, a);
-  return hit.t > enter && hit.t <= leave ? hit : NO_HIT;
+  return starts_within(hit, enter, leave) ? hit : NO_HIT;
 }
 
 #elif PATH == PATH_BOTH
@@ -74,7 +77,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
   Segment segment_b = intersect(ray, b.primitive);
   Hit hit = start_of(segment_a, a);
   if (segment_b.start > segment_a.start) hit = start_of(segment_b, b);
-  if (!(hit.t > enter && hit.t <= leave)) return NO_HIT;
+  if (!starts_within(hit, enter, leave)) return NO_HIT;
   return piece_exists(ray, hit, min(segment_a.end, segment_b.end)) ? hit : NO_HIT;
 }
 
@@ -93,12 +96,12 @@ Hit first_hit(Ray ray, float enter, float leave) {
   Segment segment_a = intersect(ray, a.primitive);
   Segment segment_b = intersect(ray, b.primitive);
   Hit before = start_of(segment_a, a);
-  if (before.t > enter && before.t <= leave && before.t < segment_b.start &&
+  if (starts_within(before, enter, leave) && before.t < segment_b.start &&
       piece_exists(ray, before, min(segment_a.end, segment_b.start))) {
     return before;
   }
   Hit after = segment_a.start > segment_b.end ? start_of(segment_a, a) : end_of(segment_b, b);
-  if (after.t > enter && after.t <= leave && after.t < segment_a.end &&
+  if (starts_within(after, enter, leave) && after.t < segment_a.end &&
       piece_exists(ray, after, segment_a.end)) {
     return after;
   }
@@ -118,12 +121,12 @@ Hit first_hit(Ray ray, float enter, float leave) {
   bool a_first = segment_a.end < segment_b.end;
   Hit between = a_first ? end_of(segment_a, a) : end_of(segment_b, b);
   float next_start = a_first ? segment_b.start : segment_a.start;
-  if (between.t > enter && between.t <= leave && between.t < next_start &&
+  if (starts_within(between, enter, leave) && between.t < next_start &&
       piece_exists(ray, between, next_start)) {
     return between;
   }
   Hit behind = a_first ? end_of(segment_b, b) : end_of(segment_a, a);
-  return behind.t > enter && behind.t <= leave ? behind : NO_HIT;
+  return starts_within(behind, enter, leave) ? behind : NO_HIT;
 }
 
 #elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST

@@ -210,8 +210,14 @@ class Renderer::Impl {
     return image;
   }
 
-  csgcore::Box scene_box(const FrameSettings& settings) const {
-    csgcore::Box box = settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
+  /// What the frame and its light are fitted to.
+  const csgcore::Box& scene_box(const FrameSettings& settings) const {
+    return settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
+  }
+
+  /// The same with the cells' overlap, which is drawn too.
+  csgcore::Box drawn_box(const FrameSettings& settings) const {
+    csgcore::Box box = scene_box(settings);
     if (!box.empty()) box = {box.min - overlap(), box.max + overlap()};
     return box;
   }
@@ -220,7 +226,7 @@ class Renderer::Impl {
 
   /// Prepares the target, the state and the primitives for a frame.
   Frame begin(const View& view, const FrameSettings& settings) {
-    const Frame frame = make_frame(view, scene_box(settings));
+    const Frame frame = make_frame(view, drawn_box(settings));
     if (!target_ || !target_->fits(view.width_px, view.height_px, settings.measured_channels)) {
       target_.reset();
       target_.emplace(view.width_px, view.height_px, settings.measured_channels);
@@ -310,9 +316,8 @@ class Renderer::Impl {
     set_color("u_front", settings.front);
     set_color("u_back", settings.back);
     set_color("u_edge", settings.edge);
-    const csgcore::Box& light_box =
-        settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
-    const csgcore::Vec3 light = csgcore::phong_light(frame.view, light_box).position_world;
+    const csgcore::Vec3 light =
+        csgcore::phong_light(frame.view, scene_box(settings)).position_world;
     set_color("u_light_position", frame.relative(light));
     glUniform1f(glGetUniformLocation(program, "u_tolerance"), static_cast<float>(tolerance_));
     glUniform1i(glGetUniformLocation(program, "u_eye_inside"), eye_inside_);
