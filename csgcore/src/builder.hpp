@@ -53,7 +53,9 @@ class Builder {
   };
   /// What a task works with.
   struct Workspace {
-    explicit Workspace(const Solid& solid) : restrictor(solid.primitives(), solid.extents()) {}
+    explicit Workspace(const Solid& solid)
+        : classifier(solid.primitives()), restrictor(solid.extents(), classifier) {}
+    WorldClassifier classifier;
     Restrictor restrictor;
     std::vector<std::unique_ptr<Level>> levels;
     std::vector<uint32_t> distinct;

@@ -1,9 +1,11 @@
-// Compiled once per instruction set by Highway, which picks the best at run time. Multiplications
-// and additions are never fused, so that every instruction set gives the same answers.
+// Compiled once per instruction set by Highway. Multiplications and additions are never fused, so
+// that every instruction set gives the same answers.
 #include "extent_tests.hpp"
 
 #include <algorithm>
 #include <array>
+
+#include "simd.hpp"
 
 // Instruction sets between the ones that matter save little and cost compile time; vectors whose
 // length is not known to the compiler cannot stand in arrays.
@@ -186,12 +188,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace csgcore {
 
-HWY_EXPORT(test_extents);
-HWY_EXPORT(count_ends);
+CSGCORE_SIMD_EXPORT(test_extents);
+CSGCORE_SIMD_EXPORT(count_ends);
 
 ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
                            const Halves& halves) {
-  ExtentAnswers answers = HWY_DYNAMIC_DISPATCH(test_extents)(extents, primitives, count, halves);
+  ExtentAnswers answers = CSGCORE_SIMD(test_extents)(extents, primitives, count, halves);
   const uint64_t wanted = ~uint64_t{0} >> (64 - count);
   answers.open &= wanted;
   for (const int side : {0, 1}) {
@@ -203,7 +205,7 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,
                 EndCounts& counts) {
-  HWY_DYNAMIC_DISPATCH(count_ends)(extents, primitives, count, cell, counts);
+  CSGCORE_SIMD(count_ends)(extents, primitives, count, cell, counts);
 }
 
 }  // namespace csgcore

@@ -59,6 +59,17 @@ void Restrictor::restrict(const CellList& list, const Box& cell, CellList& resul
   restrict_sides<1>(list, {cell, cell, 0}, results);
 }
 
+void Restrictor::restrict(const CellList& list, std::span<const Decision> decisions,
+                          CellList& result) {
+  Pass pass(list, result, maps_[0]);
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    pass.step(i + CellList::kFirst, list.primitive[i], list.if_inside[i], list.if_outside[i],
+              decisions[i] == Decision::kOutside, decisions[i] == Decision::kInside);
+  }
+  result.finish(maps_[0][list.root]);
+  drop_unreached(result);
+}
+
 template <int kSides>
 void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
                                 CellList* const* results) {
@@ -101,7 +112,7 @@ void Restrictor::decide_open(const CellList& list, uint32_t first, uint64_t open
   for (; open != 0; open &= open - 1) {
     const uint32_t i = first + static_cast<uint32_t>(std::countr_zero(open));
     const uint64_t bit = open & -open;
-    switch (classify_within_bounds(primitives_[list.primitive[i] & kPrimitiveBits], half)) {
+    switch (open_.classify(list.primitive[i] & kPrimitiveBits, half)) {
       case Classification::kOutside:
         answers.outside[side] |= bit;
         break;

@@ -11,11 +11,34 @@
 
 namespace csgcore {
 
+/// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a picture
+/// a box on the screen: the extents and this are all that differs.
+class OpenClassifier {
+ public:
+  virtual ~OpenClassifier() = default;
+  /// Only asked where the cell meets the primitive's extent.
+  virtual Classification classify(uint32_t primitive, const Box& cell) const = 0;
+};
+
+/// In world space.
+class WorldClassifier final : public OpenClassifier {
+ public:
+  explicit WorldClassifier(std::span<const CanonicalPrimitive> primitives)
+      : primitives_(primitives) {}
+  Classification classify(uint32_t primitive, const Box& cell) const override {
+    return classify_within_bounds(primitives_[primitive], cell);
+  }
+
+ private:
+  std::span<const CanonicalPrimitive> primitives_;
+};
+
 /// Not to be shared between threads: it keeps its working memory.
 class Restrictor {
  public:
-  Restrictor(std::span<const CanonicalPrimitive> primitives, const Extents& extents)
-      : primitives_(primitives), extents_(extents) {}
+  /// Keeps references to both.
+  Restrictor(const Extents& extents, const OpenClassifier& open)
+      : extents_(extents), open_(open) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
   /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
@@ -25,6 +48,11 @@ class Restrictor {
   /// The same for one cell and any list.
   void restrict(const CellList& list, const Box& cell, CellList& result);
 
+  /// What a caller knows of a literal.
+  enum class Decision : uint8_t { kOpen, kOutside, kInside };
+  /// The same for decisions that the caller has made: `decisions[i]` is that of the list's index i.
+  void restrict(const CellList& list, std::span<const Decision> decisions, CellList& result);
+
  private:
   template <int kSides>
   void restrict_sides(const CellList& list, const Halves& halves, CellList* const* results);
@@ -33,8 +61,8 @@ class Restrictor {
   bool all_have_jumps(const CellList& list);
   void drop_unreached(CellList& list);
 
-  std::span<const CanonicalPrimitive> primitives_;
   const Extents& extents_;
+  const OpenClassifier& open_;
   std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
   std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
 };

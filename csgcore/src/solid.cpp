@@ -3,6 +3,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "cell_list.hpp"
+
 namespace csgcore {
 namespace {
 
@@ -43,6 +45,9 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
       list_(compile(tree)),
       bounds_(bounds_of(*primitives_, tree)) {
   if (tree.empty()) return;
+  auto list = std::make_shared<CellList>();
+  assign(*list, list_.literals);
+  cell_list_ = std::move(list);
   extents_.reserve(primitives_->size());
   for (const CanonicalPrimitive& primitive : *primitives_) {
     extents_.push_back(extent_of(primitive));

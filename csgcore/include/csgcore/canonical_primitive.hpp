@@ -17,11 +17,11 @@ struct CanonicalPrimitive {
   double radius_mid = 1;
   double radius_slope = 0;
   Vec3 center{0.0};  // world position of the canonical origin
+  /// Radius in world space of what is a true ball there, else 0.
+  double ball_radius = 0;
   Mat3 world_to_canonical{1.0};
   Mat3 canonical_to_world{1.0};
   Box bounds;  // tight, in world space
-  /// Radius in world space of what is a true ball there, else 0.
-  double ball_radius = 0;
   /// Bound of the rounding error of canonical coordinates, per unit of the largest world coordinate
   /// (or offset from the centre) that they are computed from.
   double canonical_error = 0;

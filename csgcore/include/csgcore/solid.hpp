@@ -13,6 +13,8 @@
 
 namespace csgcore {
 
+struct CellList;
+
 /// The canonical primitives of a scene, index for index. Shared by the solids of its trees.
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene);
@@ -28,6 +30,8 @@ class Solid {
   const Extents& extents() const { return extents_; }
   /// The whole tree, as a list that is valid everywhere.
   const ShortCircuitList& list() const { return list_; }
+  /// The same in the form that is restricted to cells and tiles; null if the list is constant.
+  const CellList* cell_list() const { return cell_list_.get(); }
   /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
   /// intersection's their intersection, a difference's that of its first operand. Empty if the
   /// solid is.
@@ -39,6 +43,7 @@ class Solid {
   std::shared_ptr<const CanonicalPrimitives> primitives_;
   Extents extents_;
   ShortCircuitList list_;
+  std::shared_ptr<const CellList> cell_list_;
   Box bounds_;
 };
 

@@ -1,0 +1,90 @@
+// The CPU ray tracer: exact pictures in double, by SIMD packets of rays (NUMERICS.md says how
+// exact).
+//
+// Two structures tell a ray what it can meet; both hand lists of literals to the same evaluation,
+// and both make the same picture:
+// - tiles: per frame, the screen is divided like a kd-tree, down to tiles of 8 pixels, and the
+//   solid's list is restricted to each. Nothing is built in world space: the fastest first picture.
+// - the kd-tree of a Subdivision (paper §2), traversed front to back by each packet: built once, it
+//   pays for many frames of a dense model.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/frame_settings.hpp"
+#include "csgcore/image.hpp"
+#include "csgcore/solid.hpp"
+#include "csgcore/subdivision.hpp"
+#include "csgcore/view.hpp"
+
+namespace csgcore {
+
+/// Which boundary of the solid a ray shows.
+enum class Boundary : uint8_t {
+  kFirst,  // where it first enters the solid; where it first leaves it, if the eye is inside
+  kBehind  // the next one after kFirst: where it leaves the piece (or gap) whose front kFirst shows
+};
+
+struct TraceOptions {
+  /// Worker threads; 0: as many as there are. The picture does not depend on it.
+  unsigned threads = 0;
+  /// Rays per pixel where neighbouring pixels show an edge, 1 elsewhere; deterministic. 1: none.
+  /// The measured channels are always those of the pixel's centre.
+  uint32_t samples = 1;
+  Boundary boundary = Boundary::kFirst;
+  /// Find out why primitives were skipped (TraceStats::skipped); costs a little.
+  bool count_skipped = false;
+};
+
+/// Primitives of the solid that were never intersected with any ray, by the reason.
+struct SkippedPrimitives {
+  uint64_t off_screen = 0;  // their bounds miss the picture
+  uint64_t sub_pixel = 0;   // they fall between the samples
+  uint64_t cancelled = 0;   // where they are, the operations leave nothing
+  uint64_t inside = 0;      // they lie within the solid
+  uint64_t hidden = 0;      // they lie behind what is seen
+};
+
+/// Of one frame. Times in ms.
+struct TraceStats {
+  uint64_t primitives = 0;     // that the solid's tree names
+  uint64_t intersected = 0;    // of them, those that any ray was intersected with
+  SkippedPrimitives skipped;   // the rest, if counted
+  uint64_t tiles = 0;          // tiles that were traced; 0 with a Subdivision
+  uint64_t rays = 0;           // rays that had anything to meet
+  uint64_t intersections = 0;  // of a ray with a primitive
+  uint64_t resolved_rays = 0;  // rays on which crossings coincide, resolved one by one
+  uint64_t edge_pixels = 0;    // pixels with more than one sample
+  double cull_ms = 0;          // bounds of the primitives on the screen
+  double trace_ms = 0;         // all the rest
+};
+
+/// What each pixel's centre sees, in double. Row-major from the top left corner.
+struct Hits {
+  static constexpr uint32_t kMiss = 0xFFFFFFFFu;
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  std::vector<double> s;            // View's s; +inf at a miss
+  std::vector<Vec3> position;       // world space; 0 at a miss
+  std::vector<Vec3> normal;         // unit, world space, outward of the solid; 0 at a miss
+  std::vector<uint32_t> primitive;  // index into Solid::primitives(); kMiss at a miss
+};
+
+/// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
+/// along the normal, in world units (design.md §3; NUMERICS.md).
+double thinnest_piece(const Box& solid_bounds);
+
+/// Traces the solid by screen tiles.
+void draw(const Solid& solid, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, TraceStats& stats);
+void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
+           TraceStats& stats);
+
+/// The same by a kd-tree. Cells that it dropped below its threshold are empty.
+void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, TraceStats& stats);
+void trace(const Subdivision& subdivision, const View& view, const TraceOptions& options,
+           Hits& hits, TraceStats& stats);
+
+}  // namespace csgcore

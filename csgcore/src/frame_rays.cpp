@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "packet.hpp"
+
+namespace csgcore {
+namespace {
+
+/// With so many bits left, base_s times either half of a double's 53 is exact.
+double rounded_to_26_bits(double x) {
+  if (x == 0 || !std::isfinite(x)) return 0;
+  const int exponent = std::ilogb(x);
+  return std::ldexp(std::round(std::ldexp(x, 25 - exponent)), exponent - 25);
+}
+
+}  // namespace
+
+FrameRays frame_rays(const View& view, const Box& solid_bounds) {
+  FrameRays frame;
+  frame.view = view;
+  const Vec3 middle = solid_bounds.empty() ? view.eye : solid_bounds.center();
+  frame.base_s = rounded_to_26_bits(glm::dot(middle - view.eye, view.forward));
+  frame.pivot = view.eye + frame.base_s * view.forward;
+  frame.first_t = view.projection == Projection::kPerspective
+                      ? -frame.base_s
+                      : -std::numeric_limits<double>::max();
+  return frame;
+}
+
+ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
+                             const Box& solid_bounds) {
+  ShadeSettings shade;
+  shade.shading = settings.shading;
+  // The light of openscad.md §4, (−1, 1, 1)/√3 in eye space.
+  shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
+  shade.phong =
+      phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
+  shade.front = 255.0 * Vec3(settings.front);
+  shade.back = 255.0 * Vec3(settings.back);
+  return shade;
+}
+
+}  // namespace csgcore

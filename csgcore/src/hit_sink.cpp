@@ -1,0 +1,131 @@
+#include "hit_sink.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace csgcore {
+namespace {
+
+Vec3 lane_of(const double (&v)[3][kPacketRays], uint32_t lane) {
+  return {v[0][lane], v[1][lane], v[2][lane]};
+}
+
+Vec3 position_of(const FrameRays& frame, const RayPacket& rays, const PacketHits& hits,
+                 uint32_t lane) {
+  return frame.pivot +
+         (lane_of(rays.origin, lane) + hits.t[lane] * lane_of(rays.direction, lane));
+}
+
+/// Calls back with the lane and the pixel's place in a picture of this width.
+template <typename Visit>
+void for_each_pixel(const PacketBlock& block, uint32_t width_px, Visit&& visit) {
+  for (LaneMask left = block.lanes; left != 0; left &= left - 1) {
+    const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
+    const size_t row = block.y + lane / kPacketSide_px;
+    visit(lane, row * width_px + block.x + lane % kPacketSide_px);
+  }
+}
+
+/// Calls back with the first pixel's place in each row of the tile.
+template <typename Visit>
+void for_each_row(const Tile& tile, uint32_t width_px, Visit&& visit) {
+  for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) visit(size_t{y} * width_px + tile.x);
+}
+
+std::array<uint8_t, 3> to_rgb8(const glm::vec3& color) {
+  const auto channel = [](float value) {
+    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+  };
+  return {channel(color.r), channel(color.g), channel(color.b)};
+}
+
+}  // namespace
+
+MemorySink::MemorySink(const FrameRays& frame, Hits& hits) : frame_(frame), hits_(hits) {
+  hits.width_px = frame.view.width_px;
+  hits.height_px = frame.view.height_px;
+  const size_t pixels = size_t{hits.width_px} * hits.height_px;
+  hits.s.assign(pixels, std::numeric_limits<double>::infinity());
+  hits.position.assign(pixels, Vec3{0.0});
+  hits.normal.assign(pixels, Vec3{0.0});
+  hits.primitive.assign(pixels, Hits::kMiss);
+}
+
+void MemorySink::clear(const Tile&) {}
+
+void MemorySink::store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                       const PacketHits& hits) {
+  for_each_pixel(block, hits_.width_px, [&](uint32_t lane, size_t pixel) {
+    if (!(hits.hits >> lane & 1)) return;
+    hits_.s[pixel] = frame_.base_s + hits.t[lane];
+    hits_.position[pixel] = position_of(frame_, rays, hits, lane);
+    hits_.normal[pixel] = lane_of(hits.normal, lane);
+    hits_.primitive[pixel] = list.list->primitive[hits.index[lane]] & kPrimitiveBits;
+  });
+}
+
+ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings,
+                     const Box& solid_bounds, bool eye_inside, Image& image)
+    : frame_(frame),
+      measured_(settings.measured_channels),
+      eye_inside_(eye_inside),
+      shade_(shade_settings(settings, frame.view, solid_bounds)),
+      background_(to_rgb8(settings.background)),
+      image_(image) {
+  image.width_px = frame.view.width_px;
+  image.height_px = frame.view.height_px;
+  const size_t pixels = size_t{image.width_px} * image.height_px;
+  const size_t measured = measured_ ? pixels : 0;
+  image.rgb.resize(pixels);
+  image.z.resize(measured);
+  image.normal.resize(measured);
+  image.position.resize(measured);
+  image.id.resize(measured);
+}
+
+void ImageSink::clear(const Tile& tile) {
+  for_each_row(tile, image_.width_px, [&](size_t first) {
+    const auto at = [first](auto& channel) { return channel.begin() + static_cast<long>(first); };
+    std::fill_n(at(image_.rgb), tile.width, background_);
+    if (!measured_) return;
+    std::fill_n(at(image_.z), tile.width, std::numeric_limits<float>::infinity());
+    std::fill_n(at(image_.normal), tile.width, glm::vec3{0.0f});
+    std::fill_n(at(image_.position), tile.width, glm::vec3{0.0f});
+    std::fill_n(at(image_.id), tile.width, kNoPrimitive);
+  });
+}
+
+void ImageSink::store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                      const PacketHits& hits) {
+  PacketColors colors;
+  if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, eye_inside_, hits, colors);
+  for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
+    if (!(hits.hits >> lane & 1)) {
+      image_.rgb[pixel] = background_;
+      return;
+    }
+    for (size_t channel = 0; channel < 3; ++channel) {
+      image_.rgb[pixel][channel] = static_cast<uint8_t>(colors.rgb[channel][lane] + 0.5);
+    }
+  });
+  if (measured_) store_channels(block, rays, list, hits);
+}
+
+void ImageSink::store_channels(const PacketBlock& block, const RayPacket& rays,
+                               const TraceList& list, const PacketHits& hits) {
+  for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
+    const bool hit = (hits.hits >> lane & 1) != 0;
+    const uint32_t literal = hit ? hits.index[lane] : 0;
+    image_.z[pixel] = hit ? static_cast<float>(frame_.base_s + hits.t[lane])
+                          : std::numeric_limits<float>::infinity();
+    image_.normal[pixel] = hit ? glm::vec3(lane_of(hits.normal, lane)) : glm::vec3{0.0f};
+    image_.position[pixel] =
+        hit ? glm::vec3(position_of(frame_, rays, hits, lane)) : glm::vec3{0.0f};
+    image_.id[pixel] =
+        hit ? list.primitives[list.list->primitive[literal] & kPrimitiveBits].id : kNoPrimitive;
+  });
+}
+
+}  // namespace csgcore

@@ -1,0 +1,62 @@
+// Where traced packets go: pictures, or hits in memory.
+#pragma once
+
+#include "packet.hpp"
+#include "tile_list.hpp"
+
+namespace csgcore {
+
+/// A packet that is a block of pixels from (x, y) on.
+struct PacketBlock {
+  uint32_t x, y;
+  LaneMask lanes;  // those within the picture
+};
+
+/// Called by all threads, for each pixel from one of them.
+class HitSink {
+ public:
+  virtual ~HitSink() = default;
+  /// Nothing is seen in the tile.
+  virtual void clear(const Tile& tile) = 0;
+  /// Lanes that hit nothing are misses.
+  virtual void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                     const PacketHits& hits) = 0;
+};
+
+/// Fills a Hits.
+class MemorySink final : public HitSink {
+ public:
+  MemorySink(const FrameRays& frame, Hits& hits);
+  void clear(const Tile& tile) override;
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override;
+
+ private:
+  const FrameRays& frame_;
+  Hits& hits_;
+};
+
+/// Shades an Image.
+class ImageSink final : public HitSink {
+ public:
+  ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
+            bool eye_inside, Image& image);
+  void clear(const Tile& tile) override;
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override;
+  const ShadeSettings& shade() const { return shade_; }
+  std::array<uint8_t, 3> background() const { return background_; }
+
+ private:
+  void store_channels(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                      const PacketHits& hits);
+
+  const FrameRays& frame_;
+  bool measured_;
+  bool eye_inside_;
+  ShadeSettings shade_;
+  std::array<uint8_t, 3> background_;
+  Image& image_;
+};
+
+}  // namespace csgcore

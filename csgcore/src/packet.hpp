@@ -1,0 +1,141 @@
+// A packet of rays, and what is traced with it: the evaluation that tiles and kd cells share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cell_list.hpp"
+#include "extent_tests.hpp"
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/phong.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+
+namespace csgcore {
+
+/// Rays in a packet, on every machine: nothing that bears results depends on the vectors' width.
+constexpr uint32_t kPacketRays = 16;
+/// Where a packet is a block of pixels, its side. Lane = 4·row + column.
+constexpr uint32_t kPacketSide_px = 4;
+
+using LaneMask = uint32_t;  // bit i: lane i
+constexpr LaneMask kAllLanes = (1u << kPacketRays) - 1;
+
+/// The rays of one view, re-based near the model (NUMERICS.md, "Rays"): x(τ) = pivot + o + τ·d with
+/// d the direction of pixel_ray, s = base_s + τ, and o small where the model is, however far away
+/// the eye.
+struct FrameRays {
+  View view;
+  double base_s = 0;  // of 26 bits, so that its products with half a direction are exact
+  Vec3 pivot{0.0};
+  /// τ of the eye in perspective, −∞ in orthographic views: nothing is seen before it.
+  double first_t = 0;
+};
+FrameRays frame_rays(const View& view, const Box& solid_bounds);
+
+/// o, d and 1/d·d of each lane, in the units of the world, by coordinate.
+struct alignas(64) RayPacket {
+  double origin[3][kPacketRays];
+  double direction[3][kPacketRays];
+  double inverse_length2[kPacketRays];
+};
+
+/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞.
+struct alignas(64) PacketSegments {
+  double start[kPacketRays];
+  double end[kPacketRays];
+};
+
+/// What is to be traced: a list, and what is known about its literals.
+struct TraceList {
+  const CanonicalPrimitive* primitives = nullptr;
+  const CellList* list = nullptr;
+  /// By index in the list: no crossing of the primitive lies at a smaller τ.
+  const double* nearest_t = nullptr;
+  double earliest_t = 0;  // the least of them
+};
+
+/// What the solid is, beyond its list.
+struct TraceSubject {
+  double thinnest_piece = 0;
+  bool eye_inside = false;
+  Boundary boundary = Boundary::kFirst;
+};
+
+/// Working memory of one thread, for packets of one list after the other.
+struct PacketWorkspace {
+  std::vector<PacketSegments> segments;  // by index in the list
+  std::vector<uint8_t> is_computed;
+  std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
+  uint64_t intersections = 0;  // of packets with primitives, × the lanes
+  uint64_t resolved_rays = 0;
+
+  // The resolver's.
+  struct Event {
+    double t;
+    uint32_t index;  // in the list
+    bool at_end;
+  };
+  std::vector<Event> events;
+  std::vector<uint8_t> before, after;  // by index in the list: inside
+};
+
+/// Per lane. Only lanes of `hits` hold anything.
+struct alignas(64) PacketHits {
+  LaneMask hits = 0;
+  /// Lanes whose hit the range alone cannot decide; only from trace_packet_in_range.
+  LaneMask undecided = 0;
+  LaneMask at_end = 0;  // the hit is where the primitive's segment ends, not where it starts
+  alignas(64) double t[kPacketRays];
+  double normal[3][kPacketRays];  // unit, outward of the solid
+  uint32_t index[kPacketRays];    // of the literal in the list
+};
+
+/// The part of each ray that a list is valid for: hits are wanted with enter < t ≤ leave.
+struct alignas(64) PacketRange {
+  double enter[kPacketRays];
+  double leave[kPacketRays];
+  double margin;  // the list is valid so far beyond, in world units
+};
+
+/// Rays through the given points of the picture, in pixels (pixel_ray's x and y).
+struct alignas(64) PacketPixels {
+  double x[kPacketRays];
+  double y[kPacketRays];
+};
+void make_rays(const FrameRays& frame, const PacketPixels& pixels, RayPacket& rays);
+
+void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
+               PacketSegments& segments);
+
+/// The first hit of each lane in `lanes` along its whole ray.
+void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                  const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
+                  PacketHits& hits);
+
+/// The same within a range. Lanes that the range alone cannot decide come back as undecided.
+void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                           const PacketRange& range, const TraceList& list,
+                           const TraceSubject& subject, PacketWorkspace& workspace,
+                           PacketHits& hits);
+
+/// How hits turn into colours.
+struct ShadeSettings {
+  Shading shading = Shading::kOpenScad;
+  Vec3 light_world{0.0};  // kOpenScad: shade = 0.2 + |n · light_world|
+  PhongLight phong;
+  glm::dvec3 front{1.0}, back{1.0};  // 0…255
+};
+ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
+                             const Box& solid_bounds);
+
+/// Each 0…255, not rounded.
+struct alignas(64) PacketColors {
+  double rgb[3][kPacketRays];
+};
+void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
+                  const TraceList& list, bool eye_inside, const PacketHits& hits,
+                  PacketColors& colors);
+
+}  // namespace csgcore

@@ -1,0 +1,252 @@
+// Compiled once per instruction set by Highway.
+#include "screen_extents.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "shapes.hpp"
+#include "simd.hpp"
+
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "screen_extents.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for every instruction set
+#include <hwy/highway.h>
+
+#include "lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+/// A primitive is taken to be larger by this share of its distance and size, and of the view's own
+/// coordinates: far above what is rounded here (some 20 operations of 2^-53), far below a pixel.
+constexpr double kScreenSlack = 0x1p-44;
+
+/// Nearer to the eye's plane than this share of its own depth, a primitive may be anywhere on the
+/// screen: so far out that no picture shows it.
+constexpr double kNearestDepth = 0x1p-20;
+
+using WideV = hn::Vec<Wide>;
+
+/// Several extents' fields.
+struct ExtentLanes {
+  Lanes3<Wide> center, half;
+  WideV outside2, inside2;
+};
+
+HWY_INLINE ExtentLanes load_extents(const Extent* extents) {
+  const Wide d;
+  const hn::Rebind<int64_t, Wide> integers;
+  const auto offsets = hn::ShiftLeft<3>(hn::Iota(integers, 0));
+  const double* base = reinterpret_cast<const double*>(extents);
+  const auto field = [&](int i) { return hn::GatherIndex(d, base + i, offsets); };
+  return {{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7)};
+}
+
+struct Range {
+  WideV low, high;
+};
+
+/// The primitive's reach along a direction: a ball's radius, or its box's.
+HWY_INLINE WideV reach_along(const ExtentLanes& extent, const Vec3& axis) {
+  const Wide d;
+  return dot(d, extent.half, broadcast(d, glm::abs(axis)));
+}
+
+/// The range of a box's across/depth, depth > 0.
+HWY_INLINE Range box_range(WideV across, WideV reach, WideV nearest, WideV furthest) {
+  const WideV low = hn::Sub(across, reach);
+  const WideV high = hn::Add(across, reach);
+  return {hn::Min(hn::Div(low, nearest), hn::Div(low, furthest)),
+          hn::Max(hn::Div(high, nearest), hn::Div(high, furthest))};
+}
+
+/// The same of a ball: the two planes through the eye that touch it, (across − u·depth)² =
+/// radius²·(1 + u²).
+HWY_INLINE Range ball_range(WideV across, WideV depth, WideV radius2) {
+  const WideV a = hn::Sub(hn::Mul(depth, depth), radius2);
+  const WideV middle = hn::Mul(across, depth);
+  const WideV half =
+      hn::Sqrt(hn::Mul(radius2, hn::Max(hn::Zero(Wide()), hn::Add(hn::Mul(across, across), a))));
+  return {hn::Div(hn::Sub(middle, half), a), hn::Div(hn::Add(middle, half), a)};
+}
+
+/// What a frame needs of its view, once.
+struct Projector {
+  const FrameRays& frame;
+  bool is_perspective;
+  bool centers_only;
+  double frame_slack;     // world units
+  double px_per_unit;     // of u and v
+  double middle_px[2];
+
+  HWY_INLINE void project(const Extent* world, uint32_t count, Extent* screen) const;
+  HWY_INLINE Range to_pixels(const Range& range, double sign, double middle) const {
+    const Wide d;
+    const WideV scale = hn::Set(d, sign * px_per_unit);
+    const WideV offset = hn::Set(d, middle);
+    const WideV a = hn::Add(hn::Mul(range.low, scale), offset);
+    const WideV b = hn::Add(hn::Mul(range.high, scale), offset);
+    const Range exact = {hn::Min(a, b), hn::Max(a, b)};
+    return centers_only ? Range{hn::Ceil(exact.low), hn::Floor(exact.high)} : exact;
+  }
+};
+
+HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* screen) const {
+  const Wide d;
+  const View& view = frame.view;
+  const WideV zero = hn::Zero(d);
+  const ExtentLanes extent = load_extents(world);
+  const Lanes3<Wide> from_eye = extent.center - broadcast(d, view.eye);
+  const Lanes3<Wide> from_pivot = extent.center - broadcast(d, frame.pivot);
+  const Vec3 ones{1.0};
+  const WideV size = hn::Add(reach_along(extent, ones),
+                             hn::Add(hn::Add(hn::Abs(from_eye.x), hn::Abs(from_eye.y)),
+                                     hn::Abs(from_eye.z)));
+  const WideV slack =
+      hn::Add(hn::Mul(size, hn::Set(d, kScreenSlack)), hn::Set(d, frame_slack));
+  const auto is_ball = hn::Ge(extent.inside2, zero);
+  const WideV ball_reach = hn::Add(hn::Sqrt(hn::IfThenElseZero(is_ball, extent.outside2)), slack);
+  const auto reach = [&](const Vec3& axis) {
+    return hn::IfThenElse(is_ball, ball_reach, hn::Add(reach_along(extent, axis), slack));
+  };
+  const WideV depth = dot(d, from_eye, broadcast(d, view.forward));
+  const WideV depth_reach = reach(view.forward);
+  const WideV nearest = hn::Sub(depth, depth_reach);
+  const WideV furthest = hn::Add(depth, depth_reach);
+  auto anywhere = hn::Lt(depth, depth);
+  auto behind = anywhere;
+  Range ranges[2];
+  const Vec3 axes[2] = {view.right, view.up};
+  for (int i = 0; i < 2; ++i) {
+    const WideV across = dot(d, from_eye, broadcast(d, axes[i]));
+    const WideV across_reach = reach(axes[i]);
+    if (!is_perspective) {
+      ranges[i] = {hn::Sub(across, across_reach), hn::Add(across, across_reach)};
+      continue;
+    }
+    anywhere = hn::Le(nearest, hn::Mul(hn::Set(d, kNearestDepth), depth_reach));
+    behind = hn::Le(furthest, zero);
+    const Range box = box_range(across, across_reach, nearest, furthest);
+    const Range ball = ball_range(across, depth, hn::Mul(ball_reach, ball_reach));
+    ranges[i] = {hn::IfThenElse(is_ball, ball.low, box.low),
+                 hn::IfThenElse(is_ball, ball.high, box.high)};
+  }
+  const Range x = to_pixels(ranges[0], 1, middle_px[0]);
+  const Range y = to_pixels(ranges[1], -1, middle_px[1]);
+  const WideV far_off = hn::Set(d, 1e6);  // beyond every picture, and its halves still exact
+  alignas(64) double low_x[8], high_x[8], low_y[8], high_y[8], t[8], t_reach[8], ball[8], gone[8];
+  const auto clamp = [&](WideV v, WideV otherwise) {
+    const WideV limited = hn::Max(hn::Min(v, far_off), hn::Neg(far_off));
+    return hn::IfThenElse(anywhere, otherwise, limited);
+  };
+  hn::Store(clamp(x.low, hn::Neg(far_off)), d, low_x);
+  hn::Store(clamp(x.high, far_off), d, high_x);
+  hn::Store(clamp(y.low, hn::Neg(far_off)), d, low_y);
+  hn::Store(clamp(y.high, far_off), d, high_y);
+  hn::Store(dot(d, from_pivot, broadcast(d, view.forward)), d, t);
+  hn::Store(depth_reach, d, t_reach);
+  hn::Store(hn::IfThenElseZero(is_ball, hn::Set(d, 1.0)), d, ball);
+  hn::Store(hn::IfThenElseZero(behind, hn::Set(d, 1.0)), d, gone);
+  const double width = view.width_px;
+  const double height = view.height_px;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  for (uint32_t i = 0; i < count; ++i) {
+    Extent& out = screen[i];
+    out = {{0.5 * (low_x[i] + high_x[i]), 0.5 * (low_y[i] + high_y[i]), t[i]},
+           {0.5 * (high_x[i] - low_x[i]), 0.5 * (high_y[i] - low_y[i]), t_reach[i]},
+           kNone,
+           ball[i] != 0 ? 0.0 : -1.0};
+    const bool off = gone[i] != 0 || high_x[i] < -0.5 || low_x[i] > width - 0.5 ||
+                     high_y[i] < -0.5 || low_y[i] > height - 0.5;
+    if (off) {
+      out.half[0] = -kNone;
+    } else if (low_x[i] > high_x[i] || low_y[i] > high_y[i]) {
+      out.outside2 = -1.0;
+    }
+  }
+}
+
+void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
+                         const ScreenOptions& options, Extent* screen) {
+  const View& view = frame.view;
+  const double scale = glm::dot(glm::abs(view.eye), Vec3{1.0}) +
+                       glm::dot(glm::abs(frame.pivot), Vec3{1.0}) + std::abs(frame.base_s);
+  const Projector projector{frame,
+                            view.projection == Projection::kPerspective,
+                            options.centers_only,
+                            kScreenSlack * 0x1p-4 * scale,
+                            0.5 * view.height_px / view.half_height,
+                            {0.5 * view.width_px - 0.5, 0.5 * view.height_px - 0.5}};
+  const size_t lanes = hn::Lanes(Wide());
+  for (size_t i = begin; i < end; i += lanes) {
+    if (end - i >= lanes) {
+      projector.project(world + i, static_cast<uint32_t>(lanes), screen + i);
+      continue;
+    }
+    // The last few: a full vector must not read past the array.
+    Extent padded[8];
+    std::fill(padded, padded + 8, world[i]);
+    std::copy(world + i, world + end, padded);
+    projector.project(padded, static_cast<uint32_t>(end - i), screen + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace csgcore {
+
+CSGCORE_SIMD_EXPORT(find_screen_extents);
+
+void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
+                         const ScreenOptions& options, Extent* screen) {
+  CSGCORE_SIMD(find_screen_extents)(world, begin, end, frame, options, screen);
+}
+
+ScreenFate fate_on_screen(const Extent& screen) {
+  if (screen.half[0] < 0 && std::isinf(screen.half[0])) return ScreenFate::kOffScreen;
+  return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
+}
+
+Classification classify_in_tile(const CanonicalPrimitive& primitive, const FrameRays& frame,
+                                const Box& tile) {
+  // A plane through the eye and the line u = const of the screen: its normal is right − u·forward,
+  // or right alone where the rays are parallel and the plane goes through the line.
+  constexpr double kPlaneSlack = 0x1p-40;  // as kScreenSlack, of fewer and larger terms
+  const View& view = frame.view;
+  const bool is_perspective = view.projection == Projection::kPerspective;
+  const Vec3 offset = primitive.center - view.eye;
+  const double unit_per_px = 2 * view.half_height / view.height_px;
+  const auto outside = [&](const Vec3& axis, double position, double sign) {
+    Vec3 normal = sign * axis;
+    double distance = glm::dot(offset, normal);
+    if (is_perspective) {
+      normal -= sign * position * view.forward;
+      distance = glm::dot(offset, normal);
+    } else {
+      distance -= sign * position;
+    }
+    const double slack =
+        kPlaneSlack * (glm::dot(glm::abs(offset) + glm::abs(view.eye), glm::abs(normal)) +
+                       std::abs(position));
+    return distance + support_distance(primitive, normal) < -slack;
+  };
+  const double middle_x = 0.5 * view.width_px - 0.5;
+  const double middle_y = 0.5 * view.height_px - 0.5;
+  const bool misses = outside(view.right, (tile.min.x - middle_x) * unit_per_px, 1) ||
+                      outside(view.right, (tile.max.x - middle_x) * unit_per_px, -1) ||
+                      outside(view.up, (middle_y - tile.max.y) * unit_per_px, 1) ||
+                      outside(view.up, (middle_y - tile.min.y) * unit_per_px, -1);
+  return misses ? Classification::kOutside : Classification::kCrosses;
+}
+
+}  // namespace csgcore
+#endif  // HWY_ONCE

@@ -1,0 +1,35 @@
+// Where primitives lie on the screen and in depth, per frame: the Extents that tiles are divided by.
+#pragma once
+
+#include <vector>
+
+#include "csgcore/extent.hpp"
+#include "packet.hpp"
+
+namespace csgcore {
+
+/// Screen space: x and y in pixels as pixel_ray counts them (whole numbers are pixels' centres), z
+/// is τ. Bounds are conservative: no ray meets the primitive outside of its box.
+/// A primitive that no ray can meet is outside every cell: see fate_on_screen.
+/// inside2 < 0 marks what a closer look may find outside of a tile (classify_in_tile).
+struct ScreenOptions {
+  /// Rays go through pixels' centres only: what lies between them is seen by none.
+  bool centers_only = true;
+};
+
+/// Extents [begin, end) of `world`, into the same places of `screen`.
+void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
+                         const ScreenOptions& options, Extent* screen);
+
+enum class ScreenFate : uint8_t { kVisible, kOffScreen, kSubPixel };
+ScreenFate fate_on_screen(const Extent& screen);
+
+inline double nearest_t(const Extent& screen) { return screen.center[2] - screen.half[2]; }
+inline double furthest_t(const Extent& screen) { return screen.center[2] + screen.half[2]; }
+
+/// kOutside if no ray through the tile (a box in screen space; its z does not count) meets the
+/// primitive, by the planes through the eye and the tile's edges; else kCrosses.
+Classification classify_in_tile(const CanonicalPrimitive& primitive, const FrameRays& frame,
+                                const Box& tile);
+
+}  // namespace csgcore

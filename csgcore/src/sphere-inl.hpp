@@ -1,0 +1,60 @@
+// The sphere on rays: its segment, and its normal. Included once per instruction set.
+#if defined(CSGCORE_SPHERE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef CSGCORE_SPHERE_INL_HPP
+#undef CSGCORE_SPHERE_INL_HPP
+#else
+#define CSGCORE_SPHERE_INL_HPP
+#endif
+
+#include "lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+namespace sphere_rays {
+
+/// |o + t·d| ≤ radius about the foot of the perpendicular from the centre, where nothing cancels:
+/// the discriminant is radius² − |foot|², of the primitive's own magnitude.
+template <class D>
+HWY_INLINE Segment<D> about_foot(D d, const Lanes3<D>& o, const Lanes3<D>& direction,
+                                 hn::Vec<D> inverse_length2, hn::Vec<D> radius2) {
+  const auto middle = hn::Neg(hn::Mul(dot(d, o, direction), inverse_length2));
+  const Lanes3<D> foot = o + scaled(direction, middle);
+  const auto inside = hn::Sub(radius2, dot(d, foot, foot));
+  const auto exists = hn::Gt(inside, hn::Zero(d));
+  const auto half = hn::Sqrt(hn::Mul(hn::Max(inside, hn::Zero(d)), inverse_length2));
+  return segment_if(d, exists, hn::Sub(middle, half), hn::Add(middle, half));
+}
+
+/// `center`: relative to the rays' pivot.
+template <class D>
+HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                              const Rays<D>& rays) {
+  const Lanes3<D> o = rays.origin - broadcast(d, center);
+  if (primitive.ball_radius > 0) {
+    // Distances are the world's: the rays' lengths are known.
+    const auto radius2 = hn::Set(d, primitive.ball_radius * primitive.ball_radius);
+    return about_foot(d, o, rays.direction, rays.inverse_length2, radius2);
+  }
+  const Lanes3<D> direction = transformed(d, primitive.world_to_canonical, rays.direction);
+  const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
+  return about_foot(d, transformed(d, primitive.world_to_canonical, o), direction, inverse_length2,
+                    hn::Set(d, 1.0));
+}
+
+/// Outward and unit, at the point that lies at τ = t.
+template <class D>
+HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                            const Rays<D>& rays, hn::Vec<D> t) {
+  const Lanes3<D> point = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
+  if (primitive.ball_radius > 0) return normalized(d, point);
+  const Lanes3<D> canonical = transformed(d, primitive.world_to_canonical, point);
+  return normalized(d, transformed_back(d, primitive.world_to_canonical, canonical));
+}
+
+}  // namespace sphere_rays
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

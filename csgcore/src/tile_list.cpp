@@ -1,0 +1,168 @@
+#include "tile_list.hpp"
+
+#include <algorithm>
+
+#include "screen_extents.hpp"
+
+namespace csgcore {
+namespace {
+
+/// Only the primitives that hold the tile over the longest stretches are tried: each costs a few
+/// passes over the list, and the first mostly settles it.
+constexpr size_t kMostCovers = 3;
+
+/// A stretch is taken to be shorter at each end by this share of its depths and of its own length:
+/// far above the rounding of an intersection.
+constexpr double kCoverSlack = 1e-9;
+
+bool meets(const Extent& screen, double from_t, double to_t) {
+  return nearest_t(screen) <= to_t && furthest_t(screen) >= from_t;
+}
+
+bool lies_within(const Extent& screen, double from_t, double to_t) {
+  return nearest_t(screen) > from_t && furthest_t(screen) < to_t;
+}
+
+}  // namespace
+
+bool TileSimplifier::simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                              CellList& result, bool& cuts) {
+  cuts = false;
+  if (!find_covers(tile, list)) return false;
+  dropped_.assign(list.count(), Decision::kOpen);
+  for (const Cover& cover : covers_) {
+    drop_undecisive(list, restrictor, cover);
+    if (drop_hidden(list, restrictor, cover)) {
+      cuts = true;
+      break;
+    }
+  }
+  if (std::find(dropped_.begin(), dropped_.end(), Decision::kOutside) == dropped_.end()) {
+    return false;
+  }
+  restrictor.restrict(list, dropped_, result);
+  return true;
+}
+
+/// The longest first.
+bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
+  const double border = centers_only_ ? 0.0 : 0.5;
+  const double low_x = tile.x - border;
+  const double low_y = tile.y - border;
+  const double high_x = tile.x + tile.width - 1 + border;
+  const double high_y = tile.y + tile.height - 1 + border;
+  covers_.clear();
+  for (const uint32_t entry : list.primitives()) {
+    const uint32_t primitive = entry & kPrimitiveBits;
+    const Extent& e = screen_[primitive];
+    if (e.center[0] - e.half[0] > low_x || e.center[0] + e.half[0] < high_x ||
+        e.center[1] - e.half[1] > low_y || e.center[1] + e.half[1] < high_y) {
+      continue;
+    }
+    covers_.push_back({primitive, nearest_t(e), furthest_t(e)});
+  }
+  if (covers_.empty()) return false;
+  const auto longer = [](const Cover& a, const Cover& b) {
+    const double lengths[] = {a.to_t - a.from_t, b.to_t - b.from_t};
+    return lengths[0] != lengths[1] ? lengths[0] > lengths[1] : a.primitive < b.primitive;
+  };
+  const size_t kept = std::min(covers_.size(), kMostCovers);
+  std::partial_sort(covers_.begin(), covers_.begin() + static_cast<long>(kept), covers_.end(),
+                    longer);
+  covers_.resize(kept);
+  PacketPixels corners;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    corners.x[lane] = (lane & 1) ? high_x : low_x;
+    corners.y[lane] = (lane & 2) ? high_y : low_y;
+  }
+  RayPacket rays;
+  make_rays(frame_, corners, rays);
+  for (Cover& cover : covers_) {
+    PacketSegments segments;
+    intersect(frame_, rays, primitives_[cover.primitive], segments);
+    const double from = *std::max_element(segments.start, segments.start + 4);
+    const double to = *std::min_element(segments.end, segments.end + 4);
+    const double slack = kCoverSlack * (std::abs(from) + std::abs(to) + (to - from));
+    cover.from_t = std::max(from, frame_.first_t) + slack;
+    cover.to_t = to - slack;
+  }
+  std::erase_if(covers_, [](const Cover& c) { return !(c.from_t < c.to_t); });
+  return !covers_.empty();
+}
+
+/// What is certain of each primitive between two depths.
+void TileSimplifier::decide_within(const CellList& list, double from_t, double to_t) {
+  decisions_.resize(list.count());
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
+    const bool is_apart =
+        dropped_[i] == Decision::kOutside || !meets(screen_[primitive], from_t, to_t);
+    decisions_[i] = is_apart ? Decision::kOutside : Decision::kOpen;
+    for (const Cover& cover : covers_) {
+      if (cover.primitive == primitive && cover.from_t <= from_t && to_t <= cover.to_t) {
+        decisions_[i] = Decision::kInside;
+      }
+    }
+  }
+}
+
+void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restrictor,
+                                     const Cover& cover) {
+  decide_within(list, cover.from_t, cover.to_t);
+  restrictor.restrict(list, decisions_, probe_);
+  survivors_.clear();
+  for (const uint32_t entry : probe_.primitives()) survivors_.push_back(entry & kPrimitiveBits);
+  std::sort(survivors_.begin(), survivors_.end());
+  const Fate fate = probe_.root == CellList::kTrue ? Fate::kInside : Fate::kCancelled;
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
+    if (dropped_[i] == Decision::kOutside ||
+        !lies_within(screen_[primitive], cover.from_t, cover.to_t) ||
+        std::binary_search(survivors_.begin(), survivors_.end(), primitive)) {
+      continue;
+    }
+    dropped_[i] = Decision::kOutside;
+    fates_.note(primitive, fate);
+  }
+}
+
+/// A depth within the stretch at which as little as possible is open: in the first gap between the
+/// primitives that reach into it.
+double TileSimplifier::free_depth(const CellList& list, double from_t, double to_t) {
+  reaches_.clear();
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
+    const bool covers = std::any_of(covers_.begin(), covers_.end(),
+                                    [&](const Cover& c) { return c.primitive == primitive; });
+    if (covers || dropped_[i] == Decision::kOutside) continue;
+    const Extent& e = screen_[primitive];
+    if (meets(e, from_t, to_t)) reaches_.push_back({nearest_t(e), furthest_t(e)});
+  }
+  std::sort(reaches_.begin(), reaches_.end(),
+            [](const Reach& a, const Reach& b) { return a.from_t < b.from_t; });
+  const double least_gap = kCoverSlack * (std::abs(from_t) + std::abs(to_t));
+  double free = from_t;
+  for (const Reach& reach : reaches_) {
+    if (reach.from_t > free + least_gap) return 0.5 * (free + reach.from_t);
+    free = std::max(free, reach.to_t);
+  }
+  return free < to_t ? 0.5 * (free + to_t) : from_t;
+}
+
+bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor,
+                                 const Cover& cover) {
+  if (!last_value_) return false;
+  const double depth = free_depth(list, cover.from_t, cover.to_t);
+  decide_within(list, depth, depth);
+  restrictor.restrict(list, decisions_, probe_);
+  if (probe_.root != (*last_value_ ? CellList::kTrue : CellList::kFalse)) return false;
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
+    if (dropped_[i] == Decision::kOutside || nearest_t(screen_[primitive]) <= depth) continue;
+    dropped_[i] = Decision::kOutside;
+    fates_.note(primitive, Fate::kHidden);
+  }
+  return true;
+}
+
+}  // namespace csgcore

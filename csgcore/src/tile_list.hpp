@@ -1,0 +1,104 @@
+// A tile's list, made smaller by what the tile's rays cannot see.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "packet.hpp"
+#include "restriction.hpp"
+
+namespace csgcore {
+
+/// A rectangle of pixels.
+struct Tile {
+  uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Why a primitive was never intersected; the largest that any tile saw counts.
+enum class Fate : uint8_t {
+  kUnknown,
+  kOffScreen,
+  kSubPixel,
+  kCancelled,
+  kInside,
+  kHidden,
+  kIntersected
+};
+/// One entry for each primitive; written by all threads. Empty if nobody wants to know.
+class Fates {
+ public:
+  void resize(size_t primitives) { fates_ = std::vector<uint8_t>(primitives); }
+  bool wanted() const { return !fates_.empty(); }
+  void note(uint32_t primitive, Fate fate) {
+    if (!wanted()) return;
+    std::atomic_ref<uint8_t> entry(fates_[primitive]);
+    const uint8_t value = static_cast<uint8_t>(fate);
+    uint8_t old = entry.load(std::memory_order_relaxed);
+    while (old < value && !entry.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+    }
+  }
+  std::span<const uint8_t> all() const { return fates_; }
+
+ private:
+  std::vector<uint8_t> fates_;
+};
+
+/// Drops, from the list of a tile, primitives that decide nothing there although its rays may meet
+/// them. A primitive that holds the tile's whole cross-section over a stretch of depth settles
+/// there what the operations make of others:
+/// - where the rest of the list then agrees whatever these others do, those that lie wholly within
+///   the stretch are cancelled, or lie inside the solid;
+/// - where the solid then holds, all that lies behind is hidden.
+/// By convexity the four rays through the tile's corners tell the stretch of a primitive.
+class TileSimplifier {
+ public:
+  /// `last_value`: a ray ends once the solid has that value; none: rays go on.
+  TileSimplifier(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
+                 const FrameRays& frame, bool centers_only, std::optional<bool> last_value,
+                 Fates& fates)
+      : primitives_(primitives),
+        screen_(screen),
+        frame_(frame),
+        centers_only_(centers_only),
+        last_value_(last_value),
+        fates_(fates) {}
+
+  /// The tile's list without them, in `result`; false, and nothing in it, if there are none. `cuts`
+  /// tells whether what is hidden was dropped: every ray of the tile then ends before it does.
+  bool simplify(const Tile& tile, const CellList& list, Restrictor& restrictor, CellList& result,
+                bool& cuts);
+
+ private:
+  /// A primitive that holds the tile's cross-section at every depth between.
+  struct Cover {
+    uint32_t primitive;
+    double from_t, to_t;
+  };
+  struct Reach {
+    double from_t, to_t;
+  };
+  bool find_covers(const Tile& tile, const CellList& list);
+  void decide_within(const CellList& list, double from_t, double to_t);
+  void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
+  bool drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover);
+  double free_depth(const CellList& list, double from_t, double to_t);
+
+  std::span<const CanonicalPrimitive> primitives_;
+  const Extents& screen_;
+  const FrameRays& frame_;
+  bool centers_only_;
+  std::optional<bool> last_value_;
+  Fates& fates_;
+
+  using Decision = Restrictor::Decision;
+  std::vector<Cover> covers_;
+  std::vector<Decision> decisions_;  // while a question is asked
+  std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
+  std::vector<uint32_t> survivors_;  // sorted
+  std::vector<Reach> reaches_;
+  CellList probe_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,267 @@
+#include "tile_tracer.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "restriction.hpp"
+
+namespace csgcore {
+namespace {
+
+/// A tile of so few pixels a side is traced: two packets.
+constexpr uint32_t kTileSide_px = 8;
+/// So are larger ones whose list is this short: dividing it costs more than it saves.
+constexpr uint32_t kShortList = 3;
+constexpr uint32_t kShortListSide_px = 32;
+
+/// Larger tiles are divided by two tasks.
+constexpr uint32_t kTaskPixels = 64 * 64;
+
+/// Lists longer than this are simplified (TileSimplifier).
+constexpr uint32_t kLongList = 12;
+
+/// Larger tiles leave what extents leave open: few primitives miss a large tile but not its box.
+constexpr double kClassifiedSide_px = 64;
+
+/// Primitives bounded by one task.
+constexpr size_t kBoundedAtOnce = 4096;
+
+}  // namespace
+
+const TraceList& TileRays::trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) {
+  trace_packet(frame_, rays, lanes, list_, subject_, workspace_, hits);
+  // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
+  // by a piece too thin to exist, what lies behind counts.
+  if (!uncut_ || (hits.hits & lanes) == lanes) return list_;
+  workspace_.was_computed.clear();
+  trace_packet(frame_, rays, lanes, *uncut_, subject_, workspace_, hits);
+  return *uncut_;
+}
+
+/// In screen space.
+class TileTracer::Classifier final : public OpenClassifier {
+ public:
+  Classifier(std::span<const CanonicalPrimitive> primitives, const FrameRays& frame)
+      : primitives_(primitives), frame_(frame) {}
+  Classification classify(uint32_t primitive, const Box& cell) const override {
+    const Vec3 size = cell.size();
+    if (std::max(size.x, size.y) > kClassifiedSide_px) return Classification::kCrosses;
+    return classify_in_tile(primitives_[primitive], frame_, cell);
+  }
+
+ private:
+  std::span<const CanonicalPrimitive> primitives_;
+  const FrameRays& frame_;
+};
+
+/// The lists of one level of the recursion, reused by all tiles of that level.
+struct TileTracer::Level {
+  CellList halves[2];
+  CellList simplified;
+};
+
+/// What one task works with.
+struct TileTracer::Workspace {
+  explicit Workspace(const TileTracer& owner)
+      : restrictor(owner.screen_, *owner.classifier_),
+        simplifier(owner.solid_.primitives(), owner.screen_, owner.frame_, owner.centers_only_,
+                   last_value(owner.subject_), owner.fates_) {}
+  static std::optional<bool> last_value(const TraceSubject& subject) {
+    if (subject.boundary == Boundary::kBehind) return std::nullopt;
+    return !subject.eye_inside;
+  }
+  Level& level(size_t index) {
+    while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
+    return *levels[index];
+  }
+
+  Restrictor restrictor;
+  TileSimplifier simplifier;
+  PacketWorkspace packets;
+  std::vector<std::unique_ptr<Level>> levels;
+  std::vector<double> nearest, uncut_nearest;
+  uint64_t tiles = 0;
+};
+
+/// A workspace, taken for as long as this lives.
+class TileTracer::Lease {
+ public:
+  explicit Lease(TileTracer& owner) : owner_(owner) {
+    const std::lock_guard lock(owner.mutex_);
+    if (owner.free_workspaces_.empty()) {
+      owner.workspaces_.push_back(std::make_unique<Workspace>(owner));
+      owner.free_workspaces_.push_back(owner.workspaces_.back().get());
+    }
+    workspace_ = owner.free_workspaces_.back();
+    owner.free_workspaces_.pop_back();
+  }
+  ~Lease() {
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.free_workspaces_.push_back(workspace_);
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  Workspace& operator*() const { return *workspace_; }
+
+ private:
+  TileTracer& owner_;
+  Workspace* workspace_;
+};
+
+TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
+                       bool centers_only, Fates& fates)
+    : solid_(solid),
+      frame_(frame),
+      subject_(subject),
+      centers_only_(centers_only),
+      fates_(fates),
+      screen_(solid.extents().size()),
+      classifier_(std::make_unique<Classifier>(solid.primitives(), frame)) {
+  const Extents& world = solid.extents();
+  const ScreenOptions options{centers_only};
+  const auto bound = [&](size_t begin, size_t end) {
+    find_screen_extents(world.data(), begin, end, frame, options, screen_.data());
+  };
+  if (world.size() <= kBoundedAtOnce) {
+    bound(0, world.size());
+    return;
+  }
+  // Blocks of a fixed size: a vector never spans two of them.
+  const size_t blocks = (world.size() + kBoundedAtOnce - 1) / kBoundedAtOnce;
+  tbb::parallel_for(size_t{0}, blocks, [&](size_t block) {
+    bound(block * kBoundedAtOnce, std::min(world.size(), (block + 1) * kBoundedAtOnce));
+  });
+}
+
+TileTracer::~TileTracer() = default;
+
+Tile TileTracer::whole_picture() const {
+  return {0, 0, frame_.view.width_px, frame_.view.height_px};
+}
+
+Box TileTracer::box_of(const Tile& tile) const {
+  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
+  const double border = centers_only_ ? 0.0 : 0.5;
+  const double x = tile.x;
+  const double y = tile.y;
+  return {{x - border, y - border, -kAnyDepth},
+          {x + tile.width - 1 + border, y + tile.height - 1 + border, kAnyDepth}};
+}
+
+void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
+  if (!solid_.cell_list()) {
+    visitor.visit_empty(area);
+    return;
+  }
+  const Lease workspace(*this);
+  CellList& list = (*workspace).level(0).halves[0];
+  (*workspace).restrictor.restrict(*solid_.cell_list(), box_of(area), list);
+  divide(area, list, nullptr, 1, *workspace, visitor);
+}
+
+/// Recursion halves the tile each time.
+void TileTracer::divide(const Tile& tile, const CellList& given, const CellList* uncut,
+                        size_t level, Workspace& workspace, TileVisitor& visitor) {
+  if (!visitor.wants(tile)) return;
+  const CellList* list = &given;
+  Level& own = workspace.level(level);
+  if (list->count() > kLongList) {
+    bool cuts = false;
+    if (workspace.simplifier.simplify(tile, *list, workspace.restrictor, own.simplified, cuts)) {
+      list = &own.simplified;
+      if (cuts && !uncut) uncut = &given;
+    }
+  }
+  if (list->is_constant() && !uncut) {
+    visitor.visit_empty(tile);
+    return;
+  }
+  const uint32_t side = std::max(tile.width, tile.height);
+  if (side <= kTileSide_px || (list->count() <= kShortList && side <= kShortListSide_px)) {
+    visit_leaf(tile, *list, uncut, workspace, visitor);
+    return;
+  }
+  Tile below = tile, above = tile;
+  const bool across = tile.width >= tile.height;
+  const auto half = [](uint32_t size) {
+    return (size / 2 + kTileSide_px - 1) / kTileSide_px * kTileSide_px;
+  };
+  if (across) {
+    below.width = half(tile.width);
+    above.x += below.width;
+    above.width -= below.width;
+  } else {
+    below.height = half(tile.height);
+    above.y += below.height;
+    above.height -= below.height;
+  }
+  const Halves halves{box_of(below), box_of(above), across ? 0u : 1u};
+  if (list->is_constant()) {
+    own.halves[0].finish(list->root);
+    own.halves[1].finish(list->root);
+  } else {
+    workspace.restrictor.restrict(*list, halves, own.halves[0], own.halves[1]);
+  }
+  if (tile.width * tile.height > kTaskPixels) {
+    const auto task = [&](const Tile& part, const CellList& part_list) {
+      const Lease lease(*this);
+      divide(part, part_list, uncut, 0, *lease, visitor);
+    };
+    tbb::parallel_invoke([&] { task(below, own.halves[0]); }, [&] { task(above, own.halves[1]); });
+    return;
+  }
+  divide(below, own.halves[0], uncut, level + 1, workspace, visitor);
+  divide(above, own.halves[1], uncut, level + 1, workspace, visitor);
+}
+
+TraceList TileTracer::trace_list(const CellList& list, std::vector<double>& nearest) const {
+  nearest.resize(list.count());
+  double earliest = std::numeric_limits<double>::infinity();
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    nearest[i] = nearest_t(screen_[list.primitive[i] & kPrimitiveBits]);
+    earliest = std::min(earliest, nearest[i]);
+  }
+  return {solid_.primitives().data(), &list, nearest.data(), earliest};
+}
+
+void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
+                            Workspace& workspace, TileVisitor& visitor) {
+  ++workspace.tiles;
+  const TraceList trace = trace_list(list, workspace.nearest);
+  TraceList uncut_trace;
+  if (uncut) uncut_trace = trace_list(*uncut, workspace.uncut_nearest);
+  workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
+  TileRays rays(frame_, subject_, trace, uncut ? &uncut_trace : nullptr, workspace.packets);
+  visitor.visit(tile, rays);
+  if (!fates_.wanted()) return;
+  const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const bool intersected = was_computed.empty() || was_computed[i];
+    fates_.note(list.primitive[i] & kPrimitiveBits,
+                intersected ? Fate::kIntersected : Fate::kHidden);
+  }
+}
+
+TileTracer::Counts TileTracer::counts() const {
+  Counts sum;
+  for (const auto& workspace : workspaces_) {
+    sum.tiles += workspace->tiles;
+    sum.intersections += workspace->packets.intersections;
+    sum.resolved_rays += workspace->packets.resolved_rays;
+  }
+  return sum;
+}
+
+void TileTracer::note_screen_fates() {
+  for (size_t i = 0; i < screen_.size(); ++i) {
+    const ScreenFate fate = fate_on_screen(screen_[i]);
+    const uint32_t primitive = static_cast<uint32_t>(i);
+    if (fate == ScreenFate::kOffScreen) fates_.note(primitive, Fate::kOffScreen);
+    if (fate == ScreenFate::kSubPixel) fates_.note(primitive, Fate::kSubPixel);
+  }
+}
+
+}  // namespace csgcore

@@ -1,0 +1,92 @@
+// What the rays of each part of the screen can meet (design.md §4, image-order tiles): the screen
+// is divided like a kd-tree, and with it the solid's list, down to tiles of a few pixels.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "screen_extents.hpp"
+#include "tile_list.hpp"
+
+namespace csgcore {
+
+/// Traces packets of one tile. Belongs to one thread.
+class TileRays {
+ public:
+  /// `uncut`: the list before what is hidden was dropped from it, or null.
+  TileRays(const FrameRays& frame, const TraceSubject& subject, const TraceList& list,
+           const TraceList* uncut, PacketWorkspace& workspace)
+      : frame_(frame), subject_(subject), list_(list), uncut_(uncut), workspace_(workspace) {}
+
+  /// Rays through pixels of the tile. Returns the list that the hits' indices refer to.
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits);
+
+ private:
+  const FrameRays& frame_;
+  const TraceSubject& subject_;
+  const TraceList& list_;
+  const TraceList* uncut_;
+  PacketWorkspace& workspace_;
+};
+
+/// What is done with tiles. Called by all threads, for each pixel once.
+class TileVisitor {
+ public:
+  virtual ~TileVisitor() = default;
+  /// Whether any pixel of the tile matters; if not, it is not divided further.
+  virtual bool wants(const Tile&) const { return true; }
+  /// No ray of the tile meets anything.
+  virtual void visit_empty(const Tile& tile) = 0;
+  virtual void visit(const Tile& tile, TileRays& rays) = 0;
+};
+
+/// One frame's tiles.
+class TileTracer {
+ public:
+  struct Counts {
+    uint64_t tiles = 0;
+    uint64_t intersections = 0;
+    uint64_t resolved_rays = 0;
+  };
+
+  /// Bounds all primitives on the screen. Keeps references to solid, frame and fates.
+  /// `centers_only`: rays go through pixels' centres only.
+  TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
+             bool centers_only, Fates& fates);
+  ~TileTracer();
+
+  /// All tiles of `area`, in parallel if that is more than a few.
+  void visit(const Tile& area, TileVisitor& visitor);
+  Tile whole_picture() const;
+
+  Counts counts() const;
+  /// Adds to the fates what is known of the primitives' places on the screen.
+  void note_screen_fates();
+
+ private:
+  struct Level;
+  struct Workspace;
+  class Classifier;
+  class Lease;
+
+  void divide(const Tile& tile, const CellList& list, const CellList* uncut, size_t level,
+              Workspace& workspace, TileVisitor& visitor);
+  void visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
+                  Workspace& workspace, TileVisitor& visitor);
+  TraceList trace_list(const CellList& list, std::vector<double>& nearest) const;
+  Box box_of(const Tile& tile) const;
+
+  const Solid& solid_;
+  const FrameRays& frame_;
+  const TraceSubject subject_;
+  const bool centers_only_;
+  Fates& fates_;
+  Extents screen_;
+  std::unique_ptr<Classifier> classifier_;
+  mutable std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> workspaces_;
+  std::vector<Workspace*> free_workspaces_;
+};
+
+}  // namespace csgcore
