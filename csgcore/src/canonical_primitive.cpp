@@ -113,12 +113,6 @@ CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell)
   return canonical;
 }
 
-double support_distance(const CanonicalPrimitive& primitive, const Vec3& direction_world) {
-  const Vec3 direction = direction_world * primitive.canonical_to_world;
-  return primitive.shape == Shape::kSphere ? sphere::support_distance(direction)
-                                           : frustum::support_distance(primitive, direction);
-}
-
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world) {
   return contains_canonical(primitive,
                             primitive.world_to_canonical * (point_world - primitive.center));

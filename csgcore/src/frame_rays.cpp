@@ -24,9 +24,8 @@ FrameRays frame_rays(const View& view, const Box& solid_bounds) {
   const Vec3 middle = solid_bounds.empty() ? view.eye : solid_bounds.center();
   frame.base_s = rounded_to_26_bits(glm::dot(middle - view.eye, view.forward));
   frame.pivot = view.eye + frame.base_s * view.forward;
-  frame.first_t = view.projection == Projection::kPerspective
-                      ? -frame.base_s
-                      : -std::numeric_limits<double>::max();
+  frame.first_t = view.projection == Projection::kPerspective ? -frame.base_s
+                                                              : -std::numeric_limits<double>::max();
   return frame;
 }
 
@@ -36,8 +35,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
   shade.shading = settings.shading;
   // The light of openscad.md §4, (−1, 1, 1)/√3 in eye space.
   shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
-  shade.phong =
-      phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
+  shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
   shade.front = 255.0 * Vec3(settings.front);
   shade.back = 255.0 * Vec3(settings.back);
   return shade;

@@ -59,14 +59,6 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
   return result;
 }
 
-double support_distance(const CanonicalPrimitive& primitive, const Vec3& direction) {
-  // Asked for every tile: hypot, which cannot overflow, takes ten times as long.
-  const double lateral = std::sqrt(direction.x * direction.x + direction.y * direction.y);
-  const double top = primitive.radius_mid + primitive.radius_slope;
-  const double bottom = primitive.radius_mid - primitive.radius_slope;
-  return std::max(direction.z + lateral * top, lateral * bottom - direction.z);
-}
-
 bool contains(const CanonicalPrimitive& primitive, const Vec3& p) {
   const double radius = primitive.radius_mid + primitive.radius_slope * p.z;
   return std::abs(p.z) <= 1.0 && radius >= 0 && p.x * p.x + p.y * p.y <= radius * radius;

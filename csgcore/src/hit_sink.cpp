@@ -14,8 +14,7 @@ Vec3 lane_of(const double (&v)[3][kPacketRays], uint32_t lane) {
 
 Vec3 position_of(const FrameRays& frame, const RayPacket& rays, const PacketHits& hits,
                  uint32_t lane) {
-  return frame.pivot +
-         (lane_of(rays.origin, lane) + hits.t[lane] * lane_of(rays.direction, lane));
+  return frame.pivot + (lane_of(rays.origin, lane) + hits.t[lane] * lane_of(rays.direction, lane));
 }
 
 /// Calls back with the lane and the pixel's place in a picture of this width.
@@ -66,8 +65,8 @@ void MemorySink::store(const PacketBlock& block, const RayPacket& rays, const Tr
   });
 }
 
-ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings,
-                     const Box& solid_bounds, bool eye_inside, Image& image)
+ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
+                     bool eye_inside, Image& image)
     : frame_(frame),
       measured_(settings.measured_channels),
       eye_inside_(eye_inside),

@@ -56,8 +56,8 @@ void make_rays(const FrameRays& frame, const PacketPixels& pixels, RayPacket& ra
     const auto v = hn::Mul(hn::Div(hn::Sub(height, y), height), half_height);
     WideV length2 = hn::Zero(d);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto lateral = hn::Add(hn::Mul(u, hn::Set(d, view.right[axis])),
-                                   hn::Mul(v, hn::Set(d, view.up[axis])));
+      const auto lateral =
+          hn::Add(hn::Mul(u, hn::Set(d, view.right[axis])), hn::Mul(v, hn::Set(d, view.up[axis])));
       const auto eye = hn::Set(d, view.eye[axis]);
       const auto forward = hn::Set(d, view.forward[axis]);
       const bool is_perspective = view.projection == Projection::kPerspective;
@@ -106,10 +106,9 @@ HWY_INLINE void find_normals(const FrameRays& frame, const RayPacket& rays, cons
       const size_t first = first_lane(c);
       const WideM wanted = mask_of(same, c);
       if (hn::AllFalse(d, wanted)) continue;
-      const auto normal =
-          scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first),
-                           hn::Load(d, hits.t + first), mask_of(hits.at_end, c)),
-                 sign);
+      const auto normal = scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first),
+                                           hn::Load(d, hits.t + first), mask_of(hits.at_end, c)),
+                                 sign);
       hn::BlendedStore(normal.x, wanted, d, hits.normal[0] + first);
       hn::BlendedStore(normal.y, wanted, d, hits.normal[1] + first);
       hn::BlendedStore(normal.z, wanted, d, hits.normal[2] + first);
@@ -226,6 +225,7 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   alignas(64) double start[kPacketRays], leave[kPacketRays];
   std::fill_n(start, kPacketRays, std::max(frame.first_t, list.earliest_t));
   std::fill_n(leave, kPacketRays, std::numeric_limits<double>::max());
+  workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(start, lanes);
   const LaneMask arrived = walk_to_change(list, segments, subject.eye_inside, leave, walk);
@@ -274,8 +274,7 @@ HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits&
   const Wide d;
   constexpr double kAmbient = 0.2;
   const auto normal = load3(d, hits.normal, first_lane(chunk));
-  return hn::Add(hn::Set(d, kAmbient),
-                 hn::Abs(dot(d, normal, broadcast(d, settings.light_world))));
+  return hn::Add(hn::Set(d, kAmbient), hn::Abs(dot(d, normal, broadcast(d, settings.light_world))));
 }
 
 HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& frame,
@@ -290,7 +289,8 @@ HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& fram
     const Vec3 position = frame.pivot + (at(rays.origin) + hits.t[lane] * direction);
     const Vec3 color =
         phong_color(base / 255.0, position, at(hits.normal), direction, settings.phong);
-    for (int channel = 0; channel < 3; ++channel) colors.rgb[channel][lane] = 255.0 * color[channel];
+    for (int channel = 0; channel < 3; ++channel)
+      colors.rgb[channel][lane] = 255.0 * color[channel];
   }
 }
 
@@ -308,8 +308,7 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
   const Wide d;
   for (LaneMask lanes = hits.hits; lanes != 0;) {
     const LaneMask same = lanes_of_first(hits, lanes);
-    const Vec3 base =
-        base_color(settings, list, hits.index[std::countr_zero(lanes)], eye_inside);
+    const Vec3 base = base_color(settings, list, hits.index[std::countr_zero(lanes)], eye_inside);
     lanes &= ~same;
     if (settings.shading == Shading::kPhong) {
       shade_phong(settings, frame, rays, same, base, hits, colors);

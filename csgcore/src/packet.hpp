@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "cell_list.hpp"
-#include "extent_tests.hpp"
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/phong.hpp"
 #include "csgcore/tracer.hpp"
 #include "csgcore/view.hpp"
+#include "extent_tests.hpp"
 
 namespace csgcore {
 
@@ -68,7 +68,8 @@ struct PacketWorkspace {
   std::vector<PacketSegments> segments;  // by index in the list
   std::vector<uint8_t> is_computed;
   std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
-  uint64_t intersections = 0;  // of packets with primitives, × the lanes
+  uint64_t rays = 0;                  // traced along their whole length
+  uint64_t intersections = 0;         // of packets with primitives, × the lanes
   uint64_t resolved_rays = 0;
 
   // The resolver's.

@@ -22,8 +22,8 @@ using Event = PacketWorkspace::Event;
 class RayResolver {
  public:
   /// All of the list's segments are computed.
-  RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane, const TraceList& trace,
-              const TraceSubject& subject, PacketWorkspace& workspace)
+  RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
+              const TraceList& trace, const TraceSubject& subject, PacketWorkspace& workspace)
       : frame_(frame),
         rays_(load_rays(Single(), packet, lane)),
         length_(std::sqrt(1.0 / packet.inverse_length2[lane])),
@@ -83,8 +83,7 @@ class RayResolver {
         trace_.primitives[list().primitive[event.index] & kPrimitiveBits];
     const auto at_end = hn::MaskFromVec(hn::VecFromMask(
         d, event.at_end ? hn::Eq(hn::Zero(d), hn::Zero(d)) : hn::Ne(hn::Zero(d), hn::Zero(d))));
-    const auto normal =
-        normal_of(d, primitive, frame_.pivot, rays_, hn::Set(d, event.t), at_end);
+    const auto normal = normal_of(d, primitive, frame_.pivot, rays_, hn::Set(d, event.t), at_end);
     return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
   }
 

@@ -48,6 +48,19 @@ class Pass {
 
 }  // namespace
 
+OpenClassifier::Answers WorldClassifier::classify(const uint32_t* primitives, uint64_t open,
+                                                  const Box& cell) const {
+  Answers answers;
+  for (; open != 0; open &= open - 1) {
+    const uint32_t primitive = primitives[std::countr_zero(open)] & kPrimitiveBits;
+    const uint64_t bit = open & -open;
+    const Classification answer = classify_within_bounds(primitives_[primitive], cell);
+    if (answer == Classification::kOutside) answers.outside |= bit;
+    if (answer == Classification::kInside) answers.inside |= bit;
+  }
+  return answers;
+}
+
 void Restrictor::restrict(const CellList& list, const Halves& halves, CellList& below,
                           CellList& above) {
   CellList* const results[] = {&below, &above};
@@ -84,10 +97,15 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
   for (uint32_t first = 0; first < count; first += kBlock) {
     const uint32_t size = std::min(count - first, kBlock);
     ExtentAnswers answers = test_extents(extents_.data(), primitive + first, size, halves);
+    // Balls are decided by their extents alone. Of the others, only those that reach both halves
+    // need to be asked about: what reaches one half only was found to cross the whole cell, and so
+    // crosses that half.
     const uint64_t open = answers.open & ~answers.outside[0] & ~answers.outside[kLast];
-    if (open != 0) {
-      decide_open(list, first, open, halves.below, 0, answers);
-      if (kSides == 2) decide_open(list, first, open, halves.above, 1, answers);
+    for (int side = 0; open != 0 && side < kSides; ++side) {
+      const auto more =
+          open_.classify(primitive + first, open, side == 0 ? halves.below : halves.above);
+      answers.outside[side] |= more.outside;
+      answers.inside[side] |= more.inside;
     }
     for (uint32_t bit = 0, i = first; bit < size; ++bit, ++i) {
       const auto step = [&](Pass& pass, int side) {
@@ -101,27 +119,6 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
   for (int side = 0; side < kSides; ++side) {
     results[side]->finish(maps_[side][list.root]);
     drop_unreached(*results[side]);
-  }
-}
-
-/// Balls are decided by their extents alone; the other shapes answer one by one. Only those that
-/// reach both halves need to: what reaches one half only was found to cross the whole cell, and so
-/// crosses that half.
-void Restrictor::decide_open(const CellList& list, uint32_t first, uint64_t open, const Box& half,
-                             int side, ExtentAnswers& answers) const {
-  for (; open != 0; open &= open - 1) {
-    const uint32_t i = first + static_cast<uint32_t>(std::countr_zero(open));
-    const uint64_t bit = open & -open;
-    switch (open_.classify(list.primitive[i] & kPrimitiveBits, half)) {
-      case Classification::kOutside:
-        answers.outside[side] |= bit;
-        break;
-      case Classification::kInside:
-        answers.inside[side] |= bit;
-        break;
-      case Classification::kCrosses:
-        break;
-    }
   }
 }
 

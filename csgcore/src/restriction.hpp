@@ -11,13 +11,19 @@
 
 namespace csgcore {
 
-/// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a picture
-/// a box on the screen: the extents and this are all that differs.
+/// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a
+/// picture a box on the screen: the extents and this are all that differs.
 class OpenClassifier {
  public:
   virtual ~OpenClassifier() = default;
-  /// Only asked where the cell meets the primitive's extent.
-  virtual Classification classify(uint32_t primitive, const Box& cell) const = 0;
+  struct Answers {
+    uint64_t outside = 0;
+    uint64_t inside = 0;
+  };
+  /// About those of up to 64 primitives (indices, the top bit ignored) whose bit is set in `open`:
+  /// the bits of those that are certainly outside the cell, or hold all of it. Their extents meet
+  /// the cell.
+  virtual Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const = 0;
 };
 
 /// In world space.
@@ -25,9 +31,7 @@ class WorldClassifier final : public OpenClassifier {
  public:
   explicit WorldClassifier(std::span<const CanonicalPrimitive> primitives)
       : primitives_(primitives) {}
-  Classification classify(uint32_t primitive, const Box& cell) const override {
-    return classify_within_bounds(primitives_[primitive], cell);
-  }
+  Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
 
  private:
   std::span<const CanonicalPrimitive> primitives_;
@@ -37,8 +41,7 @@ class WorldClassifier final : public OpenClassifier {
 class Restrictor {
  public:
   /// Keeps references to both.
-  Restrictor(const Extents& extents, const OpenClassifier& open)
-      : extents_(extents), open_(open) {}
+  Restrictor(const Extents& extents, const OpenClassifier& open) : extents_(extents), open_(open) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
   /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
@@ -56,8 +59,6 @@ class Restrictor {
  private:
   template <int kSides>
   void restrict_sides(const CellList& list, const Halves& halves, CellList* const* results);
-  void decide_open(const CellList& list, uint32_t first, uint64_t open, const Box& half, int side,
-                   ExtentAnswers& answers) const;
   bool all_have_jumps(const CellList& list);
   void drop_unreached(CellList& list);
 

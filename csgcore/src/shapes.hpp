@@ -25,18 +25,12 @@ namespace sphere {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const Vec3& point_canonical);
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
-double support_distance(const Vec3& direction_canonical);
 }  // namespace sphere
 
 namespace frustum {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_canonical);
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
-double support_distance(const CanonicalPrimitive& primitive, const Vec3& direction_canonical);
 }  // namespace frustum
-
-/// max over the primitive of dot(x − center, direction): how far it reaches that way, times the
-/// direction's length.
-double support_distance(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
 }  // namespace csgcore

@@ -20,8 +20,8 @@ void limit_simd_level(SimdLevel widest);
 
 /// After HWY_ONCE, with <hwy/highway.h>: makes FUNCTION, of the sources' HWY_NAMESPACE, callable as
 /// CSGCORE_SIMD(FUNCTION)(arguments).
-#define CSGCORE_SIMD_EXPORT(FUNCTION)                                            \
-  constexpr decltype(&HWY_STATIC_DISPATCH(FUNCTION)) k_##FUNCTION##_versions[] = \
-      {HWY_CHOOSE_AVX3(FUNCTION), HWY_CHOOSE_AVX2(FUNCTION), HWY_CHOOSE_SSE4(FUNCTION), \
-       HWY_CHOOSE_FALLBACK(FUNCTION)}
+#define CSGCORE_SIMD_EXPORT(FUNCTION)                                                  \
+  constexpr decltype(&HWY_STATIC_DISPATCH(FUNCTION)) k_##FUNCTION##_versions[] = {     \
+      HWY_CHOOSE_AVX3(FUNCTION), HWY_CHOOSE_AVX2(FUNCTION), HWY_CHOOSE_SSE4(FUNCTION), \
+      HWY_CHOOSE_FALLBACK(FUNCTION)}
 #define CSGCORE_SIMD(FUNCTION) k_##FUNCTION##_versions[static_cast<int>(simd_level())]

@@ -42,8 +42,6 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
   return result;
 }
 
-double support_distance(const Vec3& direction) { return glm::length(direction); }
-
 bool contains(const Vec3& p) { return glm::dot(p, p) <= 1.0; }
 
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {

@@ -149,8 +149,7 @@ double TileSimplifier::free_depth(const CellList& list, double from_t, double to
   return free < to_t ? 0.5 * (free + to_t) : from_t;
 }
 
-bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor,
-                                 const Cover& cover) {
+bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover) {
   if (!last_value_) return false;
   const double depth = free_depth(list, cover.from_t, cover.to_t);
   decide_within(list, depth, depth);

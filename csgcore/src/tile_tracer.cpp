@@ -11,8 +11,10 @@
 namespace csgcore {
 namespace {
 
-/// A tile of so few pixels a side is traced: two packets.
+/// A tile of so few pixels a side, four packets, is traced if its list is this short; of one packet
+/// in any case.
 constexpr uint32_t kTileSide_px = 8;
+constexpr uint32_t kTileList = 6;
 /// So are larger ones whose list is this short: dividing it costs more than it saves.
 constexpr uint32_t kShortList = 3;
 constexpr uint32_t kShortListSide_px = 32;
@@ -21,39 +23,43 @@ constexpr uint32_t kShortListSide_px = 32;
 constexpr uint32_t kTaskPixels = 64 * 64;
 
 /// Lists longer than this are simplified (TileSimplifier).
-constexpr uint32_t kLongList = 12;
+constexpr uint32_t kLongList = 24;
 
-/// Larger tiles leave what extents leave open: few primitives miss a large tile but not its box.
-constexpr double kClassifiedSide_px = 64;
+/// Only at every other division, as it takes several passes over the list.
+bool is_simplified_at(const Tile& tile) {
+  const uint32_t longer = std::max(tile.width, tile.height);
+  const uint32_t shorter = std::min(tile.width, tile.height);
+  return longer < 2 * shorter;
+}
 
 /// Primitives bounded by one task.
 constexpr size_t kBoundedAtOnce = 4096;
 
 }  // namespace
 
-const TraceList& TileRays::trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) {
-  trace_packet(frame_, rays, lanes, list_, subject_, workspace_, hits);
-  // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
-  // by a piece too thin to exist, what lies behind counts.
-  if (!uncut_ || (hits.hits & lanes) == lanes) return list_;
-  workspace_.was_computed.clear();
-  trace_packet(frame_, rays, lanes, *uncut_, subject_, workspace_, hits);
-  return *uncut_;
+void TileList::assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
+                      const CellList& list) {
+  nearest_.resize(list.count());
+  double earliest = std::numeric_limits<double>::infinity();
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    nearest_[i] = nearest_t(screen[list.primitive[i] & kPrimitiveBits]);
+    earliest = std::min(earliest, nearest_[i]);
+  }
+  trace_ = {primitives.data(), &list, nearest_.data(), earliest};
 }
 
 /// In screen space.
 class TileTracer::Classifier final : public OpenClassifier {
  public:
-  Classifier(std::span<const CanonicalPrimitive> primitives, const FrameRays& frame)
-      : primitives_(primitives), frame_(frame) {}
-  Classification classify(uint32_t primitive, const Box& cell) const override {
-    const Vec3 size = cell.size();
-    if (std::max(size.x, size.y) > kClassifiedSide_px) return Classification::kCrosses;
-    return classify_in_tile(primitives_[primitive], frame_, cell);
+  Classifier(const Extents& screen, const std::vector<ScreenShape>& shapes, const FrameRays& frame)
+      : screen_(screen), shapes_(shapes), frame_(frame) {}
+  Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override {
+    return {find_misses(shapes_.data(), screen_.data(), primitives, open, frame_, cell), 0};
   }
 
  private:
-  std::span<const CanonicalPrimitive> primitives_;
+  const Extents& screen_;
+  const std::vector<ScreenShape>& shapes_;
   const FrameRays& frame_;
 };
 
@@ -82,7 +88,7 @@ struct TileTracer::Workspace {
   TileSimplifier simplifier;
   PacketWorkspace packets;
   std::vector<std::unique_ptr<Level>> levels;
-  std::vector<double> nearest, uncut_nearest;
+  TileList list, uncut_list;
   uint64_t tiles = 0;
 };
 
@@ -119,11 +125,19 @@ TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSu
       centers_only_(centers_only),
       fates_(fates),
       screen_(solid.extents().size()),
-      classifier_(std::make_unique<Classifier>(solid.primitives(), frame)) {
+      classifier_(std::make_unique<Classifier>(screen_, shapes_, frame)) {
   const Extents& world = solid.extents();
   const ScreenOptions options{centers_only};
+  const bool has_shapes = std::any_of(world.begin(), world.end(),
+                                      [](const Extent& extent) { return extent.inside2 < 0; });
+  if (has_shapes) shapes_.resize(world.size());
   const auto bound = [&](size_t begin, size_t end) {
     find_screen_extents(world.data(), begin, end, frame, options, screen_.data());
+    for (size_t i = begin; has_shapes && i < end; ++i) {
+      if (screen_[i].inside2 < 0 && fate_on_screen(screen_[i]) == ScreenFate::kVisible) {
+        shapes_[i] = screen_shape(solid.primitives()[i], frame);
+      }
+    }
   };
   if (world.size() <= kBoundedAtOnce) {
     bound(0, world.size());
@@ -168,7 +182,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   if (!visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
-  if (list->count() > kLongList) {
+  if (list->count() > kLongList && !uncut && is_simplified_at(tile)) {
     bool cuts = false;
     if (workspace.simplifier.simplify(tile, *list, workspace.restrictor, own.simplified, cuts)) {
       list = &own.simplified;
@@ -180,15 +194,15 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
     return;
   }
   const uint32_t side = std::max(tile.width, tile.height);
-  if (side <= kTileSide_px || (list->count() <= kShortList && side <= kShortListSide_px)) {
+  if (side <= kPacketSide_px || (side <= kTileSide_px && list->count() <= kTileList) ||
+      (side <= kShortListSide_px && list->count() <= kShortList)) {
     visit_leaf(tile, *list, uncut, workspace, visitor);
     return;
   }
   Tile below = tile, above = tile;
   const bool across = tile.width >= tile.height;
-  const auto half = [](uint32_t size) {
-    return (size / 2 + kTileSide_px - 1) / kTileSide_px * kTileSide_px;
-  };
+  const uint32_t unit = side > kTileSide_px ? kTileSide_px : kPacketSide_px;
+  const auto half = [unit](uint32_t size) { return (size / 2 + unit - 1) / unit * unit; };
   if (across) {
     below.width = half(tile.width);
     above.x += below.width;
@@ -217,24 +231,39 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   divide(above, own.halves[1], uncut, level + 1, workspace, visitor);
 }
 
-TraceList TileTracer::trace_list(const CellList& list, std::vector<double>& nearest) const {
-  nearest.resize(list.count());
-  double earliest = std::numeric_limits<double>::infinity();
-  for (uint32_t i = 0; i < list.count(); ++i) {
-    nearest[i] = nearest_t(screen_[list.primitive[i] & kPrimitiveBits]);
-    earliest = std::min(earliest, nearest[i]);
+class TileTracer::LeafRays final : public TileRays {
+ public:
+  /// `uncut`: the list before what is hidden was dropped from it, or null.
+  LeafRays(const TileTracer& owner, const CellList& list, const CellList* uncut,
+           Workspace& workspace)
+      : owner_(owner), uncut_(uncut), workspace_(workspace) {
+    workspace.list.assign(owner.solid_.primitives(), owner.screen_, list);
   }
-  return {solid_.primitives().data(), &list, nearest.data(), earliest};
-}
+
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
+    const TraceList& list = workspace_.list.trace_list();
+    trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
+    // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
+    // by a piece too thin to exist, what lies behind counts.
+    if (!uncut_ || (hits.hits & lanes) == lanes) return list;
+    workspace_.packets.was_computed.clear();
+    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.screen_, *uncut_);
+    const TraceList& uncut = workspace_.uncut_list.trace_list();
+    trace_packet(owner_.frame_, rays, lanes, uncut, owner_.subject_, workspace_.packets, hits);
+    return uncut;
+  }
+
+ private:
+  const TileTracer& owner_;
+  const CellList* uncut_;
+  Workspace& workspace_;
+};
 
 void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
                             Workspace& workspace, TileVisitor& visitor) {
   ++workspace.tiles;
-  const TraceList trace = trace_list(list, workspace.nearest);
-  TraceList uncut_trace;
-  if (uncut) uncut_trace = trace_list(*uncut, workspace.uncut_nearest);
   workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
-  TileRays rays(frame_, subject_, trace, uncut ? &uncut_trace : nullptr, workspace.packets);
+  LeafRays rays(*this, list, uncut, workspace);
   visitor.visit(tile, rays);
   if (!fates_.wanted()) return;
   const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;
@@ -249,6 +278,7 @@ TileTracer::Counts TileTracer::counts() const {
   Counts sum;
   for (const auto& workspace : workspaces_) {
     sum.tiles += workspace->tiles;
+    sum.rays += workspace->packets.rays;
     sum.intersections += workspace->packets.intersections;
     sum.resolved_rays += workspace->packets.resolved_rays;
   }

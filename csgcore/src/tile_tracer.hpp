@@ -11,23 +11,25 @@
 
 namespace csgcore {
 
+/// A list with what tracing needs to know of it.
+class TileList {
+ public:
+  void assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
+              const CellList& list);
+  const TraceList& trace_list() const { return trace_; }
+
+ private:
+  std::vector<double> nearest_;
+  TraceList trace_;
+};
+
 /// Traces packets of one tile. Belongs to one thread.
 class TileRays {
  public:
-  /// `uncut`: the list before what is hidden was dropped from it, or null.
-  TileRays(const FrameRays& frame, const TraceSubject& subject, const TraceList& list,
-           const TraceList* uncut, PacketWorkspace& workspace)
-      : frame_(frame), subject_(subject), list_(list), uncut_(uncut), workspace_(workspace) {}
+  virtual ~TileRays() = default;
 
   /// Rays through pixels of the tile. Returns the list that the hits' indices refer to.
-  const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits);
-
- private:
-  const FrameRays& frame_;
-  const TraceSubject& subject_;
-  const TraceList& list_;
-  const TraceList* uncut_;
-  PacketWorkspace& workspace_;
+  virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
 };
 
 /// What is done with tiles. Called by all threads, for each pixel once.
@@ -46,6 +48,7 @@ class TileTracer {
  public:
   struct Counts {
     uint64_t tiles = 0;
+    uint64_t rays = 0;
     uint64_t intersections = 0;
     uint64_t resolved_rays = 0;
   };
@@ -69,12 +72,12 @@ class TileTracer {
   struct Workspace;
   class Classifier;
   class Lease;
+  class LeafRays;
 
   void divide(const Tile& tile, const CellList& list, const CellList* uncut, size_t level,
               Workspace& workspace, TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
                   Workspace& workspace, TileVisitor& visitor);
-  TraceList trace_list(const CellList& list, std::vector<double>& nearest) const;
   Box box_of(const Tile& tile) const;
 
   const Solid& solid_;
@@ -83,6 +86,7 @@ class TileTracer {
   const bool centers_only_;
   Fates& fates_;
   Extents screen_;
+  std::vector<ScreenShape> shapes_;  // of what is no ball
   std::unique_ptr<Classifier> classifier_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> workspaces_;

@@ -7,8 +7,9 @@
 #include <chrono>
 #include <thread>
 
-#include "hit_sink.hpp"
-#include "tile_tracer.hpp"
+#include "cell_tracer.hpp"
+#include "edge_samples.hpp"
+#include "packet_blocks.hpp"
 
 namespace csgcore {
 namespace {
@@ -47,8 +48,7 @@ void with_threads(unsigned threads, Work&& work) {
 TraceSubject subject_of(const Solid& solid, const View& view, const TraceOptions& options) {
   TraceSubject subject;
   subject.thinnest_piece = thinnest_piece(solid.bounds());
-  subject.eye_inside =
-      view.projection == Projection::kPerspective && solid.contains(view.eye);
+  subject.eye_inside = view.projection == Projection::kPerspective && solid.contains(view.eye);
   subject.boundary = options.boundary;
   return subject;
 }
@@ -61,38 +61,16 @@ class PixelVisitor final : public TileVisitor {
   void visit_empty(const Tile& tile) override { sink_.clear(tile); }
 
   void visit(const Tile& tile, TileRays& rays) override {
-    for (uint32_t y = 0; y < tile.height; y += kPacketSide_px) {
-      for (uint32_t x = 0; x < tile.width; x += kPacketSide_px) {
-        const LaneMask lanes = lanes_within(tile.width - x, tile.height - y);
-        trace_block({tile.x + x, tile.y + y, lanes}, rays);
-      }
-    }
+    for_each_block(tile, [&](const PacketBlock& block) {
+      RayPacket packet;
+      make_block_rays(frame_, block, packet);
+      PacketHits hits;
+      const TraceList& list = rays.trace(packet, block.lanes, hits);
+      sink_.store(block, packet, list, hits);
+    });
   }
 
  private:
-  static LaneMask lanes_within(uint32_t width, uint32_t height) {
-    if (width >= kPacketSide_px && height >= kPacketSide_px) return kAllLanes;
-    LaneMask lanes = 0;
-    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      const bool within = lane % kPacketSide_px < width && lane / kPacketSide_px < height;
-      lanes |= LaneMask{within} << lane;
-    }
-    return lanes;
-  }
-
-  void trace_block(const PacketBlock& block, TileRays& rays) {
-    PacketPixels pixels;
-    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      pixels.x[lane] = block.x + lane % kPacketSide_px;
-      pixels.y[lane] = block.y + lane / kPacketSide_px;
-    }
-    RayPacket packet;
-    make_rays(frame_, pixels, packet);
-    PacketHits hits;
-    const TraceList& list = rays.trace(packet, block.lanes, hits);
-    sink_.store(block, packet, list, hits);
-  }
-
   const FrameRays& frame_;
   HitSink& sink_;
 };
@@ -126,27 +104,95 @@ void count_fates(const Solid& solid, const Fates& fates, TraceStats& stats) {
   }
 }
 
-void trace_tiles(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-                 const TraceOptions& options, HitSink& sink, TraceStats& stats) {
-  stats = {};
-  Fates fates;
-  if (options.count_skipped) fates.resize(solid.primitives().size());
-  with_threads(options.threads, [&] {
-    Stopwatch watch;
-    TileTracer tracer(solid, frame, subject, true, fates);
-    stats.cull_ms = watch.lap_ms();
-    PixelVisitor visitor(frame, sink);
-    tracer.visit(tracer.whole_picture(), visitor);
-    const TileTracer::Counts counts = tracer.counts();
-    stats.tiles = counts.tiles;
-    stats.intersections = counts.intersections;
-    stats.resolved_rays = counts.resolved_rays;
-    if (options.count_skipped) {
-      tracer.note_screen_fates();
-      count_fates(solid, fates, stats);
-    }
-    stats.trace_ms = watch.lap_ms();
-  });
+/// One frame of a solid.
+class Frame {
+ public:
+  Frame(const Solid& solid, const View& view, const TraceOptions& options, TraceStats& stats)
+      : solid_(solid),
+        options_(options),
+        stats_(stats),
+        rays_(frame_rays(view, solid.bounds())),
+        subject_(subject_of(solid, view, options)) {
+    stats = {};
+    if (options.count_skipped) fates_.resize(solid.primitives().size());
+  }
+
+  const FrameRays& rays() const { return rays_; }
+
+  /// By a kd-tree, or by tiles without one.
+  void trace(const Subdivision* subdivision, HitSink& sink) {
+    with_threads(options_.threads, [&] {
+      Stopwatch watch;
+      if (subdivision) {
+        CellTracer tracer(*subdivision, rays_, subject_, sink, fates_);
+        tracer.trace_picture();
+        add(tracer.counts());
+        stats_.tiles = 0;
+      } else {
+        TileTracer tracer(solid_, rays_, subject_, true, fates_);
+        stats_.cull_ms = watch.lap_ms();
+        PixelVisitor visitor(rays_, sink);
+        tracer.visit(tracer.whole_picture(), visitor);
+        add(tracer.counts());
+        if (fates_.wanted()) tracer.note_screen_fates();
+      }
+      stats_.trace_ms += watch.lap_ms();
+    });
+  }
+
+  void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
+    ImageSink sink(rays_, settings, solid_.bounds(), subject_.eye_inside, image);
+    trace(subdivision, sink);
+    if (options_.samples > 1) sample_edges(sink, image);
+  }
+
+  void finish() {
+    if (fates_.wanted()) count_fates(solid_, fates_, stats_);
+  }
+
+ private:
+  void sample_edges(const ImageSink& sink, Image& image) {
+    with_threads(options_.threads, [&] {
+      Stopwatch watch;
+      const EdgeMap edges(image);
+      stats_.edge_pixels = edges.count();
+      TileTracer tracer(solid_, rays_, subject_, false, fates_);
+      EdgeVisitor visitor(edges, options_.samples, rays_, sink, subject_.eye_inside, image);
+      tracer.visit(tracer.whole_picture(), visitor);
+      add(tracer.counts());
+      stats_.trace_ms += watch.lap_ms();
+    });
+  }
+
+  void add(const TileTracer::Counts& counts) {
+    stats_.tiles += counts.tiles;
+    stats_.intersections += counts.intersections;
+    stats_.resolved_rays += counts.resolved_rays;
+    stats_.rays += counts.rays;
+  }
+
+  const Solid& solid_;
+  const TraceOptions& options_;
+  TraceStats& stats_;
+  const FrameRays rays_;
+  const TraceSubject subject_;
+  Fates fates_;
+};
+
+void draw_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
+                const FrameSettings& settings, const TraceOptions& options, Image& image,
+                TraceStats& stats) {
+  Frame frame(solid, view, options, stats);
+  frame.draw(subdivision, settings, image);
+  frame.finish();
+}
+
+void trace_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
+                 const TraceOptions& options, Hits& hits, TraceStats& stats) {
+  Frame frame(solid, view, options, stats);
+  MemorySink sink(frame.rays(), hits);
+  frame.trace(subdivision, sink);
+  frame.finish();
 }
 
 }  // namespace
@@ -155,27 +201,22 @@ double thinnest_piece(const Box& solid_bounds) { return kThinnestPiece * solid_b
 
 void draw(const Solid& solid, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats) {
-  const FrameRays frame = frame_rays(view, solid.bounds());
-  const TraceSubject subject = subject_of(solid, view, options);
-  ImageSink sink(frame, settings, solid.bounds(), subject.eye_inside, image);
-  trace_tiles(solid, frame, subject, options, sink, stats);
+  draw_frame(solid, nullptr, view, settings, options, image, stats);
 }
 
 void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
            TraceStats& stats) {
-  const FrameRays frame = frame_rays(view, solid.bounds());
-  MemorySink sink(frame, hits);
-  trace_tiles(solid, frame, subject_of(solid, view, options), options, sink, stats);
+  trace_frame(solid, nullptr, view, options, hits, stats);
 }
 
 void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats) {
-  draw(subdivision.solid(), view, settings, options, image, stats);
+  draw_frame(subdivision.solid(), &subdivision, view, settings, options, image, stats);
 }
 
 void trace(const Subdivision& subdivision, const View& view, const TraceOptions& options,
            Hits& hits, TraceStats& stats) {
-  trace(subdivision.solid(), view, options, hits, stats);
+  trace_frame(subdivision.solid(), &subdivision, view, options, hits, stats);
 }
 
 }  // namespace csgcore

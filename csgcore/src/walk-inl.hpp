@@ -138,8 +138,8 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
       const WideM inside = hn::AndNot(ahead, hn::Lt(t, end));
       const WideV boundary = hn::IfThenElse(ahead, start, end);
       // The segment's end counts for lanes inside only: for lanes behind it, it is not > t.
-      const WideM sooner = hn::And(hn::And(active, hn::Gt(boundary, t)),
-                                   hn::Lt(boundary, result.next_t.chunk[c]));
+      const WideM sooner =
+          hn::And(hn::And(active, hn::Gt(boundary, t)), hn::Lt(boundary, result.next_t.chunk[c]));
       result.next_t.chunk[c] = hn::IfThenElse(sooner, boundary, result.next_t.chunk[c]);
       result.next_event.chunk[c] = hn::IfThenElse(
           sooner, hn::IfThenElse(inside, end_event, start_event), result.next_event.chunk[c]);

@@ -1,0 +1,138 @@
+#include "edge_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "csgcore/sample_pattern.hpp"
+
+namespace csgcore {
+namespace {
+
+constexpr uint32_t kBlockSide_px = 8;
+
+/// Of 255, in any channel: less is no edge that anybody sees, but shading that changes smoothly.
+constexpr int kEdgeContrast = 6;
+
+bool differs(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
+  return std::abs(a[0] - b[0]) > kEdgeContrast || std::abs(a[1] - b[1]) > kEdgeContrast ||
+         std::abs(a[2] - b[2]) > kEdgeContrast;
+}
+
+}  // namespace
+
+EdgeMap::EdgeMap(const Image& image)
+    : width_(image.width_px), block_columns_((image.width_px + kBlockSide_px - 1) / kBlockSide_px) {
+  const uint32_t block_rows = (image.height_px + kBlockSide_px - 1) / kBlockSide_px;
+  edges_.assign(image.rgb.size(), 0);
+  blocks_.assign(size_t{block_columns_} * block_rows, 0);
+  const auto mark = [&](uint32_t x, uint32_t y) {
+    uint8_t& edge = edges_[size_t{y} * width_ + x];
+    count_ += edge == 0;
+    edge = 1;
+    blocks_[size_t{y / kBlockSide_px} * block_columns_ + x / kBlockSide_px] = 1;
+  };
+  for (uint32_t y = 0; y < image.height_px; ++y) {
+    const auto* row = image.rgb.data() + size_t{y} * width_;
+    for (uint32_t x = 0; x < width_; ++x) {
+      if (x + 1 < width_ && differs(row[x], row[x + 1])) {
+        mark(x, y);
+        mark(x + 1, y);
+      }
+      if (y + 1 < image.height_px && differs(row[x], row[x + width_])) {
+        mark(x, y);
+        mark(x, y + 1);
+      }
+    }
+  }
+}
+
+bool EdgeMap::any_in(const Tile& tile) const {
+  const uint32_t last_row = (tile.y + tile.height - 1) / kBlockSide_px;
+  const uint32_t first = tile.x / kBlockSide_px;
+  const uint32_t last = (tile.x + tile.width - 1) / kBlockSide_px;
+  for (uint32_t row = tile.y / kBlockSide_px; row <= last_row; ++row) {
+    const uint8_t* blocks = blocks_.data() + size_t{row} * block_columns_;
+    if (std::find(blocks + first, blocks + last + 1, uint8_t{1}) != blocks + last + 1) return true;
+  }
+  return false;
+}
+
+/// Fills packets with the samples of one pixel after the other, whatever their number.
+class EdgeVisitor::Batch {
+ public:
+  Batch(EdgeVisitor& owner, TileRays& rays) : owner_(owner), rays_(rays) {}
+
+  void add_pixel(uint32_t x, uint32_t y) {
+    for (uint32_t sample = 0; sample < owner_.samples_; ++sample) {
+      const auto offset = sample_offset(sample, owner_.samples_);
+      pixels_.x[size_] = x + offset[0];
+      pixels_.y[size_] = y + offset[1];
+      pixel_of_[size_] = size_t{y} * owner_.image_.width_px + x;
+      if (++size_ == kPacketRays) flush();
+    }
+  }
+
+  /// Traces what is left.
+  void flush() {
+    if (size_ == 0) return;
+    for (uint32_t lane = size_; lane < kPacketRays; ++lane) {
+      pixels_.x[lane] = pixels_.x[0];
+      pixels_.y[lane] = pixels_.y[0];
+    }
+    RayPacket packet;
+    make_rays(owner_.frame_, pixels_, packet);
+    PacketHits hits;
+    const TraceList& list = rays_.trace(packet, (LaneMask{1} << size_) - 1, hits);
+    PacketColors colors;
+    shade_packet(owner_.sink_.shade(), owner_.frame_, packet, list, owner_.eye_inside_, hits,
+                 colors);
+    for (uint32_t lane = 0; lane < size_; ++lane) add_sample(hits, colors, lane);
+    size_ = 0;
+  }
+
+ private:
+  void add_sample(const PacketHits& hits, const PacketColors& colors, uint32_t lane) {
+    const bool hit = (hits.hits >> lane & 1) != 0;
+    for (size_t channel = 0; channel < 3; ++channel) {
+      sum_[channel] += hit ? colors.rgb[channel][lane] : owner_.sink_.background()[channel];
+    }
+    if (++summed_ < owner_.samples_) return;
+    for (size_t channel = 0; channel < 3; ++channel) {
+      owner_.image_.rgb[pixel_of_[lane]][channel] =
+          static_cast<uint8_t>(std::floor(sum_[channel] / owner_.samples_ + 0.5));
+      sum_[channel] = 0;
+    }
+    summed_ = 0;
+  }
+
+  EdgeVisitor& owner_;
+  TileRays& rays_;
+  PacketPixels pixels_;
+  size_t pixel_of_[kPacketRays];
+  uint32_t size_ = 0;
+  double sum_[3] = {};  // of the pixel that is being summed up
+  uint32_t summed_ = 0;
+};
+
+void EdgeVisitor::visit_empty(const Tile& tile) {
+  for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      if (edges_.is_edge(x, y)) {
+        image_.rgb[size_t{y} * image_.width_px + x] = sink_.background();
+      }
+    }
+  }
+}
+
+void EdgeVisitor::visit(const Tile& tile, TileRays& rays) {
+  Batch batch(*this, rays);
+  for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      if (edges_.is_edge(x, y)) batch.add_pixel(x, y);
+    }
+  }
+  batch.flush();
+}
+
+}  // namespace csgcore

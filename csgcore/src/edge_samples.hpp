@@ -1,0 +1,54 @@
+// Antialiasing: more rays for the pixels at which an edge shows.
+#pragma once
+
+#include <vector>
+
+#include "hit_sink.hpp"
+#include "tile_tracer.hpp"
+
+namespace csgcore {
+
+/// The pixels of a picture that differ visibly from one of their direct neighbours.
+class EdgeMap {
+ public:
+  explicit EdgeMap(const Image& image);
+  bool is_edge(uint32_t x, uint32_t y) const { return edges_[size_t{y} * width_ + x] != 0; }
+  bool any_in(const Tile& tile) const;
+  uint64_t count() const { return count_; }
+
+ private:
+  uint32_t width_, block_columns_;
+  std::vector<uint8_t> edges_;   // per pixel
+  std::vector<uint8_t> blocks_;  // per block of kBlockSide_px: whether it has any
+  uint64_t count_ = 0;
+};
+
+/// Replaces the colours of edge pixels by the mean of `samples` rays (sample_pattern.hpp).
+class EdgeVisitor final : public TileVisitor {
+ public:
+  /// `sink` gives the colours; rgb of `image` is written.
+  EdgeVisitor(const EdgeMap& edges, uint32_t samples, const FrameRays& frame, const ImageSink& sink,
+              bool eye_inside, Image& image)
+      : edges_(edges),
+        samples_(samples),
+        frame_(frame),
+        sink_(sink),
+        eye_inside_(eye_inside),
+        image_(image) {}
+
+  bool wants(const Tile& tile) const override { return edges_.any_in(tile); }
+  void visit_empty(const Tile& tile) override;
+  void visit(const Tile& tile, TileRays& rays) override;
+
+ private:
+  class Batch;
+
+  const EdgeMap& edges_;
+  const uint32_t samples_;
+  const FrameRays& frame_;
+  const ImageSink& sink_;
+  const bool eye_inside_;
+  Image& image_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,40 @@
+// The packets that a tile of pixels is traced by.
+#pragma once
+
+#include "hit_sink.hpp"
+
+namespace csgcore {
+
+/// Lanes of a block that lie within so many pixels.
+inline LaneMask lanes_within(uint32_t width, uint32_t height) {
+  if (width >= kPacketSide_px && height >= kPacketSide_px) return kAllLanes;
+  LaneMask lanes = 0;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    const bool within = lane % kPacketSide_px < width && lane / kPacketSide_px < height;
+    lanes |= LaneMask{within} << lane;
+  }
+  return lanes;
+}
+
+/// Calls back with each PacketBlock of the tile, row by row.
+template <typename Visit>
+void for_each_block(const Tile& tile, Visit&& visit) {
+  for (uint32_t y = 0; y < tile.height; y += kPacketSide_px) {
+    for (uint32_t x = 0; x < tile.width; x += kPacketSide_px) {
+      const LaneMask lanes = lanes_within(tile.width - x, tile.height - y);
+      visit(PacketBlock{tile.x + x, tile.y + y, lanes});
+    }
+  }
+}
+
+/// The rays through the centres of a block's pixels.
+inline void make_block_rays(const FrameRays& frame, const PacketBlock& block, RayPacket& rays) {
+  PacketPixels pixels;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    pixels.x[lane] = block.x + lane % kPacketSide_px;
+    pixels.y[lane] = block.y + lane / kPacketSide_px;
+  }
+  make_rays(frame, pixels, rays);
+}
+
+}  // namespace csgcore
