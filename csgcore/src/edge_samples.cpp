@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kBlockSide_px = 8;
 
 /// Of 255, in any channel: less is no edge that anybody sees, but shading that changes smoothly.
-constexpr int kEdgeContrast = 6;
+constexpr int kEdgeContrast = 10;
 
 bool differs(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
   return std::abs(a[0] - b[0]) > kEdgeContrast || std::abs(a[1] - b[1]) > kEdgeContrast ||
@@ -66,8 +66,8 @@ class EdgeVisitor::Batch {
   void add_pixel(uint32_t x, uint32_t y) {
     for (uint32_t sample = 0; sample < owner_.samples_; ++sample) {
       const auto offset = sample_offset(sample, owner_.samples_);
-      pixels_.x[size_] = x + offset[0];
-      pixels_.y[size_] = y + offset[1];
+      laterals_.u[size_] = owner_.frame_.u(x + offset[0]);
+      laterals_.v[size_] = owner_.frame_.v(y + offset[1]);
       pixel_of_[size_] = size_t{y} * owner_.image_.width_px + x;
       if (++size_ == kPacketRays) flush();
     }
@@ -77,11 +77,11 @@ class EdgeVisitor::Batch {
   void flush() {
     if (size_ == 0) return;
     for (uint32_t lane = size_; lane < kPacketRays; ++lane) {
-      pixels_.x[lane] = pixels_.x[0];
-      pixels_.y[lane] = pixels_.y[0];
+      laterals_.u[lane] = laterals_.u[0];
+      laterals_.v[lane] = laterals_.v[0];
     }
     RayPacket packet;
-    make_rays(owner_.frame_, pixels_, packet);
+    make_rays(owner_.frame_, laterals_, packet);
     PacketHits hits;
     const TraceList& list = rays_.trace(packet, (LaneMask{1} << size_) - 1, hits);
     PacketColors colors;
@@ -108,7 +108,7 @@ class EdgeVisitor::Batch {
 
   EdgeVisitor& owner_;
   TileRays& rays_;
-  PacketPixels pixels_;
+  PacketLaterals laterals_;
   size_t pixel_of_[kPacketRays];
   uint32_t size_ = 0;
   double sum_[3] = {};  // of the pixel that is being summed up

@@ -13,57 +13,92 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace frustum_rays {
 
-/// A segment, and whether each end lies on a flat face.
 template <class D>
-struct Crossings {
-  Segment<D> segment;
-  hn::Mask<D> start_on_cap, end_on_cap;
+struct Interval {
+  hn::Vec<D> start, end;
 };
 
-/// In canonical space: the slab |z| ≤ 1 cut with the wall x² + y² ≤ (mid + slope·z)², on the nappe
-/// where that radius is ≥ 0.
+/// |z| ≤ 1. Empty where a level ray is outside.
 template <class D>
-HWY_INLINE Crossings<D> crossings(D d, const CanonicalPrimitive& primitive, Lanes3<D> p,
-                                  const Lanes3<D>& direction) {
+HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, hn::Vec<D> direction_z) {
+  const auto one = hn::Set(d, 1.0);
+  const auto infinite = hn::Set(d, kInfinity);
+  // A level ray is inside for ever or never; 0·∞ is NaN, hence the cases.
+  const auto level = hn::Eq(direction_z, hn::Zero(d));
+  const auto outside = hn::Gt(hn::Abs(z), one);
+  const auto inverse = hn::Div(one, hn::IfThenElse(level, one, direction_z));
+  const auto at_bottom = hn::Mul(hn::Sub(hn::Neg(one), z), inverse);
+  const auto at_top = hn::Mul(hn::Sub(one, z), inverse);
+  const auto level_start = hn::IfThenElse(outside, infinite, hn::Neg(infinite));
+  return {hn::IfThenElse(level, level_start, hn::Min(at_bottom, at_top)),
+          hn::IfThenElse(level, hn::Neg(level_start), hn::Max(at_bottom, at_top))};
+}
+
+/// The part of a slab that the wall leaves.
+template <class D>
+HWY_INLINE Segment<D> cut(D d, const Interval<D>& slab, const Segment<D>& wall) {
+  const auto start = hn::Max(slab.start, wall.start);
+  const auto end = hn::Min(slab.end, wall.end);
+  return segment_if(d, hn::Lt(start, end), start, end, hn::Gt(slab.start, wall.start),
+                    hn::Lt(slab.end, wall.end));
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> dot_xy(const Lanes3<D>& a, const Lanes3<D>& b) {
+  return hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y));
+}
+
+/// In canonical space, the cylinder's wall: x² + y² ≤ 1.
+template <class D>
+HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& direction) {
+  const auto one = hn::Set(d, 1.0);
+  const auto lateral2 = dot_xy(direction, direction);
+  // A ray along the axis keeps its distance from it: inside for ever or never.
+  const auto along = hn::Eq(lateral2, hn::Zero(d));
+  const auto inverse = hn::Div(one, hn::IfThenElse(along, one, lateral2));
+  const auto middle = hn::Neg(hn::Mul(dot_xy(p, direction), inverse));
+  const Lanes3<D> foot = p + scaled(direction, middle);
+  const auto inside = hn::Sub(one, dot_xy(foot, foot));
+  const Segment<D> wall = segment_about(d, middle, inside, inverse);
+  const auto endless = hn::And(along, hn::Ge(inside, hn::Zero(d)));
+  return {hn::IfThenElse(endless, hn::Set(d, -kInfinity), wall.start),
+          hn::IfThenElse(endless, hn::Set(d, kInfinity), wall.end), wall.start_on_cap,
+          wall.end_on_cap};
+}
+
+/// In canonical space, the cone's wall, x² + y² ≤ (mid + slope·z)², on the nappe where that radius
+/// is ≥ 0; within the slab.
+template <class D>
+HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3<D> p,
+                                const Lanes3<D>& direction, const Interval<D>& slab) {
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const auto infinite = hn::Set(d, kInfinity);
-  // The slab. A ray along it (1/0) is inside for ever or never; 0·∞ is NaN, hence the cases.
-  const auto level = hn::Eq(direction.z, zero);
-  const auto inverse_z = hn::Div(one, hn::IfThenElse(level, one, direction.z));
-  const auto at_bottom = hn::Mul(hn::Sub(hn::Neg(one), p.z), inverse_z);
-  const auto at_top = hn::Mul(hn::Sub(one, p.z), inverse_z);
-  const auto level_outside = hn::And(level, hn::Gt(hn::Abs(p.z), one));
-  auto slab_start = hn::IfThenElse(level, hn::Neg(infinite), hn::Min(at_bottom, at_top));
-  auto slab_end = hn::IfThenElse(level, infinite, hn::Max(at_bottom, at_top));
   // Re-based at the ray's point nearest to the axis within the slab, where nothing cancels.
-  const auto lateral2 =
-      hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y));
+  const auto lateral2 = dot_xy(direction, direction);
   const auto along = hn::Eq(lateral2, zero);
-  const auto to_axis = hn::Neg(hn::Add(hn::Mul(p.x, direction.x), hn::Mul(p.y, direction.y)));
-  const auto nearest =
-      hn::IfThenElseZero(hn::Not(along), hn::Div(to_axis, hn::IfThenElse(along, one, lateral2)));
-  const auto base = hn::Max(hn::Min(nearest, slab_end), slab_start);
+  const auto nearest = hn::IfThenElseZero(
+      hn::Not(along), hn::Div(hn::Neg(dot_xy(p, direction)), hn::IfThenElse(along, one, lateral2)));
+  const auto within = hn::Max(hn::Min(nearest, slab.end), slab.start);
+  // Of an empty slab any base will do.
+  const auto base = hn::IfThenElse(hn::Lt(hn::Abs(within), infinite), within, zero);
   p = p + scaled(direction, base);
-  slab_start = hn::Sub(slab_start, base);
-  slab_end = hn::Sub(slab_end, base);
-  // The wall: a·t² + 2h·t + c ≤ 0.
+  // a·t² + 2h·t + c ≤ 0.
   const auto slope = hn::Set(d, primitive.radius_slope);
   const auto radius = hn::Add(hn::Set(d, primitive.radius_mid), hn::Mul(slope, p.z));
   const auto growth = hn::Mul(slope, direction.z);
   const auto a = hn::Sub(lateral2, hn::Mul(growth, growth));
-  const auto h = hn::Sub(hn::Add(hn::Mul(p.x, direction.x), hn::Mul(p.y, direction.y)),
-                         hn::Mul(growth, radius));
-  const auto c = hn::Sub(hn::Add(hn::Mul(p.x, p.x), hn::Mul(p.y, p.y)), hn::Mul(radius, radius));
+  const auto h = hn::Sub(dot_xy(p, direction), hn::Mul(growth, radius));
+  const auto c = hn::Sub(dot_xy(p, p), hn::Mul(radius, radius));
   const auto discriminant = hn::Sub(hn::Mul(h, h), hn::Mul(a, c));
   // Roots without cancellation: q/a and c/q. q = 0: through the apex, both at 0.
   const auto root = hn::Sqrt(hn::Max(discriminant, zero));
   const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));
   const auto q_is_zero = hn::Eq(q, zero);
   const auto a_is_zero = hn::Eq(a, zero);
-  const auto by_a = hn::Div(q, hn::IfThenElse(a_is_zero, one, a));
   // a = 0: the other root is at infinity, on the side that q points to.
-  const auto root_a = hn::IfThenElse(a_is_zero, hn::CopySign(infinite, q), by_a);
+  const auto root_a = hn::IfThenElse(a_is_zero, hn::CopySign(infinite, q),
+                                     hn::Div(q, hn::IfThenElse(a_is_zero, one, a)));
   const auto root_c =
       hn::IfThenElseZero(hn::Not(q_is_zero), hn::Div(c, hn::IfThenElse(q_is_zero, one, q)));
   const auto low = hn::Min(root_a, root_c);
@@ -71,20 +106,16 @@ HWY_INLINE Crossings<D> crossings(D d, const CanonicalPrimitive& primitive, Lane
   // a ≥ 0: between the roots. a < 0: beyond one of them, on the nappe that the radius grows into.
   const auto between = hn::Ge(a, zero);
   const auto grows = hn::Gt(growth, zero);
-  auto wall_start = hn::IfThenElse(between, low, hn::IfThenElse(grows, high, hn::Neg(infinite)));
-  auto wall_end = hn::IfThenElse(between, high, hn::IfThenElse(grows, infinite, low));
-  // Neither a nor h: the ray keeps its distance from the wall, along the axis of a cylinder.
+  auto start = hn::IfThenElse(between, low, hn::IfThenElse(grows, high, hn::Neg(infinite)));
+  auto end = hn::IfThenElse(between, high, hn::IfThenElse(grows, infinite, low));
+  // Neither a nor h: the ray keeps its distance from the wall.
   const auto keeps = hn::And(a_is_zero, hn::Eq(h, zero));
-  wall_start = hn::IfThenElse(keeps, hn::Neg(infinite), wall_start);
-  wall_end = hn::IfThenElse(keeps, infinite, wall_end);
+  start = hn::IfThenElse(keeps, hn::Neg(infinite), start);
+  end = hn::IfThenElse(keeps, infinite, end);
   const auto misses = hn::Or(hn::And(keeps, hn::Gt(c, zero)),
                              hn::AndNot(keeps, hn::And(between, hn::Le(discriminant, zero))));
-  const auto start_on_cap = hn::Gt(slab_start, wall_start);
-  const auto end_on_cap = hn::Lt(slab_end, wall_end);
-  const auto start = hn::Add(base, hn::Max(slab_start, wall_start));
-  const auto end = hn::Add(base, hn::Min(slab_end, wall_end));
-  const auto exists = hn::AndNot(hn::Or(misses, level_outside), hn::Lt(start, end));
-  return {segment_if(d, exists, start, end), start_on_cap, end_on_cap};
+  return segment_if(d, hn::Not(misses), hn::Add(base, start), hn::Add(base, end), no_lanes(d),
+                    no_lanes(d));
 }
 
 /// Whether all lanes pass the frustum's axis further away than its larger radius, by the line's
@@ -106,25 +137,23 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
   const Mat3& map = primitive.world_to_canonical;
   const Lanes3<D> p = transformed(d, map, rays.origin - broadcast(d, center));
   const Lanes3<D> direction = transformed(d, map, rays.direction);
-  if (all_pass(d, p, direction)) return {hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
-  return crossings(d, primitive, p, direction).segment;
+  if (all_pass(d, p, direction)) {
+    return {hn::Set(d, kInfinity), hn::Set(d, -kInfinity), no_lanes(d), no_lanes(d)};
+  }
+  const Interval<D> ends = slab(d, p.z, direction.z);
+  return cut(d, ends,
+             primitive.radius_slope == 0 ? cylinder_wall(d, p, direction)
+                                         : cone_wall(d, primitive, p, direction, ends));
 }
 
-/// Outward and unit, at the point that lies at τ = t, the end of the segment in lanes of `at_end`,
-/// else its start.
+/// Outward and unit, at the point that lies at τ = t.
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> at_end) {
+                            const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
   const Mat3& map = primitive.world_to_canonical;
-  const Lanes3<D> p = transformed(d, map, rays.origin - broadcast(d, center));
-  const Lanes3<D> direction = transformed(d, map, rays.direction);
-  const Crossings<D> found = crossings(d, primitive, p, direction);
-  const auto on_cap =
-      hn::Or(hn::And(at_end, found.end_on_cap), hn::AndNot(at_end, found.start_on_cap));
-  const Lanes3<D> point = p + scaled(direction, t);
-  // A cap faces along the axis: upwards where the ray leaves rising or enters falling.
+  const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
+  const Lanes3<D> point = transformed(d, map, offset);
   const auto one = hn::Set(d, 1.0);
-  const auto upwards = hn::IfThenElse(at_end, direction.z, hn::Neg(direction.z));
   const auto slope = hn::Set(d, primitive.radius_slope);
   // The wall's gradient has the distance from the axis for a radius: at the apex none is left, and
   // the axis' direction away from the cone's body stands in.
@@ -134,7 +163,7 @@ HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3
       hn::IfThenElse(is_apex, hn::CopySign(one, hn::Neg(slope)), hn::Neg(hn::Mul(slope, across)));
   const Lanes3<D> gradient = {hn::IfThenElseZero(hn::Not(on_cap), point.x),
                               hn::IfThenElseZero(hn::Not(on_cap), point.y),
-                              hn::IfThenElse(on_cap, hn::CopySign(one, upwards), wall_z)};
+                              hn::IfThenElse(on_cap, hn::CopySign(one, point.z), wall_z)};
   return normalized(d, transformed_back(d, map, gradient));
 }
 

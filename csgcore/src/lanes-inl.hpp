@@ -25,6 +25,27 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Wide = hn::CappedTag<double, 8>;
 using Single = hn::CappedTag<double, 1>;
 
+constexpr size_t kLanes = HWY_MIN(size_t{8}, HWY_LANES(double));
+constexpr int kChunks = static_cast<int>(kPacketRays / kLanes);
+using WideV = hn::Vec<Wide>;
+using WideM = hn::Mask<Wide>;
+
+/// A packet's worth of vectors.
+struct PacketV {
+  WideV chunk[kChunks];
+};
+HWY_INLINE size_t first_lane(int chunk) { return static_cast<size_t>(chunk) * kLanes; }
+
+HWY_INLINE LaneMask bits_of(WideM mask, int chunk) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Wide(), mask, bytes);
+  return LaneMask{bytes[0]} << first_lane(chunk);
+}
+HWY_INLINE WideM mask_of(LaneMask lanes, int chunk) {
+  const uint8_t bytes[8] = {static_cast<uint8_t>(lanes >> first_lane(chunk))};
+  return hn::LoadMaskBits(Wide(), bytes);
+}
+
 template <class D>
 struct Lanes3 {
   using V = hn::Vec<D>;
@@ -88,14 +109,31 @@ HWY_INLINE Rays<D> load_rays(D d, const RayPacket& packet, size_t first) {
           hn::LoadU(d, packet.inverse_length2 + first)};
 }
 
+/// Where rays are within a primitive: start < end, or +∞ and −∞; and which ends lie on a flat face.
 template <class D>
 struct Segment {
   hn::Vec<D> start, end;
+  hn::Mask<D> start_on_cap, end_on_cap;
 };
 template <class D>
-HWY_INLINE Segment<D> segment_if(D d, hn::Mask<D> exists, hn::Vec<D> start, hn::Vec<D> end) {
+HWY_INLINE hn::Mask<D> no_lanes(D d) {
+  return hn::Lt(hn::Zero(d), hn::Zero(d));
+}
+template <class D>
+HWY_INLINE Segment<D> segment_if(D d, hn::Mask<D> exists, hn::Vec<D> start, hn::Vec<D> end,
+                                 hn::Mask<D> start_on_cap, hn::Mask<D> end_on_cap) {
   return {hn::IfThenElse(exists, start, hn::Set(d, kInfinity)),
-          hn::IfThenElse(exists, end, hn::Set(d, -kInfinity))};
+          hn::IfThenElse(exists, end, hn::Set(d, -kInfinity)), start_on_cap, end_on_cap};
+}
+/// Within a round wall about the foot of the perpendicular from its centre or axis, where nothing
+/// cancels: `inside` is radius² − |foot|², of the primitive's own magnitude.
+template <class D>
+HWY_INLINE Segment<D> segment_about(D d, hn::Vec<D> middle, hn::Vec<D> inside,
+                                    hn::Vec<D> inverse_length2) {
+  const auto exists = hn::Gt(inside, hn::Zero(d));
+  const auto half = hn::Sqrt(hn::Mul(hn::Max(inside, hn::Zero(d)), inverse_length2));
+  return segment_if(d, exists, hn::Sub(middle, half), hn::Add(middle, half), no_lanes(d),
+                    no_lanes(d));
 }
 
 /// Length 1; 0 stays 0.

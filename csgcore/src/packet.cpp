@@ -41,19 +41,12 @@ HWY_INLINE WideV rebased(WideV origin, WideV direction, double base_s, double pi
 }
 
 /// pixel_ray, lane by lane and operation by operation.
-void make_rays(const FrameRays& frame, const PacketPixels& pixels, RayPacket& rays) {
+void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
   const Wide d;
   const View& view = frame.view;
-  const auto width = hn::Set(d, double(view.width_px));
-  const auto height = hn::Set(d, double(view.height_px));
-  const auto half_height = hn::Set(d, view.half_height);
-  const auto half = hn::Set(d, 0.5);
-  const auto two = hn::Set(d, 2.0);
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    const auto x = hn::Mul(two, hn::Add(hn::Load(d, pixels.x + first), half));
-    const auto y = hn::Mul(two, hn::Add(hn::Load(d, pixels.y + first), half));
-    const auto u = hn::Mul(hn::Div(hn::Sub(x, width), height), half_height);
-    const auto v = hn::Mul(hn::Div(hn::Sub(height, y), height), half_height);
+    const auto u = hn::Load(d, laterals.u + first);
+    const auto v = hn::Load(d, laterals.v + first);
     WideV length2 = hn::Zero(d);
     for (int axis = 0; axis < 3; ++axis) {
       const auto lateral =
@@ -107,7 +100,7 @@ HWY_INLINE void find_normals(const FrameRays& frame, const RayPacket& rays, cons
       const WideM wanted = mask_of(same, c);
       if (hn::AllFalse(d, wanted)) continue;
       const auto normal = scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first),
-                                           hn::Load(d, hits.t + first), mask_of(hits.at_end, c)),
+                                           hn::Load(d, hits.t + first), mask_of(hits.on_cap, c)),
                                  sign);
       hn::BlendedStore(normal.x, wanted, d, hits.normal[0] + first);
       hn::BlendedStore(normal.y, wanted, d, hits.normal[1] + first);
@@ -133,9 +126,12 @@ HWY_INLINE PacketV reach_of(const RayPacket& rays, const TraceSubject& subject,
 HWY_INLINE LaneMask coincident_lanes(const TraceList& trace, ListSegments& segments,
                                      const PacketV& reach, const Walk& walk, LaneMask lanes) {
   const Wide d;
-  PacketV sum;
-  for (int c = 0; c < kChunks; ++c) sum.chunk[c] = hn::Add(walk.t.chunk[c], reach.chunk[c]);
-  const double furthest = largest(sum, lanes);
+  double furthest = 0;
+  if (!segments.all_computed()) {
+    PacketV sum;
+    for (int c = 0; c < kChunks; ++c) sum.chunk[c] = hn::Add(walk.t.chunk[c], reach.chunk[c]);
+    furthest = largest(sum, lanes);
+  }
   PacketV close;
   for (int c = 0; c < kChunks; ++c) close.chunk[c] = hn::Zero(d);
   const WideV one = hn::Set(d, 1.0);
@@ -160,7 +156,8 @@ HWY_INLINE LaneMask coincident_lanes(const TraceList& trace, ListSegments& segme
   return result & lanes;
 }
 
-HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, PacketHits& hits) {
+HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, const PacketWorkspace& workspace,
+                          PacketHits& hits) {
   const Wide d;
   alignas(64) double events[kPacketRays];
   for (int c = 0; c < kChunks; ++c) {
@@ -168,11 +165,16 @@ HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, PacketHits& hits) {
     hn::Store(walk.event.chunk[c], d, events + first_lane(c));
   }
   hits.hits = lanes;
-  hits.at_end = 0;
-  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    const uint32_t code = events[lane] >= 0 ? static_cast<uint32_t>(events[lane]) : 0;
+  hits.on_cap = 0;
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    hits.index[lane] = 0;
+    if (events[lane] < 0) continue;  // no crossing
+    const uint32_t code = static_cast<uint32_t>(events[lane]);
     hits.index[lane] = code / 2;
-    hits.at_end |= LaneMask{code & 1} << lane;
+    const PacketSegments& segments = workspace.segments[code / 2];
+    const LaneMask caps = (code & 1) != 0 ? segments.end_on_cap : segments.start_on_cap;
+    hits.on_cap |= caps & (LaneMask{1} << lane);
   }
 }
 
@@ -208,12 +210,12 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
     ++workspace.resolved_rays;
-    Event shown{};
-    if (!RayResolver(frame, rays, lane, list, subject, workspace).resolve(shown)) continue;
+    const auto shown = RayResolver(frame, rays, lane, list, subject, workspace).resolve();
+    if (!shown) continue;
     found |= bit;
-    hits.t[lane] = shown.t;
-    hits.index[lane] = shown.index;
-    hits.at_end = (hits.at_end & ~bit) | (shown.at_end ? bit : 0);
+    hits.t[lane] = shown->event.t;
+    hits.index[lane] = shown->event.index;
+    hits.on_cap = (hits.on_cap & ~bit) | (shown->on_cap ? bit : 0);
   }
   hits.hits = (hits.hits & ~lanes) | found;
   find_normals(frame, rays, list, found, hits);
@@ -222,14 +224,19 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
                   PacketHits& hits) {
+  constexpr double kEndless = std::numeric_limits<double>::max();
   alignas(64) double start[kPacketRays], leave[kPacketRays];
   std::fill_n(start, kPacketRays, std::max(frame.first_t, list.earliest_t));
-  std::fill_n(leave, kPacketRays, std::numeric_limits<double>::max());
+  std::fill_n(leave, kPacketRays, kEndless);
   workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(start, lanes);
-  const LaneMask arrived = walk_to_change(list, segments, subject.eye_inside, leave, walk);
-  take_hits(walk, arrived, hits);
+  if (list.earliest_t > frame.first_t && !subject.eye_inside) {
+    walk_to_first_crossing(list, segments, kEndless, walk);
+  }
+  const LaneMask arrived =
+      walk.live == 0 ? 0 : walk_to_change(list, segments, subject.eye_inside, leave, walk);
+  take_hits(walk, arrived, workspace, hits);
   hits.undecided = 0;
   if (arrived == 0) return;
   LaneMask unclear = lanes_without_event(walk, arrived);
@@ -251,7 +258,7 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(range.enter, lanes);
   const LaneMask arrived = walk_to_change(list, segments, subject.eye_inside, range.leave, walk);
-  take_hits(walk, arrived, hits);
+  take_hits(walk, arrived, workspace, hits);
   hits.undecided = lanes_without_event(walk, arrived);
   if (arrived == 0) return;
   if (subject.boundary == Boundary::kBehind) {
@@ -338,8 +345,8 @@ CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 CSGCORE_SIMD_EXPORT(shade_packet);
 
-void make_rays(const FrameRays& frame, const PacketPixels& pixels, RayPacket& rays) {
-  CSGCORE_SIMD(make_rays)(frame, pixels, rays);
+void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+  CSGCORE_SIMD(make_rays)(frame, laterals, rays);
 }
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,

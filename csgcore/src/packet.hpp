@@ -31,6 +31,16 @@ struct FrameRays {
   Vec3 pivot{0.0};
   /// τ of the eye in perspective, −∞ in orthographic views: nothing is seen before it.
   double first_t = 0;
+
+  /// pixel_ray's u and v of a point of the picture, in pixels.
+  double u(double x_px) const {
+    return (2 * (x_px + 0.5) - view.width_px) / view.height_px * view.half_height;
+  }
+  double v(double y_px) const {
+    return (view.height_px - 2 * (y_px + 0.5)) / view.height_px * view.half_height;
+  }
+  /// Of the pixels' centres, and of a few beyond the picture, to fill packets.
+  std::vector<double> u_of_column, v_of_row;
 };
 FrameRays frame_rays(const View& view, const Box& solid_bounds);
 
@@ -41,10 +51,13 @@ struct alignas(64) RayPacket {
   double inverse_length2[kPacketRays];
 };
 
-/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞.
+/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞; and whether that end
+/// lies on a flat face.
 struct alignas(64) PacketSegments {
   double start[kPacketRays];
   double end[kPacketRays];
+  LaneMask start_on_cap;
+  LaneMask end_on_cap;
 };
 
 /// What is to be traced: a list, and what is known about its literals.
@@ -87,7 +100,7 @@ struct alignas(64) PacketHits {
   LaneMask hits = 0;
   /// Lanes whose hit the range alone cannot decide; only from trace_packet_in_range.
   LaneMask undecided = 0;
-  LaneMask at_end = 0;  // the hit is where the primitive's segment ends, not where it starts
+  LaneMask on_cap = 0;  // the hit is on a flat face
   alignas(64) double t[kPacketRays];
   double normal[3][kPacketRays];  // unit, outward of the solid
   uint32_t index[kPacketRays];    // of the literal in the list
@@ -100,12 +113,12 @@ struct alignas(64) PacketRange {
   double margin;  // the list is valid so far beyond, in world units
 };
 
-/// Rays through the given points of the picture, in pixels (pixel_ray's x and y).
-struct alignas(64) PacketPixels {
-  double x[kPacketRays];
-  double y[kPacketRays];
+/// Where rays go: the directions' parts along the view's right and up.
+struct alignas(64) PacketLaterals {
+  double u[kPacketRays];
+  double v[kPacketRays];
 };
-void make_rays(const FrameRays& frame, const PacketPixels& pixels, RayPacket& rays);
+void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays);
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);

@@ -29,12 +29,12 @@ void for_each_block(const Tile& tile, Visit&& visit) {
 
 /// The rays through the centres of a block's pixels.
 inline void make_block_rays(const FrameRays& frame, const PacketBlock& block, RayPacket& rays) {
-  PacketPixels pixels;
+  PacketLaterals laterals;
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    pixels.x[lane] = block.x + lane % kPacketSide_px;
-    pixels.y[lane] = block.y + lane / kPacketSide_px;
+    laterals.u[lane] = frame.u_of_column[block.x + lane % kPacketSide_px];
+    laterals.v[lane] = frame.v_of_row[block.y + lane / kPacketSide_px];
   }
-  make_rays(frame, pixels, rays);
+  make_rays(frame, laterals, rays);
 }
 
 }  // namespace csgcore

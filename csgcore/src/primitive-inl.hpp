@@ -21,24 +21,28 @@ HWY_INLINE Segment<D> segment_of(D d, const CanonicalPrimitive& primitive, const
                                            : frustum_rays::segment(d, primitive, center, rays);
 }
 
-/// The primitive's own outward unit normal where its segment starts or, in lanes of `at_end`, ends.
+/// The primitive's own outward unit normal at τ = t, which lies on its surface.
 template <class D>
 HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
-                               const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> at_end) {
+                               const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
   const Vec3 center = primitive.center - pivot;
   return primitive.shape == Shape::kSphere
              ? sphere_rays::normal(d, primitive, center, rays, t)
-             : frustum_rays::normal(d, primitive, center, rays, t, at_end);
+             : frustum_rays::normal(d, primitive, center, rays, t, on_cap);
 }
 
 /// All lanes' segments.
 HWY_INLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
                                  const CanonicalPrimitive& primitive, PacketSegments& segments) {
   const Wide d;
-  for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
+  segments.start_on_cap = segments.end_on_cap = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    const size_t first = first_lane(c);
     const auto segment = segment_of(d, primitive, frame.pivot, load_rays(d, packet, first));
     hn::Store(segment.start, d, segments.start + first);
     hn::Store(segment.end, d, segments.end + first);
+    segments.start_on_cap |= bits_of(segment.start_on_cap, c);
+    segments.end_on_cap |= bits_of(segment.end_on_cap, c);
   }
 }
 

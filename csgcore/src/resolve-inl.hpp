@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "primitive-inl.hpp"
@@ -33,7 +34,11 @@ class RayResolver {
         workspace_(workspace) {}
 
   /// The crossing that the ray shows, if any.
-  bool resolve(Event& shown) {
+  struct Shown {
+    Event event;
+    bool on_cap;
+  };
+  std::optional<Shown> resolve() {
     collect();
     const std::span<const Event> events = workspace_.events;
     int changes_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
@@ -45,15 +50,15 @@ class RayResolver {
       for (const Event& event : cluster) workspace_.after[event.index] = !event.at_end;
       if (holds(workspace_.after) != value) {
         if (--changes_left == 0) {
-          shown = shown_of(cluster, value);
-          return true;
+          const Event event = shown_of(cluster, value);
+          return Shown{event, is_on_cap(event)};
         }
         value = !value;
       }
       std::swap(workspace_.before, workspace_.after);
       first = end;
     }
-    return false;
+    return std::nullopt;
   }
 
  private:
@@ -76,14 +81,18 @@ class RayResolver {
               [](const Event& a, const Event& b) { return a.t < b.t; });
   }
 
+  bool is_on_cap(const Event& event) const {
+    const PacketSegments& segments = workspace_.segments[event.index];
+    return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
+  }
+
   /// |n·d| there.
   double facing(const Event& event) const {
     const Single d;
     const CanonicalPrimitive& primitive =
         trace_.primitives[list().primitive[event.index] & kPrimitiveBits];
-    const auto at_end = hn::MaskFromVec(hn::VecFromMask(
-        d, event.at_end ? hn::Eq(hn::Zero(d), hn::Zero(d)) : hn::Ne(hn::Zero(d), hn::Zero(d))));
-    const auto normal = normal_of(d, primitive, frame_.pivot, rays_, hn::Set(d, event.t), at_end);
+    const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
+    const auto normal = normal_of(d, primitive, frame_.pivot, rays_, hn::Set(d, event.t), on_cap);
     return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
   }
 

@@ -13,17 +13,13 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace sphere_rays {
 
-/// |o + t·d| ≤ radius about the foot of the perpendicular from the centre, where nothing cancels:
-/// the discriminant is radius² − |foot|², of the primitive's own magnitude.
+/// |o + t·d| ≤ radius.
 template <class D>
-HWY_INLINE Segment<D> about_foot(D d, const Lanes3<D>& o, const Lanes3<D>& direction,
-                                 hn::Vec<D> inverse_length2, hn::Vec<D> radius2) {
+HWY_INLINE Segment<D> within_radius(D d, const Lanes3<D>& o, const Lanes3<D>& direction,
+                                    hn::Vec<D> inverse_length2, hn::Vec<D> radius2) {
   const auto middle = hn::Neg(hn::Mul(dot(d, o, direction), inverse_length2));
   const Lanes3<D> foot = o + scaled(direction, middle);
-  const auto inside = hn::Sub(radius2, dot(d, foot, foot));
-  const auto exists = hn::Gt(inside, hn::Zero(d));
-  const auto half = hn::Sqrt(hn::Mul(hn::Max(inside, hn::Zero(d)), inverse_length2));
-  return segment_if(d, exists, hn::Sub(middle, half), hn::Add(middle, half));
+  return segment_about(d, middle, hn::Sub(radius2, dot(d, foot, foot)), inverse_length2);
 }
 
 /// `center`: relative to the rays' pivot.
@@ -34,12 +30,12 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
   if (primitive.ball_radius > 0) {
     // Distances are the world's: the rays' lengths are known.
     const auto radius2 = hn::Set(d, primitive.ball_radius * primitive.ball_radius);
-    return about_foot(d, o, rays.direction, rays.inverse_length2, radius2);
+    return within_radius(d, o, rays.direction, rays.inverse_length2, radius2);
   }
   const Lanes3<D> direction = transformed(d, primitive.world_to_canonical, rays.direction);
   const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
-  return about_foot(d, transformed(d, primitive.world_to_canonical, o), direction, inverse_length2,
-                    hn::Set(d, 1.0));
+  return within_radius(d, transformed(d, primitive.world_to_canonical, o), direction,
+                       inverse_length2, hn::Set(d, 1.0));
 }
 
 /// Outward and unit, at the point that lies at τ = t.

@@ -1,6 +1,7 @@
 #include "tile_list.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "screen_extents.hpp"
 
@@ -14,6 +15,9 @@ constexpr size_t kMostCovers = 3;
 /// A stretch is taken to be shorter at each end by this share of its depths and of its own length:
 /// far above the rounding of an intersection.
 constexpr double kCoverSlack = 1e-9;
+
+/// A stretch of depth is looked at in so many parts for one that is free.
+constexpr size_t kDepthParts = 64;
 
 bool meets(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) <= to_t && furthest_t(screen) >= from_t;
@@ -31,11 +35,11 @@ bool TileSimplifier::simplify(const Tile& tile, const CellList& list, Restrictor
   if (!find_covers(tile, list)) return false;
   dropped_.assign(list.count(), Decision::kOpen);
   for (const Cover& cover : covers_) {
-    drop_undecisive(list, restrictor, cover);
-    if (drop_hidden(list, restrictor, cover)) {
-      cuts = true;
-      break;
-    }
+    cuts = drop_hidden(list, restrictor, cover);
+    if (cuts) break;
+  }
+  for (const Cover& cover : covers_) {
+    if (!cuts) drop_undecisive(list, restrictor, cover);
   }
   if (std::find(dropped_.begin(), dropped_.end(), Decision::kOutside) == dropped_.end()) {
     return false;
@@ -70,10 +74,10 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
   std::partial_sort(covers_.begin(), covers_.begin() + static_cast<long>(kept), covers_.end(),
                     longer);
   covers_.resize(kept);
-  PacketPixels corners;
+  PacketLaterals corners;
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    corners.x[lane] = (lane & 1) ? high_x : low_x;
-    corners.y[lane] = (lane & 2) ? high_y : low_y;
+    corners.u[lane] = frame_.u((lane & 1) ? high_x : low_x);
+    corners.v[lane] = frame_.v((lane & 2) ? high_y : low_y);
   }
   RayPacket rays;
   make_rays(frame_, corners, rays);
@@ -126,32 +130,38 @@ void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restricto
   }
 }
 
-/// A depth within the stretch at which as little as possible is open: in the first gap between the
-/// primitives that reach into it.
-double TileSimplifier::free_depth(const CellList& list, double from_t, double to_t) {
-  reaches_.clear();
+/// A depth within the stretch at which none of the primitives is open, the first of as many parts
+/// of equal length as are looked at.
+std::optional<double> TileSimplifier::free_depth(const CellList& list, double from_t,
+                                                 double to_t) const {
+  const double scale = kDepthParts / (to_t - from_t);
+  std::array<int32_t, kDepthParts + 1> changes{};  // of how many reach into a part
   for (uint32_t i = 0; i < list.count(); ++i) {
-    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
-    const bool covers = std::any_of(covers_.begin(), covers_.end(),
-                                    [&](const Cover& c) { return c.primitive == primitive; });
-    if (covers || dropped_[i] == Decision::kOutside) continue;
-    const Extent& e = screen_[primitive];
-    if (meets(e, from_t, to_t)) reaches_.push_back({nearest_t(e), furthest_t(e)});
+    const Extent& e = screen_[list.primitive[i] & kPrimitiveBits];
+    if (!meets(e, from_t, to_t)) continue;
+    const bool covers = std::any_of(covers_.begin(), covers_.end(), [&](const Cover& c) {
+      return c.primitive == (list.primitive[i] & kPrimitiveBits) && c.from_t <= from_t &&
+             to_t <= c.to_t;
+    });
+    if (covers) continue;
+    const double first = std::max((nearest_t(e) - from_t) * scale, 0.0);
+    const double last = std::min((furthest_t(e) - from_t) * scale, kDepthParts - 1.0);
+    ++changes[static_cast<size_t>(first)];
+    --changes[static_cast<size_t>(last) + 1];
   }
-  std::sort(reaches_.begin(), reaches_.end(),
-            [](const Reach& a, const Reach& b) { return a.from_t < b.from_t; });
-  const double least_gap = kCoverSlack * (std::abs(from_t) + std::abs(to_t));
-  double free = from_t;
-  for (const Reach& reach : reaches_) {
-    if (reach.from_t > free + least_gap) return 0.5 * (free + reach.from_t);
-    free = std::max(free, reach.to_t);
+  int32_t reaching = 0;
+  for (size_t part = 0; part < kDepthParts; ++part) {
+    reaching += changes[part];
+    if (reaching == 0) return from_t + (part + 0.5) / scale;
   }
-  return free < to_t ? 0.5 * (free + to_t) : from_t;
+  return std::nullopt;
 }
 
 bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover) {
   if (!last_value_) return false;
-  const double depth = free_depth(list, cover.from_t, cover.to_t);
+  const std::optional<double> free = free_depth(list, cover.from_t, cover.to_t);
+  if (!free) return false;
+  const double depth = *free;
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
   if (probe_.root != (*last_value_ ? CellList::kTrue : CellList::kFalse)) return false;
@@ -159,7 +169,8 @@ bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, c
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     if (dropped_[i] == Decision::kOutside || nearest_t(screen_[primitive]) <= depth) continue;
     dropped_[i] = Decision::kOutside;
-    fates_.note(primitive, Fate::kHidden);
+    const bool is_inside = lies_within(screen_[primitive], cover.from_t, cover.to_t);
+    fates_.note(primitive, is_inside ? Fate::kInside : Fate::kHidden);
   }
   return true;
 }

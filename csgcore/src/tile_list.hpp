@@ -76,14 +76,11 @@ class TileSimplifier {
     uint32_t primitive;
     double from_t, to_t;
   };
-  struct Reach {
-    double from_t, to_t;
-  };
   bool find_covers(const Tile& tile, const CellList& list);
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
   bool drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover);
-  double free_depth(const CellList& list, double from_t, double to_t);
+  std::optional<double> free_depth(const CellList& list, double from_t, double to_t) const;
 
   std::span<const CanonicalPrimitive> primitives_;
   const Extents& screen_;
@@ -97,7 +94,6 @@ class TileSimplifier {
   std::vector<Decision> decisions_;  // while a question is asked
   std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
   std::vector<uint32_t> survivors_;  // sorted
-  std::vector<Reach> reaches_;
   CellList probe_;
 };
 

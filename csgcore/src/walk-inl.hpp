@@ -16,27 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-constexpr size_t kLanes = HWY_MIN(size_t{8}, HWY_LANES(double));
-constexpr int kChunks = static_cast<int>(kPacketRays / kLanes);
-using WideV = hn::Vec<Wide>;
-using WideM = hn::Mask<Wide>;
-
-/// A packet's worth of vectors.
-struct PacketV {
-  WideV chunk[kChunks];
-};
-HWY_INLINE size_t first_lane(int chunk) { return static_cast<size_t>(chunk) * kLanes; }
-
-HWY_INLINE LaneMask bits_of(WideM mask, int chunk) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Wide(), mask, bytes);
-  return LaneMask{bytes[0]} << first_lane(chunk);
-}
-HWY_INLINE WideM mask_of(LaneMask lanes, int chunk) {
-  const uint8_t bytes[8] = {static_cast<uint8_t>(lanes >> first_lane(chunk))};
-  return hn::LoadMaskBits(Wide(), bytes);
-}
-
 /// The segments of a list's primitives, computed where first needed.
 class ListSegments {
  public:
@@ -46,13 +25,16 @@ class ListSegments {
     const uint32_t count = list.list->count();
     if (workspace.segments.size() < count) workspace.segments.resize(count);
     workspace.is_computed.assign(count, 0);
+    left_ = count;
   }
+  HWY_INLINE bool all_computed() const { return left_ == 0; }
   HWY_INLINE bool is_computed(uint32_t index) const { return workspace_.is_computed[index] != 0; }
   HWY_INLINE const PacketSegments& compute(uint32_t index) {
     PacketSegments& segments = workspace_.segments[index];
     if (!is_computed(index)) {
       intersect_packet(frame_, rays_, primitive(index), segments);
       workspace_.is_computed[index] = 1;
+      --left_;
       if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
       workspace_.intersections += kPacketRays;
     }
@@ -67,6 +49,7 @@ class ListSegments {
   const RayPacket& rays_;
   const TraceList& list_;
   PacketWorkspace& workspace_;
+  uint32_t left_;  // not computed yet
 };
 
 /// A crossing in a double: twice the literal's index, + 1 at the segment's end.
@@ -101,7 +84,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
                          Evaluation& result) {
   const Wide d;
   const CellList& list = *trace.list;
-  const double furthest = largest(walk.t, walk.live);
+  const double furthest = segments.all_computed() ? 0 : largest(walk.t, walk.live);
   PacketV position;
   const WideV nowhere = hn::Set(d, -1.0);
   for (int c = 0; c < kChunks; ++c) {
@@ -152,6 +135,43 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   for (int c = 0; c < kChunks; ++c) {
     result.value |= bits_of(hn::Eq(position.chunk[c], is_true), c);
   }
+}
+
+/// Moves lanes that are outside of all primitives to the first crossing that may change the list's
+/// value; lanes that meet none, or none before `leave`, are no longer live. What follows such a
+/// crossing decides the value, whatever precedes it, since nothing is entered before.
+HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& segments, double leave,
+                                       Walk& walk) {
+  const Wide d;
+  const CellList& list = *trace.list;
+  PacketV next_t, next_event;
+  for (int c = 0; c < kChunks; ++c) {
+    next_t.chunk[c] = hn::Set(d, kInfinity);
+    next_event.chunk[c] = hn::Set(d, -1.0);
+  }
+  double furthest = kInfinity;  // of the lanes' next_t
+  for (uint32_t number = list.root; number >= CellList::kFirst;) {
+    const uint32_t index = number - CellList::kFirst;
+    number = list.if_outside[index];
+    if (trace.nearest_t[index] > furthest) continue;
+    const PacketSegments& segment = segments.compute(index);
+    const WideV event = hn::Set(d, event_code(index, false));
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV start = hn::Load(d, segment.start + first_lane(c));
+      const WideM sooner = hn::Lt(start, next_t.chunk[c]);
+      next_t.chunk[c] = hn::Min(start, next_t.chunk[c]);
+      next_event.chunk[c] = hn::IfThenElse(sooner, event, next_event.chunk[c]);
+    }
+    if (number >= CellList::kFirst) furthest = largest(next_t, walk.live);
+  }
+  const WideV limit = hn::Set(d, leave);
+  LaneMask found = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    found |= bits_of(hn::Le(next_t.chunk[c], limit), c);
+    walk.t.chunk[c] = next_t.chunk[c];
+    walk.event.chunk[c] = next_event.chunk[c];
+  }
+  walk.live &= found;
 }
 
 /// Walks all lanes of `walk.live` until their value is no longer what it was before; returns the
