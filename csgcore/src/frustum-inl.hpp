@@ -18,20 +18,38 @@ struct Interval {
   hn::Vec<D> start, end;
 };
 
+/// The reciprocals of a direction's slope against the slab and of its squared lateral part, or 1
+/// where that is 0. By one division, which is what most of an intersection waits for: the product
+/// of the two is a normal number, since what is not 0 is no smaller than the rounding of what it
+/// was computed from.
+template <class D>
+struct Inverses {
+  hn::Vec<D> z, lateral2;
+  hn::Mask<D> level, along;  // z or lateral2 is 0
+};
+template <class D>
+HWY_INLINE Inverses<D> inverses(D d, const Lanes3<D>& direction, hn::Vec<D> lateral2) {
+  const auto one = hn::Set(d, 1.0);
+  const auto level = hn::Eq(direction.z, hn::Zero(d));
+  const auto along = hn::Eq(lateral2, hn::Zero(d));
+  const auto z = hn::IfThenElse(level, one, direction.z);
+  const auto lateral = hn::IfThenElse(along, one, lateral2);
+  const auto inverse = hn::Div(one, hn::Mul(z, lateral));
+  return {hn::Mul(inverse, lateral), hn::Mul(inverse, z), level, along};
+}
+
 /// |z| ≤ 1. Empty where a level ray is outside.
 template <class D>
-HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, hn::Vec<D> direction_z) {
+HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, const Inverses<D>& inverse) {
   const auto one = hn::Set(d, 1.0);
   const auto infinite = hn::Set(d, kInfinity);
-  // A level ray is inside for ever or never; 0·∞ is NaN, hence the cases.
-  const auto level = hn::Eq(direction_z, hn::Zero(d));
+  // A level ray is inside for ever or never.
   const auto outside = hn::Gt(hn::Abs(z), one);
-  const auto inverse = hn::Div(one, hn::IfThenElse(level, one, direction_z));
-  const auto at_bottom = hn::Mul(hn::Sub(hn::Neg(one), z), inverse);
-  const auto at_top = hn::Mul(hn::Sub(one, z), inverse);
+  const auto at_bottom = hn::Mul(hn::Sub(hn::Neg(one), z), inverse.z);
+  const auto at_top = hn::Mul(hn::Sub(one, z), inverse.z);
   const auto level_start = hn::IfThenElse(outside, infinite, hn::Neg(infinite));
-  return {hn::IfThenElse(level, level_start, hn::Min(at_bottom, at_top)),
-          hn::IfThenElse(level, hn::Neg(level_start), hn::Max(at_bottom, at_top))};
+  return {hn::IfThenElse(inverse.level, level_start, hn::Min(at_bottom, at_top)),
+          hn::IfThenElse(inverse.level, hn::Neg(level_start), hn::Max(at_bottom, at_top))};
 }
 
 /// The part of a slab that the wall leaves.
@@ -50,17 +68,14 @@ HWY_INLINE hn::Vec<D> dot_xy(const Lanes3<D>& a, const Lanes3<D>& b) {
 
 /// In canonical space, the cylinder's wall: x² + y² ≤ 1.
 template <class D>
-HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& direction) {
-  const auto one = hn::Set(d, 1.0);
-  const auto lateral2 = dot_xy(direction, direction);
-  // A ray along the axis keeps its distance from it: inside for ever or never.
-  const auto along = hn::Eq(lateral2, hn::Zero(d));
-  const auto inverse = hn::Div(one, hn::IfThenElse(along, one, lateral2));
-  const auto middle = hn::Neg(hn::Mul(dot_xy(p, direction), inverse));
+HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& direction,
+                                    const Inverses<D>& inverse) {
+  const auto middle = hn::Neg(hn::Mul(dot_xy(p, direction), inverse.lateral2));
   const Lanes3<D> foot = p + scaled(direction, middle);
-  const auto inside = hn::Sub(one, dot_xy(foot, foot));
-  const Segment<D> wall = segment_about(d, middle, inside, inverse);
-  const auto endless = hn::And(along, hn::Ge(inside, hn::Zero(d)));
+  const auto inside = hn::Sub(hn::Set(d, 1.0), dot_xy(foot, foot));
+  const Segment<D> wall = segment_about(d, middle, inside, inverse.lateral2);
+  // A ray along the axis keeps its distance from it: inside for ever or never.
+  const auto endless = hn::And(inverse.along, hn::Ge(inside, hn::Zero(d)));
   return {hn::IfThenElse(endless, hn::Set(d, -kInfinity), wall.start),
           hn::IfThenElse(endless, hn::Set(d, kInfinity), wall.end), wall.start_on_cap,
           wall.end_on_cap};
@@ -70,15 +85,13 @@ HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& di
 /// is ≥ 0; within the slab.
 template <class D>
 HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3<D> p,
-                                const Lanes3<D>& direction, const Interval<D>& slab) {
+                                const Lanes3<D>& direction, hn::Vec<D> lateral2,
+                                const Inverses<D>& inverse, const Interval<D>& slab) {
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const auto infinite = hn::Set(d, kInfinity);
   // Re-based at the ray's point nearest to the axis within the slab, where nothing cancels.
-  const auto lateral2 = dot_xy(direction, direction);
-  const auto along = hn::Eq(lateral2, zero);
-  const auto nearest = hn::IfThenElseZero(
-      hn::Not(along), hn::Div(hn::Neg(dot_xy(p, direction)), hn::IfThenElse(along, one, lateral2)));
+  const auto nearest = hn::Neg(hn::Mul(dot_xy(p, direction), inverse.lateral2));
   const auto within = hn::Max(hn::Min(nearest, slab.end), slab.start);
   // Of an empty slab any base will do.
   const auto base = hn::IfThenElse(hn::Lt(hn::Abs(within), infinite), within, zero);
@@ -96,11 +109,15 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));
   const auto q_is_zero = hn::Eq(q, zero);
   const auto a_is_zero = hn::Eq(a, zero);
-  // a = 0: the other root is at infinity, on the side that q points to.
+  // Both by one division, as in `inverses`. a = 0: the other root is at infinity, on the side that
+  // q points to.
+  const auto divisor_a = hn::IfThenElse(a_is_zero, one, a);
+  const auto divisor_q = hn::IfThenElse(q_is_zero, one, q);
+  const auto quotient = hn::Div(one, hn::Mul(divisor_a, divisor_q));
   const auto root_a = hn::IfThenElse(a_is_zero, hn::CopySign(infinite, q),
-                                     hn::Div(q, hn::IfThenElse(a_is_zero, one, a)));
+                                     hn::Mul(q, hn::Mul(divisor_q, quotient)));
   const auto root_c =
-      hn::IfThenElseZero(hn::Not(q_is_zero), hn::Div(c, hn::IfThenElse(q_is_zero, one, q)));
+      hn::IfThenElseZero(hn::Not(q_is_zero), hn::Mul(c, hn::Mul(divisor_a, quotient)));
   const auto low = hn::Min(root_a, root_c);
   const auto high = hn::Max(root_a, root_c);
   // a ≥ 0: between the roots. a < 0: beyond one of them, on the nappe that the radius grows into.
@@ -125,8 +142,7 @@ template <class D>
 HWY_INLINE bool all_pass(D d, const Lanes3<D>& p, const Lanes3<D>& direction) {
   constexpr double kPassSlack = 1e-6;
   const auto moment = hn::Sub(hn::Mul(p.x, direction.y), hn::Mul(p.y, direction.x));
-  const auto lateral2 =
-      hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y));
+  const auto lateral2 = dot_xy(direction, direction);
   const auto limit = hn::Mul(lateral2, hn::Set(d, 1.0 + kPassSlack));
   return hn::AllTrue(d, hn::Gt(hn::Mul(moment, moment), limit));
 }
@@ -140,10 +156,13 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
   if (all_pass(d, p, direction)) {
     return {hn::Set(d, kInfinity), hn::Set(d, -kInfinity), no_lanes(d), no_lanes(d)};
   }
-  const Interval<D> ends = slab(d, p.z, direction.z);
+  const auto lateral2 = dot_xy(direction, direction);
+  const Inverses<D> inverse = inverses(d, direction, lateral2);
+  const Interval<D> ends = slab(d, p.z, inverse);
   return cut(d, ends,
-             primitive.radius_slope == 0 ? cylinder_wall(d, p, direction)
-                                         : cone_wall(d, primitive, p, direction, ends));
+             primitive.radius_slope == 0
+                 ? cylinder_wall(d, p, direction, inverse)
+                 : cone_wall(d, primitive, p, direction, lateral2, inverse, ends));
 }
 
 /// Outward and unit, at the point that lies at τ = t.

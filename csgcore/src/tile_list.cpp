@@ -12,6 +12,9 @@ namespace {
 /// passes over the list, and the first mostly settles it.
 constexpr size_t kMostCovers = 3;
 
+/// Shorter lists are not searched for what decides nothing: few of them have any.
+constexpr uint32_t kUndecisiveList = 64;
+
 /// A stretch is taken to be shorter at each end by this share of its depths and of its own length:
 /// far above the rounding of an intersection.
 constexpr double kCoverSlack = 1e-9;
@@ -39,7 +42,7 @@ bool TileSimplifier::simplify(const Tile& tile, const CellList& list, Restrictor
     if (cuts) break;
   }
   for (const Cover& cover : covers_) {
-    if (!cuts) drop_undecisive(list, restrictor, cover);
+    if (!cuts && list.count() > kUndecisiveList) drop_undecisive(list, restrictor, cover);
   }
   if (std::find(dropped_.begin(), dropped_.end(), Decision::kOutside) == dropped_.end()) {
     return false;

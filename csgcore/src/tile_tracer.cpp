@@ -22,14 +22,20 @@ constexpr uint32_t kShortListSide_px = 32;
 /// Larger tiles are divided by two tasks.
 constexpr uint32_t kTaskPixels = 64 * 64;
 
-/// Lists longer than this are simplified (TileSimplifier).
+/// Lists longer than the first are simplified (TileSimplifier) at some sizes of tile, since it
+/// takes several passes over the list; lists longer than the second at every size.
 constexpr uint32_t kLongList = 24;
+constexpr uint32_t kVeryLongList = 4096;
+constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 
-/// Only at every other division, as it takes several passes over the list.
-bool is_simplified_at(const Tile& tile) {
-  const uint32_t longer = std::max(tile.width, tile.height);
-  const uint32_t shorter = std::min(tile.width, tile.height);
-  return longer < 2 * shorter;
+bool is_simplified(const Tile& tile, uint32_t literals) {
+  if (literals <= kLongList) return false;
+  const uint32_t pixels = tile.width * tile.height;
+  // A division halves a tile, so that about one on the way down is of each size.
+  const bool is_time =
+      std::any_of(std::begin(kSimplifiedPixels), std::end(kSimplifiedPixels),
+                  [&](uint32_t size) { return pixels <= size && 2 * pixels > size; });
+  return is_time || literals > kVeryLongList;
 }
 
 /// Primitives bounded by one task.
@@ -182,7 +188,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   if (!visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
-  if (list->count() > kLongList && !uncut && is_simplified_at(tile)) {
+  if (!uncut && is_simplified(tile, list->count())) {
     bool cuts = false;
     if (workspace.simplifier.simplify(tile, *list, workspace.restrictor, own.simplified, cuts)) {
       list = &own.simplified;
