@@ -152,22 +152,11 @@ HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* 
   hn::Store(depth_reach, d, t_reach);
   hn::Store(hn::IfThenElseZero(is_ball, hn::Set(d, 1.0)), d, ball);
   hn::Store(hn::IfThenElseZero(behind, hn::Set(d, 1.0)), d, gone);
-  const double width = view.width_px;
-  const double height = view.height_px;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < count; ++i) {
-    Extent& out = screen[i];
-    out = {{0.5 * (low_x[i] + high_x[i]), 0.5 * (low_y[i] + high_y[i]), t[i]},
-           {0.5 * (high_x[i] - low_x[i]), 0.5 * (high_y[i] - low_y[i]), t_reach[i]},
-           kNone,
-           ball[i] != 0 ? 0.0 : -1.0};
-    const bool off = gone[i] != 0 || high_x[i] < -0.5 || low_x[i] > width - 0.5 ||
-                     high_y[i] < -0.5 || low_y[i] > height - 0.5;
-    if (off) {
-      out.half[0] = -kNone;
-    } else if (low_x[i] > high_x[i] || low_y[i] > high_y[i]) {
-      out.outside2 = -1.0;
-    }
+    screen[i] = {{0, 0, t[i]}, {0, 0, t_reach[i]}, kNone, ball[i] != 0 ? 0.0 : -1.0};
+    set_rectangle({low_x[i], high_x[i], low_y[i], high_y[i]}, view, screen[i]);
+    if (gone[i] != 0) screen[i].half[0] = -kNone;
   }
 }
 
@@ -196,91 +185,6 @@ void find_screen_extents(const Extent* world, size_t begin, size_t end, const Fr
   }
 }
 
-using Quad = hn::CappedTag<double, 4>;
-constexpr size_t kPlanes = 4;
-
-/// The planes through the eye and a tile's edges, in the order of ScreenShape's lanes.
-struct TilePlanes {
-  double line[kPlanes];  // of u, u, v and v
-  double tilt[kPlanes];  // how far the normals lean against the view axis: line or, if parallel, 0
-};
-
-HWY_INLINE TilePlanes planes_of(const FrameRays& frame, const Box& tile) {
-  const View& view = frame.view;
-  const double unit_per_px = 2 * view.half_height / view.height_px;
-  const double middle_x = 0.5 * view.width_px - 0.5;
-  const double middle_y = 0.5 * view.height_px - 0.5;
-  TilePlanes planes{{(tile.min.x - middle_x) * unit_per_px, (tile.max.x - middle_x) * unit_per_px,
-                     (middle_y - tile.max.y) * unit_per_px, (middle_y - tile.min.y) * unit_per_px},
-                    {}};
-  if (view.projection == Projection::kPerspective) {
-    std::copy_n(planes.line, kPlanes, planes.tilt);
-  }
-  return planes;
-}
-
-/// All planes at once.
-HWY_INLINE bool misses(const ScreenShape& shape, const TilePlanes& planes, bool is_perspective) {
-  const Quad d;
-  static constexpr double kSign[kPlanes] = {1, -1, 1, -1};
-  for (size_t first = 0; first < kPlanes; first += hn::Lanes(d)) {
-    const auto sign = hn::LoadU(d, kSign + first);
-    const auto line = hn::LoadU(d, planes.line + first);
-    const auto tilt = hn::LoadU(d, planes.tilt + first);
-    const auto along = is_perspective ? hn::Mul(line, hn::Set(d, shape.offset_forward)) : line;
-    const auto distance = hn::Mul(sign, hn::Sub(hn::LoadU(d, shape.offset + first), along));
-    const auto component = [&](int i) {
-      return hn::Mul(sign, hn::Sub(hn::LoadU(d, shape.across[i] + first),
-                                   hn::Mul(tilt, hn::Set(d, shape.forward[i]))));
-    };
-    const auto x = component(0);
-    const auto y = component(1);
-    const auto z = component(2);
-    const auto lateral2 = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-    auto support = hn::Zero(d);
-    if (shape.radius_top >= 0) {
-      const auto lateral = hn::Sqrt(lateral2);
-      support = hn::Max(hn::Add(z, hn::Mul(lateral, hn::Set(d, shape.radius_top))),
-                        hn::Sub(hn::Mul(lateral, hn::Set(d, shape.radius_bottom)), z));
-    } else {
-      support = hn::Sqrt(hn::Add(lateral2, hn::Mul(z, z)));
-    }
-    const auto slack = hn::Mul(hn::Set(d, shape.slack), hn::Add(hn::Set(d, 1.0), hn::Abs(line)));
-    const auto reach = hn::Add(hn::Add(distance, support), slack);
-    if (!hn::AllFalse(d, hn::Lt(reach, hn::Zero(d)))) return true;
-  }
-  return false;
-}
-
-HWY_INLINE bool is_open(const Extent& extent, const Box& tile) {
-  bool is_small = true;
-  bool is_centered = true;
-  for (const int axis : {0, 1}) {
-    const double center = extent.center[axis];
-    is_small &= tile.max[axis] - tile.min[axis] > 2 * extent.half[axis];
-    is_centered &= center >= tile.min[axis] && center <= tile.max[axis];
-  }
-  return is_small | is_centered;
-}
-
-uint64_t find_misses(const ScreenShape* shapes, const Extent* screen, const uint32_t* primitives,
-                     uint64_t open, const FrameRays& frame, const Box& tile) {
-  // Of a tile of one packet, the rays themselves tell as soon.
-  constexpr double kSmallestTile_px = 4;
-  if (tile.max.x - tile.min.x < kSmallestTile_px && tile.max.y - tile.min.y < kSmallestTile_px) {
-    return 0;
-  }
-  const bool is_perspective = frame.view.projection == Projection::kPerspective;
-  const TilePlanes planes = planes_of(frame, tile);
-  uint64_t result = 0;
-  for (; open != 0; open &= open - 1) {
-    const uint32_t primitive = primitives[std::countr_zero(open)] & kPrimitiveBits;
-    if (is_open(screen[primitive], tile)) continue;
-    if (misses(shapes[primitive], planes, is_perspective)) result |= open & -open;
-  }
-  return result;
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace csgcore
 HWY_AFTER_NAMESPACE();
@@ -289,50 +193,34 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(find_screen_extents);
-CSGCORE_SIMD_EXPORT(find_misses);
 
 void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
                          const ScreenOptions& options, Extent* screen) {
   CSGCORE_SIMD(find_screen_extents)(world, begin, end, frame, options, screen);
 }
 
+void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
+  const double low[] = {pixels.low_x, pixels.low_y};
+  const double high[] = {pixels.high_x, pixels.high_y};
+  const double size[] = {double(view.width_px), double(view.height_px)};
+  bool is_off = false;
+  bool is_empty = false;
+  for (const int axis : {0, 1}) {
+    screen.center[axis] = 0.5 * (low[axis] + high[axis]);
+    screen.half[axis] = 0.5 * (high[axis] - low[axis]);
+    is_off |= high[axis] < -0.5 || low[axis] > size[axis] - 0.5;
+    is_empty |= low[axis] > high[axis];
+  }
+  if (is_off) {
+    screen.half[0] = -std::numeric_limits<double>::infinity();
+  } else if (is_empty) {
+    screen.outside2 = -1.0;
+  }
+}
+
 ScreenFate fate_on_screen(const Extent& screen) {
   if (screen.half[0] < 0 && std::isinf(screen.half[0])) return ScreenFate::kOffScreen;
   return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
-}
-
-ScreenShape screen_shape(const CanonicalPrimitive& primitive, const FrameRays& frame) {
-  // As kScreenSlack, of somewhat larger terms.
-  constexpr double kPlaneSlack = 0x1p-40;
-  const View& view = frame.view;
-  const Vec3 offset = primitive.center - view.eye;
-  const Mat3& map = primitive.canonical_to_world;
-  const Vec3 right = view.right * map;
-  const Vec3 up = view.up * map;
-  const Vec3 forward = view.forward * map;
-  const double offset_right = glm::dot(offset, view.right);
-  const double offset_up = glm::dot(offset, view.up);
-  ScreenShape shape{};
-  for (int i = 0; i < 3; ++i) {
-    shape.across[i][0] = shape.across[i][1] = right[i];
-    shape.across[i][2] = shape.across[i][3] = up[i];
-    shape.forward[i] = forward[i];
-  }
-  shape.offset[0] = shape.offset[1] = offset_right;
-  shape.offset[2] = shape.offset[3] = offset_up;
-  shape.offset_forward = glm::dot(offset, view.forward);
-  const bool is_sphere = primitive.shape == Shape::kSphere;
-  shape.radius_top = is_sphere ? -1 : primitive.radius_mid + primitive.radius_slope;
-  shape.radius_bottom = is_sphere ? -1 : primitive.radius_mid - primitive.radius_slope;
-  shape.slack = kPlaneSlack * glm::dot(glm::abs(offset) + glm::abs(view.eye) + glm::abs(map[0]) +
-                                           glm::abs(map[1]) + glm::abs(map[2]),
-                                       Vec3{1.0});
-  return shape;
-}
-
-uint64_t find_misses(const ScreenShape* shapes, const Extent* screen, const uint32_t* primitives,
-                     uint64_t open, const FrameRays& frame, const Box& tile) {
-  return CSGCORE_SIMD(find_misses)(shapes, screen, primitives, open, frame, tile);
 }
 
 }  // namespace csgcore

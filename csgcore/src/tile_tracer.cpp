@@ -142,6 +142,7 @@ TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSu
     for (size_t i = begin; has_shapes && i < end; ++i) {
       if (screen_[i].inside2 < 0 && fate_on_screen(screen_[i]) == ScreenFate::kVisible) {
         shapes_[i] = screen_shape(solid.primitives()[i], frame);
+        narrow_extent(shapes_[i], frame, options, screen_[i]);
       }
     }
   };

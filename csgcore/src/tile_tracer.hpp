@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "screen_extents.hpp"
+#include "screen_shape.hpp"
 #include "tile_list.hpp"
 
 namespace csgcore {
