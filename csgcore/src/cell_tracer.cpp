@@ -13,7 +13,6 @@ namespace {
 
 /// Pixels a side that one task traces, and of which rays that a cell cannot decide are collected.
 constexpr uint32_t kTaskSide_px = 32;
-constexpr uint32_t kTileSide_px = 8;
 constexpr uint32_t kTileBlocks = (kTileSide_px / kPacketSide_px) * (kTileSide_px / kPacketSide_px);
 
 template <typename Visit>
@@ -39,7 +38,7 @@ class LaneVisitor final : public TileVisitor {
       RayPacket packet;
       make_block_rays(frame_, block, packet);
       PacketHits hits;
-      const TraceList& list = rays.trace(packet, block.lanes, hits);
+      const TraceList& list = rays.trace(packet, block, hits);
       sink_.store(block, packet, list, hits);
     });
   }

@@ -126,17 +126,14 @@ HWY_INLINE PacketV reach_of(const RayPacket& rays, const TraceSubject& subject,
 HWY_INLINE LaneMask coincident_lanes(const TraceList& trace, ListSegments& segments,
                                      const PacketV& reach, const Walk& walk, LaneMask lanes) {
   const Wide d;
-  double furthest = 0;
-  if (!segments.all_computed()) {
-    PacketV sum;
-    for (int c = 0; c < kChunks; ++c) sum.chunk[c] = hn::Add(walk.t.chunk[c], reach.chunk[c]);
-    furthest = largest(sum, lanes);
-  }
+  PacketV sum;
+  for (int c = 0; c < kChunks; ++c) sum.chunk[c] = hn::Add(walk.t.chunk[c], reach.chunk[c]);
+  const double furthest = largest(sum, lanes);
   PacketV close;
   for (int c = 0; c < kChunks; ++c) close.chunk[c] = hn::Zero(d);
   const WideV one = hn::Set(d, 1.0);
   for (uint32_t index = 0; index < trace.list->count(); ++index) {
-    if (!segments.is_computed(index) && trace.nearest_t[index] > furthest) continue;
+    if (segments.is_missed(index) || segments.is_beyond(index, furthest)) continue;
     const PacketSegments& segment = segments.compute(index);
     const WideV start_event = hn::Set(d, event_code(index, false));
     const WideV end_event = hn::Set(d, event_code(index, true));
@@ -204,7 +201,7 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
                               ListSegments& segments, PacketWorkspace& workspace,
                               PacketHits& hits) {
   if (lanes == 0) return;
-  for (uint32_t i = 0; i < list.list->count(); ++i) segments.compute(i);
+  segments.compute_all();
   LaneMask found = 0;
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));

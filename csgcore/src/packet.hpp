@@ -67,6 +67,8 @@ struct TraceList {
   /// By index in the list: no crossing of the primitive lies at a smaller τ.
   const double* nearest_t = nullptr;
   double earliest_t = 0;  // the least of them
+  /// By index in the list: true for primitives that no ray of the packet meets. None: nobody knows.
+  const uint8_t* is_missed = nullptr;
 };
 
 /// What the solid is, beyond its list.
@@ -79,7 +81,8 @@ struct TraceSubject {
 /// Working memory of one thread, for packets of one list after the other.
 struct PacketWorkspace {
   std::vector<PacketSegments> segments;  // by index in the list
-  std::vector<uint8_t> is_computed;
+  enum State : uint8_t { kUnknown, kComputed, kMissed };
+  std::vector<uint8_t> states;        // of the segments
   std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
   uint64_t rays = 0;                  // traced along their whole length
   uint64_t intersections = 0;         // of packets with primitives, × the lanes

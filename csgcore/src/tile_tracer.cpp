@@ -11,10 +11,8 @@
 namespace csgcore {
 namespace {
 
-/// A tile of so few pixels a side, four packets, is traced if its list is this short; of one packet
-/// in any case.
-constexpr uint32_t kTileSide_px = 8;
-constexpr uint32_t kTileList = 6;
+/// A tile of kTileSide_px is traced if its list is this short; of one packet in any case.
+constexpr uint32_t kTileList = 16;
 /// So are larger ones whose list is this short: dividing it costs more than it saves.
 constexpr uint32_t kShortList = 3;
 constexpr uint32_t kShortListSide_px = 32;
@@ -44,14 +42,36 @@ constexpr size_t kBoundedAtOnce = 4096;
 }  // namespace
 
 void TileList::assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
-                      const CellList& list) {
-  nearest_.resize(list.count());
+                      const Tile& tile, const CellList& list) {
+  const uint32_t count = list.count();
+  tile_ = tile;
+  nearest_.resize(count);
+  for (auto& is_missed : is_missed_) is_missed.resize(count);
+  const double middle_x = tile.x + kPacketSide_px - 0.5;
+  const double middle_y = tile.y + kPacketSide_px - 0.5;
   double earliest = std::numeric_limits<double>::infinity();
-  for (uint32_t i = 0; i < list.count(); ++i) {
-    nearest_[i] = nearest_t(screen[list.primitive[i] & kPrimitiveBits]);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Extent& extent = screen[list.primitive[i] & kPrimitiveBits];
+    nearest_[i] = nearest_t(extent);
     earliest = std::min(earliest, nearest_[i]);
+    const bool right_only = extent.center[0] - extent.half[0] > middle_x;
+    const bool left_only = extent.center[0] + extent.half[0] < middle_x;
+    const bool lower_only = extent.center[1] - extent.half[1] > middle_y;
+    const bool upper_only = extent.center[1] + extent.half[1] < middle_y;
+    is_missed_[0][i] = right_only | lower_only;
+    is_missed_[1][i] = left_only | lower_only;
+    is_missed_[2][i] = right_only | upper_only;
+    is_missed_[3][i] = left_only | upper_only;
   }
-  trace_ = {primitives.data(), &list, nearest_.data(), earliest};
+  trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
+}
+
+TraceList TileList::trace_list(const PacketBlock& block) const {
+  TraceList trace = trace_;
+  if (std::max(tile_.width, tile_.height) <= kTileSide_px) {
+    trace.is_missed = is_missed_[(block.y > tile_.y ? 2 : 0) + (block.x > tile_.x ? 1 : 0)].data();
+  }
+  return trace;
 }
 
 /// In screen space.
@@ -241,27 +261,37 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
 class TileTracer::LeafRays final : public TileRays {
  public:
   /// `uncut`: the list before what is hidden was dropped from it, or null.
-  LeafRays(const TileTracer& owner, const CellList& list, const CellList* uncut,
+  LeafRays(const TileTracer& owner, const Tile& tile, const CellList& list, const CellList* uncut,
            Workspace& workspace)
-      : owner_(owner), uncut_(uncut), workspace_(workspace) {
-    workspace.list.assign(owner.solid_.primitives(), owner.screen_, list);
+      : owner_(owner), tile_(tile), uncut_(uncut), workspace_(workspace) {
+    workspace.list.assign(owner.solid_.primitives(), owner.screen_, tile, list);
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    const TraceList& list = workspace_.list.trace_list();
+    return trace(rays, lanes, workspace_.list.trace_list(), hits);
+  }
+
+  const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
+                         PacketHits& hits) override {
+    return trace(rays, block.lanes, workspace_.list.trace_list(block), hits);
+  }
+
+ private:
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
+                         PacketHits& hits) {
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
     // by a piece too thin to exist, what lies behind counts.
-    if (!uncut_ || (hits.hits & lanes) == lanes) return list;
+    if (!uncut_ || (hits.hits & lanes) == lanes) return workspace_.list.trace_list();
     workspace_.packets.was_computed.clear();
-    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.screen_, *uncut_);
+    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.screen_, tile_, *uncut_);
     const TraceList& uncut = workspace_.uncut_list.trace_list();
     trace_packet(owner_.frame_, rays, lanes, uncut, owner_.subject_, workspace_.packets, hits);
     return uncut;
   }
 
- private:
   const TileTracer& owner_;
+  const Tile& tile_;
   const CellList* uncut_;
   Workspace& workspace_;
 };
@@ -270,7 +300,7 @@ void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const CellLi
                             Workspace& workspace, TileVisitor& visitor) {
   ++workspace.tiles;
   workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
-  LeafRays rays(*this, list, uncut, workspace);
+  LeafRays rays(*this, tile, list, uncut, workspace);
   visitor.visit(tile, rays);
   if (!fates_.wanted()) return;
   const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;

@@ -6,20 +6,30 @@
 #include <mutex>
 #include <vector>
 
+#include "hit_sink.hpp"
 #include "screen_shape.hpp"
 #include "tile_list.hpp"
 
 namespace csgcore {
 
+/// A tile of so few pixels a side is traced by four packets.
+constexpr uint32_t kTileSide_px = 8;
+
 /// A list with what tracing needs to know of it.
 class TileList {
  public:
   void assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
-              const CellList& list);
+              const Tile& tile, const CellList& list);
+  /// For rays of any pixels of the tile.
   const TraceList& trace_list() const { return trace_; }
+  /// For the block, which is one of a tile of four.
+  TraceList trace_list(const PacketBlock& block) const;
 
  private:
+  static constexpr size_t kBlocks = 4;
+  Tile tile_;
   std::vector<double> nearest_;
+  std::vector<uint8_t> is_missed_[kBlocks];
   TraceList trace_;
 };
 
@@ -28,8 +38,11 @@ class TileRays {
  public:
   virtual ~TileRays() = default;
 
-  /// Rays through pixels of the tile. Returns the list that the hits' indices refer to.
+  /// Rays through any pixels of the tile. Returns the list that the hits' indices refer to.
   virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
+  /// Those through the centres of a block's pixels.
+  virtual const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
+                                 PacketHits& hits) = 0;
 };
 
 /// What is done with tiles. Called by all threads, for each pixel once.

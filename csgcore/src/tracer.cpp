@@ -65,7 +65,7 @@ class PixelVisitor final : public TileVisitor {
       RayPacket packet;
       make_block_rays(frame_, block, packet);
       PacketHits hits;
-      const TraceList& list = rays.trace(packet, block.lanes, hits);
+      const TraceList& list = rays.trace(packet, block, hits);
       sink_.store(block, packet, list, hits);
     });
   }

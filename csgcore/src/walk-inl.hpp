@@ -18,27 +18,50 @@ namespace HWY_NAMESPACE {
 
 /// The segments of a list's primitives, computed where first needed.
 class ListSegments {
+  using State = PacketWorkspace::State;
+
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
                PacketWorkspace& workspace)
       : frame_(frame), rays_(rays), list_(list), workspace_(workspace) {
     const uint32_t count = list.list->count();
     if (workspace.segments.size() < count) workspace.segments.resize(count);
-    workspace.is_computed.assign(count, 0);
-    left_ = count;
+    if (list.is_missed) {
+      workspace.states.resize(count);
+      for (uint32_t i = 0; i < count; ++i) {
+        workspace.states[i] = list.is_missed[i] ? State::kMissed : State::kUnknown;
+      }
+    } else {
+      workspace.states.assign(count, State::kUnknown);
+    }
   }
-  HWY_INLINE bool all_computed() const { return left_ == 0; }
-  HWY_INLINE bool is_computed(uint32_t index) const { return workspace_.is_computed[index] != 0; }
+  HWY_INLINE bool is_missed(uint32_t index) const {
+    return workspace_.states[index] == State::kMissed;
+  }
+  /// Nothing is known of the primitive but that it lies further on than t.
+  HWY_INLINE bool is_beyond(uint32_t index, double t) const {
+    return workspace_.states[index] == State::kUnknown && list_.nearest_t[index] > t;
+  }
   HWY_INLINE const PacketSegments& compute(uint32_t index) {
     PacketSegments& segments = workspace_.segments[index];
-    if (!is_computed(index)) {
+    if (workspace_.states[index] == State::kUnknown) {
       intersect_packet(frame_, rays_, primitive(index), segments);
-      workspace_.is_computed[index] = 1;
-      --left_;
+      workspace_.states[index] = State::kComputed;
       if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
       workspace_.intersections += kPacketRays;
     }
     return segments;
+  }
+  /// For who reads them all: what is missed has segments too.
+  void compute_all() {
+    for (uint32_t i = 0; i < list_.list->count(); ++i) {
+      if (!is_missed(i)) {
+        compute(i);
+        continue;
+      }
+      std::fill_n(workspace_.segments[i].start, kPacketRays, kInfinity);
+      std::fill_n(workspace_.segments[i].end, kPacketRays, -kInfinity);
+    }
   }
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
     return list_.primitives[list_.list->primitive[index] & kPrimitiveBits];
@@ -49,7 +72,6 @@ class ListSegments {
   const RayPacket& rays_;
   const TraceList& list_;
   PacketWorkspace& workspace_;
-  uint32_t left_;  // not computed yet
 };
 
 /// A crossing in a double: twice the literal's index, + 1 at the segment's end.
@@ -84,7 +106,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
                          Evaluation& result) {
   const Wide d;
   const CellList& list = *trace.list;
-  const double furthest = segments.all_computed() ? 0 : largest(walk.t, walk.live);
+  const double furthest = largest(walk.t, walk.live);
   PacketV position;
   const WideV nowhere = hn::Set(d, -1.0);
   for (int c = 0; c < kChunks; ++c) {
@@ -96,7 +118,14 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
     const WideV number = hn::Set(d, index + CellList::kFirst);
     const WideV inner = hn::Set(d, list.if_inside[index]);
     const WideV outer = hn::Set(d, list.if_outside[index]);
-    if (!segments.is_computed(index) && trace.nearest_t[index] > furthest) {
+    if (segments.is_missed(index)) {
+      for (int c = 0; c < kChunks; ++c) {
+        const WideM active = hn::Eq(position.chunk[c], number);
+        position.chunk[c] = hn::IfThenElse(active, outer, position.chunk[c]);
+      }
+      continue;
+    }
+    if (segments.is_beyond(index, furthest)) {
       // Outside as yet, until there at the earliest.
       const WideV nearest = hn::Set(d, trace.nearest_t[index]);
       const WideV event = hn::Set(d, event_code(index, false));
@@ -153,7 +182,7 @@ HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   for (uint32_t number = list.root; number >= CellList::kFirst;) {
     const uint32_t index = number - CellList::kFirst;
     number = list.if_outside[index];
-    if (trace.nearest_t[index] > furthest) continue;
+    if (segments.is_missed(index) || trace.nearest_t[index] > furthest) continue;
     const PacketSegments& segment = segments.compute(index);
     const WideV event = hn::Set(d, event_code(index, false));
     for (int c = 0; c < kChunks; ++c) {
