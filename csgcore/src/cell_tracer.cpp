@@ -83,6 +83,7 @@ class CellTracer::Traversal {
   Traversal(CellTracer& owner, const PacketBlock& block, Workspace& workspace)
       : owner_(owner), tree_(owner.subdivision_), block_(block), workspace_(workspace) {
     make_block_rays(owner.frame_, block, rays_);
+    invert_directions(rays_, inverses_);
   }
 
   /// Stores what it decides; returns the lanes that cells cannot decide.
@@ -128,8 +129,9 @@ class CellTracer::Traversal {
           if (low > 0 || high < 0) leave = -std::numeric_limits<double>::infinity();
           continue;
         }
-        enter = std::max(enter, std::min(low / direction, high / direction));
-        leave = std::min(leave, std::max(low / direction, high / direction));
+        const double inverse = inverses_.inverse[axis][lane];
+        enter = std::max(enter, std::min(low * inverse, high * inverse));
+        leave = std::min(leave, std::max(low * inverse, high * inverse));
       }
       range.enter[lane] = enter;
       range.leave[lane] = leave;
@@ -163,32 +165,19 @@ class CellTracer::Traversal {
     const KdNode& node = tree_.nodes()[visit.node];
     const int axis = static_cast<int>(node.axis);
     const bool downwards = (signs >> node.axis & 1) != 0;
-    const double* origin = rays_.origin[axis];
-    const double* direction = rays_.direction[axis];
-    const double split = node.split - owner_.frame_.pivot[axis];
-    Workspace::Visit far = visit;
-    LaneMask first = 0, second = 0;
-    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      // A ray along the plane is on one side of it for ever.
-      const bool along = direction[lane] == 0;
-      const double gap = split - origin[lane];
-      const double t = along ? (gap > 0 ? 1 : -1) * std::numeric_limits<double>::infinity()
-                             : gap / direction[lane];
-      first |= LaneMask{visit.range.enter[lane] <= t} << lane;
-      second |= LaneMask{t <= visit.range.leave[lane]} << lane;
-      far.range.enter[lane] = std::max(visit.range.enter[lane], t);
-      visit.range.leave[lane] = std::min(visit.range.leave[lane], t);
-    }
-    far.lanes = visit.lanes & second;
-    far.node = downwards ? node.below : node.above;
-    visit.lanes &= first;
-    visit.node = downwards ? node.above : node.below;
-    if (far.lanes == 0) return;
-    if (visit.lanes == 0) {
-      visit = far;
-    } else {
-      workspace_.stack.push_back(far);
-    }
+    const uint32_t first = downwards ? node.above : node.below;
+    const uint32_t second = downwards ? node.below : node.above;
+    std::vector<Workspace::Visit>& stack = workspace_.stack;
+    stack.emplace_back();
+    Workspace::Visit& far = stack.back();
+    const RangeSplit split = split_range(
+        rays_, inverses_, axis, node.split - owner_.frame_.pivot[axis], visit.range, far.range);
+    far.lanes = visit.lanes & split.beyond;
+    far.node = second;
+    visit.lanes &= split.before;
+    visit.node = first;
+    if (visit.lanes == 0) visit = far;
+    if (far.lanes == 0 || visit.node == second) stack.pop_back();
   }
 
   void trace_leaf(const Leaf& leaf, const Workspace::Visit& visit) {
@@ -218,6 +207,7 @@ class CellTracer::Traversal {
   const PacketBlock block_;
   Workspace& workspace_;
   RayPacket rays_;
+  PacketInverses inverses_;
   LaneMask done_ = 0;
   LaneMask undecided_ = 0;
 };

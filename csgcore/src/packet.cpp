@@ -273,6 +273,42 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   }
 }
 
+void invert_directions(const RayPacket& rays, PacketInverses& inverses) {
+  const Wide d;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int c = 0; c < kChunks; ++c) {
+      const auto direction = hn::Load(d, rays.direction[axis] + first_lane(c));
+      const auto none = hn::Eq(direction, hn::Zero(d));
+      const auto inverse =
+          hn::Div(hn::Set(d, 1.0), hn::IfThenElse(none, hn::Set(d, 1.0), direction));
+      hn::Store(hn::IfThenElse(none, hn::Set(d, kInfinity), inverse), d,
+                inverses.inverse[axis] + first_lane(c));
+    }
+  }
+}
+
+RangeSplit split_range(const RayPacket& rays, const PacketInverses& inverses, int axis,
+                       double plane, PacketRange& range, PacketRange& far) {
+  const Wide d;
+  RangeSplit result{0, 0};
+  for (int c = 0; c < kChunks; ++c) {
+    const size_t first = first_lane(c);
+    const auto gap = hn::Sub(hn::Set(d, plane), hn::Load(d, rays.origin[axis] + first));
+    const auto product = hn::Mul(gap, hn::Load(d, inverses.inverse[axis] + first));
+    // A ray within the plane (0·∞) counts as beyond.
+    const auto t = hn::IfThenElse(hn::Eq(product, product), product, hn::Set(d, -kInfinity));
+    const auto enter = hn::Load(d, range.enter + first);
+    const auto leave = hn::Load(d, range.leave + first);
+    result.before |= bits_of(hn::Le(enter, t), c);
+    result.beyond |= bits_of(hn::Le(t, leave), c);
+    hn::Store(hn::Max(enter, t), d, far.enter + first);
+    hn::Store(leave, d, far.leave + first);
+    hn::Store(hn::Min(leave, t), d, range.leave + first);
+  }
+  far.margin = range.margin;
+  return result;
+}
+
 /// 0.2 + |n · light| (openscad.md §4).
 HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits& hits, int chunk) {
   const Wide d;
@@ -341,6 +377,8 @@ CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 CSGCORE_SIMD_EXPORT(shade_packet);
+CSGCORE_SIMD_EXPORT(invert_directions);
+CSGCORE_SIMD_EXPORT(split_range);
 
 void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
   CSGCORE_SIMD(make_rays)(frame, laterals, rays);
@@ -369,6 +407,15 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
                   const TraceList& list, bool eye_inside, const PacketHits& hits,
                   PacketColors& colors) {
   CSGCORE_SIMD(shade_packet)(settings, frame, rays, list, eye_inside, hits, colors);
+}
+
+void invert_directions(const RayPacket& rays, PacketInverses& inverses) {
+  CSGCORE_SIMD(invert_directions)(rays, inverses);
+}
+
+RangeSplit split_range(const RayPacket& rays, const PacketInverses& inverses, int axis,
+                       double plane, PacketRange& range, PacketRange& far) {
+  return CSGCORE_SIMD(split_range)(rays, inverses, axis, plane, range, far);
 }
 
 }  // namespace csgcore

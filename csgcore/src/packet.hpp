@@ -126,6 +126,22 @@ void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
 
+/// 1/d of each lane, +∞ for 0, by coordinate.
+struct alignas(64) PacketInverses {
+  double inverse[3][kPacketRays];
+};
+void invert_directions(const RayPacket& rays, PacketInverses& inverses);
+
+/// The lanes that go on before and beyond a plane.
+struct RangeSplit {
+  LaneMask before, beyond;
+};
+/// Divides ranges at the plane where the coordinate, from the pivot, is `plane`: `range` becomes
+/// their parts before it, `far` those beyond it, in the rays' order, which must be the same for all
+/// lanes that matter. A ray along the plane is on one side of it for ever.
+RangeSplit split_range(const RayPacket& rays, const PacketInverses& inverses, int axis,
+                       double plane, PacketRange& range, PacketRange& far);
+
 /// The first hit of each lane in `lanes` along its whole ray.
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
