@@ -111,6 +111,25 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
   return answers;
 }
 
+ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                         const Halves& halves) {
+  const Doubles d;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
+  const int axis = static_cast<int>(halves.axis);
+  const Vector below_end = hn::Set(d, halves.below.max[axis]);
+  const Vector above_start = hn::Set(d, halves.above.min[axis]);
+  ExtentAnswers answers{};
+  for (uint32_t i = 0; i < count; i += lanes) {
+    const Gather gather(extents, primitives + i);
+    const Vector center = gather.center(axis);
+    const Vector half = gather.half(axis);
+    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
+    answers.outside[0] |= bits_of(hn::Gt(hn::Sub(center, below_end), half)) << i;
+    answers.outside[1] |= bits_of(hn::Gt(hn::Sub(above_start, center), half)) << i;
+  }
+  return answers;
+}
+
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
 using Counters = hn::Vec<Unsigned>;
 
@@ -189,11 +208,13 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(test_extents);
+CSGCORE_SIMD_EXPORT(test_boxes);
 CSGCORE_SIMD_EXPORT(count_ends);
 
-ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                           const Halves& halves) {
-  ExtentAnswers answers = CSGCORE_SIMD(test_extents)(extents, primitives, count, halves);
+namespace {
+
+/// Vectors read past the last primitive.
+ExtentAnswers of_first(uint32_t count, ExtentAnswers answers) {
   const uint64_t wanted = ~uint64_t{0} >> (64 - count);
   answers.open &= wanted;
   for (const int side : {0, 1}) {
@@ -201,6 +222,18 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
     answers.inside[side] &= wanted;
   }
   return answers;
+}
+
+}  // namespace
+
+ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                           const Halves& halves) {
+  return of_first(count, CSGCORE_SIMD(test_extents)(extents, primitives, count, halves));
+}
+
+ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                         const Halves& halves) {
+  return of_first(count, CSGCORE_SIMD(test_boxes)(extents, primitives, count, halves));
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

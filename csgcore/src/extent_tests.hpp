@@ -30,6 +30,11 @@ struct ExtentAnswers {
 ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
                            const Halves& halves);
 
+/// The same for boxes alone, of primitives that meet the undivided cell: only the divided axis can
+/// tell, and nothing is inside.
+ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                         const Halves& halves);
+
 /// Bins of equal width across each axis of a cell. More of them cost more to count than the better
 /// plane saves.
 constexpr int kSplitBins = 8;

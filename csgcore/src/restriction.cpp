@@ -96,7 +96,8 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
   Pass above(list, *results[kLast], maps_[kLast]);
   for (uint32_t first = 0; first < count; first += kBlock) {
     const uint32_t size = std::min(count - first, kBlock);
-    ExtentAnswers answers = test_extents(extents_.data(), primitive + first, size, halves);
+    const auto test = kSides == 2 && space_ == Space::kScreen ? test_boxes : test_extents;
+    ExtentAnswers answers = test(extents_.data(), primitive + first, size, halves);
     // Balls are decided by their extents alone. Of the others, only those that reach both halves
     // need to be asked about: what reaches one half only was found to cross the whole cell, and so
     // crosses that half.

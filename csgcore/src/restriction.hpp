@@ -40,8 +40,14 @@ class WorldClassifier final : public OpenClassifier {
 /// Not to be shared between threads: it keeps its working memory.
 class Restrictor {
  public:
-  /// Keeps references to both.
-  Restrictor(const Extents& extents, const OpenClassifier& open) : extents_(extents), open_(open) {}
+  /// What extents tell.
+  enum class Space : uint8_t {
+    kWorld,   // boxes, and balls by their distances
+    kScreen,  // boxes alone
+  };
+  /// Keeps references to extents and classifier.
+  Restrictor(const Extents& extents, const OpenClassifier& open, Space space = Space::kWorld)
+      : extents_(extents), open_(open), space_(space) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
   /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
@@ -64,6 +70,7 @@ class Restrictor {
 
   const Extents& extents_;
   const OpenClassifier& open_;
+  Space space_;
   std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
   std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
 };

@@ -98,7 +98,7 @@ struct TileTracer::Level {
 /// What one task works with.
 struct TileTracer::Workspace {
   explicit Workspace(const TileTracer& owner)
-      : restrictor(owner.screen_, *owner.classifier_),
+      : restrictor(owner.screen_, *owner.classifier_, Restrictor::Space::kScreen),
         simplifier(owner.solid_.primitives(), owner.screen_, owner.frame_, owner.centers_only_,
                    last_value(owner.subject_), owner.fates_) {}
   static std::optional<bool> last_value(const TraceSubject& subject) {
