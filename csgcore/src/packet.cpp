@@ -163,9 +163,9 @@ HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, const PacketWorkspac
   }
   hits.hits = lanes;
   hits.on_cap = 0;
+  std::fill_n(hits.index, kPacketRays, 0u);
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    hits.index[lane] = 0;
     if (events[lane] < 0) continue;  // no crossing
     const uint32_t code = static_cast<uint32_t>(events[lane]);
     hits.index[lane] = code / 2;
@@ -198,16 +198,18 @@ HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
 
 HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                               const TraceList& list, const TraceSubject& subject,
-                              ListSegments& segments, PacketWorkspace& workspace,
+                              ListSegments& segments, const Walk& walk, PacketWorkspace& workspace,
                               PacketHits& hits) {
   if (lanes == 0) return;
+  alignas(64) double t[kPacketRays];
+  for (int c = 0; c < kChunks; ++c) hn::Store(walk.t.chunk[c], Wide(), t + first_lane(c));
   segments.compute_all();
   LaneMask found = 0;
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
     ++workspace.resolved_rays;
-    const auto shown = RayResolver(frame, rays, lane, list, subject, workspace).resolve();
+    const auto shown = RayResolver(frame, rays, lane, list, subject, workspace).resolve(t[lane]);
     if (!shown) continue;
     found |= bit;
     hits.t[lane] = shown->event.t;
@@ -231,12 +233,12 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   if (list.earliest_t > frame.first_t && !subject.eye_inside) {
     walk_to_first_crossing(list, segments, kEndless, walk);
   }
-  const LaneMask arrived =
-      walk.live == 0 ? 0 : walk_to_change(list, segments, subject.eye_inside, leave, walk);
-  take_hits(walk, arrived, workspace, hits);
+  const WalkEnd end = walk_to_change(rays, list, segments, subject, leave, walk);
+  const LaneMask arrived = end.changed | end.unclear;
+  take_hits(walk, end.changed, workspace, hits);
   hits.undecided = 0;
   if (arrived == 0) return;
-  LaneMask unclear = lanes_without_event(walk, arrived);
+  LaneMask unclear = end.unclear | lanes_without_event(walk, end.changed);
   if (subject.boundary == Boundary::kBehind) {
     unclear = arrived;
   } else {
@@ -244,7 +246,7 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
     const PacketV reach = reach_of(rays, subject, hits);
     unclear |= coincident_lanes(list, segments, reach, walk, arrived & ~unclear);
   }
-  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
+  resolve_lanes(frame, rays, unclear, list, subject, segments, walk, workspace, hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
@@ -254,14 +256,13 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   const Wide d;
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(range.enter, lanes);
-  const LaneMask arrived = walk_to_change(list, segments, subject.eye_inside, range.leave, walk);
-  take_hits(walk, arrived, workspace, hits);
-  hits.undecided = lanes_without_event(walk, arrived);
-  if (arrived == 0) return;
-  if (subject.boundary == Boundary::kBehind) {
-    hits.undecided = arrived;
-    return;
-  }
+  const WalkEnd end = walk_to_change(rays, list, segments, subject, range.leave, walk);
+  const LaneMask arrived = end.changed | end.unclear;
+  take_hits(walk, end.changed, workspace, hits);
+  hits.hits = arrived;
+  hits.undecided = end.unclear | lanes_without_event(walk, end.changed);
+  if (subject.boundary == Boundary::kBehind) hits.undecided = arrived;
+  if (hits.undecided == arrived) return;
   find_normals(frame, rays, list, arrived & ~hits.undecided, hits);
   const PacketV reach = reach_of(rays, subject, hits);
   hits.undecided |= coincident_lanes(list, segments, reach, walk, arrived & ~hits.undecided);

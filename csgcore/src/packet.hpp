@@ -94,7 +94,8 @@ struct PacketWorkspace {
     uint32_t index;  // in the list
     bool at_end;
   };
-  std::vector<Event> events;
+  std::vector<Event> earlier, later;  // heaps: the events nearest to where the walk stands on top
+  std::vector<Event> cluster;
   std::vector<uint8_t> before, after;  // by index in the list: inside
 };
 

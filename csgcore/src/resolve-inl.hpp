@@ -38,25 +38,26 @@ class RayResolver {
     Event event;
     bool on_cap;
   };
-  std::optional<Shown> resolve() {
-    collect();
-    const std::span<const Event> events = workspace_.events;
+  /// `t`: the ray's value is that at the eye up to there, but for what lies so close before it that
+  /// it is taken together with what lies there.
+  std::optional<Shown> resolve(double t) {
+    collect(t);
     int changes_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
     bool value = subject_.eye_inside;
-    for (size_t first = 0; first < events.size();) {
-      const size_t end = cluster_end(events, first);
-      const auto cluster = events.subspan(first, end - first);
-      workspace_.after = workspace_.before;
-      for (const Event& event : cluster) workspace_.after[event.index] = !event.at_end;
+    while (next_cluster()) {
+      for (const Event& event : workspace_.cluster) {
+        workspace_.after[event.index] = !event.at_end;
+      }
       if (holds(workspace_.after) != value) {
         if (--changes_left == 0) {
-          const Event event = shown_of(cluster, value);
+          const Event event = shown_of(workspace_.cluster, value);
           return Shown{event, is_on_cap(event)};
         }
         value = !value;
       }
-      std::swap(workspace_.before, workspace_.after);
-      first = end;
+      for (const Event& event : workspace_.cluster) {
+        workspace_.before[event.index] = !event.at_end;
+      }
     }
     return std::nullopt;
   }
@@ -64,21 +65,68 @@ class RayResolver {
  private:
   const CellList& list() const { return *trace_.list; }
 
-  /// The crossings before the eye's τ only leave their mark in `before`.
-  void collect() {
-    std::vector<Event>& events = workspace_.events;
-    events.clear();
-    workspace_.before.assign(list().count(), 0);
+  static bool is_earlier(const Event& a, const Event& b) { return a.t < b.t; }
+  static bool is_later(const Event& a, const Event& b) { return a.t > b.t; }
+
+  /// Only the crossings next to where the walk stands are needed in order: hundreds may lie
+  /// elsewhere.
+  void collect(double t) {
+    std::vector<Event>& earlier = workspace_.earlier;
+    std::vector<Event>& later = workspace_.later;
+    earlier.clear();
+    later.clear();
+    const auto add = [&](const Event& event) {
+      if (event.t > frame_.first_t) (event.t < t ? earlier : later).push_back(event);
+    };
     for (uint32_t i = 0; i < list().count(); ++i) {
       const double start = workspace_.segments[i].start[lane_];
       const double end = workspace_.segments[i].end[lane_];
       if (!(start < end)) continue;
-      if (start > frame_.first_t) events.push_back({start, i, false});
-      if (end > frame_.first_t) events.push_back({end, i, true});
-      workspace_.before[i] = start <= frame_.first_t && end > frame_.first_t;
+      add({start, i, false});
+      add({end, i, true});
     }
-    std::sort(events.begin(), events.end(),
-              [](const Event& a, const Event& b) { return a.t < b.t; });
+    std::make_heap(earlier.begin(), earlier.end(), is_earlier);
+    std::make_heap(later.begin(), later.end(), is_later);
+    find_first_cluster();
+    const double first_t = workspace_.cluster.empty() ? t : workspace_.cluster.front().t;
+    workspace_.before.resize(list().count());
+    for (uint32_t i = 0; i < list().count(); ++i) {
+      const PacketSegments& segments = workspace_.segments[i];
+      workspace_.before[i] = segments.start[lane_] < first_t && segments.end[lane_] >= first_t;
+    }
+    workspace_.after = workspace_.before;
+  }
+
+  /// What lies before t and is taken together with what lies at it, the earliest first.
+  void find_first_cluster() {
+    std::vector<Event>& cluster = workspace_.cluster;
+    std::vector<Event>& earlier = workspace_.earlier;
+    cluster.clear();
+    if (workspace_.later.empty()) return;
+    cluster.push_back(workspace_.later.front());
+    std::pop_heap(workspace_.later.begin(), workspace_.later.end(), is_later);
+    workspace_.later.pop_back();
+    while (!earlier.empty() && together(earlier.front(), cluster.back())) {
+      cluster.push_back(earlier.front());
+      std::pop_heap(earlier.begin(), earlier.end(), is_earlier);
+      earlier.pop_back();
+    }
+    std::reverse(cluster.begin(), cluster.end());
+    is_first_ = true;
+  }
+
+  /// The maximal run of crossings each of which is taken together with the next.
+  bool next_cluster() {
+    std::vector<Event>& cluster = workspace_.cluster;
+    std::vector<Event>& later = workspace_.later;
+    if (!is_first_) cluster.clear();
+    is_first_ = false;
+    while (!later.empty() && (cluster.empty() || together(cluster.back(), later.front()))) {
+      cluster.push_back(later.front());
+      std::pop_heap(later.begin(), later.end(), is_later);
+      later.pop_back();
+    }
+    return !cluster.empty();
   }
 
   bool is_on_cap(const Event& event) const {
@@ -102,12 +150,6 @@ class RayResolver {
     return gap * std::max(facing(a), facing(b)) < subject_.thinnest_piece;
   }
 
-  size_t cluster_end(std::span<const Event> events, size_t first) const {
-    size_t end = first + 1;
-    while (end < events.size() && together(events[end - 1], events[end])) ++end;
-    return end;
-  }
-
   bool holds(const std::vector<uint8_t>& inside) const {
     uint32_t number = list().root;
     while (number >= CellList::kFirst) {
@@ -120,8 +162,6 @@ class RayResolver {
   /// Whether the value stays what it was before the cluster if only this primitive's change is
   /// undone.
   bool decides(uint32_t primitive, bool value) {
-    // `before` serves as the working copy: its own content is needed in this primitive's places
-    // only, where the two are each other's complement.
     std::vector<uint8_t>& after = workspace_.after;
     const auto flip = [&] {
       for (uint32_t i = 0; i < list().count(); ++i) {
@@ -161,6 +201,7 @@ class RayResolver {
   const TraceList& trace_;
   const TraceSubject& subject_;
   PacketWorkspace& workspace_;
+  bool is_first_ = false;  // the cluster is the first one, begun by what lies before
 };
 
 }  // namespace HWY_NAMESPACE

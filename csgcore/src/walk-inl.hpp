@@ -203,30 +203,47 @@ HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   walk.live &= found;
 }
 
-/// Walks all lanes of `walk.live` until their value is no longer what it was before; returns the
-/// lanes that got there, whose t and event are kept in the walk. `leave`: no further than that.
-HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, bool before,
-                                   const double* leave, Walk& walk) {
+/// What became of a walk.
+struct WalkEnd {
+  LaneMask changed = 0;  // the value changed, at the walk's t and event
+  /// Two crossings came so close that they are taken together whatever their normals: where the
+  /// value changes is not for the walk to say.
+  LaneMask unclear = 0;
+};
+
+/// Walks all lanes of `walk.live` until their value is no longer what it was before, no further
+/// than `leave`.
+HWY_INLINE WalkEnd walk_to_change(const RayPacket& rays, const TraceList& trace,
+                                  ListSegments& segments, const TraceSubject& subject,
+                                  const double* leave, Walk& walk) {
   const Wide d;
-  LaneMask arrived = 0;
+  WalkEnd result;
+  PacketV least_step;  // |n·d| ≤ |d|
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV inverse_length2 = hn::Load(d, rays.inverse_length2 + first_lane(c));
+    least_step.chunk[c] = hn::Mul(hn::Set(d, subject.thinnest_piece), hn::Sqrt(inverse_length2));
+  }
   Evaluation evaluation;
-  for (;;) {
+  while (walk.live != 0) {
     evaluate(trace, segments, walk, evaluation);
-    arrived |= walk.live & (before ? ~evaluation.value : evaluation.value);
-    walk.live &= ~arrived;
+    result.changed |= walk.live & (subject.eye_inside ? ~evaluation.value : evaluation.value);
+    walk.live &= ~result.changed;
     LaneMask goes_on = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV limit = hn::Load(d, leave + first_lane(c));
+      const WideV next = evaluation.next_t.chunk[c];
       const WideM live = mask_of(walk.live, c);
-      const WideM further = hn::And(live, hn::Le(evaluation.next_t.chunk[c], limit));
+      const WideM further = hn::And(live, hn::Le(next, limit));
+      const WideM close = hn::Le(hn::Sub(next, walk.t.chunk[c]), least_step.chunk[c]);
+      result.unclear |= bits_of(hn::And(further, close), c);
       goes_on |= bits_of(further, c);
-      walk.t.chunk[c] = hn::IfThenElse(further, evaluation.next_t.chunk[c], walk.t.chunk[c]);
+      walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
       walk.event.chunk[c] =
           hn::IfThenElse(further, evaluation.next_event.chunk[c], walk.event.chunk[c]);
     }
-    walk.live &= goes_on;
-    if (walk.live == 0) return arrived;
+    walk.live &= goes_on & ~result.unclear;
   }
+  return result;
 }
 
 }  // namespace HWY_NAMESPACE
