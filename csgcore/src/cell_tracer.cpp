@@ -108,13 +108,13 @@ class CellTracer::Traversal {
   uint32_t octant(uint32_t lane) const {
     uint32_t result = 0;
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      result |= uint32_t{rays_.direction[axis][lane] < 0} << axis;
+      if (rays_.direction[axis][lane] < 0) result |= uint32_t{1} << axis;
     }
     return result;
   }
 
   /// The part of each ray in the root cell; the lanes that have one.
-  LaneMask clip_to_root(LaneMask lanes, PacketRange& range) const {
+  LaneMask clip_to_root(LaneMask lanes, PacketRange& range) {
     const Box& box = tree_.root_box();
     LaneMask result = 0;
     for_each_lane(lanes, [&](uint32_t lane) {
@@ -135,7 +135,10 @@ class CellTracer::Traversal {
       }
       range.enter[lane] = enter;
       range.leave[lane] = leave;
-      if (enter <= leave) result |= LaneMask{1} << lane;
+      const LaneMask bit = LaneMask{1} << lane;
+      if (enter <= leave) result |= bit;
+      // A ray that starts outside of the tree's cells starts outside of the solid.
+      if (enter > owner_.frame_.first_t) known_ |= bit;
     });
     return result;
   }
@@ -181,7 +184,11 @@ class CellTracer::Traversal {
   }
 
   void trace_leaf(const Leaf& leaf, const Workspace::Visit& visit) {
-    if (leaf.literal_count == 0 || leaf.kind == LeafKind::kDropped) return;
+    if (leaf.literal_count == 0 || leaf.kind == LeafKind::kDropped) {
+      if (leaf.solid) eye_inside_ |= visit.lanes & ~known_;
+      known_ |= visit.lanes;
+      return;
+    }
     assign(workspace_.list, tree_.literals_of(leaf));
     // Of few primitives, all are intersected.
     workspace_.nearest.assign(leaf.literal_count, -std::numeric_limits<double>::max());
@@ -189,7 +196,9 @@ class CellTracer::Traversal {
                          workspace_.nearest.data(), -std::numeric_limits<double>::max()};
     PacketHits hits;
     trace_packet_in_range(owner_.frame_, rays_, visit.lanes, visit.range, list, owner_.subject_,
-                          workspace_.packets, hits);
+                          known_, eye_inside_, workspace_.packets, hits);
+    eye_inside_ |= hits.eye_inside & visit.lanes & ~known_;
+    known_ |= visit.lanes;
     done_ |= hits.hits;
     undecided_ |= hits.undecided;
     PacketBlock decided = block_;
@@ -210,6 +219,8 @@ class CellTracer::Traversal {
   PacketInverses inverses_;
   LaneMask done_ = 0;
   LaneMask undecided_ = 0;
+  LaneMask known_ = 0;  // lanes whose value at the eye is known: in eye_inside_
+  LaneMask eye_inside_ = 0;
 };
 
 CellTracer::CellTracer(const Subdivision& subdivision, const FrameRays& frame,

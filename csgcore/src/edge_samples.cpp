@@ -85,8 +85,7 @@ class EdgeVisitor::Batch {
     PacketHits hits;
     const TraceList& list = rays_.trace(packet, (LaneMask{1} << size_) - 1, hits);
     PacketColors colors;
-    shade_packet(owner_.sink_.shade(), owner_.frame_, packet, list, owner_.eye_inside_, hits,
-                 colors);
+    shade_packet(owner_.sink_.shade(), owner_.frame_, packet, list, hits, colors);
     for (uint32_t lane = 0; lane < size_; ++lane) add_sample(hits, colors, lane);
     size_ = 0;
   }

@@ -28,13 +28,8 @@ class EdgeVisitor final : public TileVisitor {
  public:
   /// `sink` gives the colours; rgb of `image` is written.
   EdgeVisitor(const EdgeMap& edges, uint32_t samples, const FrameRays& frame, const ImageSink& sink,
-              bool eye_inside, Image& image)
-      : edges_(edges),
-        samples_(samples),
-        frame_(frame),
-        sink_(sink),
-        eye_inside_(eye_inside),
-        image_(image) {}
+              Image& image)
+      : edges_(edges), samples_(samples), frame_(frame), sink_(sink), image_(image) {}
 
   bool wants(const Tile& tile) const override { return edges_.any_in(tile); }
   void visit_empty(const Tile& tile) override;
@@ -47,7 +42,6 @@ class EdgeVisitor final : public TileVisitor {
   const uint32_t samples_;
   const FrameRays& frame_;
   const ImageSink& sink_;
-  const bool eye_inside_;
   Image& image_;
 };
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "csgcore/tracer.hpp"
 #include "packet.hpp"
 
 namespace csgcore {
@@ -24,8 +25,9 @@ FrameRays frame_rays(const View& view, const Box& solid_bounds) {
   const Vec3 middle = solid_bounds.empty() ? view.eye : solid_bounds.center();
   frame.base_s = rounded_to_26_bits(glm::dot(middle - view.eye, view.forward));
   frame.pivot = view.eye + frame.base_s * view.forward;
-  frame.first_t = view.projection == Projection::kPerspective ? -frame.base_s
-                                                              : -std::numeric_limits<double>::max();
+  frame.first_t = view.projection == Projection::kPerspective
+                      ? thinnest_piece(solid_bounds) - frame.base_s
+                      : -std::numeric_limits<double>::max();
   for (uint32_t x = 0; x < view.width_px + kPacketSide_px; ++x)
     frame.u_of_column.push_back(frame.u(x));
   for (uint32_t y = 0; y < view.height_px + kPacketSide_px; ++y)

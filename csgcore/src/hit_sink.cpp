@@ -66,10 +66,9 @@ void MemorySink::store(const PacketBlock& block, const RayPacket& rays, const Tr
 }
 
 ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
-                     bool eye_inside, Image& image)
+                     Image& image)
     : frame_(frame),
       measured_(settings.measured_channels),
-      eye_inside_(eye_inside),
       shade_(shade_settings(settings, frame.view, solid_bounds)),
       background_(to_rgb8(settings.background)),
       image_(image) {
@@ -99,7 +98,7 @@ void ImageSink::clear(const Tile& tile) {
 void ImageSink::store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
                       const PacketHits& hits) {
   PacketColors colors;
-  if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, eye_inside_, hits, colors);
+  if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, hits, colors);
   for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
     if (!(hits.hits >> lane & 1)) {
       image_.rgb[pixel] = background_;

@@ -40,7 +40,7 @@ class MemorySink final : public HitSink {
 class ImageSink final : public HitSink {
  public:
   ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
-            bool eye_inside, Image& image);
+            Image& image);
   void clear(const Tile& tile) override;
   void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
              const PacketHits& hits) override;
@@ -53,7 +53,6 @@ class ImageSink final : public HitSink {
 
   const FrameRays& frame_;
   bool measured_;
-  bool eye_inside_;
   ShadeSettings shade_;
   std::array<uint8_t, 3> background_;
   Image& image_;

@@ -198,18 +198,17 @@ HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
 
 HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                               const TraceList& list, const TraceSubject& subject,
-                              ListSegments& segments, const Walk& walk, PacketWorkspace& workspace,
+                              ListSegments& segments, PacketWorkspace& workspace,
                               PacketHits& hits) {
   if (lanes == 0) return;
-  alignas(64) double t[kPacketRays];
-  for (int c = 0; c < kChunks; ++c) hn::Store(walk.t.chunk[c], Wide(), t + first_lane(c));
   segments.compute_all();
   LaneMask found = 0;
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
     ++workspace.resolved_rays;
-    const auto shown = RayResolver(frame, rays, lane, list, subject, workspace).resolve(t[lane]);
+    RayResolver resolver(frame, rays, lane, list, subject, workspace);
+    const auto shown = resolver.resolve(hits.t[lane], (hits.eye_inside & bit) != 0);
     if (!shown) continue;
     found |= bit;
     hits.t[lane] = shown->event.t;
@@ -225,20 +224,22 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   PacketHits& hits) {
   constexpr double kEndless = std::numeric_limits<double>::max();
   alignas(64) double start[kPacketRays], leave[kPacketRays];
-  std::fill_n(start, kPacketRays, std::max(frame.first_t, list.earliest_t));
+  std::fill_n(start, kPacketRays, frame.first_t);
   std::fill_n(leave, kPacketRays, kEndless);
   workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(start, lanes);
-  if (list.earliest_t > frame.first_t && !subject.eye_inside) {
-    walk_to_first_crossing(list, segments, kEndless, walk);
+  if (list.earliest_t > frame.first_t) {
+    const bool value = walk_to_first_crossing(list, segments, kEndless, walk);
+    hits.eye_inside = value ? kAllLanes : 0;
+  } else {
+    hits.eye_inside = value_of(list, segments, walk);
   }
-  const WalkEnd end = walk_to_change(rays, list, segments, subject, leave, walk);
-  const LaneMask arrived = end.changed | end.unclear;
-  take_hits(walk, end.changed, workspace, hits);
+  const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, leave, walk);
+  take_hits(walk, arrived, workspace, hits);
   hits.undecided = 0;
   if (arrived == 0) return;
-  LaneMask unclear = end.unclear | lanes_without_event(walk, end.changed);
+  LaneMask unclear = lanes_without_event(walk, arrived);
   if (subject.boundary == Boundary::kBehind) {
     unclear = arrived;
   } else {
@@ -246,21 +247,21 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
     const PacketV reach = reach_of(rays, subject, hits);
     unclear |= coincident_lanes(list, segments, reach, walk, arrived & ~unclear);
   }
-  resolve_lanes(frame, rays, unclear, list, subject, segments, walk, workspace, hits);
+  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
-                           const TraceSubject& subject, PacketWorkspace& workspace,
-                           PacketHits& hits) {
+                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           PacketWorkspace& workspace, PacketHits& hits) {
   const Wide d;
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(range.enter, lanes);
-  const WalkEnd end = walk_to_change(rays, list, segments, subject, range.leave, walk);
-  const LaneMask arrived = end.changed | end.unclear;
-  take_hits(walk, end.changed, workspace, hits);
-  hits.hits = arrived;
-  hits.undecided = end.unclear | lanes_without_event(walk, end.changed);
+  hits.eye_inside = eye_inside & known;
+  if ((lanes & ~known) != 0) hits.eye_inside |= value_of(list, segments, walk) & ~known;
+  const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, range.leave, walk);
+  take_hits(walk, arrived, workspace, hits);
+  hits.undecided = lanes_without_event(walk, arrived);
   if (subject.boundary == Boundary::kBehind) hits.undecided = arrived;
   if (hits.undecided == arrived) return;
   find_normals(frame, rays, list, arrived & ~hits.undecided, hits);
@@ -344,12 +345,14 @@ HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list,
 }
 
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
-                  const TraceList& list, bool eye_inside, const PacketHits& hits,
-                  PacketColors& colors) {
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors) {
   const Wide d;
   for (LaneMask lanes = hits.hits; lanes != 0;) {
-    const LaneMask same = lanes_of_first(hits, lanes);
-    const Vec3 base = base_color(settings, list, hits.index[std::countr_zero(lanes)], eye_inside);
+    const int first = std::countr_zero(lanes);
+    const bool eye_inside = (hits.eye_inside >> first & 1) != 0;
+    const LaneMask same =
+        lanes_of_first(hits, lanes) & (eye_inside ? hits.eye_inside : ~hits.eye_inside);
+    const Vec3 base = base_color(settings, list, hits.index[first], eye_inside);
     lanes &= ~same;
     if (settings.shading == Shading::kPhong) {
       shade_phong(settings, frame, rays, same, base, hits, colors);
@@ -398,16 +401,15 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
-                           const TraceSubject& subject, PacketWorkspace& workspace,
-                           PacketHits& hits) {
+                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           PacketWorkspace& workspace, PacketHits& hits) {
   CSGCORE_SIMD(trace_packet_in_range)
-  (frame, rays, lanes, range, list, subject, workspace, hits);
+  (frame, rays, lanes, range, list, subject, known, eye_inside, workspace, hits);
 }
 
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
-                  const TraceList& list, bool eye_inside, const PacketHits& hits,
-                  PacketColors& colors) {
-  CSGCORE_SIMD(shade_packet)(settings, frame, rays, list, eye_inside, hits, colors);
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors) {
+  CSGCORE_SIMD(shade_packet)(settings, frame, rays, list, hits, colors);
 }
 
 void invert_directions(const RayPacket& rays, PacketInverses& inverses) {

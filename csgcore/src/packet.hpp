@@ -29,7 +29,8 @@ struct FrameRays {
   View view;
   double base_s = 0;  // of 26 bits, so that its products with half a direction are exact
   Vec3 pivot{0.0};
-  /// τ of the eye in perspective, −∞ in orthographic views: nothing is seen before it.
+  /// What lies further on is seen: in perspective from the tolerance beyond the eye on (an eye in a
+  /// face is not torn between its sides by rounding), everything in orthographic views.
   double first_t = 0;
 
   /// pixel_ray's u and v of a point of the picture, in pixels.
@@ -74,7 +75,6 @@ struct TraceList {
 /// What the solid is, beyond its list.
 struct TraceSubject {
   double thinnest_piece = 0;
-  bool eye_inside = false;
   Boundary boundary = Boundary::kFirst;
 };
 
@@ -94,9 +94,8 @@ struct PacketWorkspace {
     uint32_t index;  // in the list
     bool at_end;
   };
-  std::vector<Event> earlier, later;  // heaps: the events nearest to where the walk stands on top
-  std::vector<Event> cluster;
-  std::vector<uint8_t> before, after;  // by index in the list: inside
+  std::vector<Event> events, changed;
+  std::vector<uint8_t> inside;  // by index in the list
 };
 
 /// Per lane. Only lanes of `hits` hold anything.
@@ -104,7 +103,8 @@ struct alignas(64) PacketHits {
   LaneMask hits = 0;
   /// Lanes whose hit the range alone cannot decide; only from trace_packet_in_range.
   LaneMask undecided = 0;
-  LaneMask on_cap = 0;  // the hit is on a flat face
+  LaneMask on_cap = 0;      // the hit is on a flat face
+  LaneMask eye_inside = 0;  // of all lanes that were traced: the solid holds at the eye
   alignas(64) double t[kPacketRays];
   double normal[3][kPacketRays];  // unit, outward of the solid
   uint32_t index[kPacketRays];    // of the literal in the list
@@ -148,11 +148,13 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
                   PacketHits& hits);
 
-/// The same within a range. Lanes that the range alone cannot decide come back as undecided.
+/// The same within a range. `eye_inside`: the solid's value at the eye, of the lanes in `known`;
+/// that of others is the value at their `enter`. Lanes that the range alone cannot decide come back
+/// as undecided.
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
-                           const TraceSubject& subject, PacketWorkspace& workspace,
-                           PacketHits& hits);
+                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           PacketWorkspace& workspace, PacketHits& hits);
 
 /// How hits turn into colours.
 struct ShadeSettings {
@@ -169,7 +171,6 @@ struct alignas(64) PacketColors {
   double rgb[3][kPacketRays];
 };
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
-                  const TraceList& list, bool eye_inside, const PacketHits& hits,
-                  PacketColors& colors);
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors);
 
 }  // namespace csgcore

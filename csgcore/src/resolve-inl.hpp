@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "primitive-inl.hpp"
 
@@ -20,6 +19,9 @@ namespace HWY_NAMESPACE {
 
 using Event = PacketWorkspace::Event;
 
+/// Crossings at which the solid's value changes are its boundaries. Two crossings are together if
+/// they lie less than the tolerance apart, measured along the normal of that of the two which the
+/// ray meets more squarely. A cluster is a maximal run of boundaries each together with the next.
 class RayResolver {
  public:
   /// All of the list's segments are computed.
@@ -31,177 +33,222 @@ class RayResolver {
         lane_(lane),
         trace_(trace),
         subject_(subject),
-        workspace_(workspace) {}
+        events_(workspace.events),
+        changed_(workspace.changed),
+        inside_(workspace.inside),
+        segments_(workspace.segments) {}
 
-  /// The crossing that the ray shows, if any.
   struct Shown {
     Event event;
     bool on_cap;
   };
-  /// `t`: the ray's value is that at the eye up to there, but for what lies so close before it that
-  /// it is taken together with what lies there.
-  std::optional<Shown> resolve(double t) {
-    collect(t);
-    int changes_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
-    bool value = subject_.eye_inside;
-    while (next_cluster()) {
-      for (const Event& event : workspace_.cluster) {
-        workspace_.after[event.index] = !event.at_end;
+  /// The crossing that the ray shows, if any. No boundary lies before t; `value` is that at the
+  /// eye.
+  std::optional<Shown> resolve(double t, bool value) {
+    collect();
+    const auto at_t = std::lower_bound(events_.begin(), events_.end(), t,
+                                       [](const Event& event, double at) { return event.t < at; });
+    pass_until(static_cast<size_t>(at_t - events_.begin()));
+    int turns_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
+    size_t begin = 0;
+    for (size_t first = next_boundary(value); first < events_.size();) {
+      const Cluster cluster = cluster_of(begin, first, value);
+      if (cluster.turns && --turns_left == 0) {
+        const Event event = shown_of(cluster, value);
+        return Shown{event, is_on_cap(event)};
       }
-      if (holds(workspace_.after) != value) {
-        if (--changes_left == 0) {
-          const Event event = shown_of(workspace_.cluster, value);
-          return Shown{event, is_on_cap(event)};
-        }
-        value = !value;
-      }
-      for (const Event& event : workspace_.cluster) {
-        workspace_.before[event.index] = !event.at_end;
-      }
+      if (cluster.turns) value = !value;
+      begin = cluster.last + 1;
+      first = cluster.end;
     }
     return std::nullopt;
   }
 
  private:
+  /// Boundaries [first, last] of which each is together with the next. The boundaries next to them
+  /// lie before `begin` and not before `end`.
+  struct Cluster {
+    size_t begin, first, last, end;
+    bool turns;  // the value after it is not that before it
+  };
+
   const CellList& list() const { return *trace_.list; }
+  uint32_t primitive_of(const Event& event) const {
+    return list().primitive[event.index] & kPrimitiveBits;
+  }
 
-  static bool is_earlier(const Event& a, const Event& b) { return a.t < b.t; }
-  static bool is_later(const Event& a, const Event& b) { return a.t > b.t; }
-
-  /// Only the crossings next to where the walk stands are needed in order: hundreds may lie
-  /// elsewhere.
-  void collect(double t) {
-    std::vector<Event>& earlier = workspace_.earlier;
-    std::vector<Event>& later = workspace_.later;
-    earlier.clear();
-    later.clear();
-    const auto add = [&](const Event& event) {
-      if (event.t > frame_.first_t) (event.t < t ? earlier : later).push_back(event);
-    };
+  /// What was crossed up to the eye is behind it.
+  void collect() {
+    events_.clear();
+    inside_.resize(list().count());
     for (uint32_t i = 0; i < list().count(); ++i) {
-      const double start = workspace_.segments[i].start[lane_];
-      const double end = workspace_.segments[i].end[lane_];
+      const double start = segments_[i].start[lane_];
+      const double end = segments_[i].end[lane_];
+      inside_[i] = start <= frame_.first_t && end > frame_.first_t;
       if (!(start < end)) continue;
-      add({start, i, false});
-      add({end, i, true});
+      if (start > frame_.first_t) events_.push_back({start, i, false});
+      if (end > frame_.first_t) events_.push_back({end, i, true});
     }
-    std::make_heap(earlier.begin(), earlier.end(), is_earlier);
-    std::make_heap(later.begin(), later.end(), is_later);
-    find_first_cluster();
-    const double first_t = workspace_.cluster.empty() ? t : workspace_.cluster.front().t;
-    workspace_.before.resize(list().count());
-    for (uint32_t i = 0; i < list().count(); ++i) {
-      const PacketSegments& segments = workspace_.segments[i];
-      workspace_.before[i] = segments.start[lane_] < first_t && segments.end[lane_] >= first_t;
-    }
-    workspace_.after = workspace_.before;
+    std::sort(events_.begin(), events_.end(), [&](const Event& a, const Event& b) {
+      return a.t != b.t ? a.t < b.t : primitive_of(a) < primitive_of(b);
+    });
+    passed_ = 0;
   }
 
-  /// What lies before t and is taken together with what lies at it, the earliest first.
-  void find_first_cluster() {
-    std::vector<Event>& cluster = workspace_.cluster;
-    std::vector<Event>& earlier = workspace_.earlier;
-    cluster.clear();
-    if (workspace_.later.empty()) return;
-    cluster.push_back(workspace_.later.front());
-    std::pop_heap(workspace_.later.begin(), workspace_.later.end(), is_later);
-    workspace_.later.pop_back();
-    while (!earlier.empty() && together(earlier.front(), cluster.back())) {
-      cluster.push_back(earlier.front());
-      std::pop_heap(earlier.begin(), earlier.end(), is_earlier);
-      earlier.pop_back();
-    }
-    std::reverse(cluster.begin(), cluster.end());
-    is_first_ = true;
+  // `inside_` is that of a point after the first passed_ crossings.
+  void flip(uint32_t index) { inside_[index] = !inside_[index]; }
+  void pass_until(size_t count) {
+    while (passed_ < count) flip(events_[passed_++].index);
+    while (passed_ > count) flip(events_[--passed_].index);
   }
 
-  /// The maximal run of crossings each of which is taken together with the next.
-  bool next_cluster() {
-    std::vector<Event>& cluster = workspace_.cluster;
-    std::vector<Event>& later = workspace_.later;
-    if (!is_first_) cluster.clear();
-    is_first_ = false;
-    while (!later.empty() && (cluster.empty() || together(cluster.back(), later.front()))) {
-      cluster.push_back(later.front());
-      std::pop_heap(later.begin(), later.end(), is_later);
-      later.pop_back();
-    }
-    return !cluster.empty();
-  }
-
-  bool is_on_cap(const Event& event) const {
-    const PacketSegments& segments = workspace_.segments[event.index];
-    return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
-  }
-
-  /// |n·d| there.
-  double facing(const Event& event) const {
-    const Single d;
-    const CanonicalPrimitive& primitive =
-        trace_.primitives[list().primitive[event.index] & kPrimitiveBits];
-    const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
-    const auto normal = normal_of(d, primitive, frame_.pivot, rays_, hn::Set(d, event.t), on_cap);
-    return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
-  }
-
-  bool together(const Event& a, const Event& b) const {
-    const double gap = b.t - a.t;
-    if (gap * length_ < subject_.thinnest_piece) return true;  // |n·d| ≤ |d|
-    return gap * std::max(facing(a), facing(b)) < subject_.thinnest_piece;
-  }
-
-  bool holds(const std::vector<uint8_t>& inside) const {
+  bool holds() const {
     uint32_t number = list().root;
     while (number >= CellList::kFirst) {
       const uint32_t i = number - CellList::kFirst;
-      number = inside[i] ? list().if_inside[i] : list().if_outside[i];
+      number = inside_[i] ? list().if_inside[i] : list().if_outside[i];
     }
     return number == CellList::kTrue;
   }
 
-  /// Whether the value stays what it was before the cluster if only this primitive's change is
-  /// undone.
-  bool decides(uint32_t primitive, bool value) {
-    std::vector<uint8_t>& after = workspace_.after;
-    const auto flip = [&] {
-      for (uint32_t i = 0; i < list().count(); ++i) {
-        if ((list().primitive[i] & kPrimitiveBits) == primitive) after[i] = !after[i];
+  /// Passes the first crossing that changes the value, which is `value` now; the crossing's place.
+  size_t next_boundary(bool value) {
+    while (passed_ < events_.size()) {
+      flip(events_[passed_++].index);
+      if (holds() != value) return passed_ - 1;
+    }
+    return events_.size();
+  }
+
+  /// `first` was passed, and changed the value from what it is before the cluster.
+  Cluster cluster_of(size_t begin, size_t first, bool value) {
+    Cluster cluster{begin, first, first, events_.size(), true};
+    for (;;) {
+      cluster.end = next_boundary(value == !cluster.turns);
+      if (cluster.end == events_.size() || !together(events_[cluster.last], events_[cluster.end])) {
+        return cluster;
       }
-    };
-    flip();
-    const bool result = holds(after) == value;
-    flip();
+      cluster.last = cluster.end;
+      cluster.turns = !cluster.turns;
+    }
+  }
+
+  bool is_on_cap(const Event& event) const {
+    const PacketSegments& segments = segments_[event.index];
+    return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
+  }
+
+  /// |n·d| there: thickness per τ.
+  double facing(const Event& event) const {
+    const Single d;
+    const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
+    const auto normal = normal_of(d, trace_.primitives[primitive_of(event)], frame_.pivot, rays_,
+                                  hn::Set(d, event.t), on_cap);
+    return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
+  }
+
+  bool together(const Event& a, const Event& b) const {
+    const double gap = std::abs(b.t - a.t);
+    if (gap * length_ < subject_.thinnest_piece) return true;  // |n·d| ≤ |d|
+    return gap * std::max(facing(a), facing(b)) < subject_.thinnest_piece;
+  }
+
+  /// The crossings by which a cluster changes the primitives: its own, and those together with its
+  /// first or last boundary, which rounding alone may have kept from being boundaries. In order of
+  /// the primitives; `inside_` is left as it is after all of them.
+  void collect_changes(const Cluster& cluster) {
+    const auto place = [&](size_t i) { return events_.begin() + static_cast<long>(i); };
+    changed_.assign(place(cluster.first), place(cluster.last + 1));
+    const Event& first = events_[cluster.first];
+    const double before = subject_.thinnest_piece / facing(first);
+    for (size_t i = cluster.first; i-- > cluster.begin && first.t - events_[i].t < before;) {
+      if (together(first, events_[i])) changed_.push_back(events_[i]);
+    }
+    const Event& last = events_[cluster.last];
+    const double after = subject_.thinnest_piece / facing(last);
+    size_t end = cluster.last + 1;
+    for (size_t i = end; i < cluster.end && events_[i].t - last.t < after; ++i) {
+      if (!together(last, events_[i])) continue;
+      changed_.push_back(events_[i]);
+      end = i + 1;
+    }
+    pass_until(end);
+    drop_what_came_back();
+  }
+
+  /// What is both entered and left has not changed.
+  void drop_what_came_back() {
+    std::sort(changed_.begin(), changed_.end(), [&](const Event& a, const Event& b) {
+      const uint32_t primitives[] = {primitive_of(a), primitive_of(b)};
+      return primitives[0] != primitives[1] ? primitives[0] < primitives[1] : a.index < b.index;
+    });
+    size_t kept = 0;
+    for (size_t i = 0; i < changed_.size(); ++i) {
+      if (i + 1 < changed_.size() && changed_[i + 1].index == changed_[i].index) {
+        ++i;
+      } else {
+        changed_[kept++] = changed_[i];
+      }
+    }
+    changed_.resize(kept);
+  }
+
+  /// A primitive may stand in the list more than once.
+  void flip_primitive(uint32_t primitive) {
+    for (const Event& event : changed_) {
+      if (primitive_of(event) == primitive) flip(event.index);
+    }
+  }
+
+  /// Whether the value is that before the cluster again without the primitive's change.
+  bool decides(uint32_t primitive, bool value) {
+    flip_primitive(primitive);
+    const bool result = holds() == value;
+    flip_primitive(primitive);
     return result;
   }
 
-  Event shown_of(std::span<const Event> cluster, bool value) {
-    const Event* best = nullptr;
-    uint32_t best_primitive = 0;
-    int best_rank = 0;
-    for (const Event& event : cluster) {
-      if (workspace_.before[event.index] == workspace_.after[event.index]) continue;
-      const uint32_t entry = list().primitive[event.index];
-      const uint32_t primitive = entry & kPrimitiveBits;
-      const bool complement = (entry & CellList::kComplementBit) != 0;
-      const bool turns = (event.at_end == complement) != value;
-      const int rank = decides(primitive, value) ? 2 : turns ? 1 : 0;
-      if (!best || rank > best_rank || (rank == best_rank && primitive < best_primitive)) {
-        best = &event;
-        best_primitive = primitive;
-        best_rank = rank;
-      }
+  /// The crossing that is seen of a cluster which turns the value from `value`: a decider's, a
+  /// primitive's without whose change the value would not have turned; of several, that of the
+  /// lowest index.
+  Event shown_of(const Cluster& cluster, bool value) {
+    collect_changes(cluster);
+    for (const Event& event : changed_) {
+      if (decides(primitive_of(event), value)) return event;
     }
-    return *best;
+    // Several would do. Without the later ones of those that turn the value, as far as it stays
+    // turned, one of the others decides.
+    const auto turns = [&](const Event& event) {
+      const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
+      return (event.at_end == complement) != value;
+    };
+    size_t undone = changed_.size();
+    for (size_t i = changed_.size(); i-- > 0;) {
+      if (!turns(changed_[i])) continue;
+      flip(changed_[i].index);
+      if (holds() == value) {
+        flip(changed_[i].index);
+        break;
+      }
+      undone = i;
+    }
+    for (size_t i = 0; i < undone; ++i) {
+      if (turns(changed_[i]) && decides(primitive_of(changed_[i]), value)) return changed_[i];
+    }
+    return events_[cluster.first];
   }
 
   const FrameRays& frame_;
-  Rays<Single> rays_;
-  double length_;
-  uint32_t lane_;
+  const Rays<Single> rays_;
+  const double length_;
+  const uint32_t lane_;
   const TraceList& trace_;
   const TraceSubject& subject_;
-  PacketWorkspace& workspace_;
-  bool is_first_ = false;  // the cluster is the first one, begun by what lies before
+  std::vector<Event>& events_;   // by τ
+  std::vector<Event>& changed_;  // by a cluster
+  std::vector<uint8_t>& inside_;
+  const std::vector<PacketSegments>& segments_;
+  size_t passed_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -100,11 +100,7 @@ struct TileTracer::Workspace {
   explicit Workspace(const TileTracer& owner)
       : restrictor(owner.screen_, *owner.classifier_, Restrictor::Space::kScreen),
         simplifier(owner.solid_.primitives(), owner.screen_, owner.frame_, owner.centers_only_,
-                   last_value(owner.subject_), owner.fates_) {}
-  static std::optional<bool> last_value(const TraceSubject& subject) {
-    if (subject.boundary == Boundary::kBehind) return std::nullopt;
-    return !subject.eye_inside;
-  }
+                   owner.last_value_, owner.fates_) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -152,6 +148,7 @@ TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSu
       fates_(fates),
       screen_(solid.extents().size()),
       classifier_(std::make_unique<Classifier>(screen_, shapes_, frame)) {
+  last_value_ = find_last_value();
   const Extents& world = solid.extents();
   const ScreenOptions options{centers_only};
   const bool has_shapes = std::any_of(world.begin(), world.end(),
@@ -178,6 +175,22 @@ TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSu
 }
 
 TileTracer::~TileTracer() = default;
+
+/// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
+std::optional<bool> TileTracer::find_last_value() const {
+  if (subject_.boundary == Boundary::kBehind || !solid_.cell_list()) return std::nullopt;
+  if (frame_.view.projection == Projection::kOrthographic) return true;
+  // Rays start up to a few tolerances from the eye: further in the picture's corners.
+  constexpr double kEyeTolerances = 64;
+  const Vec3 reach{kEyeTolerances * subject_.thinnest_piece};
+  const WorldClassifier classifier(solid_.primitives());
+  Restrictor restrictor(solid_.extents(), classifier);
+  CellList at_eye;
+  restrictor.restrict(*solid_.cell_list(), {frame_.view.eye - reach, frame_.view.eye + reach},
+                      at_eye);
+  if (!at_eye.is_constant()) return std::nullopt;
+  return at_eye.root == CellList::kFalse;
+}
 
 Tile TileTracer::whole_picture() const {
   return {0, 0, frame_.view.width_px, frame_.view.height_px};

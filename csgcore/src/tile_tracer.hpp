@@ -92,12 +92,14 @@ class TileTracer {
   void visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
                   Workspace& workspace, TileVisitor& visitor);
   Box box_of(const Tile& tile) const;
+  std::optional<bool> find_last_value() const;
 
   const Solid& solid_;
   const FrameRays& frame_;
   const TraceSubject subject_;
   const bool centers_only_;
   Fates& fates_;
+  std::optional<bool> last_value_;
   Extents screen_;
   std::vector<ScreenShape> shapes_;  // of what is no ball
   std::unique_ptr<Classifier> classifier_;

@@ -45,10 +45,9 @@ void with_threads(unsigned threads, Work&& work) {
   arena.execute(work);
 }
 
-TraceSubject subject_of(const Solid& solid, const View& view, const TraceOptions& options) {
+TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
   TraceSubject subject;
   subject.thinnest_piece = thinnest_piece(solid.bounds());
-  subject.eye_inside = view.projection == Projection::kPerspective && solid.contains(view.eye);
   subject.boundary = options.boundary;
   return subject;
 }
@@ -80,6 +79,7 @@ void count_fates(const Solid& solid, const Fates& fates, TraceStats& stats) {
   for (const Literal& literal : solid.list().literals) {
     if (seen[literal.primitive]) continue;
     seen[literal.primitive] = true;
+    ++stats.primitives;
     switch (static_cast<Fate>(fates.all()[literal.primitive])) {
       case Fate::kIntersected:
         ++stats.intersected;
@@ -112,7 +112,7 @@ class Frame {
         options_(options),
         stats_(stats),
         rays_(frame_rays(view, solid.bounds())),
-        subject_(subject_of(solid, view, options)) {
+        subject_(subject_of(solid, options)) {
     stats = {};
     if (options.count_skipped) fates_.resize(solid.primitives().size());
   }
@@ -128,6 +128,10 @@ class Frame {
         tracer.trace_picture();
         add(tracer.counts());
         stats_.tiles = 0;
+        // What stands in some cell, and was not met there, lies behind what was.
+        for (const Literal& literal : subdivision->literals()) {
+          fates_.note(literal.primitive, Fate::kHidden);
+        }
       } else {
         TileTracer tracer(solid_, rays_, subject_, true, fates_);
         stats_.cull_ms = watch.lap_ms();
@@ -141,11 +145,12 @@ class Frame {
   }
 
   void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
-    ImageSink sink(rays_, settings, solid_.bounds(), subject_.eye_inside, image);
+    ImageSink sink(rays_, settings, solid_.bounds(), image);
     trace(subdivision, sink);
     if (options_.samples > 1) sample_edges(sink, image);
   }
 
+  /// Counts what was skipped, if wanted.
   void finish() {
     if (fates_.wanted()) count_fates(solid_, fates_, stats_);
   }
@@ -157,7 +162,7 @@ class Frame {
       const EdgeMap edges(image);
       stats_.edge_pixels = edges.count();
       TileTracer tracer(solid_, rays_, subject_, false, fates_);
-      EdgeVisitor visitor(edges, options_.samples, rays_, sink, subject_.eye_inside, image);
+      EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
       tracer.visit(tracer.whole_picture(), visitor);
       add(tracer.counts());
       stats_.trace_ms += watch.lap_ms();

@@ -168,8 +168,9 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
 
 /// Moves lanes that are outside of all primitives to the first crossing that may change the list's
 /// value; lanes that meet none, or none before `leave`, are no longer live. What follows such a
-/// crossing decides the value, whatever precedes it, since nothing is entered before.
-HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& segments, double leave,
+/// crossing decides the value, whatever precedes it, since nothing is entered before. Returns the
+/// value up to there.
+HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& segments, double leave,
                                        Walk& walk) {
   const Wide d;
   const CellList& list = *trace.list;
@@ -179,7 +180,8 @@ HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& seg
     next_event.chunk[c] = hn::Set(d, -1.0);
   }
   double furthest = kInfinity;  // of the lanes' next_t
-  for (uint32_t number = list.root; number >= CellList::kFirst;) {
+  uint32_t number = list.root;
+  while (number >= CellList::kFirst) {
     const uint32_t index = number - CellList::kFirst;
     number = list.if_outside[index];
     if (segments.is_missed(index) || trace.nearest_t[index] > furthest) continue;
@@ -201,49 +203,40 @@ HWY_INLINE void walk_to_first_crossing(const TraceList& trace, ListSegments& seg
     walk.event.chunk[c] = next_event.chunk[c];
   }
   walk.live &= found;
+  return number == CellList::kTrue;
 }
 
-/// What became of a walk.
-struct WalkEnd {
-  LaneMask changed = 0;  // the value changed, at the walk's t and event
-  /// Two crossings came so close that they are taken together whatever their normals: where the
-  /// value changes is not for the walk to say.
-  LaneMask unclear = 0;
-};
-
-/// Walks all lanes of `walk.live` until their value is no longer what it was before, no further
-/// than `leave`.
-HWY_INLINE WalkEnd walk_to_change(const RayPacket& rays, const TraceList& trace,
-                                  ListSegments& segments, const TraceSubject& subject,
-                                  const double* leave, Walk& walk) {
+/// Walks all lanes of `walk.live` until their value is no longer that in `before`, no further than
+/// `leave`; returns the lanes that got there, whose t and event are kept in the walk.
+HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, LaneMask before,
+                                   const double* leave, Walk& walk) {
   const Wide d;
-  WalkEnd result;
-  PacketV least_step;  // |n·d| ≤ |d|
-  for (int c = 0; c < kChunks; ++c) {
-    const WideV inverse_length2 = hn::Load(d, rays.inverse_length2 + first_lane(c));
-    least_step.chunk[c] = hn::Mul(hn::Set(d, subject.thinnest_piece), hn::Sqrt(inverse_length2));
-  }
+  LaneMask changed = 0;
   Evaluation evaluation;
   while (walk.live != 0) {
     evaluate(trace, segments, walk, evaluation);
-    result.changed |= walk.live & (subject.eye_inside ? ~evaluation.value : evaluation.value);
-    walk.live &= ~result.changed;
+    changed |= walk.live & (before ^ evaluation.value);
+    walk.live &= ~changed;
     LaneMask goes_on = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV limit = hn::Load(d, leave + first_lane(c));
       const WideV next = evaluation.next_t.chunk[c];
-      const WideM live = mask_of(walk.live, c);
-      const WideM further = hn::And(live, hn::Le(next, limit));
-      const WideM close = hn::Le(hn::Sub(next, walk.t.chunk[c]), least_step.chunk[c]);
-      result.unclear |= bits_of(hn::And(further, close), c);
+      const WideM further = hn::And(mask_of(walk.live, c), hn::Le(next, limit));
       goes_on |= bits_of(further, c);
       walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
       walk.event.chunk[c] =
           hn::IfThenElse(further, evaluation.next_event.chunk[c], walk.event.chunk[c]);
     }
-    walk.live &= goes_on & ~result.unclear;
+    walk.live &= goes_on;
   }
-  return result;
+  return changed;
+}
+
+/// The value of all lanes where they stand.
+HWY_INLINE LaneMask value_of(const TraceList& trace, ListSegments& segments, const Walk& walk) {
+  Evaluation evaluation;
+  evaluate(trace, segments, walk, evaluation);
+  return evaluation.value;
 }
 
 }  // namespace HWY_NAMESPACE

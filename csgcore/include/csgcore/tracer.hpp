@@ -48,9 +48,9 @@ struct SkippedPrimitives {
 
 /// Of one frame. Times in ms.
 struct TraceStats {
-  uint64_t primitives = 0;     // that the solid's tree names
+  uint64_t primitives = 0;     // that the solid's tree names; this and the next two if counted
   uint64_t intersected = 0;    // of them, those that any ray was intersected with
-  SkippedPrimitives skipped;   // the rest, if counted
+  SkippedPrimitives skipped;   // the rest
   uint64_t tiles = 0;          // tiles that were traced; 0 with a Subdivision
   uint64_t rays = 0;           // rays that had anything to meet
   uint64_t intersections = 0;  // of a ray with a primitive
