@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cstdio>
 #include <new>
 
+#include "elapsed.hpp"
 #include "frontend/axes_overlay.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/error.hpp"
@@ -23,11 +23,6 @@ namespace frontend {
 namespace {
 
 using csgcore::Image;
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 bool has_suffix(const std::string& path, std::string_view suffix) {
   if (path.size() < suffix.size()) return false;
@@ -49,6 +44,10 @@ Image background_picture(const csgcore::View& view, Rgb color, bool with_channel
     image.id.assign(pixels, csgcore::kNoPrimitive);
   }
   return image;
+}
+
+std::string renderer_line(const RenderStats& stats) {
+  return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
 }
 
 /// One run that draws.
@@ -133,24 +132,24 @@ class Run {
     RenderSettings settings = options_.render;
     const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
     settings.measured_channels = shows_channel || options_.axes || writes_exr();
-    settings.measure_paper_times = !options_.stats_path.empty();
+    settings.all_stats = !options_.stats_path.empty();
     settings.progress = [this](const char* stage, double fraction) {
       progress_.update(stage, fraction);
     };
     const Clock::time_point start = Clock::now();
     Image image;
     if (scene.model.empty() && scene.background.empty() && scene.highlight.empty()) {
-      // Nothing to draw needs no GPU: this works where there is none.
+      // Nothing to draw needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";
       stats_.render.render_ms = ms_since(start);
     } else {
       image = renderer_(scene, view, settings, stats_.render);
-      const RenderStats& r = stats_.render;
-      const double drawing = r.context_ms + r.subdivide_ms + r.traverse_ms + r.render_ms;
-      if (settings.measure_paper_times) measuring_ms_ = std::max(0.0, ms_since(start) - drawing);
+      if (settings.technique == Technique::kTiles && stats_.render.technique == "cells") {
+        say("warning: --technique=tiles has no effect with OpenGL in this version");
+      }
     }
-    if (options_.info) say("renderer: " + stats_.render.renderer);
+    if (options_.info) say(renderer_line(stats_.render));
     return image;
   }
 
@@ -167,7 +166,7 @@ class Run {
     stats_.width_px = image.width_px;
     stats_.height_px = image.height_px;
     stats_.encode_ms = ms_since(start);
-    stats_.total_ms = ms_since(start_) - measuring_ms_;
+    stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
     if (!options_.stats_path.empty()) {
       const std::string json = to_json(stats_);
       const auto* first = reinterpret_cast<const std::byte*>(json.data());
@@ -180,13 +179,12 @@ class Run {
   const Renderer& renderer_;
   Clock::time_point start_ = Clock::now();
   RunStats stats_;
-  double measuring_ms_ = 0;  // spent on the paper's times alone
   ProgressLine progress_;
 };
 
 void print_info() {
-  std::printf("scadray %s\npictures: PNG (libspng), EXR (OpenEXR)\nrenderers: gl\n.scad by: %s\n",
-              SCADRAY_VERSION, "openscad on PATH, or $OPENSCAD");
+  std::printf("scadray %s\npictures: PNG (libspng), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
+              SCADRAY_VERSION, SCADRAY_RENDERERS, "openscad on PATH, or $OPENSCAD");
 }
 
 void run(const std::vector<std::string>& arguments, const Renderer& renderer) {

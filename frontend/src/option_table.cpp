@@ -65,7 +65,13 @@ constexpr Row kOpenScadOptions[] = {
 };
 
 constexpr Row kOwnOptions[] = {
-    {"renderer", Takes::kText, "R", "auto or gl; default auto"},
+    {"renderer", Takes::kText, "R",
+     "cpu, gl or auto, the default: OpenGL where there is a GPU, else the CPU"},
+    {"technique", Takes::kText, "T",
+     "how the CPU finds what a ray may meet: tiles of the screen (default), or the cells of a "
+     "kd-tree (default with --leaf-primitives, --threshold and --show=cells)"},
+    {"samples", Takes::kText, "N",
+     "antialiasing: rays per pixel where there is an edge, 1 to 64; default 1"},
     {"leaf-primitives", Takes::kText, "K",
      "a cell is a leaf once at most K primitives' surfaces cross it; default 8"},
     {"threshold", Takes::kText, "PX",

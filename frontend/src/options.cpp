@@ -201,38 +201,51 @@ void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
   render.scheme = *scheme;
 }
 
-void read_shading(const Arguments& arguments, RenderSettings& render) {
-  if (!arguments.has("shading")) return;
-  const std::string& value = arguments.text("shading");
-  if (value == "phong") {
-    render.shading = Shading::kPhong;
-  } else if (value != "openscad") {
-    bad_value("shading", value, "give openscad or phong");
+/// "a, b or c"
+template <typename Value, std::size_t kCount>
+std::string listed(const std::pair<const char*, Value> (&names)[kCount]) {
+  std::string list;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    list += i == 0 ? "" : (i + 1 < kCount ? ", " : " or ");
+    list += names[i].first;
   }
+  return list;
 }
 
-void read_show(const Arguments& arguments, RenderSettings& render) {
-  if (!arguments.has("show")) return;
-  constexpr std::pair<std::string_view, Show> kNames[] = {{"surface", Show::kSurface},
-                                                          {"cells", Show::kCells},
-                                                          {"depth", Show::kDepth},
-                                                          {"normals", Show::kNormals},
-                                                          {"id", Show::kId}};
-  const std::string& value = arguments.text("show");
-  const auto* found = std::find_if(std::begin(kNames), std::end(kNames),
-                                   [&value](const auto& name) { return name.first == value; });
-  if (found == std::end(kNames)) {
-    bad_value("show", value, "give surface, cells, depth, normals or id");
+/// The value that goes with the option's word, or `missing`.
+template <typename Value, std::size_t kCount>
+Value choice(const Arguments& arguments, const char* option,
+             const std::pair<const char*, Value> (&names)[kCount], Value missing) {
+  if (!arguments.has(option)) return missing;
+  const std::string& word = arguments.text(option);
+  for (const auto& [name, value] : names) {
+    if (word == name) return value;
   }
-  render.show = found->second;
+  bad_value(option, word, "give " + listed(names));
 }
 
-void check_renderer(const Arguments& arguments) {
-  if (!arguments.has("renderer")) return;
-  const std::string& value = arguments.text("renderer");
-  if (value == "cpu")
-    fail("this version has no CPU renderer", "give --renderer=gl or leave it out");
-  if (value != "auto" && value != "gl") bad_value("renderer", value, "give auto or gl");
+constexpr std::pair<const char*, Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
+                                                         {"phong", Shading::kPhong}};
+constexpr std::pair<const char*, Show> kShows[] = {{"surface", Show::kSurface},
+                                                   {"cells", Show::kCells},
+                                                   {"depth", Show::kDepth},
+                                                   {"normals", Show::kNormals},
+                                                   {"id", Show::kId}};
+constexpr std::pair<const char*, RendererKind> kRenderers[] = {
+    {"auto", RendererKind::kAuto}, {"gl", RendererKind::kGl}, {"cpu", RendererKind::kCpu}};
+constexpr std::pair<const char*, Technique> kTechniques[] = {{"cells", Technique::kCells},
+                                                             {"tiles", Technique::kTiles}};
+
+/// Who speaks of cells without --technique means them.
+Technique read_technique(const Arguments& arguments, const RenderSettings& render) {
+  const bool wants_cells =
+      render.threshold_px > 0 || render.show == Show::kCells || arguments.has("leaf-primitives");
+  const Technique technique = choice(arguments, "technique", kTechniques,
+                                     wants_cells ? Technique::kCells : Technique::kAuto);
+  if (technique == Technique::kTiles && render.show == Show::kCells) {
+    fail("--technique=tiles has no cells to show", "leave out --technique or --show");
+  }
+  return technique;
 }
 
 void check_facets(const Arguments& arguments) {
@@ -245,9 +258,9 @@ void check_facets(const Arguments& arguments) {
 
 void read_render(const Arguments& arguments, RenderSettings& render) {
   read_color_scheme(arguments, render);
-  read_shading(arguments, render);
-  read_show(arguments, render);
-  check_renderer(arguments);
+  render.shading = choice(arguments, "shading", kShadings, render.shading);
+  render.show = choice(arguments, "show", kShows, render.show);
+  render.renderer = choice(arguments, "renderer", kRenderers, render.renderer);
   check_facets(arguments);
   render.leaf_primitives =
       arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, 8, "give a whole number from 1");
@@ -255,6 +268,10 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
       arguments.number<double>("threshold", 0, HUGE_VAL, 0, "give a number of pixels from 0");
   render.threads = arguments.number<unsigned>("threads", 1, kMaxThreads, 0,
                                               "give a whole number from 1 to 1024");
+  static_assert(kMaxSamples == 64, "said below");
+  render.samples =
+      arguments.number<uint32_t>("samples", 1, kMaxSamples, 1, "give a whole number from 1 to 64");
+  render.technique = read_technique(arguments, render);
 }
 
 /// OpenSCAD says that it ignores a view it does not know, and goes on.
@@ -339,6 +356,12 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   };
   if (const std::string list = given(kNeverUsed); !list.empty()) {
     options.warnings.push_back("without effect in this version: " + list);
+  }
+  if (options.render.technique == Technique::kTiles) {
+    constexpr const char* kForCells[] = {"leaf-primitives", "threshold"};
+    if (const std::string list = given(kForCells); !list.empty()) {
+      options.warnings.push_back("without effect on --technique=tiles: " + list);
+    }
   }
   if (arguments.has("autocenter") && arguments.has("camera") && !arguments.has("viewall")) {
     options.warnings.push_back("--autocenter has no effect without --viewall, as in OpenSCAD");

@@ -53,6 +53,11 @@ class Command : public testing::Test {
     view_ = view;
     settings_ = settings;
     stats.renderer = "played";
+    stats.technique = technique_;
+    stats.reason = reason_;
+    stats.measuring_ms = measuring_ms_;
+    stats.trace.rays = 7;
+    stats.trace.skipped.hidden = 5;
     stats.cells = 12;
     stats.draw_calls = 3;
     stats.subdivide_ms = 1.5;
@@ -106,6 +111,9 @@ class Command : public testing::Test {
   Renderer renderer_ = [this](const csgcore::Scene& scene, const csgcore::View& view,
                               const RenderSettings& settings,
                               RenderStats& stats) { return draw(scene, view, settings, stats); };
+  std::string technique_ = "tiles";
+  std::string reason_;
+  double measuring_ms_ = 0;
   int drawings_ = 0;
   csgcore::Scene scene_;
   csgcore::View view_;
@@ -126,18 +134,21 @@ TEST_F(Command, DrawsAPicture) {
   ASSERT_EQ(scene_.primitives.size(), 1u);
   EXPECT_FALSE(scene_.model.empty());
   EXPECT_FALSE(settings_.measured_channels);
-  EXPECT_FALSE(settings_.measure_paper_times);
+  EXPECT_FALSE(settings_.all_stats);
 }
 
 TEST_F(Command, HandsItsOptionsToTheRenderer) {
   run({"-o", png_, "--imgsize=4,3", "--shading=phong", "--show=cells", "--leaf-primitives=2",
-       "--threshold=1", "--threads=2", "--colorscheme=Nature", "--projection=o",
-       "--camera=1,2,3,90,0,0,10", file_});
+       "--threshold=1", "--threads=2", "--samples=9", "--renderer=cpu", "--colorscheme=Nature",
+       "--projection=o", "--camera=1,2,3,90,0,0,10", file_});
   EXPECT_EQ(settings_.shading, Shading::kPhong);
   EXPECT_EQ(settings_.show, Show::kCells);
   EXPECT_EQ(settings_.leaf_primitives, 2u);
   EXPECT_EQ(settings_.threshold_px, 1);
   EXPECT_EQ(settings_.threads, 2u);
+  EXPECT_EQ(settings_.samples, 9u);
+  EXPECT_EQ(settings_.renderer, RendererKind::kCpu);
+  EXPECT_EQ(settings_.technique, Technique::kCells);
   EXPECT_STREQ(settings_.scheme.name, "Nature");
   EXPECT_EQ(view_.projection, csgcore::Projection::kOrthographic);
   EXPECT_EQ(view_.eye, csgcore::Vec3(1, -8, 3));
@@ -206,7 +217,7 @@ TEST_F(Command, AnEmptyDesignIsBackgroundWithoutARenderer) {
 
 TEST_F(Command, Statistics) {
   const Outcome outcome = run({"-o", png_, "--imgsize=4,3", "--stats=-", file_});
-  EXPECT_TRUE(settings_.measure_paper_times);
+  EXPECT_TRUE(settings_.all_stats);
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["file"], file_);
   EXPECT_EQ(json["file_bytes"], std::string(kSphere).size());
@@ -215,8 +226,11 @@ TEST_F(Command, Statistics) {
   EXPECT_EQ(json["width_px"], 4);
   EXPECT_EQ(json["height_px"], 3);
   EXPECT_EQ(json["renderer"], "played");
+  EXPECT_EQ(json["technique"], "tiles");
   EXPECT_EQ(json["cells"], 12);
   EXPECT_EQ(json["draw_calls"], 3);
+  EXPECT_EQ(json["rays"], 7);
+  EXPECT_EQ(json["primitives_skipped"]["hidden"], 5);
   EXPECT_EQ(json["times_ms"]["subdivide"], 1.5);
   EXPECT_EQ(json["paper_ms"]["S"], 1.5);
   EXPECT_EQ(json["paper_ms"]["S_R"], 4.5);
@@ -228,6 +242,12 @@ TEST_F(Command, Statistics) {
   EXPECT_EQ(nlohmann::json::parse(folder_.read("s.json"))["cells"], 12);
 }
 
+TEST_F(Command, TheTotalIsWithoutDrawingsThatOnlyMeasure) {
+  measuring_ms_ = 1e6;
+  const auto json = nlohmann::json::parse(run({"-o", png_, "--stats=-", file_}).out);
+  EXPECT_LT(json["times_ms"]["total"], 0);
+}
+
 TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
   const auto json =
       nlohmann::json::parse(run({"-o", png_, "--stats=-", "--imgsize=1,1", file_}).out);
@@ -237,14 +257,18 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
     return names;
   };
   EXPECT_THAT(keys(json),
-              ElementsAre("cells", "cells_drawn", "draw_calls", "file", "file_bytes", "height_px",
-                          "leaf_primitives", "leaves", "nodes", "paper_ms", "primitive_nodes",
-                          "primitives", "renderer", "subdivision_bytes", "times_ms", "width_px"));
+              ElementsAre("cells", "cells_drawn", "draw_calls", "edge_pixels", "file", "file_bytes",
+                          "height_px", "intersections", "leaf_primitives", "leaves", "nodes",
+                          "paper_ms", "primitive_nodes", "primitives", "primitives_intersected",
+                          "primitives_skipped", "rays", "renderer", "resolved_rays",
+                          "subdivision_bytes", "technique", "tiles", "times_ms", "width_px"));
   EXPECT_THAT(keys(json["leaves"]),
               ElementsAre("dropped", "empty", "full", "general", "pair", "total", "union"));
+  EXPECT_THAT(keys(json["primitives_skipped"]),
+              ElementsAre("cancelled", "hidden", "inside", "off_screen", "sub_pixel"));
   EXPECT_THAT(keys(json["times_ms"]),
-              ElementsAre("context", "encode", "export", "import", "parse", "read", "render",
-                          "subdivide", "total", "traverse"));
+              ElementsAre("context", "cull", "encode", "export", "import", "parse", "prepare",
+                          "read", "render", "subdivide", "total", "trace", "traverse"));
   EXPECT_THAT(keys(json["paper_ms"]), ElementsAre("S", "S_R", "T_R", "T_S"));
 }
 
@@ -257,8 +281,17 @@ TEST_F(Command, HelpVersionInfo) {
   EXPECT_THAT(outcome.out, testing::MatchesRegex("scadray version [0-9.]+\n"));
   outcome = run({"--info"});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
-  EXPECT_THAT(outcome.out, HasSubstr("OpenEXR"));
-  EXPECT_THAT(run({"--info", "-o", png_, file_}).err, "renderer: played\n");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("OpenEXR"), HasSubstr("renderers: cpu")));
+  EXPECT_EQ(run({"--info", "-o", png_, file_}).err, "renderer: played\n");
+  reason_ = "no GPU";
+  EXPECT_EQ(run({"--info", "-o", png_, file_}).err, "renderer: played (no GPU)\n");
+}
+
+TEST_F(Command, SaysThatTilesHadNoEffect) {
+  EXPECT_EQ(run({"--technique=tiles", "-o", png_, file_}).err, "");
+  technique_ = "cells";
+  EXPECT_THAT(run({"--technique=tiles", "-o", png_, file_}).err, HasSubstr("--technique=tiles"));
+  EXPECT_EQ(run({"--technique=cells", "-o", png_, file_}).err, "");
 }
 
 TEST_F(Command, QuietShowsErrorsOnly) {

@@ -52,6 +52,9 @@ TEST(Options, Defaults) {
   EXPECT_EQ(options.render.leaf_primitives, 8u);
   EXPECT_EQ(options.render.threshold_px, 0);
   EXPECT_EQ(options.render.threads, 0u);
+  EXPECT_EQ(options.render.renderer, RendererKind::kAuto);
+  EXPECT_EQ(options.render.technique, Technique::kAuto);
+  EXPECT_EQ(options.render.samples, 1u);
   EXPECT_FALSE(options.import.skip_unsupported);
   EXPECT_FALSE(options.axes);
   EXPECT_FALSE(options.quiet);
@@ -186,7 +189,10 @@ TEST(Options, Numbers) {
   EXPECT_EQ(parse_drawing({"--leaf-primitives=2"}).render.leaf_primitives, 2u);
   EXPECT_EQ(parse_drawing({"--threshold=1.5"}).render.threshold_px, 1.5);
   EXPECT_EQ(parse_drawing({"--threads=3"}).render.threads, 3u);
-  for (const char* option : {"--leaf-primitives", "--threads"}) {
+  EXPECT_EQ(parse_drawing({"--samples=1"}).render.samples, 1u);
+  EXPECT_EQ(parse_drawing({"--samples=64"}).render.samples, 64u);
+  EXPECT_THAT(drawing_error({"--samples=65"}), HasSubstr("1 to 64"));
+  for (const char* option : {"--leaf-primitives", "--threads", "--samples"}) {
     for (const char* value : {"0", "-1", "x", "1.5", "", "99999999999"}) {
       EXPECT_THAT(drawing_error({option, value}), HasSubstr(option)) << value;
     }
@@ -196,11 +202,42 @@ TEST(Options, Numbers) {
   }
 }
 
-TEST(Options, RendererAndFacets) {
-  EXPECT_THAT(drawing_error({"--renderer=auto"}), "no error");
-  EXPECT_THAT(drawing_error({"--renderer=gl"}), "no error");
-  EXPECT_THAT(drawing_error({"--renderer=cpu"}), HasSubstr("no CPU renderer"));
-  EXPECT_THAT(drawing_error({"--renderer=x"}), HasSubstr("--renderer"));
+TEST(Options, Renderer) {
+  EXPECT_EQ(parse_drawing({"--renderer=auto"}).render.renderer, RendererKind::kAuto);
+  EXPECT_EQ(parse_drawing({"--renderer=gl"}).render.renderer, RendererKind::kGl);
+  EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
+  for (const char* value : {"x", "", "CPU"}) {
+    EXPECT_THAT(drawing_error({"--renderer", value}), HasSubstr("give auto, gl or cpu")) << value;
+  }
+}
+
+TEST(Options, Technique) {
+  const auto technique_of = [](const Words& words) {
+    return parse_drawing(words).render.technique;
+  };
+  EXPECT_EQ(technique_of({"--technique=cells"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--technique=tiles"}), Technique::kTiles);
+  EXPECT_THAT(drawing_error({"--technique=x"}), HasSubstr("give cells or tiles"));
+  EXPECT_THAT(drawing_error({"--technique=auto"}), HasSubstr("give cells or tiles"));
+  // What speaks of cells, although it be the default's value.
+  EXPECT_EQ(technique_of({"--leaf-primitives=8"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--threshold=1"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--show=cells"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--threshold=0"}), Technique::kAuto);
+  EXPECT_EQ(technique_of({"--show=depth"}), Technique::kAuto);
+}
+
+TEST(Options, TilesHaveNoCells) {
+  EXPECT_THAT(drawing_error({"--technique=tiles", "--show=cells"}), HasSubstr("no cells to show"));
+  const Options options =
+      parse_drawing({"--technique=tiles", "--threshold=1", "--leaf-primitives=4"});
+  EXPECT_EQ(options.render.technique, Technique::kTiles);
+  EXPECT_THAT(options.warnings, ElementsAre("without effect on --technique=tiles: "
+                                            "--leaf-primitives, --threshold"));
+  EXPECT_THAT(parse_drawing({"--technique=cells", "--threshold=1"}).warnings, IsEmpty());
+}
+
+TEST(Options, Facets) {
   for (const char* value : {"0", "8", "all", "none"}) {
     EXPECT_THAT(parse_drawing({"--facets", value}).warnings, ElementsAre(HasSubstr("--facets")));
   }
@@ -224,7 +261,8 @@ TEST(Options, Actions) {
     EXPECT_EQ(parse_options({word, "a.csg"}).action, Action::kVersion);
   }
   EXPECT_EQ(parse_options({"--info"}).action, Action::kInfo);
-  for (const char* name : {"--imgsize", "--renderer", "-D", "--skip-unsupported", "--csglimit"}) {
+  for (const char* name : {"--imgsize", "--renderer", "--technique", "--samples", "-D",
+                           "--skip-unsupported", "--csglimit"}) {
     EXPECT_THAT(help_text(), HasSubstr(name));
   }
 }
@@ -282,7 +320,7 @@ TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
   EXPECT_THAT(parse_drawing({"--rend"}).warnings, ElementsAre(HasSubstr("--render")));
   EXPECT_THAT(parse_drawing({"--rend=cgal"}).warnings, ElementsAre(HasSubstr("--render")));
   EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
-  EXPECT_THAT(drawing_error({"--renderer=cpu"}), HasSubstr("no CPU renderer"));
+  EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
 }
 
 }  // namespace

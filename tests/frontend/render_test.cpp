@@ -31,7 +31,7 @@ csgcore::Scene bitten_ball(double size) {
   return scene;
 }
 
-Image draw(double size, Projection projection) {
+Image draw(double size, Projection projection, RendererKind renderer) {
   csgcore::View view;
   view.projection = projection;
   view.eye = {0, 0, 4 * size};
@@ -39,20 +39,26 @@ Image draw(double size, Projection projection) {
   view.width_px = view.height_px = 32;
   RenderSettings settings;
   settings.scheme = *find_color_scheme("Cornfield");
+  settings.renderer = renderer;
   settings.measured_channels = true;
   RenderStats stats;
   return render(bitten_ball(size), view, settings, stats);
 }
 
-class OfAnySize : public testing::TestWithParam<Projection> {};
+class OfAnySize : public testing::TestWithParam<std::tuple<Projection, RendererKind>> {
+ protected:
+  static Image draw(double size) {
+    return frontend::draw(size, std::get<0>(GetParam()), std::get<1>(GetParam()));
+  }
+};
 
 TEST_P(OfAnySize, ThePictureIsTheSame) {
-  const Image unit = draw(1, GetParam());
+  const Image unit = draw(1);
   const size_t middle = 16 * 32 + 16;
   ASSERT_NEAR(unit.z[middle], 3.5, 0.01);
   for (const int exponent : {-120, -60, -41, 41, 60, 120}) {
     const double size = std::ldexp(1, exponent);
-    const Image image = draw(size, GetParam());
+    const Image image = draw(size);
     EXPECT_EQ(image.rgb, unit.rgb) << exponent;
     EXPECT_EQ(image.id, unit.id) << exponent;
     EXPECT_FLOAT_EQ(image.z[middle], static_cast<float>(unit.z[middle] * size)) << exponent;
@@ -62,12 +68,14 @@ TEST_P(OfAnySize, ThePictureIsTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, OfAnySize,
-                         testing::Values(Projection::kPerspective, Projection::kOrthographic));
+                         testing::Combine(testing::Values(Projection::kPerspective,
+                                                          Projection::kOrthographic),
+                                          testing::Values(RendererKind::kGl, RendererKind::kCpu)));
 
 TEST(Render, RefusesWhatNoScaleMakesDrawable) {
   for (const double size : {1e100, 1e-100}) {
     try {
-      draw(size, Projection::kPerspective);
+      draw(size, Projection::kPerspective, RendererKind::kAuto);
       FAIL() << size;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("too large or too small")) << size;

@@ -38,7 +38,7 @@ using csgcore::View;
 constexpr double kEdgePx = 1.0 / 50;
 /// 8-bit levels by which colours may differ: two roundings, and POV-Ray's single-precision colours.
 constexpr int kLevels = 2;
-/// Scadray's float arithmetic on the GPU may decide this share of the hits otherwise, at edges
+/// OpenGL's float arithmetic may decide this share of the hits otherwise, at edges
 /// only. POV-Ray and the reference, in double and better, have been seen to agree in every pixel.
 constexpr double kWrongShare = 1e-4;
 
@@ -238,8 +238,9 @@ uint8_t level(double share) { return uint8_t(std::lround(255 * share)); }
 
 frontend::Rgb rgb(const Vec3& color) { return {level(color.x), level(color.y), level(color.z)}; }
 
-Picture scadray(const Judged& judged) {
+Picture scadray(const Judged& judged, frontend::RendererKind renderer) {
   frontend::RenderSettings settings;
+  settings.renderer = renderer;
   settings.scheme = {"test",         rgb(kColors.background), rgb(kColors.front), rgb(kColors.back),
                      rgb(Vec3(0.0)), rgb(Vec3(0.0))};
   settings.shading = frontend::Shading::kPhong;
@@ -261,10 +262,18 @@ TEST_P(PovRay, Agrees) {
   EXPECT_EQ(truth.unexcused_hit_or_miss + truth.unexcused_colour, 0u);
 
 #ifdef SCADRAY_HAS_RENDER
-  const Difference ours = compare(scadray(judged), povray, judged);
-  std::cout << GetParam().name << ", scadray: " << ours << "\n";
-  EXPECT_EQ(ours.unexcused_hit_or_miss + ours.unexcused_colour, 0u);
-  EXPECT_LE(double(ours.hit_or_miss + ours.colour), std::ceil(kWrongShare * double(truth.hits)));
+  using frontend::RendererKind;
+  for (const auto& [name, renderer] :
+       {std::pair{"cpu", RendererKind::kCpu}, std::pair{"gl", RendererKind::kGl}}) {
+    const Difference ours = compare(scadray(judged, renderer), povray, judged);
+    std::cout << GetParam().name << ", scadray, " << name << ": " << ours << "\n";
+    EXPECT_EQ(ours.unexcused_hit_or_miss + ours.unexcused_colour, 0u) << name;
+    // In double, as the reference is: no more than it.
+    const double limit = renderer == RendererKind::kCpu
+                             ? double(truth.hit_or_miss + truth.colour)
+                             : std::ceil(kWrongShare * double(truth.hits));
+    EXPECT_LE(double(ours.hit_or_miss + ours.colour), limit) << name;
+  }
 #endif
 }
 

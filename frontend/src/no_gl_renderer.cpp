@@ -1,0 +1,11 @@
+// In place of gl_renderer.cpp where scadray is built without OpenGL.
+#include "solid_renderer.hpp"
+
+namespace frontend {
+
+std::unique_ptr<SolidRenderer> make_gl_renderer(const csgcore::View&, const RenderSettings&,
+                                                RenderStats&) {
+  throw GlFailure("this scadray was built without OpenGL", "give --renderer=cpu");
+}
+
+}  // namespace frontend

@@ -1,0 +1,80 @@
+#include "scene_subdivision.hpp"
+
+#include <algorithm>
+
+#include "elapsed.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::LeafKind;
+using csgcore::Subdivision;
+
+void count_cells(const Subdivision& subdivision, RenderStats& stats) {
+  const csgcore::LeafCensus leaves = csgcore::census(subdivision);
+  const auto of = [&](LeafKind kind) { return leaves.by_kind[static_cast<size_t>(kind)]; };
+  stats.cells = subdivision.nodes().size();
+  stats.leaves = leaves.leaves();
+  stats.leaves_empty = of(LeafKind::kEmpty);
+  stats.leaves_union = of(LeafKind::kUnion);
+  stats.leaves_pair = of(LeafKind::kPair);
+  stats.leaves_general = of(LeafKind::kGeneral);
+  stats.leaves_full = of(LeafKind::kFull);
+  stats.leaves_dropped = of(LeafKind::kDropped);
+  stats.leaf_primitives = leaves.literals;
+  stats.bytes = subdivision.bytes();
+}
+
+/// Reports the share of the scene's volume that is subdivided.
+class SubdivisionProgress {
+ public:
+  SubdivisionProgress(const csgcore::Solid& solid, const RenderSettings& settings)
+      : settings_(settings), volume_(volume(solid.bounds())) {}
+
+  csgcore::BatchSink sink() {
+    if (!settings_.progress) return {};
+    return [this](const csgcore::LeafBatch& batch) {
+      for (const csgcore::Leaf& leaf : batch.leaves) done_ += volume(leaf.box);
+      settings_.progress("subdividing", std::min(done_ / volume_, 1.0));
+    };
+  }
+
+ private:
+  static double volume(const csgcore::Box& box) {
+    const csgcore::Vec3 size = box.size();
+    return size.x * size.y * size.z;
+  }
+  const RenderSettings& settings_;
+  double volume_;
+  double done_ = 0;
+};
+
+}  // namespace
+
+csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
+                                                const RenderSettings& settings) {
+  csgcore::SubdivisionOptions options;
+  if (settings.leaf_primitives == 2 && settings.threshold_px > 0) {
+    // K = 2 with a threshold is the paper's rule (§2.1, §2.2).
+    options = csgcore::SubdivisionOptions::paper(settings.threshold_px, view);
+  } else {
+    options.leaf_primitives = settings.leaf_primitives;
+    options.threshold_px = settings.threshold_px;
+    options.view = view;
+  }
+  options.threads = settings.threads;
+  return options;
+}
+
+Subdivision subdivide_model(const csgcore::Solid& solid, const csgcore::View& view,
+                            const RenderSettings& settings, RenderStats& stats) {
+  SubdivisionProgress progress(solid, settings);
+  const Clock::time_point start = Clock::now();
+  Subdivision subdivision(solid, subdivision_options(view, settings), progress.sink());
+  stats.subdivide_ms = ms_since(start);
+  count_cells(subdivision, stats);
+  if (settings.progress) settings.progress("drawing", 0.0);
+  return subdivision;
+}
+
+}  // namespace frontend

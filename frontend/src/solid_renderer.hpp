@@ -1,0 +1,63 @@
+// What a renderer does for render(): pictures of single solids. What the renderers share (colours,
+// translucent parts, scale, the choice between them) is render.cpp's.
+#pragma once
+
+#include <memory>
+
+#include "csgcore/solid.hpp"
+#include "frontend/error.hpp"
+#include "frontend/render.hpp"
+
+namespace frontend {
+
+/// OpenGL cannot be had, or failed. The CPU may still draw.
+class GlFailure : public Error {
+ public:
+  explicit GlFailure(const std::string& reason, const std::string& todo = {})
+      : Error({}, {}, reason, todo), reason_(reason) {}
+  /// Without what to do, and without the word "error".
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// As a renderer takes it, each channel in [0, 1].
+inline glm::vec3 color_of(const Rgb& color) {
+  return glm::vec3(color.r, color.g, color.b) / 255.0f;
+}
+
+/// Of the model's picture: only a surface's is smoothed.
+inline uint32_t samples_of(const RenderSettings& settings) {
+  return settings.show == Show::kSurface ? settings.samples : 1;
+}
+
+/// Draws one solid after another. What it was made with must outlive it.
+class SolidRenderer {
+ public:
+  virtual ~SolidRenderer() = default;
+
+  /// What settings.show asks for of the model: the surface, or the cells.
+  virtual csgcore::Image draw_model(const csgcore::Solid& solid,
+                                    const csgcore::FrameSettings& frame) = 0;
+
+  struct Sides {
+    csgcore::Image front;   // where each ray enters the solid
+    csgcore::Image behind;  // and where it leaves it again
+  };
+  /// One ray a pixel: at the edge of a layer that is blended later, a colour mixed with the
+  /// background's would show as a seam.
+  virtual Sides draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame) = 0;
+};
+
+/// Fills `stats`, but for `primitives`, `prepare_ms` and `reason`.
+std::unique_ptr<SolidRenderer> make_cpu_renderer(const csgcore::View& view,
+                                                 const RenderSettings& settings,
+                                                 RenderStats& stats);
+
+/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; with kAuto also if OpenGL runs
+/// in software.
+std::unique_ptr<SolidRenderer> make_gl_renderer(const csgcore::View& view,
+                                                const RenderSettings& settings, RenderStats& stats);
+
+}  // namespace frontend
