@@ -18,20 +18,25 @@ struct Interval {
   hn::Vec<D> start, end;
 };
 
+/// A ray whose direction has less than this share across the axis, or along it, runs along the
+/// axis, or level: within the frustum it does not drift by a bit of its coordinates.
+constexpr double kTrace = 1e-30;
+
 /// The reciprocals of a direction's slope against the slab and of its squared lateral part, or 1
-/// where that is 0. By one division, which is what most of an intersection waits for: the product
-/// of the two is a normal number, since what is not 0 is no smaller than the rounding of what it
-/// was computed from.
+/// where the ray is level or along the axis. By one division, which is what most of an intersection
+/// waits for; the product of the two is far from the ends of the doubles, as traces are none.
 template <class D>
 struct Inverses {
   hn::Vec<D> z, lateral2;
-  hn::Mask<D> level, along;  // z or lateral2 is 0
+  hn::Mask<D> level, along;
 };
 template <class D>
 HWY_INLINE Inverses<D> inverses(D d, const Lanes3<D>& direction, hn::Vec<D> lateral2) {
   const auto one = hn::Set(d, 1.0);
-  const auto level = hn::Eq(direction.z, hn::Zero(d));
-  const auto along = hn::Eq(lateral2, hn::Zero(d));
+  const auto trace2 = hn::Set(d, kTrace * kTrace);
+  const auto z2 = hn::Mul(direction.z, direction.z);
+  const auto level = hn::Le(z2, hn::Mul(trace2, lateral2));
+  const auto along = hn::Le(lateral2, hn::Mul(trace2, z2));
   const auto z = hn::IfThenElse(level, one, direction.z);
   const auto lateral = hn::IfThenElse(along, one, lateral2);
   const auto inverse = hn::Div(one, hn::Mul(z, lateral));

@@ -96,6 +96,8 @@ struct PacketWorkspace {
   };
   std::vector<Event> events, changed;
   std::vector<uint8_t> inside;  // by index in the list
+  std::vector<uint32_t> repeats, order;
+  std::vector<uint8_t> is_first;
 };
 
 /// Per lane. Only lanes of `hits` hold anything.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "primitive-inl.hpp"
@@ -23,6 +24,8 @@ using Event = PacketWorkspace::Event;
 /// they lie less than the tolerance apart, measured along the normal of that of the two which the
 /// ray meets more squarely. A cluster is a maximal run of boundaries each together with the next.
 class RayResolver {
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
  public:
   /// All of the list's segments are computed.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
@@ -36,6 +39,9 @@ class RayResolver {
         events_(workspace.events),
         changed_(workspace.changed),
         inside_(workspace.inside),
+        repeats_(workspace.repeats),
+        order_(workspace.order),
+        is_first_(workspace.is_first),
         segments_(workspace.segments) {}
 
   struct Shown {
@@ -77,15 +83,17 @@ class RayResolver {
     return list().primitive[event.index] & kPrimitiveBits;
   }
 
-  /// What was crossed up to the eye is behind it.
+  /// What was crossed up to the eye is behind it. A primitive that stands in the list more than
+  /// once is crossed once, by the first of its literals.
   void collect() {
+    find_repeats();
     events_.clear();
     inside_.resize(list().count());
     for (uint32_t i = 0; i < list().count(); ++i) {
       const double start = segments_[i].start[lane_];
       const double end = segments_[i].end[lane_];
       inside_[i] = start <= frame_.first_t && end > frame_.first_t;
-      if (!(start < end)) continue;
+      if (!(start < end) || !is_first_[i]) continue;
       if (start > frame_.first_t) events_.push_back({start, i, false});
       if (end > frame_.first_t) events_.push_back({end, i, true});
     }
@@ -95,8 +103,28 @@ class RayResolver {
     passed_ = 0;
   }
 
+  /// For each literal the next one of the same primitive.
+  void find_repeats() {
+    const uint32_t count = list().count();
+    repeats_.assign(count, kNone);
+    is_first_.assign(count, 1);
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto primitive = [&](uint32_t index) { return list().primitive[index] & kPrimitiveBits; };
+    std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+      return primitive(a) != primitive(b) ? primitive(a) < primitive(b) : a < b;
+    });
+    for (uint32_t i = 1; i < count; ++i) {
+      if (primitive(order_[i]) != primitive(order_[i - 1])) continue;
+      repeats_[order_[i - 1]] = order_[i];
+      is_first_[order_[i]] = 0;
+    }
+  }
+
   // `inside_` is that of a point after the first passed_ crossings.
-  void flip(uint32_t index) { inside_[index] = !inside_[index]; }
+  void flip(uint32_t index) {
+    for (; index != kNone; index = repeats_[index]) inside_[index] = !inside_[index];
+  }
   void pass_until(size_t count) {
     while (passed_ < count) flip(events_[passed_++].index);
     while (passed_ > count) flip(events_[--passed_].index);
@@ -193,18 +221,11 @@ class RayResolver {
     changed_.resize(kept);
   }
 
-  /// A primitive may stand in the list more than once.
-  void flip_primitive(uint32_t primitive) {
-    for (const Event& event : changed_) {
-      if (primitive_of(event) == primitive) flip(event.index);
-    }
-  }
-
-  /// Whether the value is that before the cluster again without the primitive's change.
-  bool decides(uint32_t primitive, bool value) {
-    flip_primitive(primitive);
+  /// Whether the value is that before the cluster again without the crossing's change.
+  bool decides(const Event& event, bool value) {
+    flip(event.index);
     const bool result = holds() == value;
-    flip_primitive(primitive);
+    flip(event.index);
     return result;
   }
 
@@ -214,7 +235,7 @@ class RayResolver {
   Event shown_of(const Cluster& cluster, bool value) {
     collect_changes(cluster);
     for (const Event& event : changed_) {
-      if (decides(primitive_of(event), value)) return event;
+      if (decides(event, value)) return event;
     }
     // Several would do. Without the later ones of those that turn the value, as far as it stays
     // turned, one of the others decides.
@@ -233,7 +254,7 @@ class RayResolver {
       undone = i;
     }
     for (size_t i = 0; i < undone; ++i) {
-      if (turns(changed_[i]) && decides(primitive_of(changed_[i]), value)) return changed_[i];
+      if (turns(changed_[i]) && decides(changed_[i], value)) return changed_[i];
     }
     return events_[cluster.first];
   }
@@ -247,6 +268,9 @@ class RayResolver {
   std::vector<Event>& events_;   // by τ
   std::vector<Event>& changed_;  // by a cluster
   std::vector<uint8_t>& inside_;
+  std::vector<uint32_t>& repeats_;
+  std::vector<uint32_t>& order_;
+  std::vector<uint8_t>& is_first_;
   const std::vector<PacketSegments>& segments_;
   size_t passed_ = 0;
 };

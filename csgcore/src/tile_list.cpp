@@ -168,14 +168,16 @@ bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, c
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
   if (probe_.root != (*last_value_ ? CellList::kTrue : CellList::kFalse)) return false;
+  bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     if (dropped_[i] == Decision::kOutside || nearest_t(screen_[primitive]) <= depth) continue;
     dropped_[i] = Decision::kOutside;
     const bool is_inside = lies_within(screen_[primitive], cover.from_t, cover.to_t);
     fates_.note(primitive, is_inside ? Fate::kInside : Fate::kHidden);
+    drops = true;
   }
-  return true;
+  return drops;
 }
 
 }  // namespace csgcore

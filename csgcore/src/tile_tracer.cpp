@@ -26,8 +26,11 @@ constexpr uint32_t kLongList = 24;
 constexpr uint32_t kVeryLongList = 4096;
 constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 
-bool is_simplified(const Tile& tile, uint32_t literals) {
-  if (literals <= kLongList) return false;
+/// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
+constexpr uint32_t kLongCutList = 256;
+
+bool is_simplified(const Tile& tile, uint32_t literals, bool is_cut) {
+  if (literals <= (is_cut ? kLongCutList : kLongList)) return false;
   const uint32_t pixels = tile.width * tile.height;
   // A division halves a tile, so that about one on the way down is of each size.
   const bool is_time =
@@ -77,15 +80,16 @@ TraceList TileList::trace_list(const PacketBlock& block) const {
 /// In screen space.
 class TileTracer::Classifier final : public OpenClassifier {
  public:
-  Classifier(const Extents& screen, const std::vector<ScreenShape>& shapes, const FrameRays& frame)
+  Classifier(const Extents& screen, const std::unique_ptr<ScreenShape[]>& shapes,
+             const FrameRays& frame)
       : screen_(screen), shapes_(shapes), frame_(frame) {}
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override {
-    return {find_misses(shapes_.data(), screen_.data(), primitives, open, frame_, cell), 0};
+    return {find_misses(shapes_.get(), screen_.data(), primitives, open, frame_, cell), 0};
   }
 
  private:
   const Extents& screen_;
-  const std::vector<ScreenShape>& shapes_;
+  const std::unique_ptr<ScreenShape[]>& shapes_;
   const FrameRays& frame_;
 };
 
@@ -153,7 +157,8 @@ TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSu
   const ScreenOptions options{centers_only};
   const bool has_shapes = std::any_of(world.begin(), world.end(),
                                       [](const Extent& extent) { return extent.inside2 < 0; });
-  if (has_shapes) shapes_.resize(world.size());
+  // Only those of what is on the screen are written, and asked for.
+  if (has_shapes) shapes_ = std::make_unique_for_overwrite<ScreenShape[]>(world.size());
   const auto bound = [&](size_t begin, size_t end) {
     find_screen_extents(world.data(), begin, end, frame, options, screen_.data());
     for (size_t i = begin; has_shapes && i < end; ++i) {
@@ -183,6 +188,11 @@ std::optional<bool> TileTracer::find_last_value() const {
   // Rays start up to a few tolerances from the eye: further in the picture's corners.
   constexpr double kEyeTolerances = 64;
   const Vec3 reach{kEyeTolerances * subject_.thinnest_piece};
+  const Box& bounds = solid_.bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double eye = frame_.view.eye[axis];
+    if (eye + reach[axis] < bounds.min[axis] || eye - reach[axis] > bounds.max[axis]) return true;
+  }
   const WorldClassifier classifier(solid_.primitives());
   Restrictor restrictor(solid_.extents(), classifier);
   CellList at_eye;
@@ -222,7 +232,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   if (!visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
-  if (!uncut && is_simplified(tile, list->count())) {
+  if (is_simplified(tile, list->count(), uncut != nullptr)) {
     bool cuts = false;
     if (workspace.simplifier.simplify(tile, *list, workspace.restrictor, own.simplified, cuts)) {
       list = &own.simplified;

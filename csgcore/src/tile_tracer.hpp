@@ -101,7 +101,7 @@ class TileTracer {
   Fates& fates_;
   std::optional<bool> last_value_;
   Extents screen_;
-  std::vector<ScreenShape> shapes_;  // of what is no ball
+  std::unique_ptr<ScreenShape[]> shapes_;  // of what is no ball
   std::unique_ptr<Classifier> classifier_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> workspaces_;
