@@ -108,7 +108,13 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto a = hn::Sub(lateral2, hn::Mul(growth, growth));
   const auto h = hn::Sub(dot_xy(p, direction), hn::Mul(growth, radius));
   const auto c = hn::Sub(dot_xy(p, p), hn::Mul(radius, radius));
-  const auto discriminant = hn::Sub(hn::Mul(h, h), hn::Mul(a, c));
+  // h² − a·c = |radius·d − growth·p|² − (p × d)² across the axis: of the products that h² and a·c
+  // have in common, none is left to cancel.
+  const auto lean_x = hn::Sub(hn::Mul(radius, direction.x), hn::Mul(growth, p.x));
+  const auto lean_y = hn::Sub(hn::Mul(radius, direction.y), hn::Mul(growth, p.y));
+  const auto moment = hn::Sub(hn::Mul(p.x, direction.y), hn::Mul(p.y, direction.x));
+  const auto discriminant =
+      hn::Sub(hn::Add(hn::Mul(lean_x, lean_x), hn::Mul(lean_y, lean_y)), hn::Mul(moment, moment));
   // Roots without cancellation: q/a and c/q. q = 0: through the apex, both at 0.
   const auto root = hn::Sqrt(hn::Max(discriminant, zero));
   const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));

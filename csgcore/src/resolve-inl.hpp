@@ -229,23 +229,34 @@ class RayResolver {
     return result;
   }
 
+  /// Whether the literal becomes true by the crossing, or, if `value`, false.
+  bool turns(const Event& event, bool value) const {
+    const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
+    return (event.at_end == complement) != value;
+  }
+
+  /// Of a primitive that is both added and subtracted, the literal by which it turns the value.
+  Event as_turning(Event event, bool value) const {
+    const Event first = event;
+    for (; event.index != kNone; event.index = repeats_[event.index]) {
+      if (turns(event, value)) return event;
+    }
+    return first;
+  }
+
   /// The crossing that is seen of a cluster which turns the value from `value`: a decider's, a
   /// primitive's without whose change the value would not have turned; of several, that of the
   /// lowest index.
   Event shown_of(const Cluster& cluster, bool value) {
     collect_changes(cluster);
     for (const Event& event : changed_) {
-      if (decides(event, value)) return event;
+      if (decides(event, value)) return as_turning(event, value);
     }
     // Several would do. Without the later ones of those that turn the value, as far as it stays
     // turned, one of the others decides.
-    const auto turns = [&](const Event& event) {
-      const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
-      return (event.at_end == complement) != value;
-    };
     size_t undone = changed_.size();
     for (size_t i = changed_.size(); i-- > 0;) {
-      if (!turns(changed_[i])) continue;
+      if (!turns(changed_[i], value)) continue;
       flip(changed_[i].index);
       if (holds() == value) {
         flip(changed_[i].index);
@@ -254,7 +265,7 @@ class RayResolver {
       undone = i;
     }
     for (size_t i = 0; i < undone; ++i) {
-      if (turns(changed_[i]) && decides(changed_[i], value)) return changed_[i];
+      if (turns(changed_[i], value) && decides(changed_[i], value)) return changed_[i];
     }
     return events_[cluster.first];
   }

@@ -50,7 +50,8 @@ TEST_P(RestrictionOf, RandomTreeEqualsTheListWithinTheCell) {
   const Scene scene = test_support::random_tree(GetParam(), GetParam());
   const Solid solid(canonical_primitives(scene), scene.model);
   if (solid.list().literals.empty()) GTEST_SKIP() << "an empty tree";
-  Restrictor restrictor(solid.primitives(), solid.extents());
+  const WorldClassifier classifier(solid.primitives());
+  Restrictor restrictor(solid.extents(), classifier);
   CellList whole, in_cell, below, above;
   assign(whole, solid.list().literals);
   std::mt19937 random(1);
@@ -112,7 +113,8 @@ TEST(Restriction, DropsWhatAnOperandMadeIrrelevant) {
   }
   scene.model = builder.finish();
   const Solid solid(canonical_primitives(scene), scene.model);
-  Restrictor restrictor(solid.primitives(), solid.extents());
+  const WorldClassifier classifier(solid.primitives());
+  Restrictor restrictor(solid.extents(), classifier);
   CellList whole, list;
   assign(whole, solid.list().literals);
   ASSERT_EQ(whole.count(), 8u);

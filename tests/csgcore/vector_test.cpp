@@ -1,12 +1,12 @@
 // The tests that are made several at a time must give the same answers by every instruction set.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "checks.hpp"
 #include "extent_tests.hpp"
+#include "simd_levels.hpp"
 
 namespace csgcore {
 namespace {
@@ -27,13 +27,6 @@ class VectorTest : public testing::Test {
       indices_.push_back(static_cast<uint32_t>(random() % 3000) | (random() % 2 ? 1u << 31 : 0));
     }
     indices_.resize(3000 + kVectorPadding, 0);
-  }
-  ~VectorTest() override { use(0); }
-
-  /// 0: whatever the processor has.
-  static void use(int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
 
   static Halves random_halves(std::mt19937& random) {
@@ -73,16 +66,13 @@ class VectorTest : public testing::Test {
 };
 
 TEST_F(VectorTest, EveryInstructionSetAgrees) {
-  use(0);
   const Answers expected = answers();
-  int sets = 0;
-  for (int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-    const int64_t target = left & -left;
-    use(target);
-    EXPECT_EQ(answers(), expected) << hwy::TargetName(target);
-    ++sets;
-  }
-  EXPECT_GE(sets, 1);
+  int levels = 0;
+  checks::for_each_simd_level([&](SimdLevel level) {
+    EXPECT_EQ(answers(), expected) << checks::name_of(level);
+    ++levels;
+  });
+  EXPECT_GE(levels, 1);
 }
 
 TEST_F(VectorTest, AnswersAreThoseOfOnePrimitive) {

@@ -1,0 +1,379 @@
+// The rays of packets and their crossings with primitives, against extended precision.
+#include "packet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "checks.hpp"
+#include "simd_levels.hpp"
+#include "special_rays.hpp"
+#include "support/full_run.hpp"
+#include "support/models.hpp"
+#include "support/reference_primitive.hpp"
+
+namespace csgcore {
+namespace {
+
+using checks::LongRay;
+using checks::LongVec3;
+using checks::PivotRay;
+using checks::RayKind;
+using checks::RayOracle;
+using checks::Real;
+using checks::uniform;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// --- Rays ---
+
+/// A view of what lies about `center`, `distance` away, that shows `size` of it.
+View random_view(std::mt19937& random, const Vec3& center, double distance, double size) {
+  View view = checks::view_of({center, center}, checks::random_direction(random), distance);
+  view.projection = random() % 2 ? Projection::kOrthographic : Projection::kPerspective;
+  view.half_height = view.projection == Projection::kPerspective ? size / distance : size;
+  view.width_px = 64;
+  view.height_px = 48;
+  return view;
+}
+
+struct Packet {
+  Ray exact[kPacketRays];  // pixel_ray's
+  RayPacket rays;
+};
+Packet random_packet(std::mt19937& random, const FrameRays& frame) {
+  Packet packet;
+  PacketLaterals laterals;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    const double x = uniform(random, -0.5, frame.view.width_px - 0.5);
+    const double y = std::floor(uniform(random, 0, frame.view.height_px));
+    laterals.u[lane] = frame.u(x);
+    laterals.v[lane] = frame.v(y);
+    packet.exact[lane] = pixel_ray(frame.view, x, y);
+  }
+  make_rays(frame, laterals, packet.rays);
+  return packet;
+}
+
+Vec3 lane_of(const double (&v)[3][kPacketRays], uint32_t lane) {
+  return {v[0][lane], v[1][lane], v[2][lane]};
+}
+
+/// What is exact of x(base_s) − pivot, whatever cancels.
+LongVec3 exact_origin(const FrameRays& frame, const Ray& ray) {
+  return reference::exact_offset(ray.origin, frame.base_s, ray.direction, frame.pivot);
+}
+
+/// The derived bound (NUMERICS.md): two roundings of the result, and two of what the split products
+/// leave below it, 2^-26 of the distance.
+TEST(MakeRays, ArePixelRaysWithTheirOriginsNearTheModel) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 2000; ++round) {
+    const double distance = std::pow(10, uniform(random, -1, 12));
+    const double from_origin = round % 3 == 0 ? 0 : std::pow(10, uniform(random, -3, 12));
+    const Vec3 center = from_origin * checks::random_direction(random);
+    const View view = random_view(random, center, distance, std::pow(10, uniform(random, -3, 3)));
+    const FrameRays frame = frame_rays(view, {center - Vec3(1.0), center + Vec3(1.0)});
+    const Packet packet = random_packet(random, frame);
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const Ray& exact = packet.exact[lane];
+      const Vec3 direction = lane_of(packet.rays.direction, lane);
+      ASSERT_EQ(direction, exact.direction);
+      ASSERT_EQ(packet.rays.inverse_length2[lane], 1 / glm::dot(direction, direction));
+      const LongVec3 origin = exact_origin(frame, exact);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Real error = std::abs(packet.rays.origin[axis][lane] - origin[axis]);
+        const Real low_parts = 0x1p-26L * std::abs(frame.base_s * direction[axis]);
+        ASSERT_LE(error, Real(kEpsilon) * (std::abs(origin[axis]) + low_parts))
+            << "distance " << distance << ", axis " << axis;
+      }
+    }
+  }
+}
+
+/// How near: at the depth of the box's centre, up to base_s's 26 bits, and not beside the view's
+/// axis, which is what directions are exact about.
+TEST(FrameRays, PutThePivotAtTheModelsDepth) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 1000; ++round) {
+    const double distance = std::pow(10, uniform(random, -3, 12));
+    const Vec3 center = 100.0 * checks::random_direction(random);
+    View view = random_view(random, center, distance, 1);
+    view.eye += 0.1 * distance * view.right;
+    const Box bounds{center - Vec3(1.0), center + Vec3(1.0)};
+    const FrameRays frame = frame_rays(view, bounds);
+    int exponent = 0;
+    const double mantissa = std::frexp(frame.base_s, &exponent);
+    ASSERT_EQ(std::ldexp(mantissa, 26), std::round(std::ldexp(mantissa, 26)));
+    const double rounding = 4 * kEpsilon * (distance + 100);
+    ASSERT_LE(std::abs(frame.base_s - distance), 0x1p-26 * distance + rounding);
+    ASSERT_LE(glm::length(frame.pivot - (view.eye + frame.base_s * view.forward)), rounding);
+    // Nothing is seen before the tolerance beyond the eye.
+    const bool is_perspective = view.projection == Projection::kPerspective;
+    const double nearest = thinnest_piece(bounds) - frame.base_s;
+    ASSERT_EQ(frame.first_t, is_perspective ? nearest : -std::numeric_limits<double>::max());
+  }
+}
+
+// --- Crossings ---
+
+enum class MapKind { kIdentity, kWhole, kTurned, kMirrored, kAny, kSheared, kNeedle, kPlate };
+constexpr int kMapKinds = 8;
+
+Mat3 turned(std::mt19937& random) {
+  const Vec3 x = checks::random_direction(random);
+  const Vec3 y = glm::normalize(glm::cross(x, checks::random_direction(random)));
+  return {x, y, glm::cross(x, y)};
+}
+
+Mat3 random_map(MapKind kind, std::mt19937& random) {
+  switch (kind) {
+    case MapKind::kIdentity:
+      return Mat3{1.0};
+    case MapKind::kWhole:
+      return Mat3{0, 1, 0, 0, 0, 1, 1, 0, 0};
+    case MapKind::kTurned:
+      return turned(random);
+    case MapKind::kMirrored:
+      return turned(random) * Mat3{-1, 0, 0, 0, 1, 0, 0, 0, 1};
+    case MapKind::kAny:
+      return test_support::random_affine(random).linear;
+    case MapKind::kSheared:
+      return turned(random) * Mat3{1, 0, 0, 3, 1, 0, -2, 20, 1};
+    case MapKind::kNeedle:
+      return turned(random) * Mat3{1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1};
+    case MapKind::kPlate:
+      return turned(random) * Mat3{1, 0, 0, 0, 0.5, 0, 0, 0, 1e-6};
+  }
+  return Mat3{1.0};
+}
+
+const Primitive kShapes[] = {make_sphere(1),
+                             make_frustum(-1, 1, 0.5, 0.5),
+                             make_frustum(0, 2, 1, 0),  // cones, pointed at either end
+                             make_frustum(-1, 0.5, 0, 1),
+                             make_frustum(-1, 1, 0.25, 1),
+                             make_frustum(-1, 1, 1, 1 - 1e-12)};  // hardly a cone
+
+struct Placement {
+  const char* name;
+  double size;        // of the primitive
+  double from_pivot;  // of its local origin
+  double from_world;  // of the pivot
+};
+constexpr Placement kPlacements[] = {{"unit", 1, 0, 0},
+                                     {"aside", 1, 10, 3},
+                                     {"tiny in a large model", 1e-9, 1, 0},
+                                     {"tiny", 1e-9, 1e-9, 1e-9},
+                                     {"huge", 1e12, 1e12, 1e12},
+                                     {"far from the world's origin", 1, 1, 1e12}};
+
+/// A primitive with rays about it.
+struct Target {
+  Primitive primitive;
+  FrameRays frame;
+  CanonicalPrimitive canonical;
+
+  Target(const Primitive& shape, const Placement& placement, MapKind map, std::mt19937& random)
+      : primitive(shape) {
+    frame.pivot = placement.from_world * checks::random_direction(random);
+    primitive.local_to_world.linear = placement.size * random_map(map, random);
+    primitive.local_to_world.translation =
+        frame.pivot + placement.from_pivot * checks::random_direction(random);
+    canonical = canonicalize(primitive);
+  }
+};
+
+/// Calls back with a Target of every shape, map and place, several times in a full run.
+template <typename Visit>
+void for_each_target(std::mt19937& random, Visit&& visit) {
+  const int rounds = test_support::full_run() ? 20 : 1;
+  for (int round = 0; round < rounds; ++round) {
+    for (const Placement& placement : kPlacements) {
+      for (int map = 0; map < kMapKinds; ++map) {
+        for (const Primitive& shape : kShapes) {
+          visit(Target(shape, placement, static_cast<MapKind>(map), random), placement);
+          if (testing::Test::HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+class CrossingsOf : public testing::TestWithParam<int> {};
+
+TEST_P(CrossingsOf, RaysAreThoseOfExtendedPrecision) {
+  const RayKind kind = static_cast<RayKind>(GetParam());
+  std::mt19937 random(3);
+  double worst = 0;
+  int crossed = 0;
+  for_each_target(random, [&](const Target& target, const Placement& placement) {
+    SCOPED_TRACE(placement.name);
+    ASSERT_TRUE(is_valid(target.primitive));
+    const RayOracle oracle(target.primitive, target.frame.pivot);
+    checks::SpecialRays rays(target.primitive, target.frame.pivot, random);
+    const std::vector<PivotRay> lanes = rays.next(kind);
+    PacketSegments segments;
+    intersect(target.frame, checks::packet_of(lanes), target.canonical, segments);
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const double start = segments.start[lane], end = segments.end[lane];
+      worst = std::max(worst, oracle.expect_segment(lanes[lane], start, end));
+      crossed += start < end;
+    }
+  });
+  EXPECT_GT(crossed, 1000);
+  std::printf("%d crossed; the worst is off by %.2f roundings\n", crossed,
+              worst * checks::kRoundings);
+}
+
+INSTANTIATE_TEST_SUITE_P(Packets, CrossingsOf, testing::Range(0, checks::kRayKinds),
+                         [](const testing::TestParamInfo<int>& kind) {
+                           return checks::name_of(static_cast<RayKind>(kind.param));
+                         });
+
+/// The eye's distance costs nothing up to 2^26 sizes, from where on it moves the pivot away.
+TEST(Crossings, AreAsExactFromFarAway) {
+  std::mt19937 random(4);
+  int crossed = 0;
+  for (const double distance : {3.0, 1e2, 1e4, 1e7, 1e9, 1e12}) {
+    for (int round = 0; round < (test_support::full_run() ? 2000 : 100); ++round) {
+      const Placement placement{"", 1, uniform(random, 0, 1), 0};
+      Target target(kShapes[round % std::size(kShapes)], placement, MapKind::kTurned, random);
+      const Vec3 center = target.primitive.local_to_world.translation;
+      const View view = random_view(random, center, distance, 1);
+      target.frame = frame_rays(view, target.canonical.bounds);
+      const Packet packet = random_packet(random, target.frame);
+      PacketSegments segments;
+      intersect(target.frame, packet.rays, target.canonical, segments);
+      const RayOracle oracle(target.primitive, target.frame.pivot);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        const Ray& exact = packet.exact[lane];
+        const LongRay ray{exact_origin(target.frame, exact), LongVec3(exact.direction)};
+        oracle.expect_segment(ray, segments.start[lane], segments.end[lane]);
+        if (distance <= 1e7) {
+          ASSERT_LE(oracle.error_bound(ray), 1e-13);  // as is the bar for a model of size 1
+        }
+        crossed += segments.start[lane] < segments.end[lane];
+      }
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(crossed, 3000);
+}
+
+/// Of one primitive's list.
+struct SingleList {
+  CellList cells;
+  double nearest_t = -std::numeric_limits<double>::max();
+  TraceList trace;
+
+  SingleList(const CanonicalPrimitive& primitive, bool complement) {
+    const Literal literal{0, complement, complement ? kListFalse : kListTrue,
+                          complement ? kListTrue : kListFalse};
+    assign(cells, std::span(&literal, 1));
+    trace.primitives = &primitive;
+    trace.list = &cells;
+    trace.nearest_t = &nearest_t;
+    trace.earliest_t = nearest_t;
+  }
+};
+
+FrameRays from_infinity(FrameRays frame) {
+  frame.first_t = -std::numeric_limits<double>::max();
+  return frame;
+}
+
+TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
+  std::mt19937 random(5);
+  for_each_target(random, [&](const Target& target, const Placement& placement) {
+    SCOPED_TRACE(placement.name);
+    const RayOracle oracle(target.primitive, target.frame.pivot);
+    checks::SpecialRays rays(target.primitive, target.frame.pivot, random);
+    const std::vector<PivotRay> lanes =
+        rays.next(static_cast<RayKind>(random() % checks::kRayKinds));
+    const RayPacket packet = checks::packet_of(lanes);
+    PacketSegments segments;
+    intersect(target.frame, packet, target.canonical, segments);
+    const SingleList list(target.canonical, false);
+    PacketWorkspace workspace;
+    PacketHits hits;
+    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceSubject{},
+                 workspace, hits);
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const bool crosses = segments.start[lane] < segments.end[lane];
+      ASSERT_EQ((hits.hits >> lane & 1) != 0, crosses);
+      if (!crosses) continue;
+      ASSERT_EQ(hits.t[lane], segments.start[lane]);
+      const LongVec3 point = LongRay(lanes[lane]).at(hits.t[lane]);
+      oracle.expect_normal(point, lane_of(hits.normal, lane), oracle.error_bound(lanes[lane]));
+    }
+  });
+}
+
+// --- Instruction sets ---
+
+/// All bytes that a packet's functions give for the same input.
+class Bytes {
+ public:
+  template <typename T>
+  void add(const T* values, size_t count) {
+    const auto* first = reinterpret_cast<const uint8_t*>(values);
+    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
+  }
+  bool operator==(const Bytes&) const = default;
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+Bytes bytes_of_all() {
+  std::mt19937 random(6);
+  Bytes bytes;
+  for (int round = 0; round < 3000; ++round) {
+    const Placement& placement = kPlacements[random() % std::size(kPlacements)];
+    const Target target(kShapes[random() % std::size(kShapes)], placement,
+                        static_cast<MapKind>(random() % kMapKinds), random);
+    checks::SpecialRays rays(target.primitive, target.frame.pivot, random);
+    const RayPacket special =
+        checks::packet_of(rays.next(static_cast<RayKind>(random() % checks::kRayKinds)));
+    const View view =
+        random_view(random, target.canonical.center, 100 * placement.size, 2 * placement.size);
+    const FrameRays frame = frame_rays(view, target.canonical.bounds);
+    const RayPacket made = random_packet(random, frame).rays;
+    bytes.add(&made, 1);
+    const SingleList list(target.canonical, random() % 2);
+    for (const RayPacket* packet : {&special, &made}) {
+      const FrameRays& own = packet == &made ? frame : target.frame;
+      PacketSegments segments;
+      intersect(own, *packet, target.canonical, segments);
+      bytes.add(segments.start, kPacketRays);
+      bytes.add(segments.end, kPacketRays);
+      PacketWorkspace workspace;
+      PacketHits hits;
+      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceSubject{}, workspace,
+                   hits);
+      bytes.add(&hits.hits, 1);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        if (!(hits.hits >> lane & 1)) continue;
+        bytes.add(&hits.t[lane], 1);
+        const Vec3 normal = lane_of(hits.normal, lane);
+        bytes.add(&normal, 1);
+      }
+    }
+  }
+  return bytes;
+}
+
+TEST(Packets, EveryInstructionSetGivesTheSameBits) {
+  const Bytes expected = bytes_of_all();
+  checks::for_each_simd_level(
+      [&](SimdLevel level) { EXPECT_EQ(bytes_of_all(), expected) << checks::name_of(level); });
+}
+
+}  // namespace
+}  // namespace csgcore

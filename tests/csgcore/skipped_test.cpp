@@ -1,0 +1,211 @@
+// Parts of a scene that cannot be seen: they are counted for what they are, they are not
+// intersected, and they change no bit of the picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "csgcore/tracer.hpp"
+#include "trace_scenes.hpp"
+#include "whole_list.hpp"
+
+namespace csgcore {
+namespace {
+
+/// So many that every list which holds them is long.
+constexpr uint32_t kParts = 300;
+
+/// Looks down on x, y in [−8, 8].
+View view_from_above(Projection projection) {
+  View view;
+  view.projection = projection;
+  view.eye = {0, 0, 100};
+  view.half_height = projection == Projection::kOrthographic ? 8 : 0.08;
+  view.width_px = view.height_px = 64;
+  return view;
+}
+
+/// A tree of a few primitives, and the many that are not seen.
+struct Parts {
+  std::vector<Primitive> seen;
+  std::function<Primitive(uint32_t)> unseen;
+  /// Builds the tree of the seen ones, [0, seen.size()), and of others, [first, end).
+  std::function<void(CsgTreeBuilder&, uint32_t first, uint32_t end)> build;
+};
+
+Scene make_scene(const Parts& parts, uint32_t count) {
+  Scene scene;
+  scene.primitives = parts.seen;
+  const uint32_t first = static_cast<uint32_t>(parts.seen.size());
+  for (uint32_t i = 0; i < count; ++i) scene.primitives.push_back(parts.unseen(i));
+  CsgTreeBuilder builder;
+  parts.build(builder, first, first + count);
+  scene.model = builder.finish();
+  return scene;
+}
+
+void add_range(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
+  for (uint32_t i = first; i < end; ++i) builder.primitive(i);
+}
+
+/// Two balls far off, which make the solid's box the same whatever else there is.
+const Primitive kLeft = make_sphere(1, checks::moved({-1e3, -1e3, -1e3}));
+const Primitive kRight = make_sphere(1, checks::moved({1e3, 1e3, 50}));
+constexpr uint32_t kCorners = 2;
+
+constexpr Projection kBothProjections[] = {Projection::kOrthographic, Projection::kPerspective};
+
+/// `count_of` picks the one counter that must hold all unseen parts.
+void expect_skipped(const Parts& parts, uint64_t SkippedPrimitives::*count_of,
+                    std::span<const Projection> projections = kBothProjections) {
+  for (const Projection projection : projections) {
+    SCOPED_TRACE(projection == Projection::kOrthographic ? "orthographic" : "perspective");
+    const View view = view_from_above(projection);
+    TraceOptions options;
+    options.count_skipped = true;
+    Hits with, without;
+    TraceStats stats, stats_without;
+    const Scene whole = make_scene(parts, kParts);
+    const Scene seen = make_scene(parts, 0);
+    const Solid solid(canonical_primitives(whole), whole.model);
+    const Solid solid_seen(canonical_primitives(seen), seen.model);
+    ASSERT_EQ(solid.bounds().diagonal(), solid_seen.bounds().diagonal());
+    trace(solid, view, options, with, stats);
+    trace(solid_seen, view, options, without, stats_without);
+    EXPECT_TRUE(checks::same_bits(with, without));
+    EXPECT_GT(checks::count_hits(without), 500u);
+    EXPECT_EQ(stats.primitives, stats_without.primitives + kParts);
+    EXPECT_EQ(stats.intersected, stats_without.intersected);
+    const uint64_t by_corners = count_of == &SkippedPrimitives::off_screen ? kCorners : 0;
+    EXPECT_EQ(stats_without.skipped.off_screen, kCorners);
+    EXPECT_EQ(stats.skipped.*count_of, kParts + by_corners);
+    EXPECT_LE(stats.intersections, stats_without.intersections * 11 / 10);
+    EXPECT_TRUE(checks::same_bits(with, checks::WholeList(solid, view).picture()));
+  }
+}
+
+/// A union of the seen and all others.
+void build_union(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
+  builder.open(Op::kUnion);
+  add_range(builder, 0, first);
+  add_range(builder, first, end);
+  builder.close();
+}
+
+double place(uint32_t i) { return -5 + 10.0 * i / kParts; }
+
+TEST(Skipped, OffTheScreen) {
+  const auto aside = [](uint32_t i) {
+    return make_sphere(1, checks::moved({i % 2 ? 40 : -40, 3 * place(i), 0}));
+  };
+  expect_skipped({{kLeft, kRight, make_sphere(5)}, aside, build_union},
+                 &SkippedPrimitives::off_screen);
+}
+
+TEST(Skipped, BehindTheEye) {
+  const Parts parts{{kLeft, kRight, make_sphere(5), make_sphere(1, checks::moved({0, 0, 1e3}))},
+                    [](uint32_t i) {
+                      return make_sphere(1, checks::moved({0, 0, 200 + i}));
+                    },
+                    build_union};
+  const View view = view_from_above(Projection::kPerspective);
+  TraceOptions options;
+  options.count_skipped = true;
+  Hits hits;
+  TraceStats stats;
+  const Scene scene = make_scene(parts, kParts);
+  trace(Solid(canonical_primitives(scene), scene.model), view, options, hits, stats);
+  EXPECT_EQ(stats.skipped.off_screen, kParts + kCorners + 1);
+  EXPECT_EQ(stats.intersected, 1u);
+}
+
+TEST(Skipped, BetweenTheSamples) {
+  // A pixel is 0.25 wide, and its corner at a multiple of that.
+  const auto dust = [](uint32_t i) {
+    const double x = 0.25 * std::round(4 * place(i)),
+                 y = 0.25 * std::round(2 * place(7 * i % kParts));
+    return make_sphere(0.02, checks::moved({x, y, 0}));
+  };
+  expect_skipped({{kLeft, kRight, make_sphere(5, checks::moved({0, 0, -20}))}, dust, build_union},
+                 &SkippedPrimitives::sub_pixel);
+}
+
+TEST(Skipped, SubtractedFromTheAir) {
+  const auto build = [](CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
+    builder.open(Op::kUnion);
+    add_range(builder, 0, 2);
+    builder.open(Op::kDifference);
+    add_range(builder, 2, end);
+    builder.close();
+    builder.close();
+    (void)first;
+  };
+  const auto beside = [](uint32_t i) { return make_sphere(1, checks::moved({6, place(i), 0})); };
+  expect_skipped({{kLeft, kRight, make_sphere(4)}, beside, build}, &SkippedPrimitives::cancelled);
+}
+
+TEST(Skipped, AddedAndWhollySubtracted) {
+  const auto build = [](CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
+    builder.open(Op::kUnion);
+    add_range(builder, 0, 3);
+    builder.open(Op::kDifference);
+    builder.open(Op::kUnion);
+    builder.primitive(3);
+    add_range(builder, first, end);
+    builder.close();
+    builder.primitive(4);
+    builder.close();
+    builder.close();
+  };
+  // A block, its upper half cut off, and in the air above it the parts, cut off too.
+  const auto in_the_air = [](uint32_t i) {
+    return make_sphere(0.5, checks::moved({0.1 * (i % 7), 0.1 * (i % 5), 2 + 0.01 * i}));
+  };
+  expect_skipped({{kLeft, kRight, make_sphere(2, checks::moved({0, 0, -30})),
+                   make_frustum(-3, 3, 5, 5), make_frustum(0, 20, 100, 100)},
+                  in_the_air,
+                  build},
+                 &SkippedPrimitives::cancelled);
+}
+
+TEST(Skipped, IntersectedAway) {
+  const auto build = [](CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
+    builder.open(Op::kUnion);
+    add_range(builder, 0, first);
+    for (uint32_t i = first; i + 1 < end; i += 2) {
+      builder.open(Op::kIntersection);
+      add_range(builder, i, i + 2);
+      builder.close();
+    }
+    builder.close();
+  };
+  // Pairs that stand apart.
+  const auto apart = [](uint32_t i) {
+    return make_sphere(1, checks::moved({i % 2 ? 6.5 : -6.5, place(i), 0}));
+  };
+  expect_skipped({{kLeft, kRight, make_sphere(4)}, apart, build}, &SkippedPrimitives::cancelled);
+}
+
+/// From outside they are hidden too; so from within.
+TEST(Skipped, InsideTheSolid) {
+  // One behind the other: each tile has all of them or none.
+  const auto within = [](uint32_t i) {
+    return make_sphere(1, checks::moved({0, 0, -2 + 4.0 * i / kParts}));
+  };
+  const Projection perspective[] = {Projection::kPerspective};
+  expect_skipped({{kLeft, kRight, make_sphere(200)}, within, build_union},
+                 &SkippedPrimitives::inside, perspective);
+}
+
+TEST(Skipped, BehindWhatIsSeen) {
+  const auto behind = [](uint32_t i) {
+    return make_sphere(2,
+                       checks::moved({0.3 * place(i), 0.3 * place(7 * i % kParts), -20 - 0.1 * i}));
+  };
+  expect_skipped({{kLeft, kRight, make_frustum(0, 1, 7, 7)}, behind, build_union},
+                 &SkippedPrimitives::hidden);
+}
+
+}  // namespace
+}  // namespace csgcore

@@ -1,0 +1,73 @@
+// Rays that are hard on a primitive.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "csgcore/primitive.hpp"
+#include "ray_oracle.hpp"
+
+namespace csgcore::checks {
+
+enum class RayKind : uint8_t {
+  kAny,
+  kTangent,
+  kAlongAxis,
+  kInCapPlane,
+  kThroughRim,
+  kAlongGeneratrix,
+  kThroughApex,
+  kLevelButForATrace,
+  kUprightButForATrace,
+};
+constexpr int kRayKinds = 9;
+const char* name_of(RayKind kind);
+
+/// Makes rays at a primitive, relative to a pivot. What is special about them (tangent, in a cap's
+/// plane, along a generatrix, …) is so in the primitive's local space, and in the world as far as
+/// the rounding of its map leaves it: exactly under a map of small whole numbers.
+class SpecialRays {
+ public:
+  SpecialRays(const Primitive& primitive, const Vec3& pivot, std::mt19937& random);
+
+  /// kPacketRays of them.
+  std::vector<PivotRay> next(RayKind kind);
+
+ private:
+  PivotRay make(RayKind kind);
+  PivotRay any();
+  PivotRay tangent();
+  PivotRay along_axis();
+  PivotRay in_cap_plane();
+  PivotRay through_rim();
+  PivotRay along_generatrix();
+  PivotRay through_apex();
+  PivotRay level_but_for_a_trace();
+  PivotRay upright_but_for_a_trace();
+
+  double pick(double low, double high);
+  bool chance(double probability) { return pick(0, 1) < probability; }
+  Vec3 any_direction();
+  /// A unit vector in the local x-y plane, often an axis.
+  Vec3 sideways();
+  /// On the wall or, of a sphere, at that height.
+  Vec3 on_surface(const Vec3& sideways, double z) const;
+  double any_height() {
+    return chance(0.3) ? (chance(0.5) ? z_min_ : z_max_) : pick(z_min_, z_max_);
+  }
+  /// So little that its square is 0 in a double, or its inverse infinite; or about a rounding.
+  double trace();
+  /// 0, or a few roundings to a millionth of the size, to either side.
+  double near_miss();
+  /// Through a local point, from somewhere on its line; of any length.
+  PivotRay through(const Vec3& point_local, const Vec3& direction_local);
+
+  const Affine map_;
+  const Vec3 pivot_;
+  std::mt19937& random_;
+  const bool is_sphere_;
+  const double r_bottom_, r_top_, z_min_, z_max_;
+  const double size_;  // local
+};
+
+}  // namespace csgcore::checks

@@ -1,0 +1,412 @@
+// What tells the tiles of a picture which primitives their rays can meet: never too little.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "checks.hpp"
+#include "packet_blocks.hpp"
+#include "screen_shape.hpp"
+#include "simd_levels.hpp"
+#include "support/models.hpp"
+#include "tile_list.hpp"
+#include "trace_scenes.hpp"
+#include "whole_list.hpp"
+
+namespace csgcore {
+namespace {
+
+using checks::uniform;
+
+/// Primitives on the screen, as a TileTracer sees them.
+struct Screen {
+  FrameRays frame;
+  std::vector<CanonicalPrimitive> primitives;
+  Extents extents;
+  std::vector<ScreenShape> shapes;
+
+  Screen(const std::vector<Primitive>& scene, const FrameRays& rays, bool centers_only)
+      : frame(rays) {
+    Extents world;
+    for (const Primitive& primitive : scene) {
+      primitives.push_back(canonicalize(primitive));
+      world.push_back(extent_of(primitives.back()));
+    }
+    extents.resize(world.size());
+    shapes.resize(world.size());
+    const ScreenOptions options{centers_only};
+    find_screen_extents(world.data(), 0, world.size(), frame, options, extents.data());
+    for (size_t i = 0; i < extents.size(); ++i) {
+      const bool fills_box_badly = extents[i].inside2 < 0;
+      if (!fills_box_badly || fate_on_screen(extents[i]) != ScreenFate::kVisible) continue;
+      shapes[i] = screen_shape(primitives[i], frame);
+      narrow_extent(shapes[i], frame, options, extents[i]);
+    }
+  }
+
+  /// The rays of so many points of the picture, at most kPacketRays.
+  RayPacket rays_through(const std::vector<glm::dvec2>& points_px) const {
+    PacketLaterals laterals;
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const glm::dvec2& point = points_px[std::min<size_t>(lane, points_px.size() - 1)];
+      laterals.u[lane] = frame.u(point.x);
+      laterals.v[lane] = frame.v(point.y);
+    }
+    RayPacket rays;
+    make_rays(frame, laterals, rays);
+    return rays;
+  }
+
+  /// The picture's point that shows a point of the world in front of the eye.
+  glm::dvec2 project(const Vec3& point) const {
+    const View& view = frame.view;
+    const Vec3 offset = point - view.eye;
+    const double depth =
+        view.projection == Projection::kPerspective ? glm::dot(offset, view.forward) : 1.0;
+    const double unit = view.half_height / (0.5 * view.height_px);
+    return {glm::dot(offset, view.right) / (depth * unit) + 0.5 * view.width_px - 0.5,
+            0.5 * view.height_px - 0.5 - glm::dot(offset, view.up) / (depth * unit)};
+  }
+};
+
+/// On the sphere, or on the frustum's wall or rims.
+Vec3 surface_point(const Primitive& primitive, std::mt19937& random) {
+  Vec3 local = checks::random_direction(random);
+  if (primitive.shape == Shape::kSphere) {
+    local *= primitive.r_bottom;
+  } else {
+    const double share = random() % 2 ? uniform(random, 0, 1) : static_cast<double>(random() % 2);
+    const double radius = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
+    const double length = std::hypot(local.x, local.y);
+    local = {radius * local.x / length, radius * local.y / length,
+             primitive.z_min + share * (primitive.z_max - primitive.z_min)};
+  }
+  return primitive.local_to_world.point(local);
+}
+
+std::vector<Primitive> random_primitives(std::mt19937& random, int count) {
+  std::vector<Primitive> primitives;
+  while (static_cast<int>(primitives.size()) < count) {
+    primitives.push_back(checks::random_primitive(random));
+  }
+  return primitives;
+}
+
+/// The space that random_primitives fill, about.
+const Box kSpace{Vec3(-8.0), Vec3(8.0)};
+
+FrameRays rays_of(const View& view) { return frame_rays(view, kSpace); }
+
+/// Views of that: from outside, from amidst them, from one point of it.
+std::vector<View> random_views(std::mt19937& random) {
+  std::vector<View> views;
+  for (const double distance : {40.0, 12.0, 3.0, 0.0, 1e5}) {
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+      View view = checks::view_of(kSpace, checks::random_direction(random), distance);
+      view.projection = projection;
+      view.half_height = projection == Projection::kOrthographic ? 5 : distance > 100 ? 5e-5 : 0.4;
+      view.width_px = 120;
+      view.height_px = 90;
+      views.push_back(view);
+    }
+  }
+  return views;
+}
+
+/// The part of a segment that is in front of the eye; false if there is none.
+bool is_seen(const FrameRays& frame, const PacketSegments& segments, uint32_t lane) {
+  return segments.start[lane] < segments.end[lane] && segments.end[lane] > frame.first_t;
+}
+
+/// Pixels' centres next to where points of the surface are seen, or the very points.
+std::vector<glm::dvec2> points_at(const Screen& screen, const Primitive& primitive,
+                                  std::mt19937& random, bool centers_only) {
+  std::vector<glm::dvec2> points;
+  const View& view = screen.frame.view;
+  for (uint32_t i = 0; i < kPacketRays; ++i) {
+    glm::dvec2 point = screen.project(surface_point(primitive, random));
+    point.x = std::clamp(point.x, -0.5, view.width_px - 0.5);
+    point.y = std::clamp(point.y, -0.5, view.height_px - 0.5);
+    if (centers_only) {
+      point.x = std::min(std::floor(point.x + 1), view.width_px - 1.0);
+      point.y = std::min(std::floor(point.y + 1), view.height_px - 1.0);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+class ScreenExtents : public testing::TestWithParam<bool> {};
+
+TEST_P(ScreenExtents, HoldWhatRaysMeet) {
+  const bool centers_only = GetParam();
+  std::mt19937 random(1);
+  uint64_t seen = 0, unseen = 0;
+  for (const View& view : random_views(random)) {
+    const std::vector<Primitive> primitives = random_primitives(random, 300);
+    const Screen screen(primitives, rays_of(view), centers_only);
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const Extent& extent = screen.extents[i];
+      unseen += fate_on_screen(extent) != ScreenFate::kVisible;
+      const auto points = points_at(screen, primitives[i], random, centers_only);
+      PacketSegments segments;
+      intersect(screen.frame, screen.rays_through(points), screen.primitives[i], segments);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        if (!is_seen(screen.frame, segments, lane)) continue;
+        ++seen;
+        ASSERT_EQ(fate_on_screen(extent), ScreenFate::kVisible);
+        ASSERT_LE(std::abs(points[lane].x - extent.center[0]), extent.half[0]);
+        ASSERT_LE(std::abs(points[lane].y - extent.center[1]), extent.half[1]);
+        ASSERT_GE(segments.start[lane], nearest_t(extent));
+        ASSERT_LE(segments.end[lane], furthest_t(extent));
+      }
+    }
+  }
+  EXPECT_GT(seen, 5000u);
+  EXPECT_GT(unseen, 200u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiles, ScreenExtents, testing::Bool(), [](const auto& centers_only) {
+  return centers_only.param ? "OfCentres" : "OfAllPoints";
+});
+
+/// Of what lies wholly on the screen, well before the eye: to a hundredth of its size.
+TEST(ScreenExtents, AreTight) {
+  std::mt19937 random(2);
+  uint64_t tight = 0;
+  for (const View& view : random_views(random)) {
+    const std::vector<Primitive> primitives = random_primitives(random, 60);
+    const Screen screen(primitives, rays_of(view), false);
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const Extent& extent = screen.extents[i];
+      const bool is_perspective = view.projection == Projection::kPerspective;
+      if (fate_on_screen(extent) != ScreenFate::kVisible) continue;
+      if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
+      glm::dvec2 low(1e9), high(-1e9);
+      for (int point = 0; point < 3000; ++point) {
+        const glm::dvec2 at = screen.project(surface_point(primitives[i], random));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+      }
+      for (const int axis : {0, 1}) {
+        const double slack = 0.03 * (high[axis] - low[axis]);
+        ASSERT_NEAR(extent.center[axis] - extent.half[axis], low[axis], slack);
+        ASSERT_NEAR(extent.center[axis] + extent.half[axis], high[axis], slack);
+      }
+      ++tight;
+    }
+  }
+  EXPECT_GT(tight, 100u);
+}
+
+std::vector<uint32_t> indices(size_t count) {
+  std::vector<uint32_t> result(count + kVectorPadding);
+  for (uint32_t i = 0; i < count; ++i) result[i] = i | (i % 3 == 0 ? CellList::kComplementBit : 0);
+  return result;
+}
+
+/// Points of a box on the screen, its corners among them.
+std::vector<glm::dvec2> points_in(const Box& tile, std::mt19937& random) {
+  std::vector<glm::dvec2> points;
+  for (const double x : {tile.min.x, tile.max.x}) {
+    for (const double y : {tile.min.y, tile.max.y}) points.push_back({x, y});
+  }
+  while (points.size() < kPacketRays) {
+    points.push_back(
+        {uniform(random, tile.min.x, tile.max.x), uniform(random, tile.min.y, tile.max.y)});
+  }
+  return points;
+}
+
+bool any_seen(const Screen& screen, const RayPacket& rays, size_t primitive) {
+  PacketSegments segments;
+  intersect(screen.frame, rays, screen.primitives[primitive], segments);
+  bool result = false;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    result |= is_seen(screen.frame, segments, lane);
+  }
+  return result;
+}
+
+TEST(ScreenShapes, MissOnlyTilesWhoseRaysMissThem) {
+  std::mt19937 random(3);
+  uint64_t missed = 0;
+  for (const View& view : random_views(random)) {
+    const std::vector<Primitive> primitives = random_primitives(random, 64);
+    const Screen screen(primitives, rays_of(view), true);
+    uint64_t open = 0;
+    for (uint32_t i = 0; i < 64; ++i) {
+      const bool has_shape = screen.extents[i].inside2 < 0;
+      const bool is_visible = fate_on_screen(screen.extents[i]) == ScreenFate::kVisible;
+      if (has_shape && is_visible) open |= uint64_t{1} << i;
+    }
+    for (int round = 0; round < 200; ++round) {
+      const double x = uniform(random, 0, 112), y = uniform(random, 0, 82);
+      const double side = uniform(random, 8, 60);
+      const Box tile{{x, y, 0}, {x + side, y + uniform(random, 0.5, 1) * side, 0}};
+      const uint64_t misses = find_misses(screen.shapes.data(), screen.extents.data(),
+                                          indices(64).data(), open, screen.frame, tile);
+      ASSERT_EQ(misses & ~open, 0u);
+      const RayPacket rays = screen.rays_through(points_in(tile, random));
+      for (uint32_t i = 0; i < 64; ++i) {
+        if (!(misses >> i & 1)) continue;
+        ++missed;
+        ASSERT_FALSE(any_seen(screen, rays, i)) << i;
+      }
+    }
+  }
+  EXPECT_GT(missed, 1000u);
+}
+
+/// The screen's functions have no other test of their instruction sets.
+TEST(ScreenShapes, EveryInstructionSetAgrees) {
+  std::mt19937 random(5);
+  const std::vector<View> views = random_views(random);
+  const std::vector<Primitive> primitives = random_primitives(random, 203);
+  for (const View& view : views) {
+    const Screen expected(primitives, rays_of(view), true);
+    const Box tile{{20, 30, 0}, {60, 50, 0}};
+    const auto misses_of = [&](const Screen& screen) {
+      return find_misses(screen.shapes.data(), screen.extents.data(), indices(64).data(),
+                         ~uint64_t{0}, screen.frame, tile);
+    };
+    const uint64_t misses = misses_of(expected);
+    checks::for_each_simd_level([&](SimdLevel level) {
+      const Screen screen(primitives, rays_of(view), true);
+      EXPECT_EQ(std::memcmp(screen.extents.data(), expected.extents.data(),
+                            expected.extents.size() * sizeof(Extent)),
+                0)
+          << checks::name_of(level);
+      EXPECT_EQ(misses_of(screen), misses) << checks::name_of(level);
+    });
+  }
+}
+
+// --- Lists made smaller ---
+
+/// A list for a tile of a picture, as a TileTracer makes it.
+class Simplifying {
+ public:
+  Simplifying(const Scene& scene, const View& view, std::optional<bool> last_value)
+      : solid_(canonical_primitives(scene), scene.model),
+        whole_(solid_, view),
+        screen_(scene.primitives, whole_.frame(), true),
+        classifier_(screen_.shapes, screen_.extents, screen_.frame),
+        restrictor_(screen_.extents, classifier_, Restrictor::Space::kScreen),
+        simplifier_(solid_.primitives(), screen_.extents, screen_.frame, true, last_value, fates_) {
+  }
+
+  struct Outcome {
+    uint32_t before = 0, after = 0;  // literals
+    uint64_t hits = 0;
+  };
+  /// Fails if rays through the tile's pixels see different things by the two lists.
+  Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
+    CellList list, simplified;
+    const Box box{{tile.x, tile.y, -kFar},
+                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
+    restrictor_.restrict(*solid_.cell_list(), box, list);
+    Outcome outcome;
+    outcome.before = list.count();
+    bool cuts = false;
+    if (list.is_constant() || !simplifier_.simplify(tile, list, restrictor_, simplified, cuts)) {
+      return outcome;
+    }
+    outcome.after = simplified.count();
+    EXPECT_LT(outcome.after, outcome.before);
+    for_each_block(tile, [&](const PacketBlock& block) {
+      RayPacket rays;
+      make_block_rays(whole_.frame(), block, rays);
+      const PacketHits by_all = trace(list, rays, block.lanes, boundary);
+      const PacketHits by_few = trace(simplified, rays, block.lanes, boundary);
+      // What lies behind a cut counts only where nothing before it does.
+      const LaneMask lanes = cuts ? by_few.hits : block.lanes;
+      EXPECT_EQ(by_all.hits & lanes, by_few.hits & lanes);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        if (!(by_few.hits >> lane & 1)) continue;
+        ++outcome.hits;
+        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
+        EXPECT_EQ(simplified.primitive[by_few.index[lane]], list.primitive[by_all.index[lane]]);
+      }
+    });
+    return outcome;
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  class Classifier final : public OpenClassifier {
+   public:
+    Classifier(const std::vector<ScreenShape>& shapes, const Extents& extents,
+               const FrameRays& frame)
+        : shapes_(shapes), extents_(extents), frame_(frame) {}
+    Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override {
+      return {find_misses(shapes_.data(), extents_.data(), primitives, open, frame_, cell), 0};
+    }
+
+   private:
+    const std::vector<ScreenShape>& shapes_;
+    const Extents& extents_;
+    const FrameRays& frame_;
+  };
+
+  PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
+    PacketHits hits;
+    if (list.is_constant()) return hits;
+    const std::vector<double> nearest(list.count(), -std::numeric_limits<double>::max());
+    TraceList trace_list = whole_.list();
+    trace_list.list = &list;
+    trace_list.nearest_t = nearest.data();
+    const TraceSubject subject{thinnest_piece(solid_.bounds()), boundary};
+    trace_packet(whole_.frame(), rays, lanes, trace_list, subject, workspace_, hits);
+    return hits;
+  }
+
+  const Solid solid_;
+  checks::WholeList whole_;
+  const Screen screen_;
+  const Classifier classifier_;
+  Restrictor restrictor_;
+  Fates fates_;
+  TileSimplifier simplifier_;
+  PacketWorkspace workspace_;
+};
+
+class Simplifier : public testing::TestWithParam<Boundary> {};
+
+TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
+  const Boundary boundary = GetParam();
+  // Where rays go on, nothing is hidden behind what they meet first.
+  const auto last_value =
+      boundary == Boundary::kFirst ? std::optional<bool>(true) : std::optional<bool>();
+  uint64_t dropped = 0, hits = 0;
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = checks::crowd(seed);
+    const Box bounds{Vec3(-6.0), Vec3(6.0)};
+    for (const auto& [name, view] : checks::trace_views(bounds, 96, 96)) {
+      if (name == "FromWithin") continue;
+      SCOPED_TRACE(name);
+      Simplifying simplifying(scene, view, last_value);
+      for (uint32_t y = 0; y < 96; y += 16) {
+        for (uint32_t x = 0; x < 96; x += 16) {
+          const auto outcome = simplifying.expect_same_hits({x, y, 16, 16}, boundary);
+          if (outcome.hits > 0) dropped += outcome.before - outcome.after;
+          hits += outcome.hits;
+        }
+      }
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(dropped, 1000u);
+  EXPECT_GT(hits, 10000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiles, Simplifier, testing::Values(Boundary::kFirst, Boundary::kBehind),
+                         [](const auto& boundary) {
+                           return boundary.param == Boundary::kFirst ? "First" : "Behind";
+                         });
+
+}  // namespace
+}  // namespace csgcore

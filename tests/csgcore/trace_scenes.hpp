@@ -1,0 +1,34 @@
+// Scenes and views that the tests of the tracer share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "csgcore/scene.hpp"
+#include "csgcore/view.hpp"
+
+namespace csgcore::checks {
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+struct NamedView {
+  std::string name;
+  View view;
+};
+
+/// Empty ones, of one primitive, random, with coincident faces, with pieces and gaps around the
+/// thinnest that exists, with hundreds of parts that are not seen.
+std::vector<NamedScene> trace_scenes();
+NamedScene trace_scene(const std::string& name);
+
+/// Many small parts in, behind and before large ones, some of which cut them away.
+Scene crowd(uint32_t seed);
+
+/// Of both projections: from outside, along the axes, from within the bounds, close up.
+std::vector<NamedView> trace_views(const Box& bounds, uint32_t width_px, uint32_t height_px);
+
+Affine moved(const Vec3& by);
+
+}  // namespace csgcore::checks

@@ -1,0 +1,42 @@
+// Pictures without tiles, cells or culling of any kind: every ray is traced with the solid's whole
+// list, by the same evaluation.
+#pragma once
+
+#include <functional>
+
+#include "csgcore/tracer.hpp"
+#include "packet.hpp"
+
+namespace csgcore::checks {
+
+/// Traces packets with all of a solid.
+class WholeList {
+ public:
+  /// Keeps a reference to the solid.
+  WholeList(const Solid& solid, const View& view, Boundary boundary = Boundary::kFirst);
+
+  const FrameRays& frame() const { return frame_; }
+  /// The list that hits' indices refer to.
+  const TraceList& list() const { return list_; }
+  PacketHits trace(const RayPacket& rays, LaneMask lanes);
+  Hits picture();
+
+ private:
+  const Solid& solid_;
+  const FrameRays frame_;
+  TraceSubject subject_;
+  std::vector<double> nearest_t_;
+  TraceList list_;
+  PacketWorkspace workspace_;
+};
+
+bool same_bits(const Hits& a, const Hits& b);
+bool same_bits(const Image& a, const Image& b);
+
+Hits trace_by_tiles(const Solid& solid, const View& view, const TraceOptions& options = {});
+Hits trace_by_cells(const Subdivision& subdivision, const View& view,
+                    const TraceOptions& options = {});
+
+uint64_t count_hits(const Hits& hits);
+
+}  // namespace csgcore::checks

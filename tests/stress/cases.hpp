@@ -1,0 +1,79 @@
+// The named scenes of the stress suite, in families, each with the cameras that it is seen from.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "csgcore/scene.hpp"
+#include "csgcore/view.hpp"
+#include "parts.hpp"
+
+namespace stress {
+
+using csgcore::Box;
+using csgcore::Projection;
+using csgcore::View;
+
+/// Size of the suite's pictures.
+struct PictureSize {
+  uint32_t width_px, height_px;
+};
+
+struct Camera {
+  std::string name;
+  View view;
+};
+
+/// Three cameras for a scene.
+using Cameras = std::function<std::vector<Camera>(const Scene&, PictureSize)>;
+
+/// From 25° around and 35° above in perspective, exactly from above without, and in perspective
+/// from near the ground, close by.
+std::vector<Camera> default_cameras(const Scene& scene, PictureSize size);
+
+struct Case {
+  std::string name;  // FAMILY/NAME
+  std::function<Scene()> make;
+  Cameras cameras = default_cameras;
+  bool only_full_run = false;
+  /// Lengths whose squares a float cannot hold: GL needs them scaled (frontend::render).
+  bool beyond_float = false;
+};
+
+struct Family {
+  std::string name;
+  std::vector<Case> cases;
+  /// Faces coincide all over: GL's bar is speckle (design.md §3).
+  bool is_coincident = false;
+};
+
+/// All families, in the order of the table.
+const std::vector<Family>& families();
+
+/// The families, by the file that makes them.
+std::vector<Family> coincident_families();
+std::vector<Family> thin_families();
+std::vector<Family> far_families();
+std::vector<Family> singular_families();
+std::vector<Family> tree_families();
+Family tolerance_family();
+Family design_family();
+
+// --- Cameras ---
+
+/// The model's box, or a box about the origin if it is empty.
+Box camera_box(const Scene& scene);
+
+/// From the direction given by two angles (degrees: around z, above the xy plane) towards the
+/// middle of the box, `distance` diagonals away, the box filling most of the picture's height.
+View view_around(const Box& box, PictureSize size, Projection projection, double around_deg,
+                 double above_deg, double distance);
+
+/// Exactly along −x, −y or −z (axis 0, 1, 2) towards the middle of the box: every component of the
+/// view's axes is 0, 1 or −1.
+View view_along(const Box& box, PictureSize size, Projection projection, int axis, double distance);
+
+}  // namespace stress

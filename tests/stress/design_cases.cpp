@@ -1,0 +1,32 @@
+// Designs as OpenSCAD exports them, with 6 digits to a number: faces that coincide in the design
+// are flush again once the importer has healed them.
+#include <string>
+
+#include "cases.hpp"
+#include "designs.hpp"
+#include "frontend/importer.hpp"
+#include "frontend/openscad_export.hpp"
+#include "frontend/parser.hpp"
+
+namespace stress {
+
+Scene import_design_file(const std::filesystem::path& file) {
+  const auto ignore_message = [](const std::string&) {};
+  const frontend::FileText text =
+      file.extension() == ".scad"
+          ? frontend::export_with_openscad(file.string(), {}, ignore_message, [] {})
+          : frontend::read_file(file.string());
+  return frontend::import_design(frontend::parse(text.view(), file.filename().string())).scene;
+}
+
+Family design_family() {
+  Family family{"openscad_designs", {}, true};
+  for (const char* name : {"turned_plate", "nested_frames", "mirrored_halves", "chain_of_frames",
+                           "sleeves", "scaled_frames", "pegs", "sockets"}) {
+    const auto file = std::filesystem::path(SCADRAY_STRESS_DESIGNS) / (std::string(name) + ".scad");
+    family.cases.push_back({name, [file] { return import_design_file(file); }});
+  }
+  return family;
+}
+
+}  // namespace stress

@@ -1,0 +1,185 @@
+#include "judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+namespace stress {
+
+using csgcore::Hits;
+using csgcore::LongVec3;
+using csgcore::Real;
+using csgcore::ReferenceHit;
+using csgcore::Vec3;
+
+namespace {
+
+/// The reference takes its time for single pixels: in a picture that is all wrong, enough were
+/// asked.
+constexpr uint64_t kMostQuestions = 500;
+
+constexpr size_t kMostListed = 20;  // undecided pixels of a picture
+
+struct Errors {
+  Real position, normal, s;
+};
+
+Errors errors_of(const ReferenceHit& expected, const Hits& picture, size_t i) {
+  return {glm::length(LongVec3(picture.position[i]) - expected.position),
+          glm::length(LongVec3(picture.normal[i]) - expected.normal),
+          std::abs(Real(picture.s[i]) - expected.s)};
+}
+
+class Judge {
+ public:
+  Judge(Oracle& oracle, const Hits& picture, const Tolerance& tolerance)
+      : oracle_(oracle), picture_(picture), tolerance_(tolerance) {}
+
+  Tally run() {
+    tally_.pixels = picture_.primitive.size();
+    verdicts_.resize(tally_.pixels);
+    for (size_t i = 0; i < tally_.pixels; ++i) verdicts_[i] = verdict(i);
+    for (size_t i = 0; i < tally_.pixels; ++i) {
+      if (verdicts_[i] != Verdict::kRight) count(i);
+    }
+    return std::move(tally_);
+  }
+
+ private:
+  /// What rounding does to the coordinates of a point.
+  Real rounding(const LongVec3& point) const { return tolerance_.coordinate * glm::length(point); }
+
+  Verdict verdict(size_t i) {
+    const ReferenceHit& expected = oracle_.hit(i);
+    const bool hit = picture_.primitive[i] != Hits::kMiss;
+    tally_.hits += expected.hit();
+    if (hit != expected.hit()) return Verdict::kWrongHit;
+    if (!hit) return Verdict::kRight;
+    if (picture_.primitive[i] != expected.primitive) return Verdict::kWrongPrimitive;
+    const Errors errors = errors_of(expected, picture_, i);
+    const Real size = oracle_.model_size();
+    const Real far =
+        tolerance_.position * size + rounding(expected.position) + oracle_.displacement();
+    const Real far_s = far + 2 * tolerance_.coordinate * std::abs(expected.s);
+    if (!(errors.position <= far && errors.s <= far_s)) return Verdict::kWrongPosition;
+    if (!(errors.normal <= tolerance_.normal)) return Verdict::kWrongNormal;
+    tally_.position_errors.add(double(errors.position / size));
+    tally_.normal_errors.add(double(errors.normal));
+    tally_.position_rounding =
+        std::max(tally_.position_rounding, double(rounding(expected.position) / size));
+    return Verdict::kRight;
+  }
+
+  void count(size_t i) {
+    const bool may_ask = tally_.undecided + tally_.wrong_pixels() < kMostQuestions;
+    if (may_ask && oracle_.undecided(i)) {
+      ++tally_.undecided;
+      if (tally_.undecided_pixels.size() < kMostListed) {
+        tally_.undecided_pixels.push_back(describe(i));
+      }
+      return;
+    }
+    ++tally_.wrong[size_t(verdicts_[i])];
+    tally_.speckle += is_speckle(i);
+    if (tally_.first_wrong.empty()) tally_.first_wrong = describe(i);
+  }
+
+  bool is_speckle(size_t i) const {
+    const size_t width = picture_.width_px, x = i % width, y = i / width;
+    const uint32_t wanted = oracle_.hit(i).primitive;
+    int giving_away = 0;
+    const auto look_at = [&](bool exists, size_t neighbour) {
+      giving_away += exists && verdicts_[neighbour] == Verdict::kRight &&
+                     oracle_.hit(neighbour).primitive == wanted;
+    };
+    look_at(x > 0, i - 1);
+    look_at(x + 1 < width, i + 1);
+    look_at(y > 0, i - width);
+    look_at(y + 1 < picture_.height_px, i + width);
+    return giving_away >= 3;
+  }
+
+  std::string describe(size_t i) const {
+    static const char* const kNames[kVerdicts] = {"right", "hit or miss", "primitive", "position",
+                                                  "normal"};
+    const ReferenceHit& expected = oracle_.hit(i);
+    const Errors errors = errors_of(expected, picture_, i);
+    std::ostringstream text;
+    text.precision(17);
+    text << kNames[size_t(verdicts_[i])] << " at pixel " << i % picture_.width_px << ", "
+         << i / picture_.width_px << ": primitive " << int64_t(int32_t(picture_.primitive[i]))
+         << " instead of " << int64_t(int32_t(expected.primitive)) << ", s " << picture_.s[i]
+         << " instead of " << double(expected.s);
+    if (expected.hit()) {
+      const double size = oracle_.model_size();
+      text.precision(3);
+      text << "; off by " << double(errors.position) / size << " of the size, normal by "
+           << double(errors.normal);
+    }
+    return text.str();
+  }
+
+  Oracle& oracle_;
+  const Hits& picture_;
+  const Tolerance& tolerance_;
+  std::vector<Verdict> verdicts_;
+  Tally tally_;
+};
+
+}  // namespace
+
+uint64_t Tally::wrong_pixels() const {
+  uint64_t sum = 0;
+  for (const uint64_t count : wrong) sum += count;
+  return sum;
+}
+
+void Tally::add(const Tally& other) {
+  pixels += other.pixels;
+  hits += other.hits;
+  for (size_t i = 0; i < kVerdicts; ++i) wrong[i] += other.wrong[i];
+  undecided += other.undecided;
+  speckle += other.speckle;
+  position_errors.add(other.position_errors);
+  normal_errors.add(other.normal_errors);
+  position_rounding = std::max(position_rounding, other.position_rounding);
+  if (first_wrong.empty()) first_wrong = other.first_wrong;
+  undecided_pixels.insert(undecided_pixels.end(), other.undecided_pixels.begin(),
+                          other.undecided_pixels.end());
+}
+
+Oracle::Oracle(const csgcore::Scene& scene, const csgcore::View& view)
+    : view_(&view), reference_(scene, view), hits_(reference_.picture()) {}
+
+uint64_t Oracle::hits() const {
+  return uint64_t(
+      std::count_if(hits_.begin(), hits_.end(), [](const ReferenceHit& hit) { return hit.hit(); }));
+}
+
+bool Oracle::undecided(size_t pixel) {
+  const auto [entry, is_new] = undecided_.try_emplace(pixel, false);
+  if (is_new) {
+    entry->second =
+        reference_.undecided(uint32_t(pixel % view_->width_px), uint32_t(pixel / view_->width_px));
+  }
+  return entry->second;
+}
+
+Tally judge(Oracle& oracle, const Hits& picture, const Tolerance& tolerance) {
+  return Judge(oracle, picture, tolerance).run();
+}
+
+Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene) {
+  std::unordered_map<uint32_t, uint32_t> primitive_of;
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) primitive_of[scene.primitives[i].id] = i;
+  primitive_of[csgcore::kNoPrimitive] = Hits::kMiss;
+  Hits hits{image.width_px, image.height_px, {}, {}, {}, {}};
+  hits.s.assign(image.z.begin(), image.z.end());
+  for (const glm::vec3& p : image.position) hits.position.emplace_back(p);
+  for (const glm::vec3& n : image.normal) hits.normal.emplace_back(n);
+  for (const uint32_t id : image.id) hits.primitive.push_back(primitive_of.at(id));
+  return hits;
+}
+
+}  // namespace stress

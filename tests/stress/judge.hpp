@@ -1,0 +1,89 @@
+// A renderer's picture held against the reference, pixel by pixel.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "csgcore/scene.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+#include "error_histogram.hpp"
+#include "support/reference.hpp"
+
+namespace stress {
+
+/// What a pixel may be off by and still be right.
+struct Tolerance {
+  double position;    // as a share of the model's size
+  double normal;      // length of the difference of the unit normals
+  double coordinate;  // relative rounding of the picture's coordinates
+};
+
+/// The tracer: positions tell surfaces apart that are a tolerance (thinnest_piece) apart; normals
+/// are there to tell a wrong side or a wrong face.
+constexpr Tolerance kDoubleTolerance{csgcore::kReferencePositionError,
+                                     csgcore::kReferenceNormalError, 0x1p-52};
+/// GL: as tests/glrender judges it (half a degree).
+constexpr Tolerance kFloatTolerance{1e-4, 8.7e-3, 0x1p-22};
+
+enum class Verdict : uint8_t {
+  kRight,
+  kWrongHit,        // hit for miss, or the other way round
+  kWrongPrimitive,  // of another primitive, whatever the position
+  kWrongPosition,
+  kWrongNormal,
+};
+constexpr size_t kVerdicts = 5;
+
+/// Sums over pixels. A pixel that is not right is undecided if the reference is (see
+/// Reference::undecided), and else wrong.
+struct Tally {
+  uint64_t pixels = 0;
+  uint64_t hits = 0;  // of the reference
+  uint64_t wrong[kVerdicts] = {};
+  uint64_t undecided = 0;
+  /// Wrong pixels that at least three of their four direct neighbours give away: those are right,
+  /// and show the primitive (or the miss) that this pixel ought to show.
+  uint64_t speckle = 0;
+  /// Of the right hits: as shares of the model's size; and lengths of differences of unit normals.
+  ErrorHistogram position_errors, normal_errors;
+  /// What the rounding of the picture's coordinates alone does to positions, at most, as a share of
+  /// the model's size.
+  double position_rounding = 0;
+  std::string first_wrong;
+  std::vector<std::string> undecided_pixels;  // the first ones of each picture
+
+  uint64_t wrong_pixels() const;
+  void add(const Tally& other);
+};
+
+/// The reference's picture, with what it can be asked about single pixels. Scene and view must
+/// outlive it.
+class Oracle {
+ public:
+  Oracle(const csgcore::Scene& scene, const csgcore::View& view);
+
+  const csgcore::ReferenceHit& hit(size_t pixel) const { return hits_[pixel]; }
+  const csgcore::View& view() const { return *view_; }
+  double model_size() const { return reference_.model_size(); }
+  csgcore::Real displacement() const { return reference_.displacement(); }
+  uint64_t hits() const;
+  /// Remembers what it was asked before.
+  bool undecided(size_t pixel);
+
+ private:
+  const csgcore::View* view_;
+  csgcore::Reference reference_;
+  std::vector<csgcore::ReferenceHit> hits_;
+  std::unordered_map<size_t, bool> undecided_;
+};
+
+/// `picture` must be of the oracle's scene and view.
+Tally judge(Oracle& oracle, const csgcore::Hits& picture, const Tolerance& tolerance);
+
+/// An Image with measured channels as Hits; ids are taken back to the primitives that have them.
+csgcore::Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene);
+
+}  // namespace stress

@@ -1,0 +1,72 @@
+// Solids put together from parts, for the scenes of the stress suite.
+#pragma once
+
+#include <vector>
+
+#include "csgcore/scene.hpp"
+
+namespace stress {
+
+using csgcore::Affine;
+using csgcore::Mat3;
+using csgcore::Op;
+using csgcore::Primitive;
+using csgcore::Scene;
+using csgcore::Vec3;
+
+/// A solid: primitives, and what a CsgTreeBuilder is told about them, in order. Parts may nest to
+/// any depth: nothing here recurses.
+class Part {
+ public:
+  Part() = default;
+  Part(const Primitive& primitive);  // NOLINT: a primitive is a part
+
+  static Part combined(Op op, std::vector<Part> operands);
+  /// The same solid under a further map.
+  Part under(const Affine& map) const;
+  Part at(const Vec3& offset) const { return under({Mat3{1.0}, offset}); }
+  /// The model of a scene; ids are the primitives' indices.
+  Scene scene() const;
+  size_t primitive_count() const { return primitives_.size(); }
+
+ private:
+  struct Step {
+    enum class Kind : uint8_t { kOpen, kPrimitive, kClose } kind;
+    Op op = Op::kUnion;
+    uint32_t primitive = 0;
+  };
+  void append(const Part& part);
+
+  std::vector<Primitive> primitives_;
+  std::vector<Step> steps_;
+  friend class Nest;
+};
+
+/// A part that grows outwards, each step an operation around what there is, in constant time.
+class Nest {
+ public:
+  explicit Nest(const Part& innermost) : part_(innermost) {}
+  /// What there is, with `other`, as the operands of `op` in this order.
+  void wrap(Op op, const Part& other);
+  Scene scene() const;
+
+ private:
+  Part part_;
+  std::vector<Op> ops_;  // from the inside out
+};
+
+Part operator+(const Part& a, const Part& b);
+Part operator-(const Part& a, const Part& b);
+Part operator*(const Part& a, const Part& b);
+Part all_of(std::vector<Part> parts);     // union
+Part common_of(std::vector<Part> parts);  // intersection
+
+Part ball(double radius, const Vec3& at = Vec3{0.0});
+Part rod(double z_min, double z_max, double radius, const Vec3& at = Vec3{0.0});
+Part cone(double z_min, double z_max, double r_bottom, double r_top, const Vec3& at = Vec3{0.0});
+
+/// Rotations about the axes, in this order, as OpenSCAD's rotate([x, y, z]) has them; rounded.
+Mat3 turned(double x_deg, double y_deg, double z_deg);
+Affine turn(double x_deg, double y_deg, double z_deg);
+
+}  // namespace stress

@@ -1,0 +1,199 @@
+// Trees of thousands of levels, and random ones with coincidences planted in them.
+#include <cmath>
+#include <iterator>
+#include <random>
+
+#include "cases.hpp"
+#include "support/models.hpp"
+
+namespace stress {
+namespace {
+
+Vec3 on_a_spiral(int i) {
+  const double angle = i * 0.61, z = std::fmod(i * 0.37, 10);
+  return {5 * std::cos(angle), 5 * std::sin(angle), z};
+}
+
+/// ((((rod − ball) ∪ ball) − ball) ∪ …
+Scene in_turns(int levels) {
+  Nest nest(rod(0, 10, 5));
+  for (int i = 0; i < levels; ++i) {
+    nest.wrap(i % 2 ? Op::kUnion : Op::kDifference, ball(0.6, on_a_spiral(i)));
+  }
+  return nest.scene();
+}
+
+/// … ∩ (everything) ∪ ball: every second level is an intersection.
+Scene with_intersections(int levels) {
+  Nest nest(rod(0, 10, 5));
+  for (int i = 0; i < levels; ++i) {
+    if (i % 2) {
+      nest.wrap(Op::kIntersection, ball(20 - 10.0 * i / levels, {0, 0, 5}));
+    } else {
+      nest.wrap(Op::kUnion, ball(0.7, on_a_spiral(i)));
+    }
+  }
+  return nest.scene();
+}
+
+/// Equal rods at every level.
+Scene equal_levels(int levels) {
+  Nest nest(rod(0, 10, 5) + ball(3, {6, 0, 5}));
+  for (int i = 0; i < levels; ++i) {
+    nest.wrap(i % 2 ? Op::kUnion : Op::kDifference, rod(0, 10, 5));
+  }
+  return nest.scene();
+}
+
+/// Differences within the subtracted side: a − (b − (c − …)).
+Scene nested_cuts(int levels) {
+  Part result = rod(0, 10, 0.1);
+  for (int i = levels; i > 0; --i) {
+    const double radius = 0.1 + 5.0 * i / levels;
+    result = rod(0, 5 + 5.0 * ((levels - i) % 7) / 7, radius) - result;
+  }
+  return result.scene();
+}
+
+Family deep() {
+  return {"deep",
+          {{"in_turns_3000", [] { return in_turns(3000); }},
+           {"intersections_1000", [] { return with_intersections(1000); }},
+           {"equal_levels_201", [] { return equal_levels(201); }},
+           {"nested_cuts_300", [] { return nested_cuts(300); }}}};
+}
+
+/// Makes primitive `b` share a face with primitive `a`.
+void plant(const Primitive& a, Primitive& b, std::mt19937& random) {
+  const uint32_t id = b.id;
+  const bool both_frusta = a.shape == b.shape && a.shape == csgcore::Shape::kFrustum;
+  switch (random() % 5) {
+    case 0:  // equal
+      b = a;
+      break;
+    case 1:  // one frame: about one axis, or one centre
+      b.local_to_world = a.local_to_world;
+      break;
+    case 2:  // stacked, or equal but turned about z
+      b.local_to_world = a.local_to_world;
+      if (both_frusta) {
+        const double height = b.z_max - b.z_min;
+        b.z_min = a.z_max;
+        b.z_max = a.z_max + height;
+        b.r_bottom = a.r_top > 0 ? a.r_top : b.r_bottom + 0.5;
+      } else if (a.shape == csgcore::Shape::kSphere) {
+        b = a;
+        b.local_to_world = csgcore::compose(a.local_to_world, turn(20, 30, 40));
+      }
+      break;
+    case 3:  // one top plane, the axes apart
+      b.local_to_world = a.local_to_world;
+      if (both_frusta) b.z_max = a.z_max, b.z_min = std::min(b.z_min, a.z_max - 1);
+      b.local_to_world.translation = a.local_to_world.point({1.5, -0.5, 0});
+      break;
+    default:  // one wall, another length
+      if (both_frusta) {
+        const double slope = (a.r_top - a.r_bottom) / (a.z_max - a.z_min);
+        const double middle = 0.5 * a.z_min + 0.5 * a.z_max;
+        b = a;
+        b.z_min = middle;
+        b.r_bottom = a.r_bottom + slope * (middle - a.z_min);
+      } else {
+        b = a;
+      }
+  }
+  b.id = id;
+}
+
+/// A random tree, with every second primitive made to share a face with one before it.
+Scene random_with_coincidences(uint32_t primitives, uint32_t seed) {
+  Scene scene = test_support::random_tree(primitives, seed);
+  std::mt19937 random(seed);
+  for (size_t i = 1; i < scene.primitives.size(); ++i) {
+    if (random() % 2 == 0) plant(scene.primitives[random() % i], scene.primitives[i], random);
+  }
+  return scene;
+}
+
+int whole(std::mt19937& random, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random);
+}
+
+/// Everything in whole numbers and right angles, so that caps, walls and axes coincide all over.
+Part lattice_primitive(std::mt19937& random) {
+  const auto shape = [&]() -> Part {
+    const int kind = whole(random, 0, 5);
+    if (kind == 0) return ball(whole(random, 1, 3));
+    const int z = whole(random, -2, 1), height = whole(random, 1, 4);
+    const int r_bottom = whole(random, 1, 3), r_top = whole(random, 0, 3);
+    return kind == 1 ? cone(z, z + height, r_bottom, r_top) : rod(z, z + height, r_bottom);
+  };
+  const Part upright = shape();
+  const Vec3 at{double(whole(random, -2, 2)), double(whole(random, -2, 2)),
+                double(whole(random, -2, 2))};
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const Mat3 frames[] = {Mat3{1.0},          Mat3{1.0},      Mat3{y, z, x},
+                         Mat3{z, x, y},      Mat3{x, y, -z}, turned(0, 0, whole(random, 1, 89)),
+                         Mat3{2.0 * x, y, z}};
+  return upright.under({frames[random() % std::size(frames)], at});
+}
+
+Scene lattice_tree(uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<Part> operands;
+  for (int left = whole(random, 3, 12); left > 0; --left) {
+    operands.push_back(lattice_primitive(random));
+    while (operands.size() > 1 && whole(random, 0, 2) > 0) {
+      const Part last = operands.back();
+      operands.pop_back();
+      const int pick = whole(random, 0, 9);
+      Part& first = operands.back();
+      first = pick < 4 ? first + last : (pick < 8 ? first - last : first * last);
+    }
+  }
+  const Part tree = all_of(operands);
+  return (seed % 2 ? tree : tree.under(turn(whole(random, 0, 359), 20, 50))).scene();
+}
+
+/// From aside, along an axis, and from a point of the lattice, often one in a face.
+std::vector<Camera> lattice_cameras(const Scene& scene, PictureSize size) {
+  const Box box = camera_box(scene);
+  std::mt19937 random(uint32_t(scene.primitives.size()));
+  const double around = whole(random, 0, 359), above = whole(random, -80, 80);
+  View within = view_along(box, size, Projection::kPerspective, whole(random, 0, 2), 1);
+  within.half_height = 0.8;
+  within.eye = {double(whole(random, -3, 3)), double(whole(random, -3, 3)),
+                double(whole(random, -3, 3))};
+  return {
+      {"aside", view_around(box, size, Projection::kPerspective, around, above, 2)},
+      {"along an axis", view_along(box, size, Projection::kOrthographic, whole(random, 0, 2), 2)},
+      {"from the lattice", within}};
+}
+
+constexpr uint32_t kSeedsInSample = 8;
+
+Family lattice_family() {
+  Family family{"random_lattice", {}, true};
+  for (uint32_t seed = 1; seed <= 100; ++seed) {
+    family.cases.push_back({"seed_" + std::to_string(seed), [seed] { return lattice_tree(seed); },
+                            lattice_cameras, seed > kSeedsInSample});
+  }
+  return family;
+}
+
+Family random_family() {
+  Family family{"random", {}};
+  for (uint32_t seed = 1; seed <= 60; ++seed) {
+    const uint32_t primitives = 6 + 5 * (seed % 9);
+    family.cases.push_back({"seed_" + std::to_string(seed),
+                            [=] { return random_with_coincidences(primitives, seed); },
+                            default_cameras, seed > kSeedsInSample});
+  }
+  return family;
+}
+
+}  // namespace
+
+std::vector<Family> tree_families() { return {deep(), random_family(), lattice_family()}; }
+
+}  // namespace stress

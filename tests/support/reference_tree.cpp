@@ -1,0 +1,92 @@
+#include "reference_tree.hpp"
+
+#include <algorithm>
+
+namespace csgcore::reference {
+
+CountingTree::CountingTree(std::span<const CsgToken> tokens)
+    : nodes_(tokens.size()),
+      primitives_(primitives_of(tokens)),
+      first_leaf_(primitives_.size(), kNone) {
+  std::vector<uint32_t> stack;
+  for (uint32_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].is_primitive) {
+      const auto at = std::lower_bound(primitives_.begin(), primitives_.end(), tokens[i].value);
+      uint32_t& first = first_leaf_[size_t(at - primitives_.begin())];
+      nodes_[i].next_leaf = first;
+      first = i;
+    } else {
+      nodes_[i].op = tokens[i].op;
+      nodes_[i].operands = tokens[i].value;
+      const size_t first = stack.size() - tokens[i].value;
+      nodes_[stack[first]].is_first = true;
+      for (size_t k = first; k < stack.size(); ++k) nodes_[stack[k]].parent = i;
+      stack.resize(first);
+    }
+    stack.push_back(i);
+  }
+}
+
+void CountingTree::flip(uint32_t slot) {
+  for (uint32_t leaf = first_leaf_[slot]; leaf != kNone; leaf = nodes_[leaf].next_leaf) {
+    change(leaf);
+  }
+}
+
+void CountingTree::change(uint32_t index) {
+  nodes_[index].value = !nodes_[index].value;
+  while (nodes_[index].parent != kNone) {
+    const Node& changed = nodes_[index];
+    Node& node = nodes_[changed.parent];
+    if (node.op == Op::kDifference && changed.is_first) {
+      node.first_holds = changed.value;
+    } else if (changed.value) {
+      ++node.holding;
+    } else {
+      --node.holding;
+    }
+    const bool value = node.op == Op::kUnion          ? node.holding > 0
+                       : node.op == Op::kIntersection ? node.holding == node.operands
+                                                      : node.first_holds && node.holding == 0;
+    if (value == node.value) return;
+    node.value = value;
+    index = changed.parent;
+  }
+}
+
+std::vector<uint32_t> primitives_of(std::span<const CsgToken> tokens) {
+  std::vector<uint32_t> primitives;
+  for (const CsgToken& token : tokens) {
+    if (token.is_primitive) primitives.push_back(token.value);
+  }
+  std::sort(primitives.begin(), primitives.end());
+  primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+  return primitives;
+}
+
+std::vector<CsgToken> reduce(std::span<const CsgToken> tokens, const std::vector<uint8_t>& alive) {
+  std::vector<CsgToken> out;
+  std::vector<size_t> starts;  // where each operand on the stack begins in `out`
+  for (const CsgToken& token : tokens) {
+    if (token.is_primitive) {
+      starts.push_back(out.size());
+      if (alive[token.value]) out.push_back(token);
+      continue;
+    }
+    const size_t first = starts.size() - token.value;
+    uint32_t operands = 0;
+    for (size_t i = first; i < starts.size(); ++i) {
+      operands += (i + 1 < starts.size() ? starts[i + 1] : out.size()) > starts[i];
+    }
+    const bool first_is_empty = starts[first + 1] == starts[first];
+    const bool empty = (token.op == Op::kIntersection && operands < token.value) ||
+                       (token.op == Op::kDifference && first_is_empty);
+    if (empty) out.resize(starts[first]);
+    if (!empty && operands > 1) out.push_back({false, token.op, operands});
+    starts.resize(first + 1);
+  }
+  // What is left on the stack is the tree itself.
+  return out;
+}
+
+}  // namespace csgcore::reference

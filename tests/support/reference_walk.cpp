@@ -1,0 +1,226 @@
+#include "reference_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace csgcore::reference {
+
+namespace {
+
+/// See Reference::displacement. A point near the model is rounded, in each of its coordinates, to
+/// the spacing of the doubles there; so are the middle of a primitive and the point of a ray that
+/// is held against it.
+Real displacement_of(const Box& box) {
+  constexpr Real kSpacing = std::numeric_limits<double>::epsilon();
+  Real coordinates = 0;
+  for (int i = 0; i < 3 && !box.empty(); ++i) {
+    coordinates = std::max({coordinates, Real(std::abs(box.min[i])), Real(std::abs(box.max[i]))});
+  }
+  return Real(kReferenceDisplacement) * box.diagonal() + 2 * kSpacing * coordinates;
+}
+
+}  // namespace
+
+RaySetup::RaySetup(const Scene& rays_scene, const View& rays_view)
+    : scene(rays_scene), view(rays_view), subtracted(subtracted_primitives(rays_scene)) {
+  const Box box = reference_box(scene);
+  model_size = box.diagonal();
+  thickness = Real(kReferenceThickness) * model_size;
+  displacement = displacement_of(box);
+  if (!box.empty()) pivot = box.center();
+  pivot_s = glm::dot(pivot - view.eye, view.forward);
+  first_t = view.projection == Projection::kOrthographic ? -std::numeric_limits<Real>::infinity()
+                                                         : thickness - Real(pivot_s);
+  for (const Primitive& p : scene.primitives) targets.emplace_back(p, pivot);
+}
+
+NearRay near_ray(const RaySetup& setup, double x_px, double y_px) {
+  const View& view = setup.view;
+  const double h = view.height_px;
+  const double u = (2 * (x_px + 0.5) - view.width_px) / h * view.half_height;
+  const double v = (h - 2 * (y_px + 0.5)) / h * view.half_height;
+  const Vec3 lateral = u * view.right + v * view.up;
+  const bool orthographic = view.projection == Projection::kOrthographic;
+  const Vec3 origin = orthographic ? view.eye + lateral : view.eye;
+  const Vec3 direction = orthographic ? view.forward : view.forward + lateral;
+  return {exact_offset(origin, setup.pivot_s, direction, setup.pivot), LongVec3(direction)};
+}
+
+ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidates) {
+  ray_ = &ray;
+  collect(candidates);
+  passed_ = 0;
+  while (passed_ < crossings_.size() && !(crossings_[passed_].t > setup_.first_t)) pass();
+  value_at_eye_ = tree_.value();
+  ReferenceHit result;
+  size_t begin = passed_;
+  for (size_t first = next_boundary(begin); first < crossings_.size();) {
+    const Cluster cluster = cluster_of(begin, first);
+    if (cluster.turns) {
+      result = describe(shown(cluster));
+      break;
+    }
+    begin = cluster.last + 1;
+    first = cluster.end;
+  }
+  pass_until(0);
+  return result;
+}
+
+void RayWalk::collect(std::span<const uint32_t> candidates) {
+  crossings_.clear();
+  for (const uint32_t slot : candidates) {
+    const Span span = setup_.targets[slots()[slot]].span(*ray_);
+    if (span.empty()) continue;
+    crossings_.push_back({span.begin, slot, span.begin_surface, true});
+    crossings_.push_back({span.end, slot, span.end_surface, false});
+  }
+  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    return a.t != b.t ? a.t < b.t : a.slot < b.slot;
+  });
+}
+
+void RayWalk::pass() { tree_.flip(crossings_[passed_++].slot); }
+
+void RayWalk::pass_until(size_t count) {
+  while (passed_ < count) pass();
+  while (passed_ > count) tree_.flip(crossings_[--passed_].slot);
+}
+
+/// The first crossing, not before `from`, that changes the solid's value.
+size_t RayWalk::next_boundary(size_t from) {
+  pass_until(from);
+  const bool value = tree_.value();
+  while (passed_ < crossings_.size()) {
+    pass();
+    if (tree_.value() != value) return passed_ - 1;
+  }
+  return crossings_.size();
+}
+
+RayWalk::Cluster RayWalk::cluster_of(size_t begin, size_t first) {
+  Cluster cluster{begin, first, first, crossings_.size(), true};
+  for (;;) {
+    cluster.end = next_boundary(cluster.last + 1);
+    if (cluster.end == crossings_.size() ||
+        !together(crossings_[cluster.last], crossings_[cluster.end])) {
+      return cluster;
+    }
+    cluster.last = cluster.end;
+    cluster.turns = !cluster.turns;
+  }
+}
+
+const RayTarget& RayWalk::target(const Crossing& crossing) const {
+  return setup_.targets[slots()[crossing.slot]];
+}
+
+bool RayWalk::is_subtracted(const Crossing& crossing) const {
+  return setup_.subtracted[slots()[crossing.slot]];
+}
+
+LongVec3 RayWalk::normal(const Crossing& crossing) const {
+  return target(crossing).normal(*ray_, crossing.t, crossing.surface);
+}
+
+/// How squarely the ray meets the surface: thickness per unit of t.
+Real RayWalk::steepness(const Crossing& crossing) const {
+  return std::abs(glm::dot(normal(crossing), ray_->direction));
+}
+
+bool RayWalk::together(const Crossing& a, const Crossing& b) const {
+  const Real gap = std::abs(b.t - a.t);
+  // No surface is met more squarely than |d|: what is that near needs no normals.
+  if (gap * glm::length(ray_->direction) < setup_.thickness) return true;
+  return gap * steepness(a) < setup_.thickness && gap * steepness(b) < setup_.thickness;
+}
+
+/// The crossings by which a cluster changes the primitives. The tree is left as it is after all of
+/// them.
+void RayWalk::collect_changes(const Cluster& cluster) {
+  const auto place = [this](size_t i) { return crossings_.begin() + long(i); };
+  changed_.assign(place(cluster.first), place(cluster.last + 1));
+  // No crossing is together with the first or the last one that lies further from it than so.
+  const Crossing &first = crossings_[cluster.first], &last = crossings_[cluster.last];
+  const Real before = setup_.thickness / steepness(first);
+  const Real after = setup_.thickness / steepness(last);
+  for (size_t i = cluster.first; i-- > cluster.begin && first.t - crossings_[i].t < before;) {
+    if (together(first, crossings_[i])) changed_.push_back(crossings_[i]);
+  }
+  size_t end = cluster.last + 1;
+  for (size_t i = end; i < cluster.end && crossings_[i].t - last.t < after; ++i) {
+    if (!together(last, crossings_[i])) continue;
+    changed_.push_back(crossings_[i]);
+    end = i + 1;
+  }
+  pass_until(end);
+  drop_what_came_back();
+}
+
+/// What is both entered and left has not changed.
+void RayWalk::drop_what_came_back() {
+  std::stable_sort(changed_.begin(), changed_.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.slot < b.slot; });
+  size_t kept = 0;
+  for (size_t i = 0; i < changed_.size(); ++i) {
+    if (i + 1 < changed_.size() && changed_[i + 1].slot == changed_[i].slot) {
+      ++i;
+    } else {
+      changed_[kept++] = changed_[i];
+    }
+  }
+  changed_.resize(kept);
+}
+
+/// Whether the value is that at the eye again without the primitive's change.
+bool RayWalk::decides(const Crossing& crossing) {
+  tree_.flip(crossing.slot);
+  const bool result = tree_.value() == value_at_eye_;
+  tree_.flip(crossing.slot);
+  return result;
+}
+
+/// Whether the primitive's change is of the kind that turns the value from what it is at the eye.
+bool RayWalk::turns(const Crossing& crossing) const {
+  return (crossing.enters != is_subtracted(crossing)) != value_at_eye_;
+}
+
+/// The crossing that is seen of a cluster which turns the value.
+const RayWalk::Crossing& RayWalk::shown(const Cluster& cluster) {
+  collect_changes(cluster);
+  for (const Crossing& crossing : changed_) {
+    if (decides(crossing)) return crossing;
+  }
+  return lowest_decider_of_few(cluster);
+}
+
+/// Where several changes would do: without the later ones of those that turn the value, as far as
+/// it stays turned, one of the others decides.
+const RayWalk::Crossing& RayWalk::lowest_decider_of_few(const Cluster& cluster) {
+  std::vector<uint32_t> undone;
+  size_t few = changed_.size();
+  for (size_t i = changed_.size(); i-- > 0;) {
+    if (!turns(changed_[i])) continue;
+    if (decides(changed_[i])) break;
+    tree_.flip(changed_[i].slot);
+    undone.push_back(changed_[i].slot);
+    few = i;
+  }
+  const auto end = changed_.begin() + long(few);
+  const auto seen = std::find_if(changed_.begin(), end, [this](const Crossing& crossing) {
+    return turns(crossing) && decides(crossing);
+  });
+  for (const uint32_t slot : undone) tree_.flip(slot);
+  return seen != end ? *seen : crossings_[cluster.first];
+}
+
+ReferenceHit RayWalk::describe(const Crossing& crossing) const {
+  const LongVec3 own = normal(crossing);
+  return {slots()[crossing.slot], Real(setup_.pivot_s) + crossing.t,
+          LongVec3(setup_.pivot) + (ray_->origin + crossing.t * ray_->direction),
+          is_subtracted(crossing) ? -own : own};
+}
+
+}  // namespace csgcore::reference
