@@ -29,6 +29,8 @@ void main() {
   } else {
     gl_Position = vec4(lateral, u_depth_scale * (u_far - along), 1.0);
   }
+  // What the displaced ray of a pixel meets is drawn into that pixel.
+  gl_Position.xy -= 2.0 * u_displacement / u_viewport * gl_Position.w;
 #if !CLIP_ZERO_TO_ONE
   gl_Position.z = 2.0 * gl_Position.z - gl_Position.w;
 #endif

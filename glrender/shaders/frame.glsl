@@ -11,3 +11,4 @@ uniform float u_depth_scale;     // window depth = u_depth_scale·(u_far − t) 
 uniform float u_far;             // t of the scene's far end
 uniform float u_overlap;         // Subdivision::overlap
 uniform vec2 u_viewport;         // pixels
+uniform vec2 u_displacement;     // of the rays from the pixels' centres: pixels, y upwards

@@ -11,10 +11,8 @@ struct Ray {
 };
 
 // Where the ray is inside a primitive: start ≤ t < end. Empty: start = +∞, end = −∞.
-// A cap bit tells that this end lies on a flat face of a frustum.
 struct Segment {
   float start, end;
-  bool start_on_cap, end_on_cap;
 };
 
 struct Literal {
@@ -23,10 +21,10 @@ struct Literal {
   uint if_inside, if_outside;
 };
 
-const Segment NO_SEGMENT = Segment(INFINITY, -INFINITY, false, false);
+const Segment NO_SEGMENT = Segment(INFINITY, -INFINITY);
 
 Ray pixel_ray() {
-  vec2 ndc = (2.0 * gl_FragCoord.xy - u_viewport) / u_viewport;
+  vec2 ndc = (2.0 * (gl_FragCoord.xy + u_displacement) - u_viewport) / u_viewport;
   vec3 lateral = ndc.x * u_half_extent.x * u_right + ndc.y * u_half_extent.y * u_up;
   if (PERSPECTIVE != 0) return Ray(u_eye_distance * lateral, u_forward + lateral);
   return Ray(lateral, u_forward);
@@ -97,7 +95,7 @@ Segment intersect_sphere(CanonicalRay ray) {
   if (!(inside > 0.0)) return NO_SEGMENT;
   float half_chord = sqrt(inside / length2);
   float middle = ray.base_t + nearest;
-  return Segment(middle - half_chord, middle + half_chord, false, false);
+  return Segment(middle - half_chord, middle + half_chord);
 }
 
 // The slab |z| ≤ 1 cut with the wall x² + y² ≤ (mid + slope·z)², on the nappe with a radius ≥ 0.
@@ -143,15 +141,11 @@ Segment intersect_frustum(CanonicalRay ray) {
       wall_end = min(root_a, root_b);
     }
   }
-  slab_start -= base;
-  slab_end -= base;
-  bool start_on_cap = slab_start > wall_start;
-  bool end_on_cap = slab_end < wall_end;
-  float start = start_on_cap ? slab_start : wall_start;
-  float end = end_on_cap ? slab_end : wall_end;
+  float start = max(slab_start - base, wall_start);
+  float end = min(slab_end - base, wall_end);
   if (!(start < end)) return NO_SEGMENT;
   float offset = ray.base_t + base;
-  return Segment(offset + start, offset + end, start_on_cap, end_on_cap);
+  return Segment(offset + start, offset + end);
 }
 
 Segment intersect(CanonicalRay ray) {
@@ -167,21 +161,16 @@ Segment intersect(CanonicalRay ray) {
 
 Segment intersect(Ray ray, uint primitive) { return intersect(canonical_ray(ray, primitive)); }
 
-// The primitive's own outward unit normal, in world space, where its segment starts or ends at t.
-// Which of its faces that is, is asked of the intersection once more, so that only the hit that is
-// shown pays for knowing it.
-vec3 normal_at(Ray ray, uint primitive, float t, bool at_end) {
+// The primitive's own outward unit normal, in world space, where the ray crosses its surface at t.
+// Of a frustum's faces the point lies on the one that it is nearer to: no segment need carry which.
+vec3 normal_at(Ray ray, uint primitive, float t) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
-  Segment segment = intersect(canonical);
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
-  vec3 gradient;
-  if (canonical.is_sphere) {
-    gradient = q;
-  } else if (at_end ? segment.end_on_cap : segment.start_on_cap) {
-    gradient = vec3(0.0, 0.0, (canonical.direction.z > 0.0) == at_end ? 1.0 : -1.0);
-  } else {
-    gradient = vec3(q.xy, -canonical.radius_slope *
-                              (canonical.radius_mid + canonical.radius_slope * q.z));
+  vec3 gradient = q;
+  if (!canonical.is_sphere) {
+    float radius = canonical.radius_mid + canonical.radius_slope * q.z;
+    bool on_cap = abs(abs(q.z) - 1.0) < abs(length(q.xy) - radius);
+    gradient = on_cap ? vec3(0.0, 0.0, q.z) : vec3(q.xy, -canonical.radius_slope * radius);
   }
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);

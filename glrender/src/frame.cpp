@@ -72,6 +72,9 @@ void set_frame_uniforms(GLuint program, const Frame& frame, double overlap) {
   set1("u_overlap", overlap);
   glUniform2f(glGetUniformLocation(program, "u_viewport"), static_cast<float>(view.width_px),
               static_cast<float>(view.height_px));
+  glUniform2f(glGetUniformLocation(program, "u_displacement"),
+              static_cast<float>(frame.displacement_px[0]),
+              static_cast<float>(-frame.displacement_px[1]));
 }
 
 }  // namespace glrender

@@ -1,6 +1,8 @@
 // A view made ready for the shaders: everything relative to a focus, in float.
 #pragma once
 
+#include <array>
+
 #include "csgcore/view.hpp"
 #include "gl_object.hpp"
 
@@ -20,6 +22,8 @@ struct Frame {
   double far_t = 0;
   double pixel_size = 0;  // world units at depth 1 (perspective) or anywhere (orthographic)
   bool visible = false;   // false: the whole scene lies behind the eye
+  /// Of the rays from the pixels' centres: pixels, x to the right, y downwards.
+  std::array<double, 2> displacement_px{};
 
   bool perspective() const { return view.projection == csgcore::Projection::kPerspective; }
   glm::vec3 relative(const Vec3& point) const { return glm::vec3(point - focus); }

@@ -23,11 +23,10 @@ Texture make_texture(GLenum internal_format, GLenum format, GLenum type, GLenum 
 
 }  // namespace
 
-RenderTarget::RenderTarget(uint32_t width_px, uint32_t height_px, bool measured)
-    : width_px_(width_px),
-      height_px_(height_px),
-      measured_(measured),
-      framebuffer_(Framebuffer::make()) {
+RenderTarget::RenderTarget(const TargetFormat& format)
+    : format_(format), framebuffer_(Framebuffer::make()) {
+  const uint32_t width_px = format.width_px;
+  const uint32_t height_px = format.height_px;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (width_px == 0 || height_px == 0 || width_px > static_cast<uint32_t>(limit) ||
@@ -36,9 +35,9 @@ RenderTarget::RenderTarget(uint32_t width_px, uint32_t height_px, bool measured)
                   " pixels a side (choose another --imgsize)");
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  color_ =
-      make_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0, width_px, height_px);
-  if (measured) {
+  const GLenum color_format = format.exact_colors ? GL_RGBA32F : GL_RGBA8;
+  color_ = make_texture(color_format, GL_RGBA, GL_FLOAT, GL_COLOR_ATTACHMENT0, width_px, height_px);
+  if (format.measured) {
     measured_channels_ =
         make_texture(GL_RGBA32F, GL_RGBA, GL_FLOAT, GL_COLOR_ATTACHMENT1, width_px, height_px);
     id_ = make_texture(GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, GL_COLOR_ATTACHMENT2, width_px,
@@ -47,7 +46,7 @@ RenderTarget::RenderTarget(uint32_t width_px, uint32_t height_px, bool measured)
   depth_ = make_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_ATTACHMENT,
                         width_px, height_px);
   const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
-  glDrawBuffers(measured ? 3 : 1, buffers);
+  glDrawBuffers(format.measured ? 3 : 1, buffers);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw GlError("this OpenGL driver cannot draw into a picture of " + std::to_string(width_px) +
                   "×" + std::to_string(height_px) + " pixels (choose a smaller --imgsize)");
@@ -56,14 +55,14 @@ RenderTarget::RenderTarget(uint32_t width_px, uint32_t height_px, bool measured)
 
 void RenderTarget::begin(const glm::vec3& background) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, static_cast<GLsizei>(width_px_), static_cast<GLsizei>(height_px_));
+  glViewport(0, 0, static_cast<GLsizei>(format_.width_px), static_cast<GLsizei>(format_.height_px));
   const float color[] = {background.r, background.g, background.b, 1.0f};
   const float none[] = {0, 0, 0, std::numeric_limits<float>::infinity()};
   const uint32_t no_id[] = {csgcore::kNoPrimitive, 0, 0, 0};
   const float furthest = 0;  // depth falls with distance
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_COLOR, 0, color);
-  if (measured_) {
+  if (format_.measured) {
     glClearBufferfv(GL_COLOR, 1, none);
     glClearBufferuiv(GL_COLOR, 2, no_id);
   }
@@ -72,51 +71,59 @@ void RenderTarget::begin(const glm::vec3& background) const {
 
 csgcore::Image RenderTarget::read(const Frame& frame) const {
   csgcore::Image image;
-  image.width_px = width_px_;
-  image.height_px = height_px_;
-  const size_t pixels = size_t{width_px_} * height_px_;
-  std::vector<uint8_t> rgba(pixels * 4);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, static_cast<GLsizei>(width_px_), static_cast<GLsizei>(height_px_), GL_RGBA,
-               GL_UNSIGNED_BYTE, rgba.data());
-  image.rgb.resize(pixels);
-  for (uint32_t y = 0; y < height_px_; ++y) {
-    // OpenGL's rows run upwards.
-    const uint8_t* row = rgba.data() + size_t{height_px_ - 1 - y} * width_px_ * 4;
-    for (uint32_t x = 0; x < width_px_; ++x) {
-      image.rgb[size_t{y} * width_px_ + x] = {row[4 * x], row[4 * x + 1], row[4 * x + 2]};
+  image.width_px = format_.width_px;
+  image.height_px = format_.height_px;
+  std::vector<uint8_t> rgba(pixels() * 4);
+  read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  image.rgb.resize(pixels());
+  for (uint32_t y = 0; y < format_.height_px; ++y) {
+    const uint8_t* row = rgba.data() + row_start(y) * 4;
+    for (uint32_t x = 0; x < format_.width_px; ++x) {
+      image.rgb[size_t{y} * format_.width_px + x] = {row[4 * x], row[4 * x + 1], row[4 * x + 2]};
     }
   }
-  if (measured_) read_measured(frame, image);
+  if (format_.measured) read_measured(frame, image);
+  return image;
+}
+
+void RenderTarget::add_colors(std::vector<glm::vec3>& sum) const {
+  sum.resize(pixels(), glm::vec3(0.0f));
+  std::vector<glm::vec4> colors(pixels());
+  read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_FLOAT, colors.data());
+  for (uint32_t y = 0; y < format_.height_px; ++y) {
+    const glm::vec4* row = colors.data() + row_start(y);
+    glm::vec3* sum_row = sum.data() + size_t{y} * format_.width_px;
+    for (uint32_t x = 0; x < format_.width_px; ++x) sum_row[x] += glm::vec3(row[x]);
+  }
+}
+
+void RenderTarget::read_pixels(GLenum attachment, GLenum format, GLenum type, void* data) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadBuffer(attachment);
+  glReadPixels(0, 0, static_cast<GLsizei>(format_.width_px),
+               static_cast<GLsizei>(format_.height_px), format, type, data);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
     throw GlError("OpenGL reported error " + std::to_string(error) +
                   " while drawing (the driver may be out of memory: try a smaller --imgsize)");
   }
-  return image;
 }
 
 void RenderTarget::read_measured(const Frame& frame, csgcore::Image& image) const {
-  const size_t pixels = size_t{width_px_} * height_px_;
-  std::vector<glm::vec4> measured(pixels);
-  std::vector<uint32_t> ids(pixels);
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(0, 0, static_cast<GLsizei>(width_px_), static_cast<GLsizei>(height_px_), GL_RGBA,
-               GL_FLOAT, measured.data());
-  glReadBuffer(GL_COLOR_ATTACHMENT2);
-  glReadPixels(0, 0, static_cast<GLsizei>(width_px_), static_cast<GLsizei>(height_px_),
-               GL_RED_INTEGER, GL_UNSIGNED_INT, ids.data());
-  image.z.assign(pixels, std::numeric_limits<float>::infinity());
-  image.normal.assign(pixels, glm::vec3(0.0f));
-  image.position.assign(pixels, glm::vec3(0.0f));
-  image.id.assign(pixels, csgcore::kNoPrimitive);
-  for (uint32_t y = 0; y < height_px_; ++y) {
-    const size_t row = size_t{height_px_ - 1 - y} * width_px_;
-    for (uint32_t x = 0; x < width_px_; ++x) {
+  std::vector<glm::vec4> measured(pixels());
+  std::vector<uint32_t> ids(pixels());
+  read_pixels(GL_COLOR_ATTACHMENT1, GL_RGBA, GL_FLOAT, measured.data());
+  read_pixels(GL_COLOR_ATTACHMENT2, GL_RED_INTEGER, GL_UNSIGNED_INT, ids.data());
+  image.z.assign(pixels(), std::numeric_limits<float>::infinity());
+  image.normal.assign(pixels(), glm::vec3(0.0f));
+  image.position.assign(pixels(), glm::vec3(0.0f));
+  image.id.assign(pixels(), csgcore::kNoPrimitive);
+  for (uint32_t y = 0; y < format_.height_px; ++y) {
+    const size_t row = row_start(y);
+    for (uint32_t x = 0; x < format_.width_px; ++x) {
       const glm::vec4& sample = measured[row + x];
       if (sample.w == std::numeric_limits<float>::infinity()) continue;
-      const size_t pixel = size_t{y} * width_px_ + x;
+      const size_t pixel = size_t{y} * format_.width_px + x;
       const double depth = frame.eye_distance + static_cast<double>(sample.w);
       const csgcore::Ray ray = csgcore::pixel_ray(frame.view, x, y);
       image.z[pixel] = static_cast<float>(depth);

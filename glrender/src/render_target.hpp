@@ -1,33 +1,50 @@
 // The framebuffer of a picture and its way back into an Image.
 #pragma once
 
+#include <vector>
+
 #include "csgcore/image.hpp"
 #include "frame.hpp"
 #include "gl_object.hpp"
 
 namespace glrender {
 
+struct TargetFormat {
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  bool measured = false;      // with the measured channels
+  bool exact_colors = false;  // colours in float, not rounded to 8 bits
+  bool operator==(const TargetFormat&) const = default;
+};
+
 class RenderTarget {
  public:
   /// Throws GlError if the driver cannot make pictures of this size.
-  RenderTarget(uint32_t width_px, uint32_t height_px, bool measured);
+  explicit RenderTarget(const TargetFormat& format);
 
   /// Binds it, sets the viewport and clears all channels.
   void begin(const glm::vec3& background) const;
+  /// Throws GlError if anything failed while drawing.
   csgcore::Image read(const Frame& frame) const;
+  /// Adds the colours, each in [0, 1], to the pixels of `sum`, in the order of an Image's. An empty
+  /// one starts from 0. Precondition: exact_colors. Throws as read() does.
+  void add_colors(std::vector<glm::vec3>& sum) const;
 
   /// The texture of normals and t; 0 without measured channels.
   GLuint measured_texture() const { return measured_channels_.name(); }
 
-  bool fits(uint32_t width_px, uint32_t height_px, bool measured) const {
-    return width_px == width_px_ && height_px == height_px_ && measured == measured_;
-  }
+  const TargetFormat& format() const { return format_; }
 
  private:
   void read_measured(const Frame& frame, csgcore::Image& image) const;
+  void read_pixels(GLenum attachment, GLenum format, GLenum type, void* data) const;
+  size_t pixels() const { return size_t{format_.width_px} * format_.height_px; }
+  /// Where the picture's row y starts in what OpenGL reads, whose rows run upwards.
+  size_t row_start(uint32_t y) const {
+    return size_t{format_.height_px - 1 - y} * format_.width_px;
+  }
 
-  uint32_t width_px_, height_px_;
-  bool measured_;
+  TargetFormat format_;
   Framebuffer framebuffer_;
   Texture color_, measured_channels_, id_, depth_;
 };

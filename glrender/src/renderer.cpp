@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cassert>
-#include <condition_variable>
-#include <cstddef>
-#include <deque>
+#include <cmath>
 #include <exception>
-#include <iterator>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "batch_queue.hpp"
 #include "csgcore/phong.hpp"
+#include "csgcore/sample_pattern.hpp"
 #include "frame.hpp"
 #include "glrender/stopwatch.hpp"
 #include "render_target.hpp"
-#include "shader_program.hpp"
 #include "solid_buffers.hpp"
+#include "stream_drawer.hpp"
 #include "traversal.hpp"
 
 namespace glrender {
@@ -38,122 +37,89 @@ using csgcore::View;
 /// (Measured on coincident faces at several angles: no speckle down to 2^-22, some at 2^-23.)
 constexpr double kThinnestPiece = 0x1p-21;
 
-/// The corners of a box as one triangle strip, wound counter-clockwise as seen from outside. Corner
-/// i is at the upper end of x, y, z where bits 0, 1, 2 of i are set.
-constexpr uint8_t kBoxStrip[] = {3, 7, 1, 5, 4, 7, 6, 3, 2, 1, 0, 4, 2, 6};
+double thinnest_piece(const Solid& solid) {
+  if (solid.bounds().empty()) return 0;
+  const Vec3 size = solid.bounds().size();
+  return kThinnestPiece * std::max({size.x, size.y, size.z});
+}
 
-/// Batches on their way from the thread that subdivides to the one that draws.
-class BatchQueue {
- public:
-  struct Batch {
-    std::vector<Leaf> leaves;
-    std::vector<Literal> literals;
-  };
+/// The pass with its rays where sample i of n lies.
+Pass displaced(Pass pass, uint32_t i, uint32_t n) {
+  pass.frame.displacement_px = csgcore::sample_offset(i, n);
+  return pass;
+}
 
-  void push(const LeafBatch& batch) {
-    const std::lock_guard lock(mutex_);
-    batches_.push_back({{batch.leaves.begin(), batch.leaves.end()},
-                        {batch.literals.begin(), batch.literals.end()}});
-    ready_.notify_one();
-  }
-  void close(std::exception_ptr error) {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-    error_ = error;
-    ready_.notify_one();
-  }
-  /// All that has come, as one batch; waits for some; none after close(). Rethrows its error.
-  std::optional<Batch> pop() {
-    std::unique_lock lock(mutex_);
-    ready_.wait(lock, [&] { return closed_ || !batches_.empty(); });
-    if (batches_.empty()) {
-      if (error_) std::rethrow_exception(error_);
-      return std::nullopt;
-    }
-    Batch all = std::move(batches_.front());
-    batches_.pop_front();
-    for (; !batches_.empty(); batches_.pop_front()) {
-      const Batch& next = batches_.front();
-      const uint64_t base = all.literals.size();
-      all.literals.insert(all.literals.end(), next.literals.begin(), next.literals.end());
-      for (Leaf leaf : next.leaves) {
-        leaf.first_literal += base;
-        all.leaves.push_back(leaf);
-      }
-    }
-    return all;
-  }
+FrameSettings with_measured(FrameSettings settings, bool measured) {
+  settings.measured_channels = measured;
+  return settings;
+}
 
- private:
-  std::mutex mutex_;
-  std::condition_variable ready_;
-  std::deque<Batch> batches_;
-  bool closed_ = false;
-  std::exception_ptr error_;
-};
+TargetFormat format_of(const View& view, bool measured, bool exact_colors) {
+  return {view.width_px, view.height_px, measured, exact_colors};
+}
 
 }  // namespace
 
 class Renderer::Impl {
  public:
   explicit Impl(const Solid& solid)
-      : solid_(solid),
-        buffers_(solid),
-        instances_(Buffer::make()),
-        strip_(Buffer::make()),
-        vertex_array_(VertexArray::make()),
-        conservative_depth_(epoxy_has_gl_extension("GL_ARB_conservative_depth") &&
-                            epoxy_has_gl_extension("GL_ARB_clip_control")) {
-    glBindVertexArray(vertex_array_.name());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, strip_.name());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof kBoxStrip, kBoxStrip, GL_STATIC_DRAW);
-    for (const GLuint location : {kLocationBoxMin, kLocationBoxMax, kLocationList}) {
-      glEnableVertexAttribArray(location);
-      glVertexAttribDivisor(location, 1);
-    }
-    const csgcore::Vec3 size = solid.bounds().empty() ? csgcore::Vec3{0} : solid.bounds().size();
-    tolerance_ = kThinnestPiece * std::max({size.x, size.y, size.z});
-  }
+      : solid_(solid), buffers_(solid), tolerance_(thinnest_piece(solid)) {}
 
   void load(const Subdivision& subdivision) {
+    PackedLiterals packed = pack_literals(subdivision);
+    buffers_.upload_literals(packed.literals);
     subdivision_ = &subdivision;
-    buffers_.upload_literals(subdivision.literals());
+    first_literal_ = std::move(packed.first_literal);
   }
 
   Image draw(const View& view, const FrameSettings& settings, FrameStats& stats) {
-    first_target_.reset();
-    return draw_loaded(view, settings, stats);
+    stats = {};
+    const Pass pass = make_pass(view, settings, nullptr);
+    prepare(pass, stats);
+    Image image;
+    if (settings.samples > 1) draw_samples(pass, image, stats);
+    // Last, as draw_behind() goes on from it.
+    if (settings.samples <= 1 || settings.measured_channels) {
+      use_target(view, settings.measured_channels);
+      shoot(pass, *target_, stats);
+      read(pass, image, stats);
+    }
+    return image;
   }
 
   Image draw_behind(const View& view, const FrameSettings& settings, FrameStats& stats) {
-    assert(target_ && target_->measured_texture() != 0);
-    first_target_ = std::move(target_);
+    assert(target_ && target_->format() == format_of(view, true, false));
+    stats = {};
+    Image image;
+    if (settings.samples > 1) draw_samples_behind(view, settings, image, stats);
+    const RenderTarget first = std::move(*target_);
     target_.reset();
-    // Whatever happens, later pictures lie behind nothing.
-    struct Forget {
-      std::optional<RenderTarget>& target;
-      ~Forget() { target.reset(); }
-    } forget{first_target_};
-    return draw_loaded(view, settings, stats);
+    const Pass pass = make_pass(view, settings, &first);
+    prepare(pass, stats);
+    use_target(view, settings.measured_channels);
+    shoot(pass, *target_, stats);
+    read(pass, image, stats);
+    return image;
   }
 
   double traversal_ms(const View& view) {
-    const FrameSettings settings;
+    const Pass pass = make_pass(view, {}, nullptr);
+    use_target(view, false);
     double ms = 0;
-    // The first pass compiles what is not compiled yet.
-    for (int pass = 0; pass < 2; ++pass) {
+    // The first turn compiles what is not compiled yet.
+    for (int turn = 0; turn < 2; ++turn) {
       FrameStats stats;
-      const Frame frame = begin(view, settings);
+      begin(pass, *target_);
       glFinish();
       Stopwatch watch;
-      traverse(frame, settings.subject);
-      upload_instances();
+      traverse(pass);
+      drawer_.upload(streams_);
       {
         struct Discard {
           Discard() { glEnable(GL_RASTERIZER_DISCARD); }
           ~Discard() { glDisable(GL_RASTERIZER_DISCARD); }
         } discard;
-        draw_streams(frame, settings, stats);
+        drawer_.draw(streams_, pass, buffers_, stats);
       }
       glFinish();
       ms = watch.lap();
@@ -166,7 +132,9 @@ class Renderer::Impl {
     stats = {};
     subdivision_ = nullptr;
     Stopwatch watch;
-    const Frame frame = begin(view, settings);
+    const Pass pass = make_pass(view, settings, nullptr);
+    use_target(view, settings.measured_channels);
+    begin(pass, *target_);
     BatchQueue queue;
     std::thread subdividing([&] {
       std::exception_ptr error;
@@ -180,7 +148,7 @@ class Renderer::Impl {
     });
     std::exception_ptr error;
     try {
-      while (auto batch = queue.pop()) draw_batch(*batch, frame, settings, stats);
+      while (auto batch = queue.pop()) draw_batch(*batch, pass, stats);
     } catch (...) {
       error = std::current_exception();
     }
@@ -188,28 +156,12 @@ class Renderer::Impl {
     if (error) std::rethrow_exception(error);
     glFinish();
     stats.draw_ms = watch.lap();
-    Image image = target_->read(frame);
-    stats.read_ms = watch.lap();
+    Image image;
+    read(pass, image, stats);
     return image;
   }
 
  private:
-  Image draw_loaded(const View& view, const FrameSettings& settings, FrameStats& stats) {
-    stats = {};
-    Stopwatch watch;
-    const Frame frame = begin(view, settings);
-    traverse(frame, settings.subject);
-    upload_instances();
-    glFinish();
-    stats.traverse_ms = watch.lap();
-    draw_streams(frame, settings, stats);
-    glFinish();
-    stats.draw_ms = watch.lap();
-    Image image = target_->read(frame);
-    stats.read_ms = watch.lap();
-    return image;
-  }
-
   /// What the frame and its light are fitted to.
   const csgcore::Box& scene_box(const FrameSettings& settings) const {
     return settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
@@ -224,148 +176,155 @@ class Renderer::Impl {
 
   double overlap() const { return csgcore::cell_overlap(solid_.bounds()); }
 
-  /// Prepares the target, the state and the primitives for a frame.
-  Frame begin(const View& view, const FrameSettings& settings) {
-    const Frame frame = make_frame(view, drawn_box(settings));
-    if (!target_ || !target_->fits(view.width_px, view.height_px, settings.measured_channels)) {
-      target_.reset();
-      target_.emplace(view.width_px, view.height_px, settings.measured_channels);
+  /// The rays through the pixels' centres; `first`: the picture that they start behind, if any.
+  Pass make_pass(const View& view, const FrameSettings& settings, const RenderTarget* first) const {
+    Pass pass;
+    pass.frame = make_frame(view, drawn_box(settings));
+    pass.settings = settings;
+    pass.overlap = overlap();
+    pass.tolerance = tolerance_;
+    pass.light_world = csgcore::phong_light(view, scene_box(settings)).position_world;
+    // An orthographic ray comes from infinity, so that it starts outside any solid. Others start
+    // beyond what is too near to be told from the eye.
+    pass.eye_inside =
+        pass.frame.perspective() && solid_.contains(view.eye + tolerance_ * view.forward);
+    if (first) {
+      pass.first = first->measured_texture();
+      // Behind a front, rays start on the other side of it.
+      pass.eye_inside = !pass.eye_inside;
     }
-    target_->begin(settings.background);
-    glBindVertexArray(vertex_array_.name());
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);
-    glEnable(GL_DEPTH_CLAMP);
-    glEnable(GL_CULL_FACE);
-    if (conservative_depth_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    buffers_.place(frame);
-    // An orthographic ray comes from infinity, so that it starts outside any solid.
-    eye_inside_ = frame.perspective() && solid_.contains(view.eye);
-    // Behind a front, rays start on the other side of it.
-    if (first_target_) eye_inside_ = !eye_inside_;
-    return frame;
+    return pass;
   }
 
-  InstanceSorter sorter(const Frame& frame, Subject subject) {
-    return {frame, solid_, overlap(), eye_inside_, subject == Subject::kCells, streams_};
+  void use_target(const View& view, bool measured) {
+    const TargetFormat format = format_of(view, measured, false);
+    if (target_ && target_->format() == format) return;
+    target_.reset();
+    target_.emplace(format);
   }
 
-  void traverse(const Frame& frame, Subject subject) {
+  InstanceSorter sorter(const Pass& pass) {
+    const bool boxes = pass.settings.subject == Subject::kCells;
+    return {pass.frame, solid_, pass.overlap, pass.eye_inside, boxes, streams_};
+  }
+
+  void traverse(const Pass& pass) {
     streams_.clear();
     if (!subdivision_) return;
-    InstanceSorter into = sorter(frame, subject);
-    traverse_front_to_back(*subdivision_, frame, into);
+    InstanceSorter into = sorter(pass);
+    traverse_front_to_back(*subdivision_, first_literal_, pass.frame, into);
   }
 
-  /// All streams into one buffer, in the order in which draw_streams takes them.
-  void upload_instances() {
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(streams_.size() * sizeof(Instance)),
-                 nullptr, GL_STREAM_DRAW);
-    GLintptr offset = 0;
-    for (const auto* group : {&streams_.front_faces, &streams_.back_faces}) {
-      for (const auto& stream : *group) {
-        const auto bytes = static_cast<GLsizeiptr>(stream.size() * sizeof(Instance));
-        if (bytes > 0) glBufferSubData(GL_ARRAY_BUFFER, offset, bytes, stream.data());
-        offset += bytes;
+  /// Brings the cells that the pass draws to the GPU; displaced passes draw the same ones.
+  void prepare(const Pass& pass, FrameStats& stats) {
+    Stopwatch watch;
+    traverse(pass);
+    drawer_.upload(streams_);
+    glFinish();
+    stats.traverse_ms += watch.lap();
+  }
+
+  void begin(const Pass& pass, const RenderTarget& target) {
+    target.begin(pass.settings.background);
+    drawer_.begin();
+    buffers_.place(pass.frame);
+  }
+
+  /// Draws what was prepared.
+  void shoot(const Pass& pass, const RenderTarget& target, FrameStats& stats) {
+    Stopwatch watch;
+    begin(pass, target);
+    drawer_.draw(streams_, pass, buffers_, stats);
+    glFinish();
+    stats.draw_ms += watch.lap();
+  }
+
+  /// Adds target_'s channels to the image, and its colours if there are none yet.
+  void read(const Pass& pass, Image& image, FrameStats& stats) const {
+    Stopwatch watch;
+    Image centre = target_->read(pass.frame);
+    if (!image.rgb.empty()) centre.rgb = std::move(image.rgb);
+    image = std::move(centre);
+    stats.read_ms += watch.lap();
+  }
+
+  /// Colours averaged over the samples.
+  class Average {
+   public:
+    void add(const RenderTarget& target, FrameStats& stats) {
+      Stopwatch watch;
+      target.add_colors(sum_);
+      ++samples_;
+      stats.read_ms += watch.lap();
+    }
+    void store(const View& view, Image& image) const {
+      image.width_px = view.width_px;
+      image.height_px = view.height_px;
+      image.rgb.resize(sum_.size());
+      const float scale = 255.0f / static_cast<float>(samples_);
+      for (size_t i = 0; i < sum_.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+          image.rgb[i][c] = static_cast<uint8_t>(std::lround(scale * sum_[i][c]));
+        }
       }
     }
-  }
 
-  /// One instanced draw a path and side: the number of calls does not grow with the cells.
-  void draw_streams(const Frame& frame, const FrameSettings& settings, FrameStats& stats) {
-    size_t offset = 0;
-    for (const bool front : {true, false}) {
-      // The vertex order turns round under a mirror; ours has none.
-      glCullFace(front ? GL_BACK : GL_FRONT);
-      const auto& group = front ? streams_.front_faces : streams_.back_faces;
-      for (int path = 0; path < kPaths; ++path) {
-        const size_t count = group[static_cast<size_t>(path)].size();
-        if (count == 0) continue;
-        use_program(static_cast<Path>(path), front, frame, settings);
-        point_attributes(offset);
-        glDrawElementsInstanced(GL_TRIANGLE_STRIP, std::size(kBoxStrip), GL_UNSIGNED_BYTE, nullptr,
-                                static_cast<GLsizei>(count));
-        offset += count * sizeof(Instance);
-        ++stats.draw_calls;
-        stats.cells_drawn += count;
-      }
+   private:
+    std::vector<glm::vec3> sum_;
+    uint32_t samples_ = 0;
+  };
+
+  void draw_samples(Pass pass, Image& image, FrameStats& stats) {
+    const View& view = pass.frame.view;
+    pass.settings.measured_channels = false;
+    const RenderTarget target(format_of(view, false, true));
+    Average average;
+    for (uint32_t i = 0; i < pass.settings.samples; ++i) {
+      shoot(displaced(pass, i, pass.settings.samples), target, stats);
+      average.add(target, stats);
     }
+    average.store(view, image);
   }
 
-  void use_program(Path path, bool front, const Frame& frame, const FrameSettings& settings) {
-    ProgramKey key;
-    key.path = path;
-    key.shading = settings.shading;
-    key.perspective = frame.perspective();
-    key.measured = settings.measured_channels;
-    key.has_sphere = buffers_.has_sphere();
-    key.has_frustum = buffers_.has_frustum();
-    key.clip_zero_to_one = conservative_depth_;
-    // A back face lies behind the hit, so that its depth promises nothing; a box's own face is at
-    // the depth of the fragment, but for rounding.
-    key.behind = first_target_.has_value();
-    key.conservative_depth = conservative_depth_ && front && path != Path::kBoxes;
-    const GLuint program = programs_.get(key);
-    glUseProgram(program);
-    set_frame_uniforms(program, frame, overlap());
-    buffers_.bind(program);
-    const auto set_color = [&](const char* name, const glm::vec3& c) {
-      glUniform3f(glGetUniformLocation(program, name), c.r, c.g, c.b);
-    };
-    set_color("u_front", settings.front);
-    set_color("u_back", settings.back);
-    set_color("u_edge", settings.edge);
-    const csgcore::Vec3 light =
-        csgcore::phong_light(frame.view, scene_box(settings)).position_world;
-    set_color("u_light_position", frame.relative(light));
-    glUniform1f(glGetUniformLocation(program, "u_tolerance"), static_cast<float>(tolerance_));
-    glUniform1i(glGetUniformLocation(program, "u_eye_inside"), eye_inside_);
-    if (first_target_) {
-      glActiveTexture(GL_TEXTURE0 + SolidBuffers::kTextureUnits);
-      glBindTexture(GL_TEXTURE_2D, first_target_->measured_texture());
-      glUniform1i(glGetUniformLocation(program, "u_first"), SolidBuffers::kTextureUnits);
+  /// Each sample lies behind a front of its own.
+  void draw_samples_behind(const View& view, const FrameSettings& settings, Image& image,
+                           FrameStats& stats) {
+    const RenderTarget front(format_of(view, true, false));
+    const RenderTarget behind(format_of(view, false, true));
+    const Pass to_front = make_pass(view, with_measured(settings, true), nullptr);
+    const Pass to_behind = make_pass(view, with_measured(settings, false), &front);
+    Average average;
+    for (uint32_t i = 0; i < settings.samples; ++i) {
+      prepare(to_front, stats);
+      shoot(displaced(to_front, i, settings.samples), front, stats);
+      prepare(to_behind, stats);
+      shoot(displaced(to_behind, i, settings.samples), behind, stats);
+      average.add(behind, stats);
     }
+    average.store(view, image);
   }
 
-  void point_attributes(size_t offset) const {
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-    const auto at = [&](size_t member) { return reinterpret_cast<const void*>(offset + member); };
-    constexpr GLsizei kStride = sizeof(Instance);
-    glVertexAttribPointer(kLocationBoxMin, 3, GL_FLOAT, GL_FALSE, kStride,
-                          at(offsetof(Instance, box_min)));
-    glVertexAttribPointer(kLocationBoxMax, 3, GL_FLOAT, GL_FALSE, kStride,
-                          at(offsetof(Instance, box_max)));
-    glVertexAttribIPointer(kLocationList, 2, GL_UNSIGNED_INT, kStride,
-                           at(offsetof(Instance, first_literal)));
-  }
-
-  void draw_batch(const BatchQueue::Batch& batch, const Frame& frame, const FrameSettings& settings,
-                  FrameStats& stats) {
+  void draw_batch(const BatchQueue::Batch& batch, const Pass& pass, FrameStats& stats) {
     streams_.clear();
-    if (!frame.visible) return;
-    InstanceSorter into = sorter(frame, settings.subject);
+    if (!pass.frame.visible) return;
+    InstanceSorter into = sorter(pass);
     const std::span<const Literal> literals(batch.literals);
     for (const Leaf& leaf : batch.leaves) {
-      into.add(leaf, literals.subspan(leaf.first_literal, leaf.literal_count));
+      into.add(leaf, literals.subspan(leaf.first_literal, leaf.literal_count), leaf.first_literal);
     }
     buffers_.upload_literals(literals);
-    upload_instances();
-    draw_streams(frame, settings, stats);
+    drawer_.upload(streams_);
+    drawer_.draw(streams_, pass, buffers_, stats);
   }
 
   const Solid& solid_;
   SolidBuffers buffers_;
-  Buffer instances_, strip_;
-  VertexArray vertex_array_;
-  ProgramCache programs_;
-  std::optional<RenderTarget> target_;
-  std::optional<RenderTarget> first_target_;  // draw_behind: the picture in front
+  StreamDrawer drawer_;
   InstanceStreams streams_;
+  std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
-  double tolerance_ = 0;
-  bool eye_inside_ = false;
-  bool conservative_depth_;
+  std::vector<uint64_t> first_literal_;  // of the subdivision's leaves, in the buffers
+  double tolerance_;
 };
 
 Renderer::Renderer(HeadlessContext&, const Solid& solid) : impl_(std::make_unique<Impl>(solid)) {}

@@ -13,6 +13,7 @@ namespace glrender {
 /// How a cell's primitives are combined: one draw call for all cells of a path.
 enum class Path : int {
   kSingle,     // a primitive or its complement; unions by the depth buffer (paper §3.2, §3.3.3)
+  kUnion,      // the same, of a union whose earlier operands may have the same face
   kBoth,       // §3.3.4 case 1
   kMinus,      // cases 2 and 3
   kNeither,    // case 4
@@ -20,10 +21,14 @@ enum class Path : int {
   kList,       // any function
   kBoxes,      // the cells themselves
 };
-constexpr int kPaths = 7;
+constexpr int kPaths = 8;
 
 /// Up to so many primitives a fragment keeps all segments: the default K.
 constexpr uint32_t kShortList = 8;
+
+/// Of a cell with more primitives, those beyond are not asked whether they share the face that is
+/// hit: the shaders keep one bit for each. In longer unions nobody is asked.
+constexpr uint32_t kSharedFaces = 32;
 
 /// A cell with more primitives is refused: Mesa's software renderer ends a shader's loop silently
 /// after 65,535 rounds, each at least one literal, and a pixel may need two evaluations.
@@ -47,11 +52,13 @@ struct ShaderConstant {
 
 inline constexpr std::array kShaderConstants = {
     ShaderConstant{"PATH_SINGLE", double(Path::kSingle), true},
+    ShaderConstant{"PATH_UNION", double(Path::kUnion), true},
     ShaderConstant{"PATH_BOTH", double(Path::kBoth), true},
     ShaderConstant{"PATH_MINUS", double(Path::kMinus), true},
     ShaderConstant{"PATH_NEITHER", double(Path::kNeither), true},
     ShaderConstant{"PATH_SHORT_LIST", double(Path::kShortList), true},
     ShaderConstant{"SHORT_LIST", kShortList, true},
+    ShaderConstant{"SHARED_FACES", kSharedFaces, true},
     ShaderConstant{"PATH_LIST", double(Path::kList), true},
     ShaderConstant{"PATH_BOXES", double(Path::kBoxes), true},
     ShaderConstant{"LOCATION_BOX_MIN", kLocationBoxMin, true},
@@ -69,9 +76,9 @@ inline constexpr std::array kShaderConstants = {
     // A pixel's share that a cell's outline is pushed out: several steps of the coarsest sub-pixel
     // grid that OpenGL allows (1/16 pixel).
     ShaderConstant{"INFLATION_PX", 0.25, false},
-    // Below this cosine between ray and surface the tolerance along the ray stops growing: at a
-    // pixel's resolution nothing flatter is seen of a face.
-    ShaderConstant{"GRAZING_COSINE", 1.0 / 256, false},
+    // Below this cosine between ray and surface (0.0035°) the tolerance along the ray stops
+    // growing: what is so flat is as thin as an edge, and its normal's own rounding would decide.
+    ShaderConstant{"GRAZING_COSINE", 1.0 / 16384, false},
     ShaderConstant{"EDGE_WIDTH_PX", 0.75, false},
 };
 

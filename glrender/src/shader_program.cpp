@@ -72,10 +72,15 @@ void attach(GLuint program, GLenum stage, const ProgramKey& key,
 Program compile_program(const ProgramKey& key) {
   Program program = Program::make();
   attach(program.name(), GL_VERTEX_SHADER, key, {shader_source::frame, shader_source::cell_vert});
-  const std::string_view body =
-      key.path == Path::kBoxes ? shader_source::box_frag : shader_source::cell_frag;
-  attach(program.name(), GL_FRAGMENT_SHADER, key,
-         {shader_source::frame, shader_source::ray, shader_source::shade, body});
+  if (key.path == Path::kBoxes) {
+    attach(
+        program.name(), GL_FRAGMENT_SHADER, key,
+        {shader_source::frame, shader_source::ray, shader_source::shade, shader_source::box_frag});
+  } else {
+    attach(program.name(), GL_FRAGMENT_SHADER, key,
+           {shader_source::frame, shader_source::ray, shader_source::shade,
+            shader_source::first_hit, shader_source::shared_faces, shader_source::cell_frag});
+  }
   glLinkProgram(program.name());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);

@@ -16,6 +16,15 @@ using csgcore::Leaf;
 using csgcore::LeafKind;
 using csgcore::Literal;
 
+namespace {
+
+bool is_drawn(const Leaf& leaf) {
+  return leaf.kind != LeafKind::kEmpty && leaf.kind != LeafKind::kDropped &&
+         leaf.kind != LeafKind::kRefined;
+}
+
+}  // namespace
+
 void InstanceStreams::clear() {
   for (auto& stream : front_faces) stream.clear();
   for (auto& stream : back_faces) stream.clear();
@@ -52,11 +61,9 @@ void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uin
                                                 count});
 }
 
-void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
-  if (leaf.kind == LeafKind::kEmpty || leaf.kind == LeafKind::kDropped ||
-      leaf.kind == LeafKind::kRefined) {
-    return;
-  }
+void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
+                         uint64_t first_literal) {
+  if (!is_drawn(leaf)) return;
   if (leaf.literal_count > kLongestList && leaf.kind != LeafKind::kUnion) {
     throw GlError(std::to_string(leaf.literal_count) +
                   " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
@@ -75,20 +82,21 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals) {
         if (box.empty()) continue;
       }
       if (eye_inside_) {
-        push(Path::kList, box, leaf.first_literal + i, 1);
+        push(Path::kList, box, first_literal + i, 1);
       } else {
-        // How many operands before it may have the same face; in long unions nobody looks.
-        push(Path::kSingle, box, leaf.first_literal + i, leaf.literal_count <= kShortList ? i : 0);
+        // How many operands before it may have the same face.
+        const uint32_t earlier = leaf.literal_count <= kSharedFaces ? i : 0;
+        push(earlier > 0 ? Path::kUnion : Path::kSingle, box, first_literal + i, earlier);
       }
     }
   } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {
     const int complements = literals[0].complement + literals[1].complement;
     const Path path =
         complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);
-    push(path, leaf.box, leaf.first_literal, 2);
+    push(path, leaf.box, first_literal, 2);
   } else {
     const Path path = leaf.literal_count <= kShortList ? Path::kShortList : Path::kList;
-    push(path, leaf.box, leaf.first_literal, leaf.literal_count);
+    push(path, leaf.box, first_literal, leaf.literal_count);
   }
 }
 
@@ -130,7 +138,21 @@ class Frustum {
 
 }  // namespace
 
-void traverse_front_to_back(const csgcore::Subdivision& subdivision, const Frame& frame,
+PackedLiterals pack_literals(const csgcore::Subdivision& subdivision) {
+  PackedLiterals packed;
+  packed.first_literal.reserve(subdivision.leaves().size());
+  packed.literals.reserve(subdivision.literals().size());
+  for (const Leaf& leaf : subdivision.leaves()) {
+    packed.first_literal.push_back(packed.literals.size());
+    if (!is_drawn(leaf)) continue;
+    const std::span<const Literal> literals = subdivision.literals_of(leaf);
+    packed.literals.insert(packed.literals.end(), literals.begin(), literals.end());
+  }
+  return packed;
+}
+
+void traverse_front_to_back(const csgcore::Subdivision& subdivision,
+                            std::span<const uint64_t> first_literal, const Frame& frame,
                             InstanceSorter& sorter) {
   if (subdivision.nodes().empty() || !frame.visible) return;
   const Frustum frustum(frame);
@@ -146,7 +168,7 @@ void traverse_front_to_back(const csgcore::Subdivision& subdivision, const Frame
     const KdNode& node = subdivision.nodes()[visit.node];
     if (node.axis == KdNode::kLeafAxis) {
       const Leaf& leaf = subdivision.leaves()[node.below];
-      sorter.add(leaf, subdivision.literals_of(leaf));
+      sorter.add(leaf, subdivision.literals_of(leaf), first_literal[node.below]);
       continue;
     }
     const int axis = static_cast<int>(node.axis);

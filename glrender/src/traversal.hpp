@@ -40,8 +40,10 @@ class InstanceSorter {
         boxes_(boxes),
         streams_(streams) {}
 
-  /// Throws GlError for a cell of more than kLongestList primitives.
-  void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals);
+  /// `literals` is the leaf's function, whose place on the GPU starts at `first_literal`. Throws
+  /// GlError for a cell of more than kLongestList primitives.
+  void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals,
+           uint64_t first_literal);
 
  private:
   void push(Path path, const csgcore::Box& box, uint64_t first_literal, uint32_t count);
@@ -55,8 +57,19 @@ class InstanceSorter {
   InstanceStreams& streams_;
 };
 
-/// Calls `sorter.add` for every leaf that may be on the screen, nearest first.
-void traverse_front_to_back(const csgcore::Subdivision& subdivision, const Frame& frame,
+/// A subdivision's literals as they go to the GPU: without those of leaves that nothing draws,
+/// which a subdivision with a threshold has dropped.
+struct PackedLiterals {
+  std::vector<csgcore::Literal> literals;
+  std::vector<uint64_t> first_literal;  // by leaf, where its literals start
+};
+
+PackedLiterals pack_literals(const csgcore::Subdivision& subdivision);
+
+/// Calls `sorter.add` for every leaf that may be on the screen, nearest first. `first_literal` is
+/// PackedLiterals::first_literal.
+void traverse_front_to_back(const csgcore::Subdivision& subdivision,
+                            std::span<const uint64_t> first_literal, const Frame& frame,
                             InstanceSorter& sorter);
 
 }  // namespace glrender

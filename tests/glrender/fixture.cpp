@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -49,17 +50,52 @@ SubdivisionOptions leaves_of(uint32_t leaf_primitives) {
   return options;
 }
 
-Image draw(const Scene& scene, const View& view, const SubdivisionOptions& options,
-           glrender::FrameStats* stats) {
-  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
-  const csgcore::Subdivision subdivision(solid, options);
-  glrender::Renderer renderer(context(), solid);
+LoadedScene::LoadedScene(const Scene& scene, const SubdivisionOptions& options)
+    : solid(csgcore::canonical_primitives(scene), scene.model),
+      subdivision(solid, options),
+      renderer(context(), solid) {
   renderer.load(subdivision);
-  glrender::FrameSettings settings;
   settings.background = {0, 0, 0};
   settings.measured_channels = true;
-  glrender::FrameStats unused;
-  return renderer.draw(view, settings, stats ? *stats : unused);
+}
+
+Image draw(const Scene& scene, const View& view, const SubdivisionOptions& options) {
+  return LoadedScene(scene, options).draw(view);
+}
+
+namespace {
+
+/// Whether the oracle shows `id` at the pixel or next to it.
+bool shown_around(const Image& oracle, uint32_t x, uint32_t y, uint32_t id) {
+  for (uint32_t v = y > 0 ? y - 1 : 0; v <= std::min(y + 1, oracle.height_px - 1); ++v) {
+    for (uint32_t u = x > 0 ? x - 1 : 0; u <= std::min(x + 1, oracle.width_px - 1); ++u) {
+      if (oracle.id[size_t{v} * oracle.width_px + u] == id) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Speckle& Speckle::operator+=(const Speckle& other) {
+  hits += other.hits;
+  wrong += other.wrong;
+  speckle += other.speckle;
+  return *this;
+}
+
+Speckle speckle(const Image& picture, const Image& oracle) {
+  Speckle result;
+  for (uint32_t y = 0; y < oracle.height_px; ++y) {
+    for (uint32_t x = 0; x < oracle.width_px; ++x) {
+      const size_t i = size_t{y} * oracle.width_px + x;
+      result.hits += oracle.id[i] != csgcore::kNoPrimitive;
+      if (picture.id[i] == oracle.id[i]) continue;
+      ++result.wrong;
+      result.speckle += !shown_around(oracle, x, y, picture.id[i]);
+    }
+  }
+  return result;
 }
 
 Comparison compare(const Image& picture, const Image& oracle, double model_size) {

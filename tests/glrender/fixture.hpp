@@ -21,9 +21,24 @@ glrender::HeadlessContext& context();
 csgcore::View view_from(const csgcore::Scene& scene, csgcore::Projection projection,
                         double around_deg, double above_deg, double distance = 3);
 
+/// A scene's model, subdivided and loaded, ready to be drawn: by default with all channels, on
+/// black.
+struct LoadedScene {
+  LoadedScene(const csgcore::Scene& scene, const csgcore::SubdivisionOptions& options);
+  LoadedScene(const LoadedScene&) = delete;  // its members refer to each other
+  LoadedScene& operator=(const LoadedScene&) = delete;
+  csgcore::Image draw(const csgcore::View& view) { return renderer.draw(view, settings, stats); }
+
+  csgcore::Solid solid;
+  csgcore::Subdivision subdivision;
+  glrender::Renderer renderer;
+  glrender::FrameSettings settings;
+  glrender::FrameStats stats;  // of the last frame
+};
+
+/// One frame of it.
 csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view,
-                    const csgcore::SubdivisionOptions& options,
-                    glrender::FrameStats* stats = nullptr);
+                    const csgcore::SubdivisionOptions& options);
 
 /// The default rule at a given K.
 csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
@@ -37,6 +52,17 @@ struct Comparison {
   std::string first;         // where and how the first wrong pixel is wrong
   uint64_t wrong() const { return hit_or_miss + position; }
 };
+
+/// Pixels that show another primitive than the oracle's picture, or a hit for a miss.
+struct Speckle {
+  uint64_t hits = 0;   // of the oracle
+  uint64_t wrong = 0;  // all of them, those at an edge too, where a ray just misses what is right
+  /// Those that show what the oracle shows in none of the pixels around: no edge excuses them.
+  uint64_t speckle = 0;
+  Speckle& operator+=(const Speckle& other);
+};
+
+Speckle speckle(const csgcore::Image& picture, const csgcore::Image& oracle);
 
 Comparison compare(const csgcore::Image& picture, const csgcore::Image& oracle, double model_size);
 

@@ -27,6 +27,7 @@ using csgcore::View;
 using gl_test::draw;
 using gl_test::expect_right;
 using gl_test::leaves_of;
+using gl_test::LoadedScene;
 using gl_test::view_from;
 
 Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
@@ -179,32 +180,6 @@ TEST_P(PictureTest, EmptyAndInvisible) {
   EXPECT_EQ(any, projection() == Projection::kOrthographic);
 }
 
-TEST(CoincidentFacesTest, LeaveNoSpeckle) {
-  // A blind hole whose floor is the block's own floor, a flush ring, a filled hole.
-  const auto speckle = [](const Scene& scene, double above_deg) {
-    View view = view_from(scene, Projection::kPerspective, 33, above_deg);
-    view.width_px = 640;
-    view.height_px = 480;
-    const Image picture = draw(scene, view, leaves_of(8));
-    const Image oracle = csgcore::reference_render(scene, view);
-    const auto result = gl_test::compare(picture, oracle, csgcore::reference_box(scene).diagonal());
-    EXPECT_GT(result.hits, 1000u);
-    return double(result.wrong()) / double(result.hits);
-  };
-  const Scene through =
-      combine(Op::kDifference, {make_frustum(0, 10, 8, 8), make_frustum(0, 10, 5, 5)});
-  const Scene pieces = combine(Op::kUnion, {make_frustum(0, 10, 8, 8), make_frustum(10, 20, 8, 8)});
-  const Mat3 turned{Vec3{0.6, 0.8, 0}, Vec3{-0.8, 0.6, 0}, Vec3{0, 0, 1}};
-  const Scene turned_cut =
-      combine(Op::kDifference, {make_frustum(-3, 10.1, 8, 8, {turned, Vec3{0.1, 0.2, 0.3}}),
-                                make_frustum(7.1, 10.1, 9, 9, at(0.1, 0.2, 0.3))});
-  for (const double above : {60.0, 30.0, 5.0, -45.0}) {
-    EXPECT_LE(speckle(through, above), 1e-4) << above;
-    EXPECT_LE(speckle(pieces, above), 1e-4) << above;
-    EXPECT_LE(speckle(turned_cut, above), 1e-4) << above;
-  }
-}
-
 /// Discs of one top plane, z = 2, and what of each is seen of it from above.
 struct SharedTop {
   const char* name;
@@ -287,17 +262,13 @@ std::array<uint8_t, 3> middle(const Image& image) {
 class ColorTest : public testing::Test {
  protected:
   Image draw_with(const Scene& scene, const View& view, glrender::Shading shading) {
-    const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
-    const csgcore::Subdivision subdivision(solid, leaves_of(8));
-    glrender::Renderer renderer(gl_test::context(), solid);
-    renderer.load(subdivision);
-    glrender::FrameSettings settings;
-    settings.background = glm::vec3(0xff, 0xff, 0xe5) / 255.0f;
-    settings.front = glm::vec3(0xf9, 0xd7, 0x2c) / 255.0f;
-    settings.back = glm::vec3(0x9d, 0xcb, 0x51) / 255.0f;
-    settings.shading = shading;
-    glrender::FrameStats stats;
-    return renderer.draw(view, settings, stats);
+    LoadedScene loaded(scene, leaves_of(8));
+    loaded.settings.background = glm::vec3(0xff, 0xff, 0xe5) / 255.0f;
+    loaded.settings.front = glm::vec3(0xf9, 0xd7, 0x2c) / 255.0f;
+    loaded.settings.back = glm::vec3(0x9d, 0xcb, 0x51) / 255.0f;
+    loaded.settings.shading = shading;
+    loaded.settings.measured_channels = false;
+    return loaded.draw(view);
   }
   View from_above() {
     View view;
@@ -348,11 +319,14 @@ TEST_F(ColorTest, PhongShading) {
 }
 
 TEST(RendererTest, DrawCallsDoNotGrowWithCells) {
-  glrender::FrameStats few, many;
-  const Scene small = test_support::cylinder_minus_spheres(20);
-  const Scene large = test_support::cylinder_minus_spheres(2000);
-  draw(small, view_from(small, Projection::kPerspective, 25, 35), leaves_of(2), &few);
-  draw(large, view_from(large, Projection::kPerspective, 25, 35), leaves_of(2), &many);
+  const auto drawn = [](uint32_t spheres) {
+    const Scene scene = test_support::cylinder_minus_spheres(spheres);
+    LoadedScene loaded(scene, leaves_of(2));
+    loaded.draw(view_from(scene, Projection::kPerspective, 25, 35));
+    return loaded.stats;
+  };
+  const glrender::FrameStats few = drawn(20);
+  const glrender::FrameStats many = drawn(2000);
   EXPECT_GT(many.cells_drawn, 10 * few.cells_drawn);
   EXPECT_LE(many.draw_calls, 5u);
   EXPECT_LE(few.draw_calls, 5u);
@@ -361,41 +335,30 @@ TEST(RendererTest, DrawCallsDoNotGrowWithCells) {
 TEST(RendererTest, DrawsWhileSubdividing) {
   const Scene scene = test_support::cylinder_minus_spheres(2000);
   const View view = view_from(scene, Projection::kPerspective, 25, 35);
-  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
-  const csgcore::Subdivision subdivision(solid, leaves_of(8));
-  glrender::Renderer renderer(gl_test::context(), solid);
-  renderer.load(subdivision);
-  glrender::FrameSettings settings;
-  settings.measured_channels = true;
-  glrender::FrameStats stats;
-  const Image whole = renderer.draw(view, settings, stats);
-  const Image batches = renderer.draw_while_subdividing(leaves_of(8), view, settings, stats);
+  LoadedScene loaded(scene, leaves_of(8));
+  const Image whole = loaded.draw(view);
+  const Image batches =
+      loaded.renderer.draw_while_subdividing(leaves_of(8), view, loaded.settings, loaded.stats);
   EXPECT_EQ(whole.rgb, batches.rgb);
   EXPECT_EQ(whole.id, batches.id);
-  EXPECT_GE(stats.draw_calls, 1u);
+  EXPECT_GE(loaded.stats.draw_calls, 1u);
 }
 
 TEST(RendererTest, AnotherAngleNeedsNoSubdivision) {
   const Scene scene = test_support::cylinder_minus_spheres(200);
-  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
   const View far = view_from(scene, Projection::kPerspective, 25, 35, 6);
   View near = view_from(scene, Projection::kPerspective, 120, 10, 2);
-  csgcore::Subdivision subdivision(solid, SubdivisionOptions::paper(2, far));
-  glrender::Renderer renderer(gl_test::context(), solid);
-  renderer.load(subdivision);
-  glrender::FrameSettings settings;
-  settings.measured_channels = true;
-  glrender::FrameStats stats;
+  LoadedScene loaded(scene, SubdivisionOptions::paper(2, far));
   const Image oracle = csgcore::reference_render(scene, near);
   const double size = csgcore::reference_box(scene).diagonal();
-  const auto before = gl_test::compare(renderer.draw(near, settings, stats), oracle, size);
+  const auto before = gl_test::compare(loaded.draw(near), oracle, size);
   near.half_height /= 4;
   const Image zoomed_oracle = csgcore::reference_render(scene, near);
-  const auto zoomed = gl_test::compare(renderer.draw(near, settings, stats), zoomed_oracle, size);
+  const auto zoomed = gl_test::compare(loaded.draw(near), zoomed_oracle, size);
   // Cells that were dropped for the old view are subdivided on where the new one shows them larger.
-  EXPECT_TRUE(subdivision.refine(near));
-  renderer.load(subdivision);
-  const auto refined = gl_test::compare(renderer.draw(near, settings, stats), zoomed_oracle, size);
+  EXPECT_TRUE(loaded.subdivision.refine(near));
+  loaded.renderer.load(loaded.subdivision);
+  const auto refined = gl_test::compare(loaded.draw(near), zoomed_oracle, size);
   EXPECT_LT(before.wrong() * 20, before.hits);
   EXPECT_LT(refined.wrong() * 4, zoomed.wrong());
 }
@@ -407,15 +370,9 @@ TEST(RendererTest, DrawsWhatLiesBehindAFront) {
   view.eye = {0, 0, 50};
   view.half_height = 10;
   view.width_px = view.height_px = 64;
-  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
-  const csgcore::Subdivision subdivision(solid, leaves_of(8));
-  glrender::Renderer renderer(gl_test::context(), solid);
-  renderer.load(subdivision);
-  glrender::FrameSettings settings;
-  settings.measured_channels = true;
-  glrender::FrameStats stats;
-  const Image front = renderer.draw(view, settings, stats);
-  const Image behind = renderer.draw_behind(view, settings, stats);
+  LoadedScene loaded(scene, leaves_of(8));
+  const Image front = loaded.draw(view);
+  const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
   for (size_t i = 0; i < front.z.size(); ++i) {
     ASSERT_EQ(std::isinf(front.z[i]), std::isinf(behind.z[i])) << i;
     // Symmetric about z = 0, which is at depth 50.

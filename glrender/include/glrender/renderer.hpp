@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "csgcore/frame_settings.hpp"
 #include "csgcore/image.hpp"
 #include "csgcore/subdivision.hpp"
 #include "csgcore/view.hpp"
@@ -18,30 +19,22 @@
 
 namespace glrender {
 
-enum class Shading : uint8_t {
-  kOpenScad,  // rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space (openscad.md §4)
-  kPhong,     // positional light, ambient, diffuse and specular (paper §3.2; csgcore/phong.hpp)
-};
+using csgcore::Shading;
 
 enum class Subject : uint8_t {
   kSurface,
   kCells,  // the leaf cells with a surface in them, as boxes (paper, figure 5b)
 };
 
-struct FrameSettings {
-  glm::vec3 background{1.0f};  // each 0…1, as the picture stores it
-  glm::vec3 front{1.0f};       // of what has no colour of its own
-  glm::vec3 back{1.0f};        // of cut faces that have none
-  glm::vec3 edge{0.0f};        // of the cells' edges
-  Shading shading = Shading::kOpenScad;
+struct FrameSettings : csgcore::FrameSettings {
+  glm::vec3 edge{0.0f};  // of the cells' edges
   Subject subject = Subject::kSurface;
-  bool measured_channels = false;  // fill Image's z, normal, position and id
-  /// What the frame's precision and its light are fitted to; empty: the solid's own box. Pictures
-  /// that are laid over each other need the same one, holding all of their solids.
-  csgcore::Box scene_box;
+  /// Rays per pixel, ≥ 1, displaced by csgcore::sample_offset; rgb is their average. The measured
+  /// channels are those of the pixel's centre.
+  uint32_t samples = 1;
 };
 
-/// Of one frame. Times in ms; GL is finished before a clock is read.
+/// Of one frame, all samples together. Times in ms; GL is finished before a clock is read.
 struct FrameStats {
   uint64_t draw_calls = 0;
   uint64_t cells_drawn = 0;  // instances: a union of n counts n times (paper §3.3.3)
@@ -77,7 +70,8 @@ class Renderer {
   double traversal_ms(const csgcore::View& view);
 
   /// Paper §2.3: draws the cells in batches while another thread subdivides. The picture equals
-  /// draw()'s; afterwards nothing is loaded. stats.draw_ms is the paper's S_R.
+  /// draw()'s with one sample, whatever settings.samples; afterwards nothing is loaded.
+  /// stats.draw_ms is the paper's S_R.
   csgcore::Image draw_while_subdividing(const csgcore::SubdivisionOptions& options,
                                         const csgcore::View& view, const FrameSettings& settings,
                                         FrameStats& stats);

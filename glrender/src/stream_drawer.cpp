@@ -1,0 +1,121 @@
+#include "stream_drawer.hpp"
+
+#include <cstddef>
+#include <iterator>
+
+namespace glrender {
+namespace {
+
+/// The corners of a box as one triangle strip, wound counter-clockwise as seen from outside. Corner
+/// i is at the upper end of x, y, z where bits 0, 1, 2 of i are set.
+constexpr uint8_t kBoxStrip[] = {3, 7, 1, 5, 4, 7, 6, 3, 2, 1, 0, 4, 2, 6};
+
+}  // namespace
+
+StreamDrawer::StreamDrawer()
+    : instances_(Buffer::make()),
+      strip_(Buffer::make()),
+      vertex_array_(VertexArray::make()),
+      conservative_depth_(epoxy_has_gl_extension("GL_ARB_conservative_depth") &&
+                          epoxy_has_gl_extension("GL_ARB_clip_control")) {
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, strip_.name());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof kBoxStrip, kBoxStrip, GL_STATIC_DRAW);
+  for (const GLuint location : {kLocationBoxMin, kLocationBoxMax, kLocationList}) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribDivisor(location, 1);
+  }
+}
+
+void StreamDrawer::begin() const {
+  glBindVertexArray(vertex_array_.name());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glEnable(GL_DEPTH_CLAMP);
+  glEnable(GL_CULL_FACE);
+  if (conservative_depth_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+}
+
+/// All streams into one buffer, in the order in which draw() takes them.
+void StreamDrawer::upload(const InstanceStreams& streams) {
+  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(streams.size() * sizeof(Instance)), nullptr,
+               GL_STREAM_DRAW);
+  GLintptr offset = 0;
+  for (const auto* group : {&streams.front_faces, &streams.back_faces}) {
+    for (const auto& stream : *group) {
+      const auto bytes = static_cast<GLsizeiptr>(stream.size() * sizeof(Instance));
+      if (bytes > 0) glBufferSubData(GL_ARRAY_BUFFER, offset, bytes, stream.data());
+      offset += bytes;
+    }
+  }
+}
+
+void StreamDrawer::draw(const InstanceStreams& streams, const Pass& pass,
+                        const SolidBuffers& buffers, FrameStats& stats) {
+  size_t offset = 0;
+  for (const bool front : {true, false}) {
+    // The vertex order turns round under a mirror; ours has none.
+    glCullFace(front ? GL_BACK : GL_FRONT);
+    const auto& group = front ? streams.front_faces : streams.back_faces;
+    for (int path = 0; path < kPaths; ++path) {
+      const size_t count = group[static_cast<size_t>(path)].size();
+      if (count == 0) continue;
+      use_program(static_cast<Path>(path), front, pass, buffers);
+      point_attributes(offset);
+      glDrawElementsInstanced(GL_TRIANGLE_STRIP, std::size(kBoxStrip), GL_UNSIGNED_BYTE, nullptr,
+                              static_cast<GLsizei>(count));
+      offset += count * sizeof(Instance);
+      ++stats.draw_calls;
+      stats.cells_drawn += count;
+    }
+  }
+}
+
+void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
+                               const SolidBuffers& buffers) {
+  ProgramKey key;
+  key.path = path;
+  key.shading = pass.settings.shading;
+  key.perspective = pass.frame.perspective();
+  key.measured = pass.settings.measured_channels;
+  key.has_sphere = buffers.has_sphere();
+  key.has_frustum = buffers.has_frustum();
+  key.clip_zero_to_one = conservative_depth_;
+  key.behind = pass.first != 0;
+  // A back face lies behind the hit, so that its depth promises nothing; a box's own face is at
+  // the depth of the fragment, but for rounding.
+  key.conservative_depth = conservative_depth_ && front && path != Path::kBoxes;
+  const GLuint program = programs_.get(key);
+  glUseProgram(program);
+  set_frame_uniforms(program, pass.frame, pass.overlap);
+  buffers.bind(program);
+  const auto set3 = [&](const char* name, const glm::vec3& v) {
+    glUniform3f(glGetUniformLocation(program, name), v.x, v.y, v.z);
+  };
+  set3("u_front", pass.settings.front);
+  set3("u_back", pass.settings.back);
+  set3("u_edge", pass.settings.edge);
+  set3("u_light_position", pass.frame.relative(pass.light_world));
+  glUniform1f(glGetUniformLocation(program, "u_tolerance"), static_cast<float>(pass.tolerance));
+  glUniform1i(glGetUniformLocation(program, "u_eye_inside"), pass.eye_inside);
+  if (pass.first != 0) {
+    glActiveTexture(GL_TEXTURE0 + SolidBuffers::kTextureUnits);
+    glBindTexture(GL_TEXTURE_2D, pass.first);
+    glUniform1i(glGetUniformLocation(program, "u_first"), SolidBuffers::kTextureUnits);
+  }
+}
+
+void StreamDrawer::point_attributes(size_t offset) const {
+  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  const auto at = [&](size_t member) { return reinterpret_cast<const void*>(offset + member); };
+  constexpr GLsizei kStride = sizeof(Instance);
+  glVertexAttribPointer(kLocationBoxMin, 3, GL_FLOAT, GL_FALSE, kStride,
+                        at(offsetof(Instance, box_min)));
+  glVertexAttribPointer(kLocationBoxMax, 3, GL_FLOAT, GL_FALSE, kStride,
+                        at(offsetof(Instance, box_max)));
+  glVertexAttribIPointer(kLocationList, 2, GL_UNSIGNED_INT, kStride,
+                         at(offsetof(Instance, first_literal)));
+}
+
+}  // namespace glrender
