@@ -34,13 +34,8 @@ class LaneVisitor final : public TileVisitor {
   }
 
   void visit(const Tile& tile, TileRays& rays) override {
-    for_each_wanted(tile, [&](const PacketBlock& block) {
-      RayPacket packet;
-      make_block_rays(frame_, block, packet);
-      PacketHits hits;
-      const TraceList& list = rays.trace(packet, block, hits);
-      sink_.store(block, packet, list, hits);
-    });
+    for_each_wanted(tile,
+                    [&](const PacketBlock& block) { trace_block(frame_, block, rays, sink_); });
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "packet_blocks.hpp"
 #include "restriction.hpp"
 
 namespace csgcore {
@@ -43,6 +44,14 @@ bool is_simplified(const Tile& tile, uint32_t literals, bool is_cut) {
 constexpr size_t kBoundedAtOnce = 4096;
 
 }  // namespace
+
+void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink) {
+  RayPacket packet;
+  make_block_rays(frame, block, packet);
+  PacketHits hits;
+  const TraceList& list = rays.trace(packet, block, hits);
+  sink.store(block, packet, list, hits);
+}
 
 void TileList::assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
                       const Tile& tile, const CellList& list) {

@@ -45,6 +45,9 @@ class TileRays {
                                  PacketHits& hits) = 0;
 };
 
+/// Traces the rays through the centres of a block's pixels, and stores what they hit.
+void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink);
+
 /// What is done with tiles. Called by all threads, for each pixel once.
 class TileVisitor {
  public:

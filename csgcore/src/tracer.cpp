@@ -60,13 +60,8 @@ class PixelVisitor final : public TileVisitor {
   void visit_empty(const Tile& tile) override { sink_.clear(tile); }
 
   void visit(const Tile& tile, TileRays& rays) override {
-    for_each_block(tile, [&](const PacketBlock& block) {
-      RayPacket packet;
-      make_block_rays(frame_, block, packet);
-      PacketHits hits;
-      const TraceList& list = rays.trace(packet, block, hits);
-      sink_.store(block, packet, list, hits);
-    });
+    for_each_block(tile,
+                   [&](const PacketBlock& block) { trace_block(frame_, block, rays, sink_); });
   }
 
  private:
