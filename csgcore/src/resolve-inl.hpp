@@ -256,7 +256,7 @@ class RayResolver {
     // turned, one of the others decides.
     size_t undone = changed_.size();
     for (size_t i = changed_.size(); i-- > 0;) {
-      if (!turns(changed_[i], value)) continue;
+      if (!turns(as_turning(changed_[i], value), value)) continue;
       flip(changed_[i].index);
       if (holds() == value) {
         flip(changed_[i].index);
@@ -265,9 +265,10 @@ class RayResolver {
       undone = i;
     }
     for (size_t i = 0; i < undone; ++i) {
-      if (turns(changed_[i], value) && decides(changed_[i], value)) return changed_[i];
+      const Event event = as_turning(changed_[i], value);
+      if (turns(event, value) && decides(changed_[i], value)) return event;
     }
-    return events_[cluster.first];
+    return as_turning(events_[cluster.first], value);
   }
 
   const FrameRays& frame_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,9 @@ struct Family {
   /// Faces coincide all over: GL's bar is speckle (design.md §3).
   bool is_coincident = false;
 };
+
+/// What GoogleTest prints of a family.
+inline void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
 
 /// All families, in the order of the table.
 const std::vector<Family>& families();

@@ -3,6 +3,7 @@
 // was measured.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 
 #include "csgcore/subdivision.hpp"
@@ -41,10 +42,27 @@ stress::Method gl_method(uint32_t leaf_primitives) {
           }};
 }
 
-/// What was measured at most, by family: wrong pixels per hit, over all leaf sizes.
+/// Wrong pixels per hit that a family may have: the 1 in 10,000, or half as many again as
+/// were measured (the larger of the sample and the full run, on llvmpipe) where floats cannot do
+/// better.
 double most_wrong(const std::string& family) {
-  (void)family;
-  return 1;
+  static const std::map<std::string, double> kMeasured{
+      {"tangent", 2e-4},               // which of two surfaces that touch
+      {"needles", 7e-4},               // silhouettes at 1e-6 of the length
+      {"plates", 5e-3},                // edges of 1e-6
+      {"apexes", 5e-4},                // an apex that a ray just passes
+      {"random_lattice", 0.015},       // eyes in faces
+      {"far_models", 0.04},            // what is 1e-6 of the model
+      {"sheared_and_mirrored", 0.04},  // a map of condition 1e5
+      {"pencils", 0.09},               // which of hundreds
+      {"eye_in_a_face", 0.13},
+      {"shells", 0.2},          // of 1e-7
+      {"zero_thickness", 0.4},  // a skin of 1e-6
+      {"scales", 0.6},          // a ball of 1e-9
+      {"tolerance", 0.7},       // all of it is beneath a float
+  };
+  const auto found = kMeasured.find(family);
+  return found == kMeasured.end() ? 1e-4 : found->second;
 }
 
 class GlStressTest : public testing::TestWithParam<Family> {};
