@@ -113,8 +113,12 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto lean_x = hn::Sub(hn::Mul(radius, direction.x), hn::Mul(growth, p.x));
   const auto lean_y = hn::Sub(hn::Mul(radius, direction.y), hn::Mul(growth, p.y));
   const auto moment = hn::Sub(hn::Mul(p.x, direction.y), hn::Mul(p.y, direction.x));
-  const auto discriminant =
+  const auto squares =
       hn::Sub(hn::Add(hn::Mul(lean_x, lean_x), hn::Mul(lean_y, lean_y)), hn::Mul(moment, moment));
+  // Where a·c ≤ 0 nothing cancels in the first place.
+  const auto product = hn::Mul(a, c);
+  const auto discriminant =
+      hn::IfThenElse(hn::Le(product, zero), hn::Sub(hn::Mul(h, h), product), squares);
   // Roots without cancellation: q/a and c/q. q = 0: through the apex, both at 0.
   const auto root = hn::Sqrt(hn::Max(discriminant, zero));
   const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));

@@ -138,8 +138,11 @@ PivotRay SpecialRays::through_rim() {
 PivotRay SpecialRays::along_generatrix() {
   const Vec3 aside = sideways();
   const Vec3 direction = on_surface(aside, z_max_) - on_surface(aside, z_min_);
+  const Vec3 around{-aside.y, aside.x, 0};
+  const double kind = pick(0, 1);
   Vec3 point = on_surface(aside, any_height());
-  if (chance(0.5)) point = on_surface(pick(0, 1.2) * sideways(), any_height());
+  if (kind < 0.3) point += pick(-1, 1) * around;  // beside it, in the plane that touches the wall
+  if (kind > 0.6) point = on_surface(pick(0, 1.2) * sideways(), any_height());
   return through(point, direction);
 }
 
