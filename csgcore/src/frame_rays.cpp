@@ -28,9 +28,9 @@ FrameRays frame_rays(const View& view, const Box& solid_bounds) {
   frame.first_t = view.projection == Projection::kPerspective
                       ? thinnest_piece(solid_bounds) - frame.base_s
                       : -std::numeric_limits<double>::max();
-  for (uint32_t x = 0; x < view.width_px + kPacketSide_px; ++x)
+  for (uint32_t x = 0; x < view.width_px + FrameRays::kBeyond_px; ++x)
     frame.u_of_column.push_back(frame.u(x));
-  for (uint32_t y = 0; y < view.height_px + kPacketSide_px; ++y)
+  for (uint32_t y = 0; y < view.height_px + FrameRays::kBeyond_px; ++y)
     frame.v_of_row.push_back(frame.v(y));
   return frame;
 }

@@ -47,14 +47,16 @@ HWY_INLINE Inverses<D> inverses(D d, const Lanes3<D>& direction, hn::Vec<D> late
 template <class D>
 HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, const Inverses<D>& inverse) {
   const auto one = hn::Set(d, 1.0);
-  const auto infinite = hn::Set(d, kInfinity);
-  // A level ray is inside for ever or never.
-  const auto outside = hn::Gt(hn::Abs(z), one);
   const auto at_bottom = hn::Mul(hn::Sub(hn::Neg(one), z), inverse.z);
   const auto at_top = hn::Mul(hn::Sub(one, z), inverse.z);
+  const Interval<D> sloped = {hn::Min(at_bottom, at_top), hn::Max(at_bottom, at_top)};
+  if (hn::AllFalse(d, inverse.level)) return sloped;
+  // A level ray is inside for ever or never.
+  const auto infinite = hn::Set(d, kInfinity);
+  const auto outside = hn::Gt(hn::Abs(z), one);
   const auto level_start = hn::IfThenElse(outside, infinite, hn::Neg(infinite));
-  return {hn::IfThenElse(inverse.level, level_start, hn::Min(at_bottom, at_top)),
-          hn::IfThenElse(inverse.level, hn::Neg(level_start), hn::Max(at_bottom, at_top))};
+  return {hn::IfThenElse(inverse.level, level_start, sloped.start),
+          hn::IfThenElse(inverse.level, hn::Neg(level_start), sloped.end)};
 }
 
 /// The part of a slab that the wall leaves.
@@ -79,6 +81,7 @@ HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& di
   const Lanes3<D> foot = p + scaled(direction, middle);
   const auto inside = hn::Sub(hn::Set(d, 1.0), dot_xy(foot, foot));
   const Segment<D> wall = segment_about(d, middle, inside, inverse.lateral2);
+  if (hn::AllFalse(d, inverse.along)) return wall;
   // A ray along the axis keeps its distance from it: inside for ever or never.
   const auto endless = hn::And(inverse.along, hn::Ge(inside, hn::Zero(d)));
   return {hn::IfThenElse(endless, hn::Set(d, -kInfinity), wall.start),
@@ -119,33 +122,35 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto product = hn::Mul(a, c);
   const auto discriminant =
       hn::IfThenElse(hn::Le(product, zero), hn::Sub(hn::Mul(h, h), product), squares);
-  // Roots without cancellation: q/a and c/q. q = 0: through the apex, both at 0.
-  const auto root = hn::Sqrt(hn::Max(discriminant, zero));
-  const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));
-  const auto q_is_zero = hn::Eq(q, zero);
-  const auto a_is_zero = hn::Eq(a, zero);
-  // Both by one division, as in `inverses`. a = 0: the other root is at infinity, on the side that
-  // q points to.
-  const auto divisor_a = hn::IfThenElse(a_is_zero, one, a);
-  const auto divisor_q = hn::IfThenElse(q_is_zero, one, q);
-  const auto quotient = hn::Div(one, hn::Mul(divisor_a, divisor_q));
-  const auto root_a = hn::IfThenElse(a_is_zero, hn::CopySign(infinite, q),
-                                     hn::Mul(q, hn::Mul(divisor_q, quotient)));
-  const auto root_c =
-      hn::IfThenElseZero(hn::Not(q_is_zero), hn::Mul(c, hn::Mul(divisor_a, quotient)));
-  const auto low = hn::Min(root_a, root_c);
-  const auto high = hn::Max(root_a, root_c);
   // a ≥ 0: between the roots. a < 0: beyond one of them, on the nappe that the radius grows into.
   const auto between = hn::Ge(a, zero);
+  const auto a_is_zero = hn::Eq(a, zero);
+  auto misses = hn::And(between, hn::Le(discriminant, zero));
+  // Roots without cancellation, q/a and c/q: both by one division, as in `inverses`.
+  const auto root = hn::Sqrt(hn::Max(discriminant, zero));
+  const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));
+  const auto quotient = hn::Div(one, hn::Mul(a, q));
+  auto root_a = hn::Mul(q, hn::Mul(q, quotient));
+  auto root_c = hn::Mul(c, hn::Mul(a, quotient));
+  const auto q_is_zero = hn::Eq(q, zero);
+  const auto is_special = hn::Or(a_is_zero, q_is_zero);
+  if (!hn::AllFalse(d, is_special)) {
+    // q = 0: through the apex, both at 0. a = 0: one root is at infinity, on the side that q points
+    // to. Neither a nor h: the ray keeps its distance from the wall.
+    const auto keeps = hn::And(a_is_zero, hn::Eq(h, zero));
+    const auto c_over_q = hn::IfThenElseZero(hn::Not(q_is_zero), hn::Div(c, q));
+    root_a = hn::IfThenElse(q_is_zero, zero, root_a);
+    root_a = hn::IfThenElse(a_is_zero, hn::CopySign(infinite, q), root_a);
+    root_a = hn::IfThenElse(keeps, hn::Neg(infinite), root_a);
+    root_c = hn::IfThenElse(is_special, c_over_q, root_c);
+    root_c = hn::IfThenElse(keeps, infinite, root_c);
+    misses = hn::Or(hn::AndNot(keeps, misses), hn::And(keeps, hn::Gt(c, zero)));
+  }
+  const auto low = hn::Min(root_a, root_c);
+  const auto high = hn::Max(root_a, root_c);
   const auto grows = hn::Gt(growth, zero);
-  auto start = hn::IfThenElse(between, low, hn::IfThenElse(grows, high, hn::Neg(infinite)));
-  auto end = hn::IfThenElse(between, high, hn::IfThenElse(grows, infinite, low));
-  // Neither a nor h: the ray keeps its distance from the wall.
-  const auto keeps = hn::And(a_is_zero, hn::Eq(h, zero));
-  start = hn::IfThenElse(keeps, hn::Neg(infinite), start);
-  end = hn::IfThenElse(keeps, infinite, end);
-  const auto misses = hn::Or(hn::And(keeps, hn::Gt(c, zero)),
-                             hn::AndNot(keeps, hn::And(between, hn::Le(discriminant, zero))));
+  const auto start = hn::IfThenElse(between, low, hn::IfThenElse(grows, high, hn::Neg(infinite)));
+  const auto end = hn::IfThenElse(between, high, hn::IfThenElse(grows, infinite, low));
   return segment_if(d, hn::Not(misses), hn::Add(base, start), hn::Add(base, end), no_lanes(d),
                     no_lanes(d));
 }
@@ -168,9 +173,7 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
   const Mat3& map = primitive.world_to_canonical;
   const Lanes3<D> p = transformed(d, map, rays.origin - broadcast(d, center));
   const Lanes3<D> direction = transformed(d, map, rays.direction);
-  if (all_pass(d, p, direction)) {
-    return {hn::Set(d, kInfinity), hn::Set(d, -kInfinity), no_lanes(d), no_lanes(d)};
-  }
+  if (all_pass(d, p, direction)) return no_segment(d);
   const auto lateral2 = dot_xy(direction, direction);
   const Inverses<D> inverse = inverses(d, direction, lateral2);
   const Interval<D> ends = slab(d, p.z, inverse);
@@ -188,13 +191,16 @@ HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3
   const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
   const Lanes3<D> point = transformed(d, map, offset);
   const auto one = hn::Set(d, 1.0);
-  const auto slope = hn::Set(d, primitive.radius_slope);
-  // The wall's gradient has the distance from the axis for a radius: at the apex none is left, and
-  // the axis' direction away from the cone's body stands in.
-  const auto across = hn::Sqrt(hn::Add(hn::Mul(point.x, point.x), hn::Mul(point.y, point.y)));
-  const auto is_apex = hn::Eq(across, hn::Zero(d));
-  const auto wall_z =
-      hn::IfThenElse(is_apex, hn::CopySign(one, hn::Neg(slope)), hn::Neg(hn::Mul(slope, across)));
+  auto wall_z = hn::Zero(d);
+  if (primitive.radius_slope != 0) {
+    // The wall's gradient has the distance from the axis for a radius: at the apex none is left,
+    // and the axis' direction away from the cone's body stands in.
+    const auto downhill = hn::Set(d, -primitive.radius_slope);
+    const auto across2 = dot_xy(point, point);
+    const auto across = hn::Mul(across2, inverse_sqrt(d, across2));
+    const auto is_apex = hn::Eq(across, hn::Zero(d));
+    wall_z = hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, across));
+  }
   const Lanes3<D> gradient = {hn::IfThenElseZero(hn::Not(on_cap), point.x),
                               hn::IfThenElseZero(hn::Not(on_cap), point.y),
                               hn::IfThenElse(on_cap, hn::CopySign(one, point.z), wall_z)};

@@ -33,7 +33,7 @@ void for_each_row(const Tile& tile, uint32_t width_px, Visit&& visit) {
   for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) visit(size_t{y} * width_px + tile.x);
 }
 
-std::array<uint8_t, 3> to_rgb8(const glm::vec3& color) {
+Rgb8 to_rgb8(const glm::vec3& color) {
   const auto channel = [](float value) {
     return static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
   };
@@ -99,14 +99,12 @@ void ImageSink::store(const PacketBlock& block, const RayPacket& rays, const Tra
                       const PacketHits& hits) {
   PacketColors colors;
   if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, hits, colors);
+  PacketPixels pixels;
+  round_colors(colors, hits.hits, background_, pixels);
   for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
-    if (!(hits.hits >> lane & 1)) {
-      image_.rgb[pixel] = background_;
-      return;
-    }
-    for (size_t channel = 0; channel < 3; ++channel) {
-      image_.rgb[pixel][channel] = static_cast<uint8_t>(colors.rgb[channel][lane] + 0.5);
-    }
+    const auto rgb = static_cast<uint32_t>(pixels.rgb[lane]);
+    image_.rgb[pixel] = {static_cast<uint8_t>(rgb), static_cast<uint8_t>(rgb >> 8),
+                         static_cast<uint8_t>(rgb >> 16)};
   });
   if (measured_) store_channels(block, rays, list, hits);
 }

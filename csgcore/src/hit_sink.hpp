@@ -45,7 +45,7 @@ class ImageSink final : public HitSink {
   void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
              const PacketHits& hits) override;
   const ShadeSettings& shade() const { return shade_; }
-  std::array<uint8_t, 3> background() const { return background_; }
+  Rgb8 background() const { return background_; }
 
  private:
   void store_channels(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
@@ -54,7 +54,7 @@ class ImageSink final : public HitSink {
   const FrameRays& frame_;
   bool measured_;
   ShadeSettings shade_;
-  std::array<uint8_t, 3> background_;
+  Rgb8 background_;
   Image& image_;
 };
 

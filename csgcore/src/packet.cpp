@@ -25,44 +25,82 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// origin + base_s·direction − pivot without rounding the large terms, which cancel: the product is
-/// exact in two parts (Dekker 1971), the difference too (Knuth's TwoSum).
-HWY_INLINE WideV rebased(WideV origin, WideV direction, double base_s, double pivot) {
+/// a + b in two parts, without rounding (Knuth's TwoSum).
+struct ExactSum {
+  WideV sum, lost;
+};
+HWY_INLINE ExactSum exact_sum(WideV a, WideV b) {
+  const WideV sum = hn::Add(a, b);
+  const WideV part = hn::Sub(sum, a);
+  return {sum, hn::Add(hn::Sub(a, hn::Sub(sum, part)), hn::Sub(b, part))};
+}
+
+/// offset + base_s·direction without rounding the large terms, which cancel: the product is exact
+/// in two parts (Dekker 1971).
+HWY_INLINE WideV rebased(const ExactSum& offset, WideV base_s, WideV direction) {
   const Wide d;
   const WideV split = hn::Mul(direction, hn::Set(d, 0x1p27 + 1.0));
   const WideV high = hn::Sub(split, hn::Sub(split, direction));
   const WideV low = hn::Sub(direction, high);
-  const WideV minus = hn::Set(d, -pivot);
-  const WideV sum = hn::Add(origin, minus);
-  const WideV part = hn::Sub(sum, origin);
-  const WideV lost = hn::Add(hn::Sub(origin, hn::Sub(sum, part)), hn::Sub(minus, part));
-  const WideV base = hn::Set(d, base_s);
-  return hn::Add(hn::Add(sum, hn::Mul(base, high)), hn::Add(hn::Mul(base, low), lost));
+  return hn::Add(hn::Add(offset.sum, hn::Mul(base_s, high)),
+                 hn::Add(hn::Mul(base_s, low), offset.lost));
 }
 
 /// pixel_ray, lane by lane and operation by operation.
-void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const PacketV& v,
+                           RayPacket& rays) {
   const Wide d;
   const View& view = frame.view;
-  for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    const auto u = hn::Load(d, laterals.u + first);
-    const auto v = hn::Load(d, laterals.v + first);
-    WideV length2 = hn::Zero(d);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto lateral =
-          hn::Add(hn::Mul(u, hn::Set(d, view.right[axis])), hn::Mul(v, hn::Set(d, view.up[axis])));
-      const auto eye = hn::Set(d, view.eye[axis]);
-      const auto forward = hn::Set(d, view.forward[axis]);
-      const bool is_perspective = view.projection == Projection::kPerspective;
-      const auto origin = is_perspective ? eye : hn::Add(eye, lateral);
-      const auto direction = is_perspective ? hn::Add(forward, lateral) : forward;
-      hn::Store(rebased(origin, direction, frame.base_s, frame.pivot[axis]), d,
-                rays.origin[axis] + first);
-      hn::Store(direction, d, rays.direction[axis] + first);
-      length2 = hn::Add(length2, hn::Mul(direction, direction));
+  const bool is_perspective = view.projection == Projection::kPerspective;
+  const WideV base_s = hn::Set(d, frame.base_s);
+  PacketV length2;
+  for (int c = 0; c < kChunks; ++c) length2.chunk[c] = hn::Zero(d);
+  for (int axis = 0; axis < 3; ++axis) {
+    const WideV right = hn::Set(d, view.right[axis]);
+    const WideV up = hn::Set(d, view.up[axis]);
+    const WideV forward = hn::Set(d, view.forward[axis]);
+    const WideV eye = hn::Set(d, view.eye[axis]);
+    const WideV minus_pivot = hn::Set(d, -frame.pivot[axis]);
+    const ExactSum from_eye = exact_sum(eye, minus_pivot);
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV lateral = hn::Add(hn::Mul(u.chunk[c], right), hn::Mul(v.chunk[c], up));
+      const WideV direction = is_perspective ? hn::Add(forward, lateral) : forward;
+      const ExactSum offset =
+          is_perspective ? from_eye : exact_sum(hn::Add(eye, lateral), minus_pivot);
+      hn::Store(rebased(offset, base_s, direction), d, rays.origin[axis] + first_lane(c));
+      hn::Store(direction, d, rays.direction[axis] + first_lane(c));
+      length2.chunk[c] = hn::Add(length2.chunk[c], hn::Mul(direction, direction));
     }
-    hn::Store(hn::Div(hn::Set(d, 1.0), length2), d, rays.inverse_length2 + first);
   }
+  for (int c = 0; c < kChunks; ++c) {
+    hn::Store(hn::Div(hn::Set(d, 1.0), length2.chunk[c]), d, rays.inverse_length2 + first_lane(c));
+  }
+}
+
+void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+  PacketV u, v;
+  for (int c = 0; c < kChunks; ++c) {
+    u.chunk[c] = hn::Load(Wide(), laterals.u + first_lane(c));
+    v.chunk[c] = hn::Load(Wide(), laterals.v + first_lane(c));
+  }
+  write_rays(frame, u, v, rays);
+}
+
+void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
+  const Wide d;
+  int64_t column_of[kLanes];
+  for (size_t lane = 0; lane < kLanes; ++lane) column_of[lane] = lane % kPacketSide_px;
+  const auto columns = hn::SetTableIndices(d, column_of);
+  const WideM in_first_row = hn::FirstN(d, kPacketSide_px);
+  PacketV u, v;
+  for (int c = 0; c < kChunks; ++c) {
+    const size_t column = first_lane(c) % kPacketSide_px;
+    const double* const first = frame.u_of_column.data() + x + column;
+    const double* const row = frame.v_of_row.data() + y + first_lane(c) / kPacketSide_px;
+    u.chunk[c] = hn::TableLookupLanes(hn::LoadU(d, first), columns);
+    v.chunk[c] = hn::IfThenElse(in_first_row, hn::Set(d, row[0]), hn::Set(d, row[1]));
+  }
+  write_rays(frame, u, v, rays);
 }
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
@@ -70,119 +108,101 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
   intersect_packet(frame, rays, primitive, segments);
 }
 
-/// Lanes of `lanes` that show the same literal as the lowest of them.
-HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
-  const uint32_t index = hits.index[std::countr_zero(lanes)];
-  LaneMask same = 0;
-  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    same |= LaneMask{hits.index[lane] == index} << lane;
-  }
-  return same & lanes;
-}
-
 HWY_INLINE bool is_complement(const TraceList& list, uint32_t index) {
   return (list.list->primitive[index] & CellList::kComplementBit) != 0;
 }
 
-/// The normals of the lanes, outward of the solid (paper §3.2, step 4).
-HWY_INLINE void find_normals(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
-                             LaneMask lanes, PacketHits& hits) {
+/// The literal's normals at its crossings τ = t, outward of the solid (paper §3.2, step 4).
+HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
+                                       const TraceList& list, uint32_t index, WideV t,
+                                       LaneMask on_cap, int chunk) {
   const Wide d;
-  while (lanes != 0) {
-    const LaneMask same = lanes_of_first(hits, lanes);
-    const uint32_t index = hits.index[std::countr_zero(lanes)];
-    lanes &= ~same;
-    const uint32_t entry = list.list->primitive[index];
-    const CanonicalPrimitive& primitive = list.primitives[entry & kPrimitiveBits];
-    const auto sign = hn::Set(d, is_complement(list, index) ? -1.0 : 1.0);
-    for (int c = 0; c < kChunks; ++c) {
-      const size_t first = first_lane(c);
-      const WideM wanted = mask_of(same, c);
-      if (hn::AllFalse(d, wanted)) continue;
-      const auto normal = scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first),
-                                           hn::Load(d, hits.t + first), mask_of(hits.on_cap, c)),
-                                 sign);
-      hn::BlendedStore(normal.x, wanted, d, hits.normal[0] + first);
-      hn::BlendedStore(normal.y, wanted, d, hits.normal[1] + first);
-      hn::BlendedStore(normal.z, wanted, d, hits.normal[2] + first);
-    }
-  }
+  const uint32_t entry = list.list->primitive[index];
+  const CanonicalPrimitive& primitive = list.primitives[entry & kPrimitiveBits];
+  const auto sign = hn::Set(d, is_complement(list, index) ? -1.0 : 1.0);
+  return scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first_lane(chunk)), t,
+                          mask_of(on_cap, chunk)),
+                sign);
 }
 
-/// How far, in τ, another crossing must lie from each hit not to be taken together with it.
-HWY_INLINE PacketV reach_of(const RayPacket& rays, const TraceSubject& subject,
-                            const PacketHits& hits) {
+/// What lies where the lanes stand.
+struct Crossings {
+  Lanes3<Wide> normal[kChunks];
+  PacketV facing;    // |n·d|: thickness per τ
+  LaneMask unclear;  // lanes with no crossing there, or several together
+};
+
+/// Looks for the crossings at which the lanes stand, and keeps in the hits what they show.
+HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& rays,
+                                    const TraceList& trace, const TraceSubject& subject,
+                                    ListSegments& segments, const Walk& walk, LaneMask lanes,
+                                    PacketHits& hits) {
   const Wide d;
-  PacketV reach;
+  Crossings result;
+  PacketV gap;  // to the next other crossing
   for (int c = 0; c < kChunks; ++c) {
-    const auto normal = load3(d, hits.normal, first_lane(c));
-    const auto facing = hn::Abs(dot(d, normal, load3(d, rays.direction, first_lane(c))));
-    reach.chunk[c] = hn::Div(hn::Set(d, subject.thinnest_piece), facing);
+    gap.chunk[c] = hn::Set(d, kInfinity);
+    result.normal[c] = broadcast(d, Vec3{0.0});
   }
-  return reach;
-}
-
-/// The lanes whose hit has another crossing within its reach.
-HWY_INLINE LaneMask coincident_lanes(const TraceList& trace, ListSegments& segments,
-                                     const PacketV& reach, const Walk& walk, LaneMask lanes) {
-  const Wide d;
-  PacketV sum;
-  for (int c = 0; c < kChunks; ++c) sum.chunk[c] = hn::Add(walk.t.chunk[c], reach.chunk[c]);
-  const double furthest = largest(sum, lanes);
-  PacketV close;
-  for (int c = 0; c < kChunks; ++c) close.chunk[c] = hn::Zero(d);
-  const WideV one = hn::Set(d, 1.0);
+  LaneMask found = 0;
+  LaneMask several = 0;
   for (uint32_t index = 0; index < trace.list->count(); ++index) {
-    if (segments.is_missed(index) || segments.is_beyond(index, furthest)) continue;
+    if (segments.is_missed(index)) continue;
+    const double nearest_t = trace.nearest_t[index];
+    if (segments.is_unknown(index) && (lanes_from(walk.t, nearest_t) & lanes) == 0) {
+      // At least so far away.
+      for (int c = 0; c < kChunks; ++c) {
+        const WideV ahead = hn::Sub(hn::Set(d, nearest_t), walk.t.chunk[c]);
+        gap.chunk[c] = hn::Min(gap.chunk[c], ahead);
+      }
+      continue;
+    }
     const PacketSegments& segment = segments.compute(index);
-    const WideV start_event = hn::Set(d, event_code(index, false));
-    const WideV end_event = hn::Set(d, event_code(index, true));
+    LaneMask at_start = 0;
+    LaneMask at_end = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV t = walk.t.chunk[c];
-      const WideV event = walk.event.chunk[c];
-      const auto near = [&](const double* ends, WideV own) {
-        const WideV gap = hn::Abs(hn::Sub(hn::Load(d, ends + first_lane(c)), t));
-        return hn::And(hn::Le(gap, reach.chunk[c]), hn::Ne(event, own));
-      };
-      const WideM any = hn::Or(near(segment.start, start_event), near(segment.end, end_event));
-      close.chunk[c] = hn::IfThenElse(any, one, close.chunk[c]);
+      const WideV to_start = hn::Abs(hn::Sub(hn::Load(d, segment.start + first_lane(c)), t));
+      const WideV to_end = hn::Abs(hn::Sub(hn::Load(d, segment.end + first_lane(c)), t));
+      const WideM is_start = hn::Eq(to_start, hn::Zero(d));
+      const WideM is_end = hn::Eq(to_end, hn::Zero(d));
+      gap.chunk[c] = hn::IfThenElse(is_start, gap.chunk[c], hn::Min(gap.chunk[c], to_start));
+      gap.chunk[c] = hn::IfThenElse(is_end, gap.chunk[c], hn::Min(gap.chunk[c], to_end));
+      at_start |= bits_of(is_start, c);
+      at_end |= bits_of(is_end, c);
+    }
+    const LaneMask own = (at_start | at_end) & lanes;
+    if (own == 0) continue;
+    several |= own & found;
+    found |= own;
+    const LaneMask on_cap = (at_start & segment.start_on_cap) | (at_end & segment.end_on_cap);
+    hits.on_cap |= on_cap & own;
+    fill_lanes(own, index, hits.index);
+    for (int c = 0; c < kChunks; ++c) {
+      const WideM shown = mask_of(own, c);
+      const Lanes3<Wide> normal =
+          outward_normal(frame, rays, trace, index, walk.t.chunk[c], on_cap, c);
+      result.normal[c] = if_then_else(shown, normal, result.normal[c]);
     }
   }
-  LaneMask result = 0;
-  for (int c = 0; c < kChunks; ++c) result |= bits_of(hn::Eq(close.chunk[c], one), c);
-  return result & lanes;
+  LaneMask together = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    const Lanes3<Wide> direction = load3(d, rays.direction, first_lane(c));
+    const WideV facing = hn::Abs(dot(d, result.normal[c], direction));
+    const WideV thickness = hn::Mul(gap.chunk[c], facing);
+    together |= bits_of(hn::Le(thickness, hn::Set(d, subject.thinnest_piece)), c);
+    store3(d, result.normal[c], hits.normal, first_lane(c));
+    result.facing.chunk[c] = facing;
+  }
+  result.unclear = lanes & (together | several | ~found);
+  return result;
 }
 
-HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, const PacketWorkspace& workspace,
-                          PacketHits& hits) {
-  const Wide d;
-  alignas(64) double events[kPacketRays];
-  for (int c = 0; c < kChunks; ++c) {
-    hn::Store(walk.t.chunk[c], d, hits.t + first_lane(c));
-    hn::Store(walk.event.chunk[c], d, events + first_lane(c));
-  }
+HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, PacketHits& hits) {
+  for (int c = 0; c < kChunks; ++c) hn::Store(walk.t.chunk[c], Wide(), hits.t + first_lane(c));
   hits.hits = lanes;
   hits.on_cap = 0;
   std::fill_n(hits.index, kPacketRays, 0u);
-  for (LaneMask left = lanes; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    if (events[lane] < 0) continue;  // no crossing
-    const uint32_t code = static_cast<uint32_t>(events[lane]);
-    hits.index[lane] = code / 2;
-    const PacketSegments& segments = workspace.segments[code / 2];
-    const LaneMask caps = (code & 1) != 0 ? segments.end_on_cap : segments.start_on_cap;
-    hits.on_cap |= caps & (LaneMask{1} << lane);
-  }
-}
-
-/// Lanes that arrived at no crossing: the value had changed where the walk began.
-HWY_INLINE LaneMask lanes_without_event(const Walk& walk, LaneMask lanes) {
-  const Wide d;
-  LaneMask result = 0;
-  for (int c = 0; c < kChunks; ++c) {
-    result |= bits_of(hn::Lt(walk.event.chunk[c], hn::Zero(d)), c);
-  }
-  return result & lanes;
 }
 
 HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
@@ -191,7 +211,6 @@ HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
   walk.live = lanes;
   for (int c = 0; c < kChunks; ++c) {
     walk.t.chunk[c] = hn::Load(d, start + first_lane(c));
-    walk.event.chunk[c] = hn::Set(d, -1.0);
   }
   return walk;
 }
@@ -214,9 +233,15 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
     hits.t[lane] = shown->event.t;
     hits.index[lane] = shown->event.index;
     hits.on_cap = (hits.on_cap & ~bit) | (shown->on_cap ? bit : 0);
+    const int chunk = static_cast<int>(lane / kLanes);
+    const WideV t = hn::Set(Wide(), shown->event.t);
+    const auto normal =
+        outward_normal(frame, rays, list, shown->event.index, t, hits.on_cap, chunk);
+    hn::BlendedStore(normal.x, mask_of(bit, chunk), Wide(), hits.normal[0] + first_lane(chunk));
+    hn::BlendedStore(normal.y, mask_of(bit, chunk), Wide(), hits.normal[1] + first_lane(chunk));
+    hn::BlendedStore(normal.z, mask_of(bit, chunk), Wide(), hits.normal[2] + first_lane(chunk));
   }
   hits.hits = (hits.hits & ~lanes) | found;
-  find_normals(frame, rays, list, found, hits);
 }
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
@@ -230,23 +255,18 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   ListSegments segments(frame, rays, list, workspace);
   Walk walk = walk_from(start, lanes);
   if (list.earliest_t > frame.first_t) {
-    const bool value = walk_to_first_crossing(list, segments, kEndless, walk);
+    const bool value = walk_to_first_crossing(list, segments, walk);
     hits.eye_inside = value ? kAllLanes : 0;
   } else {
     hits.eye_inside = value_of(list, segments, walk);
   }
   const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, leave, walk);
-  take_hits(walk, arrived, workspace, hits);
+  take_hits(walk, arrived, hits);
   hits.undecided = 0;
   if (arrived == 0) return;
-  LaneMask unclear = lanes_without_event(walk, arrived);
-  if (subject.boundary == Boundary::kBehind) {
-    unclear = arrived;
-  } else {
-    find_normals(frame, rays, list, arrived & ~unclear, hits);
-    const PacketV reach = reach_of(rays, subject, hits);
-    unclear |= coincident_lanes(list, segments, reach, walk, arrived & ~unclear);
-  }
+  LaneMask unclear = subject.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
+  unclear |=
+      show_crossings(frame, rays, list, subject, segments, walk, arrived & ~unclear, hits).unclear;
   resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
 }
 
@@ -260,18 +280,21 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   hits.eye_inside = eye_inside & known;
   if ((lanes & ~known) != 0) hits.eye_inside |= value_of(list, segments, walk) & ~known;
   const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, range.leave, walk);
-  take_hits(walk, arrived, workspace, hits);
-  hits.undecided = lanes_without_event(walk, arrived);
-  if (subject.boundary == Boundary::kBehind) hits.undecided = arrived;
-  if (hits.undecided == arrived) return;
-  find_normals(frame, rays, list, arrived & ~hits.undecided, hits);
-  const PacketV reach = reach_of(rays, subject, hits);
-  hits.undecided |= coincident_lanes(list, segments, reach, walk, arrived & ~hits.undecided);
+  take_hits(walk, arrived, hits);
+  hits.undecided = subject.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
+  const LaneMask left = arrived & ~hits.undecided;
+  if (left == 0) return;
+  const Crossings crossings =
+      show_crossings(frame, rays, list, subject, segments, walk, left, hits);
+  hits.undecided |= crossings.unclear;
+  // What may be together with the hit must lie where the list is valid.
+  const auto thinnest2 = hn::Set(d, subject.thinnest_piece * subject.thinnest_piece);
   for (int c = 0; c < kChunks; ++c) {
-    const auto inverse_length2 = hn::Load(d, rays.inverse_length2 + first_lane(c));
-    const auto reach2 = hn::Mul(reach.chunk[c], reach.chunk[c]);
-    const auto valid2 = hn::Mul(hn::Set(d, range.margin * range.margin), inverse_length2);
-    hits.undecided |= bits_of(hn::Not(hn::Le(reach2, valid2)), c) & arrived;
+    const WideV facing = crossings.facing.chunk[c];
+    const auto valid2 = hn::Mul(hn::Set(d, range.margin * range.margin),
+                                hn::Load(d, rays.inverse_length2 + first_lane(c)));
+    const auto thickness2 = hn::Mul(hn::Mul(facing, facing), valid2);
+    hits.undecided |= bits_of(hn::Not(hn::Ge(thickness2, thinnest2)), c) & left;
   }
 }
 
@@ -336,6 +359,16 @@ HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& fram
   }
 }
 
+/// Lanes of `lanes` that show the same literal as the lowest of them.
+HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
+  const uint32_t index = hits.index[std::countr_zero(lanes)];
+  LaneMask same = 0;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    same |= LaneMask{hits.index[lane] == index} << lane;
+  }
+  return same & lanes;
+}
+
 HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list, uint32_t index,
                            bool eye_inside) {
   const std::optional<Color>& own =
@@ -347,6 +380,10 @@ HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list,
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
                   const TraceList& list, const PacketHits& hits, PacketColors& colors) {
   const Wide d;
+  PacketV colors_of[3];  // of the faces, by channel
+  for (PacketV& channel : colors_of) {
+    for (int c = 0; c < kChunks; ++c) channel.chunk[c] = hn::Zero(d);
+  }
   for (LaneMask lanes = hits.hits; lanes != 0;) {
     const int first = std::countr_zero(lanes);
     const bool eye_inside = (hits.eye_inside >> first & 1) != 0;
@@ -358,14 +395,37 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
       shade_phong(settings, frame, rays, same, base, hits, colors);
       continue;
     }
-    for (int c = 0; c < kChunks; ++c) {
-      const auto shade = openscad_shade(settings, hits, c);
-      for (int channel = 0; channel < 3; ++channel) {
-        const auto value = hn::Mul(hn::Set(d, base[channel]), shade);
-        hn::BlendedStore(hn::Min(value, hn::Set(d, 255.0)), mask_of(same, c), d,
-                         colors.rgb[channel] + first_lane(c));
+    for (int channel = 0; channel < 3; ++channel) {
+      for (int c = 0; c < kChunks; ++c) {
+        WideV& color = colors_of[channel].chunk[c];
+        color = hn::IfThenElse(mask_of(same, c), hn::Set(d, base[channel]), color);
       }
     }
+  }
+  if (settings.shading == Shading::kPhong) return;
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV shade = openscad_shade(settings, hits, c);
+    for (int channel = 0; channel < 3; ++channel) {
+      const WideV value = hn::Mul(colors_of[channel].chunk[c], shade);
+      hn::Store(hn::Min(value, hn::Set(d, 255.0)), d, colors.rgb[channel] + first_lane(c));
+    }
+  }
+}
+
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels) {
+  const Wide d;
+  const hn::Rebind<int32_t, Wide> integers;
+  for (int c = 0; c < kChunks; ++c) {
+    const auto channel = [&](size_t i) {
+      const WideV value = hn::Load(d, colors.rgb[i] + first_lane(c));
+      const WideV other = hn::Set(d, others[i]);
+      const WideV chosen = hn::IfThenElse(mask_of(lanes, c), value, other);
+      return hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5)));
+    };
+    const auto green_blue = hn::Add(channel(1), hn::ShiftLeft<8>(channel(2)));
+    const auto rgb = hn::Add(channel(0), hn::ShiftLeft<8>(green_blue));
+    hn::StoreU(rgb, integers, pixels.rgb + first_lane(c));
   }
 }
 
@@ -377,15 +437,21 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(make_rays);
+CSGCORE_SIMD_EXPORT(make_block_rays);
 CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 CSGCORE_SIMD_EXPORT(shade_packet);
+CSGCORE_SIMD_EXPORT(round_colors);
 CSGCORE_SIMD_EXPORT(invert_directions);
 CSGCORE_SIMD_EXPORT(split_range);
 
 void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
   CSGCORE_SIMD(make_rays)(frame, laterals, rays);
+}
+
+void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
+  CSGCORE_SIMD(make_block_rays)(frame, x, y, rays);
 }
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
@@ -410,6 +476,11 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
                   const TraceList& list, const PacketHits& hits, PacketColors& colors) {
   CSGCORE_SIMD(shade_packet)(settings, frame, rays, list, hits, colors);
+}
+
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels) {
+  CSGCORE_SIMD(round_colors)(colors, lanes, others, pixels);
 }
 
 void invert_directions(const RayPacket& rays, PacketInverses& inverses) {

@@ -1,6 +1,7 @@
 // A packet of rays, and what is traced with it: the evaluation that tiles and kd cells share.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,7 +41,9 @@ struct FrameRays {
   double v(double y_px) const {
     return (view.height_px - 2 * (y_px + 0.5)) / view.height_px * view.half_height;
   }
-  /// Of the pixels' centres, and of a few beyond the picture, to fill packets.
+  /// Of the pixels' centres, and of kBeyond_px beyond the picture: packets are filled, and read in
+  /// whole vectors.
+  static constexpr uint32_t kBeyond_px = 2 * kPacketSide_px;
   std::vector<double> u_of_column, v_of_row;
 };
 FrameRays frame_rays(const View& view, const Box& solid_bounds);
@@ -83,6 +86,7 @@ struct PacketWorkspace {
   std::vector<PacketSegments> segments;  // by index in the list
   enum State : uint8_t { kUnknown, kComputed, kMissed };
   std::vector<uint8_t> states;        // of the segments
+  std::vector<LaneMask> standing;     // of an evaluation, by a literal's number
   std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
   uint64_t rays = 0;                  // traced along their whole length
   uint64_t intersections = 0;         // of packets with primitives, × the lanes
@@ -125,6 +129,8 @@ struct alignas(64) PacketLaterals {
   double v[kPacketRays];
 };
 void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays);
+/// Through the centres of the pixels of the block from (x, y) on.
+void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays);
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
@@ -174,5 +180,14 @@ struct alignas(64) PacketColors {
 };
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
                   const TraceList& list, const PacketHits& hits, PacketColors& colors);
+
+using Rgb8 = std::array<uint8_t, 3>;
+/// Red + 256·green + 65536·blue.
+struct alignas(64) PacketPixels {
+  int32_t rgb[kPacketRays];
+};
+/// The colours of `lanes`, rounded; that of the others is given.
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels);
 
 }  // namespace csgcore

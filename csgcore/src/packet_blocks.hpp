@@ -29,12 +29,7 @@ void for_each_block(const Tile& tile, Visit&& visit) {
 
 /// The rays through the centres of a block's pixels.
 inline void make_block_rays(const FrameRays& frame, const PacketBlock& block, RayPacket& rays) {
-  PacketLaterals laterals;
-  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    laterals.u[lane] = frame.u_of_column[block.x + lane % kPacketSide_px];
-    laterals.v[lane] = frame.v_of_row[block.y + lane / kPacketSide_px];
-  }
-  make_rays(frame, laterals, rays);
+  make_block_rays(frame, block.x, block.y, rays);
 }
 
 }  // namespace csgcore

@@ -6,6 +6,8 @@
 #define CSGCORE_PRIMITIVE_INL_HPP
 #endif
 
+#include <hwy/cache_control.h>
+
 #include "frustum-inl.hpp"
 #include "sphere-inl.hpp"
 
@@ -31,9 +33,15 @@ HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const V
              : frustum_rays::normal(d, primitive, center, rays, t, on_cap);
 }
 
+/// Fetches what `segment_of` reads.
+HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
+  hwy::Prefetch(&primitive);
+  hwy::Prefetch(&primitive.world_to_canonical[1]);
+}
+
 /// All lanes' segments.
-HWY_INLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
-                                 const CanonicalPrimitive& primitive, PacketSegments& segments) {
+HWY_NOINLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
+                                   const CanonicalPrimitive& primitive, PacketSegments& segments) {
   const Wide d;
   segments.start_on_cap = segments.end_on_cap = 0;
   for (int c = 0; c < kChunks; ++c) {

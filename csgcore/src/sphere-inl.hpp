@@ -43,7 +43,12 @@ template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                             const Rays<D>& rays, hn::Vec<D> t) {
   const Lanes3<D> point = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
-  if (primitive.ball_radius > 0) return normalized(d, point);
+  if (primitive.ball_radius > 0) {
+    // The length is the radius but for rounding: less than 1e-6 of it where a ball is not too small
+    // to exist, of which two steps leave nothing.
+    const auto guess = hn::Set(d, 1 / primitive.ball_radius);
+    return scaled(point, newton_inverse_sqrt(d, dot(d, point, point), guess, 2));
+  }
   const Lanes3<D> canonical = transformed(d, primitive.world_to_canonical, point);
   return normalized(d, transformed_back(d, primitive.world_to_canonical, canonical));
 }

@@ -25,26 +25,27 @@ class ListSegments {
                PacketWorkspace& workspace)
       : frame_(frame), rays_(rays), list_(list), workspace_(workspace) {
     const uint32_t count = list.list->count();
-    if (workspace.segments.size() < count) workspace.segments.resize(count);
-    if (list.is_missed) {
+    if (workspace.standing.size() < count + CellList::kFirst) {
+      workspace.segments.resize(count);
       workspace.states.resize(count);
-      for (uint32_t i = 0; i < count; ++i) {
-        workspace.states[i] = list.is_missed[i] ? State::kMissed : State::kUnknown;
-      }
-    } else {
-      workspace.states.assign(count, State::kUnknown);
+      workspace.standing.resize(count + CellList::kFirst, 0);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      const bool missed = list.is_missed && list.is_missed[i];
+      workspace.states[i] = missed ? State::kMissed : State::kUnknown;
+      // Of a large scene, they come from far away.
+      if (!missed) prefetch_rays_part(primitive(i));
     }
   }
   HWY_INLINE bool is_missed(uint32_t index) const {
     return workspace_.states[index] == State::kMissed;
   }
-  /// Nothing is known of the primitive but that it lies further on than t.
-  HWY_INLINE bool is_beyond(uint32_t index, double t) const {
-    return workspace_.states[index] == State::kUnknown && list_.nearest_t[index] > t;
+  HWY_INLINE bool is_unknown(uint32_t index) const {
+    return workspace_.states[index] == State::kUnknown;
   }
   HWY_INLINE const PacketSegments& compute(uint32_t index) {
     PacketSegments& segments = workspace_.segments[index];
-    if (workspace_.states[index] == State::kUnknown) {
+    if (is_unknown(index)) {
       intersect_packet(frame_, rays_, primitive(index), segments);
       workspace_.states[index] = State::kComputed;
       if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
@@ -66,6 +67,9 @@ class ListSegments {
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
     return list_.primitives[list_.list->primitive[index] & kPrimitiveBits];
   }
+  /// By a literal's number, or a constant: the lanes whose evaluation stands there. Between
+  /// evaluations, none stand at literals.
+  HWY_INLINE LaneMask* standing() { return workspace_.standing.data(); }
 
  private:
   const FrameRays& frame_;
@@ -74,140 +78,104 @@ class ListSegments {
   PacketWorkspace& workspace_;
 };
 
-/// A crossing in a double: twice the literal's index, + 1 at the segment's end.
-HWY_INLINE double event_code(uint32_t index, bool at_end) { return 2.0 * index + (at_end ? 1 : 0); }
-
 /// Where the packet stands.
 struct Walk {
   PacketV t;
-  PacketV event;  // the crossing that lies there
   LaneMask live = 0;
+  LaneMask moved = 0;  // lanes that no longer stand where they began, but at a crossing
 };
 
-/// The list's value at t, and the next crossing that may change it.
+/// The list's value at t, and how far it surely keeps it.
 struct Evaluation {
   LaneMask value = 0;
-  PacketV next_t, next_event;
+  PacketV next_t;
 };
 
-HWY_INLINE double largest(const PacketV& v, LaneMask lanes) {
+/// Lanes whose value is at least as large.
+HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
   const Wide d;
-  WideV result = hn::Set(d, -kInfinity);
-  for (int c = 0; c < kChunks; ++c) {
-    result = hn::Max(result, hn::IfThenElse(mask_of(lanes, c), v.chunk[c], hn::Set(d, -kInfinity)));
-  }
-  return hn::GetLane(hn::MaxOfLanes(d, result));
+  LaneMask result = 0;
+  for (int c = 0; c < kChunks; ++c) result |= bits_of(hn::Ge(v.chunk[c], hn::Set(d, least)), c);
+  return result;
 }
 
-/// Short-circuit evaluation of all lanes at once: each stands at one literal of the list, and those
-/// that stand at the literal whose turn it is are tested and jump. Only literals that decide are
-/// visited; what no lane can have reached at its t is not intersected.
+/// Short-circuit evaluation of all lanes at once: those that stand at the literal whose turn it is
+/// are tested and jump. Only literals that decide are visited; what no lane can have reached at its
+/// t is not intersected.
 HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const Walk& walk,
                          Evaluation& result) {
   const Wide d;
   const CellList& list = *trace.list;
-  const double furthest = largest(walk.t, walk.live);
-  PacketV position;
-  const WideV nowhere = hn::Set(d, -1.0);
-  for (int c = 0; c < kChunks; ++c) {
-    position.chunk[c] = hn::IfThenElse(mask_of(walk.live, c), hn::Set(d, list.root), nowhere);
-    result.next_t.chunk[c] = hn::Set(d, kInfinity);
-    result.next_event.chunk[c] = nowhere;
-  }
+  LaneMask* const standing = segments.standing();
+  standing[CellList::kFalse] = standing[CellList::kTrue] = 0;
+  standing[list.root] = walk.live;
+  for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
   for (uint32_t index = list.count(); index-- > 0;) {
-    const WideV number = hn::Set(d, index + CellList::kFirst);
-    const WideV inner = hn::Set(d, list.if_inside[index]);
-    const WideV outer = hn::Set(d, list.if_outside[index]);
+    const LaneMask active = standing[index + CellList::kFirst];
+    if (active == 0) continue;
+    standing[index + CellList::kFirst] = 0;
+    LaneMask& outer = standing[list.if_outside[index]];
     if (segments.is_missed(index)) {
-      for (int c = 0; c < kChunks; ++c) {
-        const WideM active = hn::Eq(position.chunk[c], number);
-        position.chunk[c] = hn::IfThenElse(active, outer, position.chunk[c]);
-      }
+      outer |= active;
       continue;
     }
-    if (segments.is_beyond(index, furthest)) {
+    const double nearest_t = trace.nearest_t[index];
+    if (segments.is_unknown(index) && (lanes_from(walk.t, nearest_t) & active) == 0) {
       // Outside as yet, until there at the earliest.
-      const WideV nearest = hn::Set(d, trace.nearest_t[index]);
-      const WideV event = hn::Set(d, event_code(index, false));
       for (int c = 0; c < kChunks; ++c) {
-        const WideM active = hn::Eq(position.chunk[c], number);
-        const WideM sooner = hn::And(active, hn::Lt(nearest, result.next_t.chunk[c]));
-        result.next_t.chunk[c] = hn::IfThenElse(sooner, nearest, result.next_t.chunk[c]);
-        result.next_event.chunk[c] = hn::IfThenElse(sooner, event, result.next_event.chunk[c]);
-        position.chunk[c] = hn::IfThenElse(active, outer, position.chunk[c]);
+        WideV& next_t = result.next_t.chunk[c];
+        const WideV sooner = hn::Min(next_t, hn::Set(d, nearest_t));
+        next_t = hn::IfThenElse(mask_of(active, c), sooner, next_t);
       }
+      outer |= active;
       continue;
     }
     const PacketSegments& segment = segments.compute(index);
-    const WideV start_event = hn::Set(d, event_code(index, false));
-    const WideV end_event = hn::Set(d, event_code(index, true));
+    LaneMask inside = 0;
     for (int c = 0; c < kChunks; ++c) {
-      const WideM active = hn::Eq(position.chunk[c], number);
       const WideV start = hn::Load(d, segment.start + first_lane(c));
       const WideV end = hn::Load(d, segment.end + first_lane(c));
       const WideV t = walk.t.chunk[c];
-      const WideM ahead = hn::Lt(t, start);
-      const WideM inside = hn::AndNot(ahead, hn::Lt(t, end));
-      const WideV boundary = hn::IfThenElse(ahead, start, end);
-      // The segment's end counts for lanes inside only: for lanes behind it, it is not > t.
-      const WideM sooner =
-          hn::And(hn::And(active, hn::Gt(boundary, t)), hn::Lt(boundary, result.next_t.chunk[c]));
-      result.next_t.chunk[c] = hn::IfThenElse(sooner, boundary, result.next_t.chunk[c]);
-      result.next_event.chunk[c] = hn::IfThenElse(
-          sooner, hn::IfThenElse(inside, end_event, start_event), result.next_event.chunk[c]);
-      position.chunk[c] =
-          hn::IfThenElse(active, hn::IfThenElse(inside, inner, outer), position.chunk[c]);
+      WideV& next_t = result.next_t.chunk[c];
+      const WideM before_start = hn::Lt(t, start);
+      const WideM before_end = hn::Lt(t, end);
+      const WideV sooner = hn::Min(next_t, hn::IfThenElse(before_start, start, end));
+      const WideM counts = hn::And(mask_of(active, c), hn::Or(before_start, before_end));
+      next_t = hn::IfThenElse(counts, sooner, next_t);
+      inside |= bits_of(hn::AndNot(before_start, before_end), c);
     }
+    standing[list.if_inside[index]] |= active & inside;
+    outer |= active & ~inside;
   }
-  result.value = 0;
-  const WideV is_true = hn::Set(d, double{CellList::kTrue});
-  for (int c = 0; c < kChunks; ++c) {
-    result.value |= bits_of(hn::Eq(position.chunk[c], is_true), c);
-  }
+  result.value = standing[CellList::kTrue];
 }
 
 /// Moves lanes that are outside of all primitives to the first crossing that may change the list's
-/// value; lanes that meet none, or none before `leave`, are no longer live. What follows such a
-/// crossing decides the value, whatever precedes it, since nothing is entered before. Returns the
-/// value up to there.
-HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& segments, double leave,
-                                       Walk& walk) {
+/// value; lanes that meet none are no longer live. What follows such a crossing decides the value,
+/// whatever precedes it, since nothing is entered before. Returns the value up to there.
+HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& segments, Walk& walk) {
   const Wide d;
   const CellList& list = *trace.list;
-  PacketV next_t, next_event;
-  for (int c = 0; c < kChunks; ++c) {
-    next_t.chunk[c] = hn::Set(d, kInfinity);
-    next_event.chunk[c] = hn::Set(d, -1.0);
-  }
-  double furthest = kInfinity;  // of the lanes' next_t
+  for (int c = 0; c < kChunks; ++c) walk.t.chunk[c] = hn::Set(d, kInfinity);
   uint32_t number = list.root;
   while (number >= CellList::kFirst) {
     const uint32_t index = number - CellList::kFirst;
     number = list.if_outside[index];
-    if (segments.is_missed(index) || trace.nearest_t[index] > furthest) continue;
+    if (segments.is_missed(index)) continue;
+    if ((lanes_from(walk.t, trace.nearest_t[index]) & walk.live) == 0) continue;
     const PacketSegments& segment = segments.compute(index);
-    const WideV event = hn::Set(d, event_code(index, false));
     for (int c = 0; c < kChunks; ++c) {
       const WideV start = hn::Load(d, segment.start + first_lane(c));
-      const WideM sooner = hn::Lt(start, next_t.chunk[c]);
-      next_t.chunk[c] = hn::Min(start, next_t.chunk[c]);
-      next_event.chunk[c] = hn::IfThenElse(sooner, event, next_event.chunk[c]);
+      walk.t.chunk[c] = hn::Min(start, walk.t.chunk[c]);
     }
-    if (number >= CellList::kFirst) furthest = largest(next_t, walk.live);
   }
-  const WideV limit = hn::Set(d, leave);
-  LaneMask found = 0;
-  for (int c = 0; c < kChunks; ++c) {
-    found |= bits_of(hn::Le(next_t.chunk[c], limit), c);
-    walk.t.chunk[c] = next_t.chunk[c];
-    walk.event.chunk[c] = next_event.chunk[c];
-  }
-  walk.live &= found;
+  walk.live &= ~lanes_from(walk.t, kInfinity);
+  walk.moved = walk.live;
   return number == CellList::kTrue;
 }
 
 /// Walks all lanes of `walk.live` until their value is no longer that in `before`, no further than
-/// `leave`; returns the lanes that got there, whose t and event are kept in the walk.
+/// `leave`; returns the lanes that got there, whose t is kept in the walk.
 HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, LaneMask before,
                                    const double* leave, Walk& walk) {
   const Wide d;
@@ -224,10 +192,9 @@ HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segment
       const WideM further = hn::And(mask_of(walk.live, c), hn::Le(next, limit));
       goes_on |= bits_of(further, c);
       walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
-      walk.event.chunk[c] =
-          hn::IfThenElse(further, evaluation.next_event.chunk[c], walk.event.chunk[c]);
     }
     walk.live &= goes_on;
+    walk.moved |= goes_on;
   }
   return changed;
 }

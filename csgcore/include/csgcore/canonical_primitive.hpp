@@ -12,7 +12,7 @@ enum class Classification : uint8_t { kOutside, kInside, kCrosses };
 /// Canonical space: x_canonical = world_to_canonical · (x_world − center).
 ///   kSphere:  the unit ball.
 ///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
-struct CanonicalPrimitive {
+struct alignas(64) CanonicalPrimitive {
   Shape shape = Shape::kSphere;
   double radius_mid = 1;
   double radius_slope = 0;
