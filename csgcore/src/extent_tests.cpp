@@ -130,6 +130,25 @@ ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint
   return answers;
 }
 
+ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                              const Halves& cell) {
+  const Doubles d;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
+  const Box& box = cell.below;
+  ExtentAnswers answers{};
+  for (uint32_t i = 0; i < count; i += lanes) {
+    const Gather gather(extents, primitives + i);
+    const auto apart = [&](int axis) {
+      const Vector half = gather.half(axis);
+      const AxisTest test = test_axis(gather.center(axis), half, box.min[axis], box.max[axis]);
+      return hn::Or(test.apart, hn::Lt(half, hn::Zero(d)));
+    };
+    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
+    answers.outside[0] |= bits_of(hn::Or(apart(0), apart(1))) << i;
+  }
+  return answers;
+}
+
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
 using Counters = hn::Vec<Unsigned>;
 
@@ -209,6 +228,7 @@ namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(test_extents);
 CSGCORE_SIMD_EXPORT(test_boxes);
+CSGCORE_SIMD_EXPORT(test_rectangles);
 CSGCORE_SIMD_EXPORT(count_ends);
 
 namespace {
@@ -234,6 +254,11 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
 ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
                          const Halves& halves) {
   return of_first(count, CSGCORE_SIMD(test_boxes)(extents, primitives, count, halves));
+}
+
+ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                              const Halves& cell) {
+  return of_first(count, CSGCORE_SIMD(test_rectangles)(extents, primitives, count, cell));
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

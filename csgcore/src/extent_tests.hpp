@@ -35,6 +35,11 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
 ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
                          const Halves& halves);
 
+/// The same for rectangles, the boxes' x and y, against one cell, the half below. Empty rectangles
+/// are outside.
+ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                              const Halves& cell);
+
 /// Bins of equal width across each axis of a cell. More of them cost more to count than the better
 /// plane saves.
 constexpr int kSplitBins = 8;

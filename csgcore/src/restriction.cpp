@@ -7,14 +7,18 @@ namespace csgcore {
 
 namespace {
 
+/// So many literals are tested at once.
+constexpr uint32_t kBlock = 64;
+
 /// One side's pass over the list, bottom up: a decided literal is replaced by what follows it, and
 /// so is one whose two continuations have become the same. Every literal is written and only the
 /// kept ones advance the output: what happens to a literal is close to random, and a mispredicted
 /// branch costs more than all of this.
 class Pass {
  public:
-  Pass(const CellList& list, CellList& result, std::vector<uint32_t>& map) {
-    result.reserve(list.count());
+  /// `most`: how many literals the result may get.
+  Pass(const CellList& list, uint32_t most, CellList& result, std::vector<uint32_t>& map) {
+    result.reserve(most);
     if (map.size() <= list.root) map.resize(size_t{list.root} + 1);
     map[CellList::kFalse] = CellList::kFalse;
     map[CellList::kTrue] = CellList::kTrue;
@@ -24,18 +28,25 @@ class Pass {
     if_outside_ = result.if_outside.data();
   }
 
+  /// What stands for a number of the list that was passed.
+  uint32_t& at(uint32_t number) { return map_[number]; }
+
   /// Literal `number` of the list.
   void step(uint32_t number, uint32_t primitive, uint32_t if_inside, uint32_t if_outside,
             bool outside, bool inside) {
-    const uint32_t inner = map_[if_inside];
-    const uint32_t outer = map_[if_outside];
+    map_[number] = put(primitive, map_[if_inside], map_[if_outside], outside, inside);
+  }
+
+  /// A literal that goes on to `inner` or `outer` of the result; what stands for it there.
+  uint32_t put(uint32_t primitive, uint32_t inner, uint32_t outer, bool outside, bool inside) {
     primitive_[kept_] = primitive;
     if_inside_[kept_] = inner;
     if_outside_[kept_] = outer;
     const bool kept = !(outside | inside) & (inner != outer);
     const uint32_t replacement = inside ? inner : outer;
-    map_[number] = kept ? kept_ + CellList::kFirst : replacement;
+    const uint32_t number = kept_ + CellList::kFirst;
     kept_ += kept;
+    return kept ? number : replacement;
   }
 
  private:
@@ -74,7 +85,7 @@ void Restrictor::restrict(const CellList& list, const Box& cell, CellList& resul
 
 void Restrictor::restrict(const CellList& list, std::span<const Decision> decisions,
                           CellList& result) {
-  Pass pass(list, result, maps_[0]);
+  Pass pass(list, list.count(), result, maps_[0]);
   for (uint32_t i = 0; i < list.count(); ++i) {
     pass.step(i + CellList::kFirst, list.primitive[i], list.if_inside[i], list.if_outside[i],
               decisions[i] == Decision::kOutside, decisions[i] == Decision::kInside);
@@ -83,31 +94,78 @@ void Restrictor::restrict(const CellList& list, std::span<const Decision> decisi
   drop_unreached(result);
 }
 
+void Restrictor::open(const CellList& list, const OperandGroups& groups,
+                      std::span<const Opening> openings, const Box& cell, CellList& result) {
+  uint32_t most = list.count();
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    if (openings[i] != Opening::kMembers) continue;
+    most += groups.members(list.primitive[i] & kPrimitiveBits).primitive.size();
+  }
+  Pass pass(list, most, result, maps_[0]);
+  std::vector<uint32_t>& map = maps_[1];  // of a group's own numbers
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t number = i + CellList::kFirst;
+    const uint32_t entry = list.primitive[i];
+    if (openings[i] != Opening::kMembers) {
+      const bool outside = openings[i] == Opening::kNothing;
+      pass.step(number, entry, list.if_inside[i], list.if_outside[i], outside, false);
+      continue;
+    }
+    const OperandGroups::Members members = groups.members(entry & kPrimitiveBits);
+    const uint32_t count = static_cast<uint32_t>(members.primitive.size());
+    if (map.size() < count + CellList::kFirst) map.resize(count + CellList::kFirst);
+    map[CellList::kFalse] = pass.at(list.if_outside[i]);
+    map[CellList::kTrue] = pass.at(list.if_inside[i]);
+    for (uint32_t first = 0; first < count; first += kBlock) {
+      const uint32_t size = std::min(count - first, kBlock);
+      const ExtentAnswers answers =
+          answers_of<1>(members.primitive.data() + first, size, {cell, cell, 0});
+      for (uint32_t bit = 0, k = first; bit < size; ++bit, ++k) {
+        map[k + CellList::kFirst] =
+            pass.put(members.primitive[k] ^ (entry & CellList::kComplementBit),
+                     map[members.if_inside[k]], map[members.if_outside[k]],
+                     (answers.outside[0] >> bit) & 1, (answers.inside[0] >> bit) & 1);
+      }
+    }
+    pass.at(number) = map[count - 1 + CellList::kFirst];
+  }
+  result.finish(maps_[0][list.root]);
+  drop_unreached(result);
+}
+
+template <int kSides>
+ExtentAnswers Restrictor::answers_of(const uint32_t* primitives, uint32_t count,
+                                     const Halves& halves) const {
+  constexpr int kLast = kSides - 1;
+  const auto test = space_ == Space::kWorld ? test_extents
+                    : kSides == 2           ? test_boxes
+                                            : test_rectangles;
+  ExtentAnswers answers = test(extents_.data(), primitives, count, halves);
+  // Balls are decided by their extents alone. Of the others, only those that reach both halves
+  // need to be asked about: what reaches one half only was found to cross the whole cell, and so
+  // crosses that half.
+  const uint64_t open = answers.open & ~answers.outside[0] & ~answers.outside[kLast];
+  for (int side = 0; open != 0 && side < kSides; ++side) {
+    const auto more = open_.classify(primitives, open, side == 0 ? halves.below : halves.above);
+    answers.outside[side] |= more.outside;
+    answers.inside[side] |= more.inside;
+  }
+  return answers;
+}
+
 template <int kSides>
 void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
                                 CellList* const* results) {
-  constexpr uint32_t kBlock = 64;
   constexpr int kLast = kSides - 1;
   const uint32_t count = list.count();
   const uint32_t* const primitive = list.primitive.data();
   const uint32_t* const if_inside = list.if_inside.data();
   const uint32_t* const if_outside = list.if_outside.data();
-  Pass below(list, *results[0], maps_[0]);
-  Pass above(list, *results[kLast], maps_[kLast]);
+  Pass below(list, count, *results[0], maps_[0]);
+  Pass above(list, count, *results[kLast], maps_[kLast]);
   for (uint32_t first = 0; first < count; first += kBlock) {
     const uint32_t size = std::min(count - first, kBlock);
-    const auto test = kSides == 2 && space_ == Space::kScreen ? test_boxes : test_extents;
-    ExtentAnswers answers = test(extents_.data(), primitive + first, size, halves);
-    // Balls are decided by their extents alone. Of the others, only those that reach both halves
-    // need to be asked about: what reaches one half only was found to cross the whole cell, and so
-    // crosses that half.
-    const uint64_t open = answers.open & ~answers.outside[0] & ~answers.outside[kLast];
-    for (int side = 0; open != 0 && side < kSides; ++side) {
-      const auto more =
-          open_.classify(primitive + first, open, side == 0 ? halves.below : halves.above);
-      answers.outside[side] |= more.outside;
-      answers.inside[side] |= more.inside;
-    }
+    const ExtentAnswers answers = answers_of<kSides>(primitive + first, size, halves);
     for (uint32_t bit = 0, i = first; bit < size; ++bit, ++i) {
       const auto step = [&](Pass& pass, int side) {
         pass.step(i + CellList::kFirst, primitive[i], if_inside[i], if_outside[i],

@@ -8,6 +8,7 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/extent.hpp"
 #include "extent_tests.hpp"
+#include "operand_groups.hpp"
 
 namespace csgcore {
 
@@ -46,7 +47,8 @@ class Restrictor {
     kScreen,  // boxes alone
   };
   /// Keeps references to extents and classifier.
-  Restrictor(const Extents& extents, const OpenClassifier& open, Space space = Space::kWorld)
+  Restrictor(std::span<const Extent> extents, const OpenClassifier& open,
+             Space space = Space::kWorld)
       : extents_(extents), open_(open), space_(space) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
@@ -62,13 +64,26 @@ class Restrictor {
   /// The same for decisions that the caller has made: `decisions[i]` is that of the list's index i.
   void restrict(const CellList& list, std::span<const Decision> decisions, CellList& result);
 
+  /// What becomes of a literal.
+  enum class Opening : uint8_t {
+    kNone,     // it stays
+    kMembers,  // a group: its members stand in its place, as far as they matter in the cell
+    kNothing,  // a group none of whose members matters in any cell
+  };
+  /// `openings[i]` is that of the list's index i. `list` comes from a restriction to the cell, and
+  /// is not `result`.
+  void open(const CellList& list, const OperandGroups& groups, std::span<const Opening> openings,
+            const Box& cell, CellList& result);
+
  private:
+  template <int kSides>
+  ExtentAnswers answers_of(const uint32_t* primitives, uint32_t count, const Halves& halves) const;
   template <int kSides>
   void restrict_sides(const CellList& list, const Halves& halves, CellList* const* results);
   bool all_have_jumps(const CellList& list);
   void drop_unreached(CellList& list);
 
-  const Extents& extents_;
+  std::span<const Extent> extents_;
   const OpenClassifier& open_;
   Space space_;
   std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it

@@ -39,10 +39,12 @@ struct ExtentLanes {
   WideV outside2, inside2;
 };
 
-HWY_INLINE ExtentLanes load_extents(const Extent* extents) {
+HWY_INLINE ExtentLanes load_extents(const Extent* extents, const uint32_t* indices) {
   const Wide d;
   const hn::Rebind<int64_t, Wide> integers;
-  const auto offsets = hn::ShiftLeft<3>(hn::Iota(integers, 0));
+  const auto wide =
+      hn::PromoteTo(hn::Rebind<uint64_t, Wide>(), hn::LoadU(hn::Rebind<uint32_t, Wide>(), indices));
+  const auto offsets = hn::ShiftLeft<3>(hn::BitCast(integers, wide));
   const double* base = reinterpret_cast<const double*>(extents);
   const auto field = [&](int i) { return hn::GatherIndex(d, base + i, offsets); };
   return {{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7)};
@@ -85,7 +87,9 @@ struct Projector {
   double px_per_unit;  // of u and v
   double middle_px[2];
 
-  HWY_INLINE void project(const Extent* world, uint32_t count, Extent* screen) const;
+  /// Of `count` indices; a whole vector of them is read.
+  HWY_INLINE void project(const Extent* world, const uint32_t* indices, uint32_t count,
+                          Extent* screen) const;
   HWY_INLINE Range to_pixels(const Range& range, double sign, double middle) const {
     const Wide d;
     const WideV scale = hn::Set(d, sign * px_per_unit);
@@ -97,11 +101,12 @@ struct Projector {
   }
 };
 
-HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* screen) const {
+HWY_INLINE void Projector::project(const Extent* world, const uint32_t* indices, uint32_t count,
+                                   Extent* screen) const {
   const Wide d;
   const View& view = frame.view;
   const WideV zero = hn::Zero(d);
-  const ExtentLanes extent = load_extents(world);
+  const ExtentLanes extent = load_extents(world, indices);
   const Lanes3<Wide> from_eye = extent.center - broadcast(d, view.eye);
   const Lanes3<Wide> from_pivot = extent.center - broadcast(d, frame.pivot);
   const Vec3 ones{1.0};
@@ -109,7 +114,8 @@ HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* 
       hn::Add(reach_along(extent, ones),
               hn::Add(hn::Add(hn::Abs(from_eye.x), hn::Abs(from_eye.y)), hn::Abs(from_eye.z)));
   const WideV slack = hn::Add(hn::Mul(size, hn::Set(d, kScreenSlack)), hn::Set(d, frame_slack));
-  const auto is_ball = hn::Ge(extent.inside2, zero);
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const auto is_ball = hn::Lt(extent.outside2, hn::Set(d, kNone));
   const WideV ball_reach = hn::Add(hn::Sqrt(hn::IfThenElseZero(is_ball, extent.outside2)), slack);
   const auto reach = [&](const Vec3& axis) {
     return hn::IfThenElse(is_ball, ball_reach, hn::Add(reach_along(extent, axis), slack));
@@ -139,7 +145,8 @@ HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* 
   const Range x = to_pixels(ranges[0], 1, middle_px[0]);
   const Range y = to_pixels(ranges[1], -1, middle_px[1]);
   const WideV far_off = hn::Set(d, 1e6);  // beyond every picture, and its halves still exact
-  alignas(64) double low_x[8], high_x[8], low_y[8], high_y[8], t[8], t_reach[8], ball[8], gone[8];
+  alignas(64) double low_x[8], high_x[8], low_y[8], high_y[8], t[8], t_reach[8], inside2[8],
+      gone[8];
   const auto clamp = [&](WideV v, WideV otherwise) {
     const WideV limited = hn::Max(hn::Min(v, far_off), hn::Neg(far_off));
     return hn::IfThenElse(anywhere, otherwise, limited);
@@ -150,18 +157,18 @@ HWY_INLINE void Projector::project(const Extent* world, uint32_t count, Extent* 
   hn::Store(clamp(y.high, far_off), d, high_y);
   hn::Store(dot(d, from_pivot, broadcast(d, view.forward)), d, t);
   hn::Store(depth_reach, d, t_reach);
-  hn::Store(hn::IfThenElseZero(is_ball, hn::Set(d, 1.0)), d, ball);
+  hn::Store(hn::IfThenElse(hn::Lt(extent.inside2, zero), hn::Set(d, -1.0), zero), d, inside2);
   hn::Store(hn::IfThenElseZero(behind, hn::Set(d, 1.0)), d, gone);
-  constexpr double kNone = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < count; ++i) {
-    screen[i] = {{0, 0, t[i]}, {0, 0, t_reach[i]}, kNone, ball[i] != 0 ? 0.0 : -1.0};
-    set_rectangle({low_x[i], high_x[i], low_y[i], high_y[i]}, view, screen[i]);
-    if (gone[i] != 0) screen[i].half[0] = -kNone;
+    Extent& result = screen[indices[i]];
+    result = {{0, 0, t[i]}, {0, 0, t_reach[i]}, kNone, inside2[i]};
+    set_rectangle({low_x[i], high_x[i], low_y[i], high_y[i]}, view, result);
+    if (gone[i] != 0) result.half[0] = -kNone;
   }
 }
 
-void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
-                         const ScreenOptions& options, Extent* screen) {
+void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
+                         const FrameRays& frame, const ScreenOptions& options, Extent* screen) {
   const View& view = frame.view;
   const double scale = glm::dot(glm::abs(view.eye), Vec3{1.0}) +
                        glm::dot(glm::abs(frame.pivot), Vec3{1.0}) + std::abs(frame.base_s);
@@ -172,16 +179,16 @@ void find_screen_extents(const Extent* world, size_t begin, size_t end, const Fr
                             0.5 * view.height_px / view.half_height,
                             {0.5 * view.width_px - 0.5, 0.5 * view.height_px - 0.5}};
   const size_t lanes = hn::Lanes(Wide());
-  for (size_t i = begin; i < end; i += lanes) {
-    if (end - i >= lanes) {
-      projector.project(world + i, static_cast<uint32_t>(lanes), screen + i);
-      continue;
+  for (size_t first = 0; first < indices.size(); first += lanes) {
+    const uint32_t* group = indices.data() + first;
+    const size_t count = std::min(indices.size() - first, lanes);
+    uint32_t padded[8];
+    if (count < lanes) {
+      std::fill(padded, padded + 8, *group);
+      std::copy_n(group, count, padded);
+      group = padded;
     }
-    // The last few: a full vector must not read past the array.
-    Extent padded[8];
-    std::fill(padded, padded + 8, world[i]);
-    std::copy(world + i, world + end, padded);
-    projector.project(padded, static_cast<uint32_t>(end - i), screen + i);
+    projector.project(world, group, static_cast<uint32_t>(count), screen);
   }
 }
 
@@ -194,9 +201,9 @@ namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(find_screen_extents);
 
-void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
-                         const ScreenOptions& options, Extent* screen) {
-  CSGCORE_SIMD(find_screen_extents)(world, begin, end, frame, options, screen);
+void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
+                         const FrameRays& frame, const ScreenOptions& options, Extent* screen) {
+  CSGCORE_SIMD(find_screen_extents)(world, indices, frame, options, screen);
 }
 
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {

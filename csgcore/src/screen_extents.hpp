@@ -2,7 +2,7 @@
 // by.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "csgcore/extent.hpp"
 #include "packet.hpp"
@@ -18,9 +18,9 @@ struct ScreenOptions {
   bool centers_only = true;
 };
 
-/// Extents [begin, end) of `world`, into the same places of `screen`.
-void find_screen_extents(const Extent* world, size_t begin, size_t end, const FrameRays& frame,
-                         const ScreenOptions& options, Extent* screen);
+/// Of the extents of these indices in `world`, into the same places of `screen`.
+void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
+                         const FrameRays& frame, const ScreenOptions& options, Extent* screen);
 
 /// Sets x and y, and what tells the fate, to a rectangle; empty ones (low > high) are seen by none.
 struct Rectangle {

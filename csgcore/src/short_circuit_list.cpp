@@ -38,9 +38,8 @@ Continuation continuation_of(const Pending& pending) {
 
 }  // namespace
 
-ShortCircuitList compile(const CsgTree& tree) {
+ShortCircuitList compile(std::span<const CsgToken> tokens) {
   ShortCircuitList list;
-  const std::span<const CsgToken> tokens = tree.tokens();
   uint32_t position = 0;
   for (const CsgToken& token : tokens) position += token.is_primitive;
   list.literals.resize(position);

@@ -29,7 +29,7 @@ Split longest_split(const Box& cell) {
   return {axis, cell.center()[static_cast<int>(axis)]};
 }
 
-Split surface_area_split(const Extents& extents, const CellList& list, const Box& cell) {
+Split surface_area_split(std::span<const Extent> extents, const CellList& list, const Box& cell) {
   EndCounts counts;
   count_ends(extents.data(), list.primitive.data(), list.count(), cell, counts);
   const Vec3 size = cell.size();

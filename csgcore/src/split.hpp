@@ -23,6 +23,6 @@ Split longest_split(const Box& cell);
 /// expected cost of a ray that enters the cell (MacDonald and Booth, "Heuristics for ray tracing
 /// using space subdivision", 1990), among evenly spaced planes of every axis; the middle of the
 /// longest axis where no plane separates anything.
-Split surface_area_split(const Extents& extents, const CellList& list, const Box& cell);
+Split surface_area_split(std::span<const Extent> extents, const CellList& list, const Box& cell);
 
 }  // namespace csgcore

@@ -12,7 +12,7 @@ namespace {
 /// passes over the list, and the first mostly settles it.
 constexpr size_t kMostCovers = 3;
 
-/// Shorter lists are not searched for what decides nothing: few of them have any.
+/// Shorter lists without groups are not searched for what decides nothing: few of them have any.
 constexpr uint32_t kUndecisiveList = 64;
 
 /// A stretch is taken to be shorter at each end by this share of its depths and of its own length:
@@ -21,6 +21,9 @@ constexpr double kCoverSlack = 1e-9;
 
 /// A stretch of depth is looked at in so many parts for one that is free.
 constexpr size_t kDepthParts = 64;
+
+/// So many groups are opened at most to find it.
+constexpr int64_t kMostInTheWay = 16;
 
 bool meets(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) <= to_t && furthest_t(screen) >= from_t;
@@ -32,23 +35,27 @@ bool lies_within(const Extent& screen, double from_t, double to_t) {
 
 }  // namespace
 
-bool TileSimplifier::simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
-                              CellList& result, bool& cuts) {
-  cuts = false;
-  if (!find_covers(tile, list)) return false;
+TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellList& list,
+                                                 Restrictor& restrictor, CellList& result) {
+  if (!find_covers(tile, list)) return Outcome::kNothing;
   dropped_.assign(list.count(), Decision::kOpen);
+  marked_.clear();
+  bool cuts = false;
   for (const Cover& cover : covers_) {
-    cuts = drop_hidden(list, restrictor, cover);
+    if (!last_value_) break;
+    const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
+    cuts = depth && drop_hidden(list, restrictor, *depth, cover);
     if (cuts) break;
   }
-  for (const Cover& cover : covers_) {
-    if (!cuts && list.count() > kUndecisiveList) drop_undecisive(list, restrictor, cover);
+  if (!cuts && !marked_.empty()) return Outcome::kOpenGroups;
+  if (!cuts && (has_groups_ || list.count() > kUndecisiveList)) {
+    for (const Cover& cover : covers_) drop_undecisive(list, restrictor, cover);
   }
   if (std::find(dropped_.begin(), dropped_.end(), Decision::kOutside) == dropped_.end()) {
-    return false;
+    return Outcome::kNothing;
   }
   restrictor.restrict(list, dropped_, result);
-  return true;
+  return cuts ? Outcome::kCut : Outcome::kSimplified;
 }
 
 /// The longest first.
@@ -59,16 +66,23 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
   const double high_x = tile.x + tile.width - 1 + border;
   const double high_y = tile.y + tile.height - 1 + border;
   covers_.clear();
+  has_groups_ = is_partly_covered_ = false;
   for (const uint32_t entry : list.primitives()) {
     const uint32_t primitive = entry & kPrimitiveBits;
+    if (groups_.is_group(primitive)) {
+      has_groups_ = true;
+      continue;
+    }
     const Extent& e = screen_[primitive];
     if (e.center[0] - e.half[0] > low_x || e.center[0] + e.half[0] < high_x ||
         e.center[1] - e.half[1] > low_y || e.center[1] + e.half[1] < high_y) {
+      is_partly_covered_ |= 2 * e.half[0] > tile.width && 2 * e.half[1] > tile.height;
       continue;
     }
     covers_.push_back({primitive, nearest_t(e), furthest_t(e)});
   }
   if (covers_.empty()) return false;
+  const size_t candidates = covers_.size();
   const auto longer = [](const Cover& a, const Cover& b) {
     const double lengths[] = {a.to_t - a.from_t, b.to_t - b.from_t};
     return lengths[0] != lengths[1] ? lengths[0] > lengths[1] : a.primitive < b.primitive;
@@ -94,6 +108,7 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
     cover.to_t = to - slack;
   }
   std::erase_if(covers_, [](const Cover& c) { return !(c.from_t < c.to_t); });
+  is_partly_covered_ = covers_.empty() && (is_partly_covered_ || candidates > 0);
   return !covers_.empty();
 }
 
@@ -129,42 +144,62 @@ void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restricto
       continue;
     }
     dropped_[i] = Decision::kOutside;
-    fates_.note(primitive, fate);
+    note(primitive, fate);
   }
 }
 
-/// A depth within the stretch at which none of the primitives is open, the first of as many parts
-/// of equal length as are looked at.
-std::optional<double> TileSimplifier::free_depth(const CellList& list, double from_t,
-                                                 double to_t) const {
+bool TileSimplifier::covers_at(uint32_t primitive, double from_t, double to_t) const {
+  return std::any_of(covers_.begin(), covers_.end(), [&](const Cover& c) {
+    return c.primitive == primitive && c.from_t <= from_t && to_t <= c.to_t;
+  });
+}
+
+/// A depth within the stretch at which none of the list is open, the first of as many parts of
+/// equal length as are looked at. If groups alone stand in the way of one, there may be one once
+/// those are opened, of the part where they are the fewest.
+std::optional<double> TileSimplifier::free_depth(const CellList& list, double from_t, double to_t) {
   const double scale = kDepthParts / (to_t - from_t);
-  std::array<int32_t, kDepthParts + 1> changes{};  // of how many reach into a part
+  struct Parts {
+    size_t first, last;
+  };
+  const auto parts_of = [&](const Extent& e) {
+    return Parts{
+        static_cast<size_t>(std::max((nearest_t(e) - from_t) * scale, 0.0)),
+        static_cast<size_t>(std::min((furthest_t(e) - from_t) * scale, kDepthParts - 1.0))};
+  };
+  // Of how many reach into a part; groups count little.
+  constexpr int64_t kPrimitive = int64_t{1} << 32;
+  std::array<int64_t, kDepthParts + 1> changes{};
   for (uint32_t i = 0; i < list.count(); ++i) {
-    const Extent& e = screen_[list.primitive[i] & kPrimitiveBits];
-    if (!meets(e, from_t, to_t)) continue;
-    const bool covers = std::any_of(covers_.begin(), covers_.end(), [&](const Cover& c) {
-      return c.primitive == (list.primitive[i] & kPrimitiveBits) && c.from_t <= from_t &&
-             to_t <= c.to_t;
-    });
-    if (covers) continue;
-    const double first = std::max((nearest_t(e) - from_t) * scale, 0.0);
-    const double last = std::min((furthest_t(e) - from_t) * scale, kDepthParts - 1.0);
-    ++changes[static_cast<size_t>(first)];
-    --changes[static_cast<size_t>(last) + 1];
+    const uint32_t index = list.primitive[i] & kPrimitiveBits;
+    const Extent& e = screen_[index];
+    if (!meets(e, from_t, to_t) || covers_at(index, from_t, to_t)) continue;
+    const auto [first, last] = parts_of(e);
+    const int64_t weight = groups_.is_group(index) ? 1 : kPrimitive;
+    changes[first] += weight;
+    changes[last + 1] -= weight;
   }
-  int32_t reaching = 0;
+  int64_t reaching = 0;
+  int64_t fewest = kMostInTheWay + 1;
+  size_t best = 0;
   for (size_t part = 0; part < kDepthParts; ++part) {
     reaching += changes[part];
     if (reaching == 0) return from_t + (part + 0.5) / scale;
+    if (reaching < fewest) fewest = reaching, best = part;
+  }
+  if (fewest > kMostInTheWay || !marked_.empty()) return std::nullopt;
+  marked_.assign(list.count(), 0);
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t index = list.primitive[i] & kPrimitiveBits;
+    if (!groups_.is_group(index) || !meets(screen_[index], from_t, to_t)) continue;
+    const auto [first, last] = parts_of(screen_[index]);
+    marked_[i] = first <= best && best <= last;
   }
   return std::nullopt;
 }
 
-bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover) {
-  if (!last_value_) return false;
-  const std::optional<double> free = free_depth(list, cover.from_t, cover.to_t);
-  if (!free) return false;
-  const double depth = *free;
+bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, double depth,
+                                 const Cover& cover) {
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
   if (probe_.root != (*last_value_ ? CellList::kTrue : CellList::kFalse)) return false;
@@ -174,10 +209,28 @@ bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, c
     if (dropped_[i] == Decision::kOutside || nearest_t(screen_[primitive]) <= depth) continue;
     dropped_[i] = Decision::kOutside;
     const bool is_inside = lies_within(screen_[primitive], cover.from_t, cover.to_t);
-    fates_.note(primitive, is_inside ? Fate::kInside : Fate::kHidden);
+    note(primitive, is_inside ? Fate::kInside : Fate::kHidden);
     drops = true;
   }
   return drops;
+}
+
+/// Of a group, all that it holds and the screen shows.
+void TileSimplifier::note(uint32_t index, Fate fate) {
+  if (!fates_.wanted()) return;
+  noted_.assign(1, index);
+  while (!noted_.empty()) {
+    const uint32_t next = noted_.back() & kPrimitiveBits;
+    noted_.pop_back();
+    if (fate_on_screen(screen_[next]) != ScreenFate::kVisible) continue;
+    if (!groups_.is_group(next)) {
+      fates_.note(next, fate);
+      continue;
+    }
+    bounds_.open(next);
+    const std::span<const uint32_t> members = groups_.members(next).primitive;
+    noted_.insert(noted_.end(), members.begin(), members.end());
+  }
 }
 
 }  // namespace csgcore

@@ -8,6 +8,7 @@
 
 #include "packet.hpp"
 #include "restriction.hpp"
+#include "screen_bounds.hpp"
 
 namespace csgcore {
 
@@ -55,20 +56,30 @@ class Fates {
 class TileSimplifier {
  public:
   /// `last_value`: a ray ends once the solid has that value; none: rays go on.
-  TileSimplifier(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
-                 const FrameRays& frame, bool centers_only, std::optional<bool> last_value,
-                 Fates& fates)
+  TileSimplifier(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
+                 ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
+                 std::optional<bool> last_value, Fates& fates)
       : primitives_(primitives),
-        screen_(screen),
+        groups_(groups),
+        bounds_(bounds),
+        screen_(bounds.extents()),
         frame_(frame),
         centers_only_(centers_only),
         last_value_(last_value),
         fates_(fates) {}
 
-  /// The tile's list without them, in `result`; false, and nothing in it, if there are none. `cuts`
-  /// tells whether what is hidden was dropped: every ray of the tile then ends before it does.
-  bool simplify(const Tile& tile, const CellList& list, Restrictor& restrictor, CellList& result,
-                bool& cuts);
+  enum class Outcome : uint8_t {
+    kNothing,     // there are none
+    kSimplified,  // the list without them is in `result`
+    kCut,         // so it is, and what is hidden was dropped: every ray of the tile ends before it
+    kOpenGroups,  // marked() tells of groups that have to be opened first
+  };
+  Outcome simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                   CellList& result);
+  /// By the list's indices.
+  std::span<const uint8_t> marked() const { return marked_; }
+  /// Whether some primitive covers a part of the tile that smaller tiles may lie in wholly.
+  bool is_partly_covered() const { return is_partly_covered_; }
 
  private:
   /// A primitive that holds the tile's cross-section at every depth between.
@@ -79,11 +90,15 @@ class TileSimplifier {
   bool find_covers(const Tile& tile, const CellList& list);
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
-  bool drop_hidden(const CellList& list, Restrictor& restrictor, const Cover& cover);
-  std::optional<double> free_depth(const CellList& list, double from_t, double to_t) const;
+  bool drop_hidden(const CellList& list, Restrictor& restrictor, double depth, const Cover& cover);
+  bool covers_at(uint32_t primitive, double from_t, double to_t) const;
+  std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
+  void note(uint32_t index, Fate fate);
 
   std::span<const CanonicalPrimitive> primitives_;
-  const Extents& screen_;
+  const OperandGroups& groups_;
+  ScreenBounds& bounds_;
+  std::span<const Extent> screen_;
   const FrameRays& frame_;
   bool centers_only_;
   std::optional<bool> last_value_;
@@ -91,10 +106,15 @@ class TileSimplifier {
 
   using Decision = Restrictor::Decision;
   std::vector<Cover> covers_;
+  // Of the list that is simplified:
+  bool has_groups_ = false;
+  bool is_partly_covered_ = false;
   std::vector<Decision> decisions_;  // while a question is asked
   std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
+  std::vector<uint8_t> marked_;
   std::vector<uint32_t> survivors_;  // sorted
   CellList probe_;
+  std::vector<uint32_t> noted_;
 };
 
 }  // namespace csgcore

@@ -27,21 +27,24 @@ constexpr uint32_t kLongList = 24;
 constexpr uint32_t kVeryLongList = 4096;
 constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 
+/// A group is opened where it is so large against the tile: smaller ones are mostly told apart from
+/// the tile as a whole. Later where smaller tiles may show that it is hidden.
+constexpr double kOpenShare = 1.0;
+constexpr double kOpenShareBehind = 4.0;
+
 /// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
 constexpr uint32_t kLongCutList = 256;
 
-bool is_simplified(const Tile& tile, uint32_t literals, bool is_cut) {
-  if (literals <= (is_cut ? kLongCutList : kLongList)) return false;
+/// `is_new`: groups are in the list, or were until just now.
+bool is_simplified(const Tile& tile, const CellList& list, bool is_new, bool is_cut) {
+  if (list.count() <= (is_cut ? kLongCutList : kLongList) && !is_new) return false;
   const uint32_t pixels = tile.width * tile.height;
   // A division halves a tile, so that about one on the way down is of each size.
   const bool is_time =
       std::any_of(std::begin(kSimplifiedPixels), std::end(kSimplifiedPixels),
                   [&](uint32_t size) { return pixels <= size && 2 * pixels > size; });
-  return is_time || literals > kVeryLongList;
+  return is_time || is_new || list.count() > kVeryLongList;
 }
-
-/// Primitives bounded by one task.
-constexpr size_t kBoundedAtOnce = 4096;
 
 }  // namespace
 
@@ -53,8 +56,8 @@ void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& ray
   sink.store(block, packet, list, hits);
 }
 
-void TileList::assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
-                      const Tile& tile, const CellList& list) {
+void TileList::assign(std::span<const CanonicalPrimitive> primitives,
+                      std::span<const Extent> screen, const Tile& tile, const CellList& list) {
   const uint32_t count = list.count();
   tile_ = tile;
   nearest_.resize(count);
@@ -86,34 +89,19 @@ TraceList TileList::trace_list(const PacketBlock& block) const {
   return trace;
 }
 
-/// In screen space.
-class TileTracer::Classifier final : public OpenClassifier {
- public:
-  Classifier(const Extents& screen, const std::unique_ptr<ScreenShape[]>& shapes,
-             const FrameRays& frame)
-      : screen_(screen), shapes_(shapes), frame_(frame) {}
-  Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override {
-    return {find_misses(shapes_.get(), screen_.data(), primitives, open, frame_, cell), 0};
-  }
-
- private:
-  const Extents& screen_;
-  const std::unique_ptr<ScreenShape[]>& shapes_;
-  const FrameRays& frame_;
-};
-
 /// The lists of one level of the recursion, reused by all tiles of that level.
 struct TileTracer::Level {
   CellList halves[2];
   CellList simplified;
+  CellList opened[2];
 };
 
 /// What one task works with.
 struct TileTracer::Workspace {
-  explicit Workspace(const TileTracer& owner)
-      : restrictor(owner.screen_, *owner.classifier_, Restrictor::Space::kScreen),
-        simplifier(owner.solid_.primitives(), owner.screen_, owner.frame_, owner.centers_only_,
-                   owner.last_value_, owner.fates_) {}
+  explicit Workspace(TileTracer& owner)
+      : restrictor(owner.bounds_.extents(), owner.bounds_, Restrictor::Space::kScreen),
+        simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
+                   owner.centers_only_, owner.last_value_, owner.fates_) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -124,6 +112,10 @@ struct TileTracer::Workspace {
   PacketWorkspace packets;
   std::vector<std::unique_ptr<Level>> levels;
   TileList list, uncut_list;
+  CellList uncut, uncut_opened[2];
+  // Of groups, by index in a list:
+  std::vector<uint8_t> marked;
+  std::vector<Restrictor::Opening> openings;
   uint64_t tiles = 0;
 };
 
@@ -155,44 +147,20 @@ class TileTracer::Lease {
 TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
                        bool centers_only, Fates& fates)
     : solid_(solid),
+      groups_(solid.groups()),
       frame_(frame),
       subject_(subject),
       centers_only_(centers_only),
       fates_(fates),
-      screen_(solid.extents().size()),
-      classifier_(std::make_unique<Classifier>(screen_, shapes_, frame)) {
+      bounds_(solid.primitives(), groups_, frame, centers_only) {
   last_value_ = find_last_value();
-  const Extents& world = solid.extents();
-  const ScreenOptions options{centers_only};
-  const bool has_shapes = std::any_of(world.begin(), world.end(),
-                                      [](const Extent& extent) { return extent.inside2 < 0; });
-  // Only those of what is on the screen are written, and asked for.
-  if (has_shapes) shapes_ = std::make_unique_for_overwrite<ScreenShape[]>(world.size());
-  const auto bound = [&](size_t begin, size_t end) {
-    find_screen_extents(world.data(), begin, end, frame, options, screen_.data());
-    for (size_t i = begin; has_shapes && i < end; ++i) {
-      if (screen_[i].inside2 < 0 && fate_on_screen(screen_[i]) == ScreenFate::kVisible) {
-        shapes_[i] = screen_shape(solid.primitives()[i], frame);
-        narrow_extent(shapes_[i], frame, options, screen_[i]);
-      }
-    }
-  };
-  if (world.size() <= kBoundedAtOnce) {
-    bound(0, world.size());
-    return;
-  }
-  // Blocks of a fixed size: a vector never spans two of them.
-  const size_t blocks = (world.size() + kBoundedAtOnce - 1) / kBoundedAtOnce;
-  tbb::parallel_for(size_t{0}, blocks, [&](size_t block) {
-    bound(block * kBoundedAtOnce, std::min(world.size(), (block + 1) * kBoundedAtOnce));
-  });
 }
 
 TileTracer::~TileTracer() = default;
 
 /// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
 std::optional<bool> TileTracer::find_last_value() const {
-  if (subject_.boundary == Boundary::kBehind || !solid_.cell_list()) return std::nullopt;
+  if (subject_.boundary == Boundary::kBehind || groups_.list().is_constant()) return std::nullopt;
   if (frame_.view.projection == Projection::kOrthographic) return true;
   // Rays start up to a few tolerances from the eye: further in the picture's corners.
   constexpr double kEyeTolerances = 64;
@@ -203,10 +171,21 @@ std::optional<bool> TileTracer::find_last_value() const {
     if (eye + reach[axis] < bounds.min[axis] || eye - reach[axis] > bounds.max[axis]) return true;
   }
   const WorldClassifier classifier(solid_.primitives());
-  Restrictor restrictor(solid_.extents(), classifier);
-  CellList at_eye;
-  restrictor.restrict(*solid_.cell_list(), {frame_.view.eye - reach, frame_.view.eye + reach},
-                      at_eye);
+  Restrictor restrictor(groups_.extents(), classifier);
+  const Box cell{frame_.view.eye - reach, frame_.view.eye + reach};
+  CellList at_eye, closed;
+  using Opening = Restrictor::Opening;
+  std::vector<Opening> openings;
+  restrictor.restrict(groups_.list(), cell, at_eye);
+  while (has_groups(at_eye)) {
+    openings.clear();
+    for (const uint32_t entry : at_eye.primitives()) {
+      const bool is_group = groups_.is_group(entry & kPrimitiveBits);
+      openings.push_back(is_group ? Opening::kMembers : Opening::kNone);
+    }
+    std::swap(at_eye, closed);
+    restrictor.open(closed, groups_, openings, cell, at_eye);
+  }
   if (!at_eye.is_constant()) return std::nullopt;
   return at_eye.root == CellList::kFalse;
 }
@@ -225,13 +204,13 @@ Box TileTracer::box_of(const Tile& tile) const {
 }
 
 void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
-  if (!solid_.cell_list()) {
+  if (groups_.list().is_constant()) {
     visitor.visit_empty(area);
     return;
   }
   const Lease workspace(*this);
   CellList& list = (*workspace).level(0).halves[0];
-  (*workspace).restrictor.restrict(*solid_.cell_list(), box_of(area), list);
+  (*workspace).restrictor.restrict(groups_.list(), box_of(area), list);
   divide(area, list, nullptr, 1, *workspace, visitor);
 }
 
@@ -241,20 +220,28 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   if (!visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
-  if (is_simplified(tile, list->count(), uncut != nullptr)) {
+  const uint32_t side = std::max(tile.width, tile.height);
+  const auto is_short = [&] {
+    return side <= kPacketSide_px || (side <= kTileSide_px && list->count() <= kTileList) ||
+           (side <= kShortListSide_px && list->count() <= kShortList);
+  };
+  const auto simplify_list = [&](bool is_new) {
     bool cuts = false;
-    if (workspace.simplifier.simplify(tile, *list, workspace.restrictor, own.simplified, cuts)) {
-      list = &own.simplified;
-      if (cuts && !uncut) uncut = &given;
-    }
-  }
+    list = simplify(tile, list, is_new, uncut != nullptr, own, workspace, cuts);
+    if (cuts && !uncut) uncut = &given;
+  };
+  simplify_list(has_groups(*list));
+  const CellList* const closed = list;
+  const bool is_behind = workspace.simplifier.is_partly_covered();
+  const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
+  list = open_large_groups(tile, list, share, own.opened, workspace);
+  if (list != closed) simplify_list(true);
   if (list->is_constant() && !uncut) {
     visitor.visit_empty(tile);
     return;
   }
-  const uint32_t side = std::max(tile.width, tile.height);
-  if (side <= kPacketSide_px || (side <= kTileSide_px && list->count() <= kTileList) ||
-      (side <= kShortListSide_px && list->count() <= kShortList)) {
+  if (is_short()) list = open_large_groups(tile, list, 0.0, own.opened, workspace);
+  if (is_short()) {
     visit_leaf(tile, *list, uncut, workspace, visitor);
     return;
   }
@@ -290,13 +277,77 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   divide(above, own.halves[1], uncut, level + 1, workspace, visitor);
 }
 
+/// The list without what decides nothing in the tile, if it is time to look for that. `cuts` is set
+/// where what is hidden was dropped.
+const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, bool is_new,
+                                     bool is_cut, Level& level, Workspace& workspace, bool& cuts) {
+  while (is_simplified(tile, *list, is_new, is_cut)) {
+    switch (workspace.simplifier.simplify(tile, *list, workspace.restrictor, level.simplified)) {
+      case TileSimplifier::Outcome::kNothing:
+        return list;
+      case TileSimplifier::Outcome::kCut:
+        cuts = true;
+        return &level.simplified;
+      case TileSimplifier::Outcome::kSimplified:
+        return &level.simplified;
+      case TileSimplifier::Outcome::kOpenGroups:
+        list = &open_groups(tile, *list, workspace.simplifier.marked(), level.opened, workspace);
+    }
+  }
+  return list;
+}
+
+/// Whether any of the list is a group.
+bool TileTracer::has_groups(const CellList& list) const {
+  const auto primitives = list.primitives();
+  return std::any_of(primitives.begin(), primitives.end(),
+                     [&](uint32_t entry) { return groups_.is_group(entry & kPrimitiveBits); });
+}
+
+/// The list with the groups opened whose indices in the list are marked.
+const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
+                                        std::span<const uint8_t> marked, CellList (&buffers)[2],
+                                        Workspace& workspace) {
+  using Opening = Restrictor::Opening;
+  workspace.openings.assign(list.count(), Opening::kNone);
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    if (!marked[i]) continue;
+    const bool is_seen = bounds_.open(list.primitive[i] & kPrimitiveBits);
+    workspace.openings[i] = is_seen ? Opening::kMembers : Opening::kNothing;
+  }
+  CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
+  workspace.restrictor.open(list, groups_, workspace.openings, box_of(tile), result);
+  return result;
+}
+
+/// The list with all groups opened that are as wide or as high as `share` of the tile, in one of
+/// the buffers; the list itself if there are none.
+const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
+                                              CellList (&buffers)[2], Workspace& workspace) {
+  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
+  const std::span<const Extent> screen = bounds_.extents();
+  std::vector<uint8_t>& marked = workspace.marked;
+  for (;;) {
+    marked.assign(list->count(), 0);
+    bool any = false;
+    for (uint32_t i = 0; i < list->count(); ++i) {
+      const uint32_t index = list->primitive[i] & kPrimitiveBits;
+      if (!groups_.is_group(index)) continue;
+      marked[i] = screen[index].half[0] >= least[0] || screen[index].half[1] >= least[1];
+      any |= marked[i] != 0;
+    }
+    if (!any) return list;
+    list = &open_groups(tile, *list, marked, buffers, workspace);
+  }
+}
+
 class TileTracer::LeafRays final : public TileRays {
  public:
   /// `uncut`: the list before what is hidden was dropped from it, or null.
-  LeafRays(const TileTracer& owner, const Tile& tile, const CellList& list, const CellList* uncut,
+  LeafRays(TileTracer& owner, const Tile& tile, const CellList& list, const CellList* uncut,
            Workspace& workspace)
       : owner_(owner), tile_(tile), uncut_(uncut), workspace_(workspace) {
-    workspace.list.assign(owner.solid_.primitives(), owner.screen_, tile, list);
+    workspace.list.assign(owner.solid_.primitives(), owner.bounds_.extents(), tile, list);
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
@@ -316,15 +367,27 @@ class TileTracer::LeafRays final : public TileRays {
     // by a piece too thin to exist, what lies behind counts.
     if (!uncut_ || (hits.hits & lanes) == lanes) return workspace_.list.trace_list();
     workspace_.packets.was_computed.clear();
-    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.screen_, tile_, *uncut_);
+    if (!has_uncut_) assign_uncut();
     const TraceList& uncut = workspace_.uncut_list.trace_list();
+    if (uncut.list->is_constant()) return workspace_.list.trace_list();
     trace_packet(owner_.frame_, rays, lanes, uncut, owner_.subject_, workspace_.packets, hits);
     return uncut;
   }
 
-  const TileTracer& owner_;
+  void assign_uncut() {
+    has_uncut_ = true;
+    CellList& restricted = workspace_.uncut;
+    workspace_.restrictor.restrict(*uncut_, owner_.box_of(tile_), restricted);
+    const CellList* list =
+        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
+    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_.extents(), tile_,
+                                 *list);
+  }
+
+  TileTracer& owner_;
   const Tile& tile_;
   const CellList* uncut_;
+  bool has_uncut_ = false;
   Workspace& workspace_;
 };
 
@@ -355,9 +418,9 @@ TileTracer::Counts TileTracer::counts() const {
 }
 
 void TileTracer::note_screen_fates() {
-  for (size_t i = 0; i < screen_.size(); ++i) {
-    const ScreenFate fate = fate_on_screen(screen_[i]);
-    const uint32_t primitive = static_cast<uint32_t>(i);
+  bounds_.bound_all();
+  for (uint32_t primitive = 0; primitive < solid_.primitives().size(); ++primitive) {
+    const ScreenFate fate = fate_on_screen(bounds_.extents()[primitive]);
     if (fate == ScreenFate::kOffScreen) fates_.note(primitive, Fate::kOffScreen);
     if (fate == ScreenFate::kSubPixel) fates_.note(primitive, Fate::kSubPixel);
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hit_sink.hpp"
-#include "screen_shape.hpp"
+#include "screen_bounds.hpp"
 #include "tile_list.hpp"
 
 namespace csgcore {
@@ -18,7 +18,7 @@ constexpr uint32_t kTileSide_px = 8;
 /// A list with what tracing needs to know of it.
 class TileList {
  public:
-  void assign(std::span<const CanonicalPrimitive> primitives, const Extents& screen,
+  void assign(std::span<const CanonicalPrimitive> primitives, std::span<const Extent> screen,
               const Tile& tile, const CellList& list);
   /// For rays of any pixels of the tile.
   const TraceList& trace_list() const { return trace_; }
@@ -69,7 +69,7 @@ class TileTracer {
     uint64_t resolved_rays = 0;
   };
 
-  /// Bounds all primitives on the screen. Keeps references to solid, frame and fates.
+  /// Keeps references to solid, frame and fates.
   /// `centers_only`: rays go through pixels' centres only.
   TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
              bool centers_only, Fates& fates);
@@ -86,7 +86,6 @@ class TileTracer {
  private:
   struct Level;
   struct Workspace;
-  class Classifier;
   class Lease;
   class LeafRays;
 
@@ -94,18 +93,25 @@ class TileTracer {
               Workspace& workspace, TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
                   Workspace& workspace, TileVisitor& visitor);
+  const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
+                           Level& level, Workspace& workspace, bool& cuts);
+  bool has_groups(const CellList& list) const;
+  const CellList& open_groups(const Tile& tile, const CellList& list,
+                              std::span<const uint8_t> marked, CellList (&buffers)[2],
+                              Workspace& workspace);
+  const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
+                                    CellList (&buffers)[2], Workspace& workspace);
   Box box_of(const Tile& tile) const;
   std::optional<bool> find_last_value() const;
 
   const Solid& solid_;
+  const OperandGroups& groups_;
   const FrameRays& frame_;
   const TraceSubject subject_;
   const bool centers_only_;
   Fates& fates_;
   std::optional<bool> last_value_;
-  Extents screen_;
-  std::unique_ptr<ScreenShape[]> shapes_;  // of what is no ball
-  std::unique_ptr<Classifier> classifier_;
+  ScreenBounds bounds_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<Workspace*> free_workspaces_;

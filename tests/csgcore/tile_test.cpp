@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "checks.hpp"
 #include "packet_blocks.hpp"
@@ -37,7 +38,9 @@ struct Screen {
     extents.resize(world.size());
     shapes.resize(world.size());
     const ScreenOptions options{centers_only};
-    find_screen_extents(world.data(), 0, world.size(), frame, options, extents.data());
+    std::vector<uint32_t> indices(world.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    find_screen_extents(world.data(), indices, frame, options, extents.data());
     for (size_t i = 0; i < extents.size(); ++i) {
       const bool fills_box_badly = extents[i].inside2 < 0;
       if (!fills_box_badly || fate_on_screen(extents[i]) != ScreenFate::kVisible) continue;
@@ -292,10 +295,11 @@ class Simplifying {
   Simplifying(const Scene& scene, const View& view, std::optional<bool> last_value)
       : solid_(canonical_primitives(scene), scene.model),
         whole_(solid_, view),
-        screen_(scene.primitives, whole_.frame(), true),
-        classifier_(screen_.shapes, screen_.extents, screen_.frame),
-        restrictor_(screen_.extents, classifier_, Restrictor::Space::kScreen),
-        simplifier_(solid_.primitives(), screen_.extents, screen_.frame, true, last_value, fates_) {
+        bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
+        restrictor_(bounds_.extents(), bounds_, Restrictor::Space::kScreen),
+        simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
+                    fates_) {
+    bounds_.bound_all();
   }
 
   struct Outcome {
@@ -310,10 +314,10 @@ class Simplifying {
     restrictor_.restrict(*solid_.cell_list(), box, list);
     Outcome outcome;
     outcome.before = list.count();
-    bool cuts = false;
-    if (list.is_constant() || !simplifier_.simplify(tile, list, restrictor_, simplified, cuts)) {
-      return outcome;
-    }
+    if (list.is_constant()) return outcome;
+    const auto simplicity = simplifier_.simplify(tile, list, restrictor_, simplified);
+    if (simplicity == TileSimplifier::Outcome::kNothing) return outcome;
+    const bool cuts = simplicity == TileSimplifier::Outcome::kCut;
     outcome.after = simplified.count();
     EXPECT_LT(outcome.after, outcome.before);
     for_each_block(tile, [&](const PacketBlock& block) {
@@ -337,21 +341,6 @@ class Simplifying {
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
-  class Classifier final : public OpenClassifier {
-   public:
-    Classifier(const std::vector<ScreenShape>& shapes, const Extents& extents,
-               const FrameRays& frame)
-        : shapes_(shapes), extents_(extents), frame_(frame) {}
-    Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override {
-      return {find_misses(shapes_.data(), extents_.data(), primitives, open, frame_, cell), 0};
-    }
-
-   private:
-    const std::vector<ScreenShape>& shapes_;
-    const Extents& extents_;
-    const FrameRays& frame_;
-  };
-
   PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
     PacketHits hits;
     if (list.is_constant()) return hits;
@@ -366,8 +355,7 @@ class Simplifying {
 
   const Solid solid_;
   checks::WholeList whole_;
-  const Screen screen_;
-  const Classifier classifier_;
+  ScreenBounds bounds_;
   Restrictor restrictor_;
   Fates fates_;
   TileSimplifier simplifier_;

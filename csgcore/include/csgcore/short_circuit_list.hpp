@@ -52,9 +52,10 @@ struct ShortCircuitList {
   bool constant = false;
 };
 
-/// Compiles a tree, in time proportional to its tokens and without recursion. The empty tree is the
-/// constant false.
-ShortCircuitList compile(const CsgTree& tree);
+/// Compiles a tree in postfix order, normal form or not, in time proportional to its tokens and
+/// without recursion. The empty tree is the constant false.
+ShortCircuitList compile(std::span<const CsgToken> tokens);
+inline ShortCircuitList compile(const CsgTree& tree) { return compile(tree.tokens()); }
 
 /// Evaluates a non-empty list; `inside(primitive)` answers for each primitive that decides.
 template <typename Inside>

@@ -14,6 +14,7 @@
 namespace csgcore {
 
 struct CellList;
+class OperandGroups;
 
 /// The canonical primitives of a scene, index for index. Shared by the solids of its trees.
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
@@ -27,11 +28,13 @@ class Solid {
 
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
   /// Index for index those of `primitives()`; none if the tree is empty.
-  const Extents& extents() const { return extents_; }
+  std::span<const Extent> extents() const;
   /// The whole tree, as a list that is valid everywhere.
   const ShortCircuitList& list() const { return list_; }
   /// The same in the form that is restricted to cells and tiles; null if the list is constant.
   const CellList* cell_list() const { return cell_list_.get(); }
+  /// The same with operands in groups.
+  const OperandGroups& groups() const { return *groups_; }
   /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
   /// intersection's their intersection, a difference's that of its first operand. Empty if the
   /// solid is.
@@ -41,9 +44,9 @@ class Solid {
 
  private:
   std::shared_ptr<const CanonicalPrimitives> primitives_;
-  Extents extents_;
   ShortCircuitList list_;
   std::shared_ptr<const CellList> cell_list_;
+  std::shared_ptr<const OperandGroups> groups_;
   Box bounds_;
 };
 

@@ -1,0 +1,352 @@
+#include "operand_groups.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <utility>
+
+#include "csgcore/short_circuit_list.hpp"
+#include "extent_tests.hpp"
+
+namespace csgcore {
+namespace {
+
+/// An operation of more operands than the first has them grouped, by the second at most; fewer than
+/// the third stay by themselves.
+constexpr size_t kManyOperands = 64;
+constexpr size_t kGroupOperands = 24;
+constexpr size_t kFewOperands = 4;
+
+Box box_of(const Extent& extent) {
+  const Vec3 center{extent.center[0], extent.center[1], extent.center[2]};
+  const Vec3 half{extent.half[0], extent.half[1], extent.half[2]};
+  return {center - half, center + half};
+}
+
+/// As if of a ball of infinite radius, and nothing inside: nobody asks more than the box.
+Extent extent_of_box(const Box& box) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  Extent extent{{}, {}, std::numeric_limits<double>::infinity(), 0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double center = 0.5 * box.min[axis] + 0.5 * box.max[axis];
+    const double half = std::max(box.max[axis] - center, center - box.min[axis]);
+    extent.center[axis] = center;
+    extent.half[axis] = half + kRounding * (half + std::abs(center));
+  }
+  return extent;
+}
+
+Box intersection(const Box& a, const Box& b) {
+  const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
+  return box.empty() ? Box{} : box;
+}
+
+/// For each token, a box outside of which its subtree does not matter: it does not hold there, or
+/// the operations above do not ask.
+std::vector<Box> relevant_boxes(std::span<const CsgToken> tokens, const Extents& extents) {
+  std::vector<Box> boxes(tokens.size());
+  std::vector<size_t> roots;  // of the operands that wait for their operation
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    const CsgToken& token = tokens[i];
+    if (token.is_primitive) {
+      boxes[i] = box_of(extents[token.value]);
+    } else {
+      const size_t first = roots.size() - token.value;
+      boxes[i] = boxes[roots[first]];
+      for (size_t k = first + 1; k < roots.size() && token.op != Op::kDifference; ++k) {
+        const Box& other = boxes[roots[k]];
+        if (token.op == Op::kIntersection) {
+          boxes[i] = intersection(boxes[i], other);
+        } else if (!other.empty()) {
+          boxes[i].merge(other);
+        }
+      }
+      roots.resize(first);
+    }
+    roots.push_back(i);
+  }
+  struct Above {
+    size_t token;
+    uint32_t operands_left;
+  };
+  std::vector<Above> above;
+  for (size_t i = tokens.size(); i-- > 0;) {
+    if (!above.empty()) {
+      boxes[i] = intersection(boxes[i], boxes[above.back().token]);
+      if (--above.back().operands_left == 0) above.pop_back();
+    }
+    if (!tokens[i].is_primitive) above.push_back({i, tokens[i].value});
+  }
+  return boxes;
+}
+
+/// Spreads the lowest 6 bits to every third.
+constexpr uint32_t spread(uint32_t x) {
+  uint32_t result = 0;
+  for (uint32_t bit = 0; bit < 6; ++bit) result |= (x >> bit & 1) << 3 * bit;
+  return result;
+}
+constexpr auto kSpread = [] {
+  std::array<uint32_t, 64> table{};
+  for (uint32_t i = 0; i < table.size(); ++i) table[i] = spread(i);
+  return table;
+}();
+
+constexpr uint32_t kMortonBits = 18;
+constexpr uint32_t kKeyBits = kMortonBits + 2;
+
+/// Size first, in classes of a factor of 4 unless all are alike, then the place along a Morton
+/// curve.
+uint32_t key_of(const Box& box, const Box& all, bool alike) {
+  const Vec3 size = all.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  const Vec3 own_size = box.size();
+  const double own = std::max({own_size.x, own_size.y, own_size.z});
+  uint32_t key = alike || 4 * own > longest ? 0
+                 : 16 * own > longest       ? 1
+                 : 64 * own > longest       ? 2
+                                            : 3;
+  key <<= kMortonBits;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double share =
+        longest > 0 ? (0.5 * box.min[axis] + 0.5 * box.max[axis] - all.min[axis]) / longest : 0;
+    key |= kSpread[static_cast<size_t>(std::clamp(64 * share, 0.0, 63.0))] << axis;
+  }
+  return key;
+}
+uint32_t size_class(uint32_t key) { return key >> kMortonBits; }
+
+struct Keyed {
+  uint32_t key, index;
+};
+
+/// Stable.
+void radix_sort(std::vector<Keyed>& values) {
+  constexpr uint32_t kDigitBits = kKeyBits / 2;
+  std::vector<Keyed> other(values.size());
+  for (uint32_t shift = 0; shift < kKeyBits; shift += kDigitBits) {
+    std::array<uint32_t, (1u << kDigitBits) + 1> starts{};
+    const auto digit = [shift](const Keyed& v) {
+      return v.key >> shift & ((1u << kDigitBits) - 1);
+    };
+    for (const Keyed& value : values) ++starts[digit(value) + 1];
+    for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+    for (const Keyed& value : values) other[starts[digit(value)]++] = value;
+    values.swap(other);
+  }
+}
+
+}  // namespace
+
+/// Rewrites a tree's tokens, with groups in place of operands.
+class OperandGroups::Builder {
+ public:
+  Builder(OperandGroups& groups, std::span<const CsgToken> tokens)
+      : groups_(groups), tokens_(tokens) {}
+
+  void build() {
+    const std::vector<Box> boxes = relevant_boxes(tokens_, groups_.extents_);
+    for (size_t i = 0; i < tokens_.size(); ++i) {
+      const CsgToken& token = tokens_[i];
+      const uint32_t end = static_cast<uint32_t>(output_.size());
+      if (!token.is_primitive) {
+        close(token, boxes[i]);
+      } else if (boxes[i].empty()) {
+        operands_.push_back({end, end, boxes[i]});
+      } else {
+        output_.push_back(token);
+        operands_.push_back({end, end + 1, boxes[i]});
+      }
+    }
+    if (!output_.empty())
+      assign(groups_.list_, compile(std::span<const CsgToken>(output_)).literals);
+    find_owners();
+    groups_.primitive_.insert(groups_.primitive_.end(), kVectorPadding, 0);
+  }
+
+ private:
+  using Chosen = std::span<const Keyed>;
+
+  /// The tokens [first, end) of the output. None: it is empty.
+  struct Operand {
+    uint32_t first, end;
+    Box box;
+    bool is_empty() const { return first == end; }
+  };
+
+  /// Makes one operand of the last ones, as the operation says.
+  void close(const CsgToken& operation, const Box& box) {
+    const size_t from = operands_.size() - operation.value;
+    const uint32_t first = operands_[from].first;
+    const auto operands = operands_.begin() + static_cast<long>(from);
+    const bool has_empty = std::any_of(operands, operands_.end(),
+                                       [](const Operand& operand) { return operand.is_empty(); });
+    const bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
+                          (operation.op == Op::kDifference && operands->is_empty());
+    if (is_empty) output_.resize(first);
+    operands_.erase(std::remove_if(operands, operands_.end(),
+                                   [&](const Operand& o) { return is_empty || o.is_empty(); }),
+                    operands_.end());
+    if (operation.op != Op::kIntersection) {
+      group(from + (operation.op == Op::kDifference && !is_empty ? 1 : 0));
+    }
+    const uint32_t count = static_cast<uint32_t>(operands_.size() - from);
+    if (count > 1) output_.push_back({false, operation.op, count});
+    operands_.resize(from);
+    operands_.push_back({first, static_cast<uint32_t>(output_.size()), box});
+  }
+
+  /// Groups the operands from there on, of which a union is made, until they are not many. Those
+  /// left by themselves, the largest among them, are tested first.
+  void group(size_t from) {
+    bool are_groups = false;
+    while (operands_.size() - from > kManyOperands) {
+      const size_t before = operands_.size();
+      from += group_once(from, are_groups);
+      are_groups = true;
+      if (operands_.size() == before) return;
+    }
+  }
+
+  /// Returns how many are left by themselves, which come first.
+  size_t group_once(size_t from, bool are_groups) {
+    Box all;
+    for (size_t i = from; i < operands_.size(); ++i) all.merge(operands_[i].box);
+    keyed_.clear();
+    for (size_t i = from; i < operands_.size(); ++i) {
+      keyed_.push_back({key_of(operands_[i].box, all, are_groups), static_cast<uint32_t>(i)});
+    }
+    radix_sort(keyed_);
+    given_.assign(operands_.begin() + static_cast<long>(from), operands_.end());
+    const uint32_t first = operands_[from].first;
+    given_tokens_.assign(output_.begin() + first, output_.end());
+    for (Operand& operand : given_) operand.first -= first, operand.end -= first;
+    operands_.resize(from);
+    output_.resize(first);
+    chosen_.clear();
+    divide(keyed_);
+    const auto few = std::stable_partition(chosen_.begin(), chosen_.end(),
+                                           [](const Chosen& c) { return c.size() < kFewOperands; });
+    for (const Chosen& chosen : std::span(chosen_.begin(), few)) {
+      for (const Keyed& keyed : chosen) {
+        const Operand& operand = given_[keyed.index - from];
+        operands_.push_back(append(operand, output_));
+      }
+    }
+    const size_t left = operands_.size() - from;
+    for (const Chosen& chosen : std::span(few, chosen_.end())) add_group(chosen, from);
+    return left;
+  }
+
+  /// At the bits of the keys, from the highest on, until few are left that are alike in size.
+  void divide(Chosen range) {
+    const uint32_t difference = range.front().key ^ range.back().key;
+    if (range.size() <= kGroupOperands && size_class(difference) == 0) {
+      chosen_.push_back(range);
+      return;
+    }
+    size_t half = range.size() / 2;
+    if (difference != 0) {
+      const uint32_t bit = std::bit_floor(difference);
+      const auto above = std::partition_point(
+          range.begin(), range.end(), [bit](const Keyed& keyed) { return (keyed.key & bit) == 0; });
+      half = static_cast<size_t>(above - range.begin());
+    }
+    divide(range.first(half));
+    divide(range.subspan(half));
+  }
+
+  /// Its place among the tokens it is appended to.
+  Operand append(const Operand& given, std::vector<CsgToken>& tokens) const {
+    const uint32_t first = static_cast<uint32_t>(tokens.size());
+    tokens.insert(tokens.end(), given_tokens_.begin() + given.first,
+                  given_tokens_.begin() + given.end);
+    return {first, static_cast<uint32_t>(tokens.size()), given.box};
+  }
+
+  void add_group(Chosen chosen, size_t from) {
+    Box box;
+    group_tokens_.clear();
+    for (const Keyed& keyed : chosen) {
+      box.merge(append(given_[keyed.index - from], group_tokens_).box);
+    }
+    group_tokens_.push_back({false, Op::kUnion, static_cast<uint32_t>(chosen.size())});
+    const uint32_t first = static_cast<uint32_t>(output_.size());
+    output_.push_back({true, Op::kUnion, make_group(box)});
+    operands_.push_back({first, first + 1, box});
+  }
+
+  /// Of the union in group_tokens_.
+  uint32_t make_group(const Box& box) {
+    const ShortCircuitList list = compile(std::span<const CsgToken>(group_tokens_));
+    assign(list_, list.literals);
+    const uint32_t count = list_.count();
+    const auto append = [count](std::vector<uint32_t>& to, const std::vector<uint32_t>& from) {
+      to.insert(to.end(), from.begin(), from.begin() + count);
+    };
+    groups_.members_.push_back({static_cast<uint32_t>(groups_.primitive_.size()), count});
+    append(groups_.primitive_, list_.primitive);
+    append(groups_.if_inside_, list_.if_inside);
+    append(groups_.if_outside_, list_.if_outside);
+    groups_.extents_.push_back(extent_of_box(box));
+    return static_cast<uint32_t>(groups_.extents_.size() - 1);
+  }
+
+  void find_owners() {
+    std::vector<uint8_t> uses(groups_.extents_.size());
+    const auto count = [&](std::span<const uint32_t> primitives) {
+      for (const uint32_t entry : primitives) {
+        uint8_t& number = uses[entry & kPrimitiveBits];
+        number = static_cast<uint8_t>(std::min(number + 1, 2));
+      }
+    };
+    count(groups_.primitive_);
+    count(groups_.list_.primitives());
+    for (const Range& members : groups_.members_) {
+      const uint32_t first = static_cast<uint32_t>(groups_.own_.size());
+      for (uint32_t i = members.first; i < members.first + members.count; ++i) {
+        const uint32_t index = groups_.primitive_[i] & kPrimitiveBits;
+        if (uses[index] == 1) groups_.own_.push_back(index), uses[index] = 0;
+      }
+      groups_.owned_.push_back({first, static_cast<uint32_t>(groups_.own_.size()) - first});
+    }
+    for (uint32_t index = 0; index < uses.size(); ++index) {
+      if (uses[index] > 0) groups_.common_.push_back(index);
+    }
+  }
+
+  OperandGroups& groups_;
+  std::span<const CsgToken> tokens_;
+  std::vector<CsgToken> output_;
+  std::vector<Operand> operands_;  // that wait for their operation
+  // While operands are grouped:
+  std::vector<Keyed> keyed_;
+  std::vector<Chosen> chosen_;  // of keyed_
+  std::vector<Operand> given_;
+  std::vector<CsgToken> given_tokens_, group_tokens_;
+  CellList list_;
+};
+
+OperandGroups::OperandGroups(const CsgTree& tree, Extents extents)
+    : extents_(std::move(extents)), first_group_(static_cast<uint32_t>(extents_.size())) {
+  Builder(*this, tree.tokens()).build();
+}
+
+OperandGroups::Members OperandGroups::members(uint32_t group) const {
+  const Range range = members_[group - first_group_];
+  const auto part = [&](const std::vector<uint32_t>& all) {
+    return std::span(all).subspan(range.first, range.count);
+  };
+  return {part(primitive_), part(if_inside_), part(if_outside_)};
+}
+
+std::span<const uint32_t> OperandGroups::own(uint32_t group) const {
+  const Range range = owned_[group - first_group_];
+  return std::span(own_).subspan(range.first, range.count);
+}
+
+}  // namespace csgcore

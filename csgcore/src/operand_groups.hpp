@@ -1,0 +1,64 @@
+// A solid's list with its operands in groups: what is far from where one looks costs nothing.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cell_list.hpp"
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/extent.hpp"
+
+namespace csgcore {
+
+/// The operands of a large union, and what a difference takes away if that is much, stand in groups
+/// of some that are alike in size and near each other: a group is a union of operands, or of
+/// smaller groups. In a list it is a literal like a primitive's, of an index beyond the
+/// primitives'. Its extent is a box outside of which none of its operands matters; of nothing is it
+/// known to lie inside.
+///
+/// Left out altogether are operands that reach nowhere where they matter: each operation leaves a
+/// box outside of which its operands cannot change the whole.
+class OperandGroups {
+ public:
+  OperandGroups() = default;
+  /// `extents`: of the primitives, index for index.
+  OperandGroups(const CsgTree& tree, Extents extents);
+
+  /// The whole tree's. Constant if nothing of it is left.
+  const CellList& list() const { return list_; }
+  /// Of the primitives, then of the groups.
+  const Extents& extents() const { return extents_; }
+  /// Indices below are primitives'.
+  uint32_t first_group() const { return first_group_; }
+  bool is_group(uint32_t index) const { return index >= first_group_; }
+  /// How many primitives and groups there are.
+  uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
+
+  /// A group's own list as in a CellList, its numbers counted from its own literals, of which the
+  /// last of the arrays is where evaluation starts.
+  struct Members {
+    std::span<const uint32_t> primitive;  // or group; with kComplementBit
+    std::span<const uint32_t> if_inside, if_outside;
+  };
+  Members members(uint32_t group) const;
+  /// The primitives and groups that stand in this group and nowhere else.
+  std::span<const uint32_t> own(uint32_t group) const;
+  /// All others: what is in no group, or stands in the tree more than once.
+  std::span<const uint32_t> common() const { return common_; }
+
+ private:
+  class Builder;
+  struct Range {
+    uint32_t first = 0, count = 0;
+  };
+
+  CellList list_;
+  Extents extents_;
+  uint32_t first_group_ = 0;
+  std::vector<Range> members_, owned_;  // by group
+  std::vector<uint32_t> primitive_;     // and valid indices that vectors read past the last
+  std::vector<uint32_t> if_inside_, if_outside_;
+  std::vector<uint32_t> own_, common_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,262 @@
+#include "operand_groups.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "checks.hpp"
+#include "extent_tests.hpp"
+#include "restriction.hpp"
+#include "screen_bounds.hpp"
+#include "support/models.hpp"
+#include "trace_scenes.hpp"
+#include "whole_list.hpp"
+
+namespace csgcore {
+namespace {
+
+using checks::uniform;
+
+const Box kSpace{Vec3(-8.0), Vec3(8.0)};
+
+/// Small balls, large ones among them.
+Primitive random_ball(std::mt19937& random) {
+  const double radius = random() % 50 == 0 ? uniform(random, 2, 5) : uniform(random, 0.02, 0.3);
+  return make_sphere(radius, checks::moved(checks::random_point(random, kSpace)));
+}
+
+/// Operations of up to hundreds of operands, one in another; some primitives stand in it again.
+void add_operation(CsgTreeBuilder& builder, Scene& scene, std::mt19937& random, int depth) {
+  const bool is_large = random() % 2;
+  // Little is left of what many have in common.
+  const Op op = static_cast<Op>(is_large ? 2 * (random() % 2) : random() % 3);
+  static_assert(static_cast<int>(Op::kIntersection) == 1);
+  builder.open(op);
+  const uint32_t operands = is_large ? 100 + random() % 200 : 2 + random() % 4;
+  for (uint32_t i = 0; i < operands; ++i) {
+    if (depth > 0 && random() % (operands < 10 ? 2 : 50) == 0) {
+      add_operation(builder, scene, random, depth - 1);
+      continue;
+    }
+    uint32_t primitive = static_cast<uint32_t>(scene.primitives.size());
+    if (primitive > 0 && random() % 20 == 0) {
+      primitive = random() % primitive;
+    } else {
+      scene.primitives.push_back(random_ball(random));
+    }
+    builder.primitive(primitive);
+  }
+  builder.close();
+}
+
+Scene random_scene(uint32_t seed) {
+  std::mt19937 random(seed);
+  Scene scene;
+  CsgTreeBuilder builder;
+  builder.open(Op::kUnion);
+  for (uint32_t i = 0; i < 150; ++i) {
+    builder.primitive(i);
+    scene.primitives.push_back(random_ball(random));
+  }
+  for (int i = 0; i < 3; ++i) add_operation(builder, scene, random, 3);
+  builder.close();
+  scene.model = builder.finish();
+  return scene;
+}
+
+bool box_holds(const Extent& extent, const Vec3& point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(point[axis] - extent.center[axis]) > extent.half[axis]) return false;
+  }
+  return true;
+}
+
+/// The value at a point, of which nothing is asked that lies outside of a group's box.
+bool value_at(const Solid& solid, const Vec3& point) {
+  const OperandGroups& groups = solid.groups();
+  const std::function<bool(uint32_t)> inside = [&](uint32_t index) {
+    if (!groups.is_group(index)) return contains(solid.primitives()[index], point);
+    if (!box_holds(groups.extents()[index], point)) return false;
+    const OperandGroups::Members members = groups.members(index);
+    uint32_t number = static_cast<uint32_t>(members.primitive.size()) - 1 + CellList::kFirst;
+    while (number >= CellList::kFirst) {
+      const uint32_t i = number - CellList::kFirst;
+      const bool is_in = inside(members.primitive[i] & kPrimitiveBits);
+      number = is_in ? members.if_inside[i] : members.if_outside[i];
+    }
+    return number == CellList::kTrue;
+  };
+  std::vector<Literal> literals;
+  append(literals, groups.list());
+  if (literals.empty()) return groups.list().root == CellList::kTrue;
+  return evaluate(std::span<const Literal>(literals), inside);
+}
+
+class GroupsOf : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(GroupsOf, RandomTreeHaveItsValues) {
+  const Scene scene = random_scene(GetParam());
+  const Solid solid(canonical_primitives(scene), scene.model);
+  ASSERT_GT(solid.groups().count(), solid.groups().first_group());
+  std::mt19937 random(1);
+  int holds = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 point = checks::random_point(random, kSpace);
+    ASSERT_EQ(value_at(solid, point), solid.contains(point));
+    holds += solid.contains(point);
+  }
+  EXPECT_GT(holds, 0);
+}
+
+/// The same by opening them, cell by cell.
+TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
+  const Scene scene = random_scene(GetParam());
+  const Solid solid(canonical_primitives(scene), scene.model);
+  const OperandGroups& groups = solid.groups();
+  const WorldClassifier classifier(solid.primitives());
+  Restrictor restrictor(groups.extents(), classifier);
+  std::mt19937 random(2);
+  for (int round = 0; round < 100; ++round) {
+    const Vec3 center = checks::random_point(random, kSpace);
+    const Vec3 half(uniform(random, 0.01, 1));
+    const Box cell{center - half, center + half};
+    CellList list, closed;
+    restrictor.restrict(groups.list(), cell, list);
+    for (bool any = true; any;) {
+      any = false;
+      std::vector<Restrictor::Opening> openings(list.count());
+      for (uint32_t i = 0; i < list.count(); ++i) {
+        if (!groups.is_group(list.primitive[i] & kPrimitiveBits)) continue;
+        openings[i] = Restrictor::Opening::kMembers;
+        any = true;
+      }
+      std::swap(list, closed);
+      restrictor.open(closed, groups, openings, cell, list);
+    }
+    std::vector<Literal> literals;
+    append(literals, list);
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 point = checks::random_point(random, cell);
+      const auto inside = [&](uint32_t p) { return contains(solid.primitives()[p], point); };
+      const bool value = literals.empty() ? list.root == CellList::kTrue
+                                          : evaluate(std::span<const Literal>(literals), inside);
+      ASSERT_EQ(value, solid.contains(point));
+    }
+  }
+}
+
+TEST_P(GroupsOf, RandomTreeOwnEachIndexOnce) {
+  const Scene scene = random_scene(GetParam());
+  const Solid solid(canonical_primitives(scene), scene.model);
+  const OperandGroups& groups = solid.groups();
+  std::multiset<uint32_t> owned(groups.common().begin(), groups.common().end());
+  std::set<uint32_t> standing;
+  const auto note = [&](std::span<const uint32_t> primitives) {
+    for (const uint32_t entry : primitives) standing.insert(entry & kPrimitiveBits);
+  };
+  note(groups.list().primitives());
+  for (uint32_t group = groups.first_group(); group < groups.count(); ++group) {
+    note(groups.members(group).primitive);
+    owned.insert(groups.own(group).begin(), groups.own(group).end());
+  }
+  EXPECT_TRUE(std::equal(owned.begin(), owned.end(), standing.begin(), standing.end()));
+}
+
+TEST_P(GroupsOf, RandomTreeShowTheSame) {
+  const Scene scene = random_scene(GetParam());
+  const Solid solid(canonical_primitives(scene), scene.model);
+  for (const auto& [name, view] : checks::trace_views(kSpace, 72, 56)) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view, {}),
+                                  checks::WholeList(solid, view).picture()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GroupsOf, testing::Range(1u, 7u));
+
+Solid solid_of(std::vector<Primitive> primitives,
+               const std::function<void(CsgTreeBuilder&)>& build) {
+  Scene scene;
+  scene.primitives = std::move(primitives);
+  CsgTreeBuilder builder;
+  build(builder);
+  scene.model = builder.finish();
+  return Solid(canonical_primitives(scene), scene.model);
+}
+
+std::vector<Primitive> balls_at(std::initializer_list<double> places) {
+  std::vector<Primitive> balls;
+  for (const double x : places) balls.push_back(make_sphere(1, checks::moved({x, 0, 0})));
+  return balls;
+}
+
+TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
+  // What is subtracted from elsewhere; what an intersection leaves nothing of; what a union within
+  // an intersection holds beside it.
+  const Solid difference = solid_of(balls_at({0, 1, 5}), [](CsgTreeBuilder& builder) {
+    builder.open(Op::kDifference);
+    for (uint32_t i = 0; i < 3; ++i) builder.primitive(i);
+    builder.close();
+  });
+  EXPECT_EQ(difference.groups().list().count(), 2u);
+  const Solid intersection = solid_of(balls_at({0, 5}), [](CsgTreeBuilder& builder) {
+    builder.open(Op::kIntersection);
+    builder.primitive(0);
+    builder.primitive(1);
+    builder.close();
+  });
+  EXPECT_TRUE(intersection.groups().list().is_constant());
+  EXPECT_EQ(intersection.groups().list().root, CellList::kFalse);
+  const Solid cut_union = solid_of(balls_at({0, 3, -3, 0.5}), [](CsgTreeBuilder& builder) {
+    builder.open(Op::kIntersection);
+    builder.open(Op::kUnion);
+    for (uint32_t i = 0; i < 3; ++i) builder.primitive(i);
+    builder.close();
+    builder.primitive(3);
+    builder.close();
+  });
+  EXPECT_EQ(cut_union.groups().list().count(), 2u);
+  // Both operands of the union lie beside what is left of its box.
+  const Solid nothing = solid_of(balls_at({-4, 4, 0}), [](CsgTreeBuilder& builder) {
+    builder.open(Op::kIntersection);
+    builder.open(Op::kUnion);
+    builder.primitive(0);
+    builder.primitive(1);
+    builder.close();
+    builder.primitive(2);
+    builder.close();
+  });
+  EXPECT_TRUE(nothing.groups().list().is_constant());
+}
+
+TEST(OperandGroups, ManyOperandsAreFewLiterals) {
+  const Scene scene = test_support::cylinder_minus_spheres(10000);
+  const Solid solid(canonical_primitives(scene), scene.model);
+  EXPECT_LE(solid.groups().list().count(), 70u);
+  // A group is small: its box is not the whole solid's.
+  const OperandGroups& groups = solid.groups();
+  double longest = 0;
+  for (uint32_t group = groups.first_group(); group < groups.count(); ++group) {
+    const Extent& extent = groups.extents()[group];
+    longest = std::max({longest, extent.half[0], extent.half[1], extent.half[2]});
+  }
+  EXPECT_LT(2 * longest, 0.5 * solid.bounds().diagonal());
+}
+
+TEST(OperandGroups, DeepNesting) {
+  constexpr uint32_t kDepth = 200'000;
+  const Solid solid = solid_of(balls_at({0, 0.5}), [](CsgTreeBuilder& builder) {
+    for (uint32_t i = 0; i < kDepth; ++i) builder.open(i % 2 ? Op::kUnion : Op::kIntersection);
+    builder.primitive(0);
+    builder.primitive(1);
+    for (uint32_t i = 0; i < kDepth; ++i) {
+      builder.primitive(i % 2);
+      builder.close();
+    }
+  });
+  EXPECT_EQ(solid.groups().list().count(), solid.cell_list()->count());
+}
+
+}  // namespace
+}  // namespace csgcore
