@@ -16,6 +16,13 @@ constexpr size_t kBoundedAtOnce = 4096;
 /// Of what is smaller on the screen, its box tells enough.
 constexpr double kShapelessHalf_px = 4;
 
+void prefetch(const void* object, size_t bytes) {
+  constexpr size_t kLine = 64;
+  for (size_t i = 0; i < bytes; i += kLine) {
+    __builtin_prefetch(static_cast<const char*>(object) + i);
+  }
+}
+
 }  // namespace
 
 ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
@@ -75,20 +82,29 @@ OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint6
 }
 
 void ScreenBounds::bound(std::span<const uint32_t> indices) {
+  // They lie anywhere in memory: all of them are fetched at once.
   for (const uint32_t i : indices) {
-    __builtin_prefetch(&groups_.extents()[i]);
-    __builtin_prefetch(&screen_[i], 1);
+    prefetch(&groups_.extents()[i], sizeof(Extent));
+    prefetch(&screen_[i], sizeof(Extent));
   }
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
+  const auto needs_shape = [&](uint32_t i) {
+    const Extent& extent = screen_[i];
+    return extent.inside2 < 0 && fate_on_screen(extent) == ScreenFate::kVisible &&
+           std::max(extent.half[0], extent.half[1]) >= kShapelessHalf_px;
+  };
   for (const uint32_t i : indices) {
-    Extent& extent = screen_[i];
-    if (extent.inside2 >= 0 || fate_on_screen(extent) != ScreenFate::kVisible) continue;
-    if (std::max(extent.half[0], extent.half[1]) < kShapelessHalf_px) {
-      extent.inside2 = 0;
-      continue;
+    if (needs_shape(i)) {
+      prefetch(&primitives_[i], sizeof(CanonicalPrimitive));
+      prefetch(&shapes_[i], sizeof(ScreenShape));
+    } else {
+      screen_[i].inside2 = 0;
     }
+  }
+  for (const uint32_t i : indices) {
+    if (screen_[i].inside2 >= 0) continue;
     shapes_[i] = screen_shape(primitives_[i], frame_);
-    narrow_extent(shapes_[i], frame_, options_, extent);
+    narrow_extent(shapes_[i], frame_, options_, screen_[i]);
   }
 }
 

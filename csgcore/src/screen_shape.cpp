@@ -98,11 +98,19 @@ uint64_t find_misses(const ScreenShape* shapes, const Extent* screen, const uint
   }
   const bool is_perspective = frame.view.projection == Projection::kPerspective;
   const TilePlanes planes = planes_of(frame, tile);
-  uint64_t result = 0;
+  // Shapes lie anywhere in memory: what is asked for is fetched before the first is waited for.
+  uint64_t asked = 0;
   for (; open != 0; open &= open - 1) {
     const uint32_t primitive = primitives[std::countr_zero(open)] & kPrimitiveBits;
     if (is_open(screen[primitive], tile)) continue;
-    if (misses(shapes[primitive], planes, is_perspective)) result |= open & -open;
+    asked |= open & -open;
+    __builtin_prefetch(&shapes[primitive]);
+    __builtin_prefetch(shapes[primitive].forward);
+  }
+  uint64_t result = 0;
+  for (; asked != 0; asked &= asked - 1) {
+    const uint32_t primitive = primitives[std::countr_zero(asked)] & kPrimitiveBits;
+    if (misses(shapes[primitive], planes, is_perspective)) result |= asked & -asked;
   }
   return result;
 }
