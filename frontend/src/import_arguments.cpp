@@ -151,7 +151,7 @@ RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& no
   RoundPrimitive result;
   result.primitive =
       is_sphere ? csgcore::make_sphere(arguments.radius(kD, kR, 1)) : cylinder_of(arguments);
-  const FacetSettings defaults;
+  const csgcore::FacetSettings defaults;
   result.facets = {arguments.get(kFn, defaults.fn), arguments.get(kFa, defaults.fa),
                    arguments.get(kFs, defaults.fs)};
   return result;

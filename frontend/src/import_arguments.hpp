@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "csgcore/facets.hpp"
 #include "csgcore/primitive.hpp"
 #include "frontend/error.hpp"
 #include "frontend/syntax_tree.hpp"
-#include "import_view_box.hpp"
 
 namespace frontend {
 
@@ -16,7 +16,7 @@ namespace frontend {
 /// a diameter goes before its radius; names that OpenSCAD does not know are ignored.
 struct RoundPrimitive {
   csgcore::Primitive primitive;
-  FacetSettings facets;
+  csgcore::FacetSettings facets;
 };
 /// Throws Error for an argument of the wrong type; `undef` counts as missing.
 RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node);

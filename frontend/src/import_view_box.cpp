@@ -14,12 +14,6 @@ using csgcore::CsgToken;
 using csgcore::Op;
 using csgcore::Vec3;
 
-// OpenSCAD's: below this radius it counts no fragments (GRID_FINE), and $fa and $fs have a least
-// value.
-constexpr double kGridFine = 1.0 / (1 << 20);
-constexpr double kLeastFacetSetting = 0.01;
-constexpr double kMostFragments = 2147483647.0;
-
 double cos_of_turn(double part) { return std::cos(2 * std::numbers::pi * part); }
 
 /// Box of the regular polygon whose vertex 0 is (1, 0), x and y only. Only the vertices nearest to
@@ -36,7 +30,7 @@ Box unit_polygon_box(int fragments) {
 
 /// The box of the unit sphere's rings (openscad.md §3), from the polygon's.
 Box unit_sphere_box(int fragments, const Box& polygon) {
-  const double rings = (static_cast<int64_t>(fragments) + 1) / 2;
+  const double rings = csgcore::ring_count(fragments);
   const double nearest_equator = std::floor(rings / 2) + 0.5;
   const double widest = std::sin(std::numbers::pi * nearest_equator / rings);
   const double height = std::cos(std::numbers::pi * 0.5 / rings);
@@ -97,20 +91,9 @@ struct OpenOperation {
 
 }  // namespace
 
-int fragment_count(double radius, const FacetSettings& settings) {
-  if (radius < kGridFine || !std::isfinite(settings.fn)) return 3;
-  if (settings.fn > 0) {
-    return static_cast<int>(std::clamp(settings.fn, 3.0, kMostFragments));
-  }
-  const double fa = std::max(settings.fa, kLeastFacetSetting);
-  const double fs = std::max(settings.fs, kLeastFacetSetting);
-  const double wanted = std::min(360 / fa, 2 * std::numbers::pi * radius / fs);
-  return static_cast<int>(std::ceil(std::clamp(wanted, 5.0, kMostFragments)));
-}
-
-Box faceted_box(const csgcore::Primitive& primitive, const FacetSettings& settings) {
+Box faceted_box(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings) {
   const double radius = std::max(primitive.r_bottom, primitive.r_top);
-  const UnitBoxes& unit = unit_boxes(fragment_count(radius, settings));
+  const UnitBoxes& unit = unit_boxes(csgcore::fragment_count(radius, settings));
   Box local;
   if (primitive.shape == csgcore::Shape::kSphere) {
     local = {radius * unit.sphere.min, radius * unit.sphere.max};

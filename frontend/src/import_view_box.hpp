@@ -4,24 +4,15 @@
 #include <span>
 
 #include "csgcore/csg_tree.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 
 namespace frontend {
 
-/// $fn, $fa (degrees) and $fs of a round primitive, with OpenSCAD's defaults.
-struct FacetSettings {
-  double fn = 0;
-  double fa = 12;
-  double fs = 2;
-};
-
-/// The fragments that OpenSCAD gives a circle of that radius (openscad.md §3), from 3 up. Very
-/// large counts are cut at 2^31 − 1.
-int fragment_count(double radius, const FacetSettings& settings);
-
 /// The box of the corners of the faceted primitive's local box under its matrix, in world space.
-csgcore::Box faceted_box(const csgcore::Primitive& primitive, const FacetSettings& settings);
+csgcore::Box faceted_box(const csgcore::Primitive& primitive,
+                         const csgcore::FacetSettings& settings);
 
 /// The union of the boxes of the leaves that OpenSCAD draws positively when it has written the tree
 /// as a union of products: a leaf under an even number of subtractions, unless the operands that it

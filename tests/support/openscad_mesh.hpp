@@ -1,0 +1,16 @@
+// What OpenSCAD makes of a design: the judge of facets and of meshes.
+#pragma once
+
+#include <string>
+
+#include "csgcore/facets.hpp"
+
+namespace test_support {
+
+bool openscad_installed();
+
+/// The mesh that `openscad -o x.off` writes of a design, coordinates to six digits; empty for an
+/// empty design. Throws std::runtime_error where OpenSCAD says nothing that can be read.
+csgcore::Mesh openscad_mesh(const std::string& scad);
+
+}  // namespace test_support
