@@ -31,8 +31,8 @@ csgcore::Image image_of(const stress::Oracle& oracle, const csgcore::Scene& scen
   const csgcore::View& view = oracle.view();
   csgcore::Image image{view.width_px, view.height_px, {}, {}, {}, {}, {}};
   for (size_t i = 0; i < size_t{view.width_px} * view.height_px; ++i) {
-    const csgcore::ReferenceHit& hit = oracle.hit(i);
-    image.z.push_back(static_cast<float>(hit.s));
+    const oracle::ExactHit& hit = oracle.hit(i);
+    image.z.push_back(static_cast<float>(hit.s.lower));
     image.position.emplace_back(hit.position);
     image.normal.emplace_back(hit.normal);
     image.id.push_back(hit.hit() ? scene.primitives[hit.primitive].id : csgcore::kNoPrimitive);

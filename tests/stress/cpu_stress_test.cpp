@@ -1,4 +1,4 @@
-// The CPU tracer against the reference, on the whole stress suite and on the examples.
+// The CPU tracer against the exact ray oracle, on the whole stress suite and on the examples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using stress::Family;
 using stress::Line;
 using stress::Tally;
 
-/// The bars: pixels that the reference itself cannot decide, per hit; median error of
+/// The bars: pixels that are undecided, per hit; median error of
 /// positions, in model sizes, beyond what the rounding of the coordinates does.
 constexpr double kMostUndecided = 1e-5;
 constexpr double kMedianPosition = 1e-13;
@@ -57,7 +57,7 @@ void expect_exact(const std::vector<Line>& lines) {
 
 class CpuStressTest : public testing::TestWithParam<Family> {};
 
-TEST_P(CpuStressTest, EqualsTheReference) {
+TEST_P(CpuStressTest, EqualsTheOracle) {
   expect_exact(stress::run_family(GetParam(), stress::cpu_methods(), stress::kDoubleTolerance));
 }
 
@@ -118,7 +118,7 @@ std::vector<std::filesystem::path> example_files() {
   return files;
 }
 
-TEST(CpuExamplesTest, EqualTheReference) {
+TEST(CpuExamplesTest, EqualTheOracle) {
   Family examples{"examples", {}};
   for (const std::filesystem::path& file : example_files()) {
     // The sample has one of each kind, the full run all.

@@ -1,6 +1,6 @@
-// The OpenGL renderer against the reference, on the whole stress suite. Floats cannot hold it all:
-// the bar is on speckle where faces coincide (design.md §3), the rest is measured, and held to what
-// was measured.
+// The OpenGL renderer against the exact ray oracle, on the whole stress suite. Floats cannot hold
+// it all: the bar is on speckle where faces coincide (design.md §3), the rest is measured, and held
+// to what was measured.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -67,7 +67,7 @@ double most_wrong(const std::string& family) {
 
 class GlStressTest : public testing::TestWithParam<Family> {};
 
-TEST_P(GlStressTest, IsMeasuredAgainstTheReference) {
+TEST_P(GlStressTest, IsMeasuredAgainstTheOracle) {
   Family family = GetParam();
   std::erase_if(family.cases, [](const stress::Case& one) { return one.beyond_float; });
   std::vector<stress::Method> methods{gl_method(2), gl_method(8), gl_method(32)};

@@ -8,27 +8,44 @@
 namespace stress {
 
 using csgcore::Hits;
-using csgcore::LongVec3;
-using csgcore::Real;
-using csgcore::ReferenceHit;
 using csgcore::Vec3;
+using oracle::Bounds;
+using oracle::Doubt;
+using oracle::ExactHit;
 
 namespace {
 
-/// The reference takes its time for single pixels: in a picture that is all wrong, enough were
-/// asked.
+/// The oracle takes its time over doubts: in a picture that is all wrong, enough were asked.
 constexpr uint64_t kMostQuestions = 500;
 
 constexpr size_t kMostListed = 20;  // undecided pixels of a picture
 
 struct Errors {
-  Real position, normal, s;
+  double position, normal, s;
 };
 
-Errors errors_of(const ReferenceHit& expected, const Hits& picture, size_t i) {
-  return {glm::length(LongVec3(picture.position[i]) - expected.position),
-          glm::length(LongVec3(picture.normal[i]) - expected.normal),
-          std::abs(Real(picture.s[i]) - expected.s)};
+/// nan for nan.
+double distance(double x, const Bounds& bounds) {
+  return x < bounds.lower ? bounds.lower - x : x > bounds.upper ? x - bounds.upper : x - x;
+}
+
+Errors errors_of(const ExactHit& expected, const Hits& picture, size_t i) {
+  return {glm::length(picture.position[i] - expected.position),
+          glm::length(picture.normal[i] - expected.normal), distance(picture.s[i], expected.s)};
+}
+
+const char* name_of(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::kNone:
+      return "no doubt";
+    case Doubt::kSilhouette:
+      return "silhouette";
+    case Doubt::kEye:
+      return "eye";
+    case Doubt::kThickness:
+      return "thickness";
+  }
+  return "";
 }
 
 class Judge {
@@ -48,35 +65,36 @@ class Judge {
 
  private:
   /// What rounding does to the coordinates of a point.
-  Real rounding(const LongVec3& point) const { return tolerance_.coordinate * glm::length(point); }
+  double rounding(const Vec3& point) const { return tolerance_.coordinate * glm::length(point); }
 
   Verdict verdict(size_t i) {
-    const ReferenceHit& expected = oracle_.hit(i);
+    const ExactHit& expected = oracle_.hit(i);
     const bool hit = picture_.primitive[i] != Hits::kMiss;
     tally_.hits += expected.hit();
     if (hit != expected.hit()) return Verdict::kWrongHit;
     if (!hit) return Verdict::kRight;
     if (picture_.primitive[i] != expected.primitive) return Verdict::kWrongPrimitive;
     const Errors errors = errors_of(expected, picture_, i);
-    const Real size = oracle_.model_size();
-    const Real far =
+    const double size = oracle_.model_size();
+    const double far =
         tolerance_.position * size + rounding(expected.position) + oracle_.displacement();
-    const Real far_s = far + 2 * tolerance_.coordinate * std::abs(expected.s);
+    const double far_s = far + 2 * tolerance_.coordinate * std::abs(expected.s.lower);
     if (!(errors.position <= far && errors.s <= far_s)) return Verdict::kWrongPosition;
     if (!(errors.normal <= tolerance_.normal)) return Verdict::kWrongNormal;
-    tally_.position_errors.add(double(errors.position / size));
-    tally_.normal_errors.add(double(errors.normal));
+    tally_.position_errors.add(errors.position / size);
+    tally_.normal_errors.add(errors.normal);
     tally_.position_rounding =
-        std::max(tally_.position_rounding, double(rounding(expected.position) / size));
+        std::max(tally_.position_rounding, rounding(expected.position) / size);
     return Verdict::kRight;
   }
 
   void count(size_t i) {
     const bool may_ask = tally_.undecided + tally_.wrong_pixels() < kMostQuestions;
-    if (may_ask && oracle_.undecided(i)) {
+    const Doubt doubt = may_ask ? oracle_.doubt(i) : Doubt::kNone;
+    if (doubt != Doubt::kNone) {
       ++tally_.undecided;
       if (tally_.undecided_pixels.size() < kMostListed) {
-        tally_.undecided_pixels.push_back(describe(i));
+        tally_.undecided_pixels.push_back(name_of(doubt) + (", " + describe(i)));
       }
       return;
     }
@@ -103,19 +121,18 @@ class Judge {
   std::string describe(size_t i) const {
     static const char* const kNames[kVerdicts] = {"right", "hit or miss", "primitive", "position",
                                                   "normal"};
-    const ReferenceHit& expected = oracle_.hit(i);
+    const ExactHit& expected = oracle_.hit(i);
     const Errors errors = errors_of(expected, picture_, i);
     std::ostringstream text;
     text.precision(17);
     text << kNames[size_t(verdicts_[i])] << " at pixel " << i % picture_.width_px << ", "
          << i / picture_.width_px << ": primitive " << int64_t(int32_t(picture_.primitive[i]))
          << " instead of " << int64_t(int32_t(expected.primitive)) << ", s " << picture_.s[i]
-         << " instead of " << double(expected.s);
+         << " instead of " << expected.s.lower;
     if (expected.hit()) {
       const double size = oracle_.model_size();
       text.precision(3);
-      text << "; off by " << double(errors.position) / size << " of the size, normal by "
-           << double(errors.normal);
+      text << "; off by " << errors.position / size << " of the size, normal by " << errors.normal;
     }
     return text.str();
   }
@@ -150,18 +167,18 @@ void Tally::add(const Tally& other) {
 }
 
 Oracle::Oracle(const csgcore::Scene& scene, const csgcore::View& view)
-    : view_(&view), reference_(scene, view), hits_(reference_.picture()) {}
+    : view_(&view), scene_(scene), rays_(scene_), hits_(oracle::exact_picture(scene_, view)) {}
 
 uint64_t Oracle::hits() const {
   return uint64_t(
-      std::count_if(hits_.begin(), hits_.end(), [](const ReferenceHit& hit) { return hit.hit(); }));
+      std::count_if(hits_.begin(), hits_.end(), [](const ExactHit& hit) { return hit.hit(); }));
 }
 
-bool Oracle::undecided(size_t pixel) {
-  const auto [entry, is_new] = undecided_.try_emplace(pixel, false);
+Doubt Oracle::doubt(size_t pixel) {
+  const auto [entry, is_new] = doubts_.try_emplace(pixel, Doubt::kNone);
   if (is_new) {
-    entry->second =
-        reference_.undecided(uint32_t(pixel % view_->width_px), uint32_t(pixel / view_->width_px));
+    const auto x = double(pixel % view_->width_px), y = double(pixel / view_->width_px);
+    entry->second = rays_.doubt(csgcore::pixel_ray(*view_, x, y), view_->projection);
   }
   return entry->second;
 }

@@ -1,4 +1,4 @@
-// A renderer's picture held against the reference, pixel by pixel.
+// A renderer's picture held against the exact ray oracle, pixel by pixel.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "csgcore/tracer.hpp"
 #include "csgcore/view.hpp"
 #include "error_histogram.hpp"
-#include "support/reference.hpp"
+#include "oracle/exact_rays.hpp"
 
 namespace stress {
 
@@ -23,8 +23,8 @@ struct Tolerance {
 
 /// The tracer: positions tell surfaces apart that are a tolerance (thinnest_piece) apart; normals
 /// are there to tell a wrong side or a wrong face.
-constexpr Tolerance kDoubleTolerance{csgcore::kReferencePositionError,
-                                     csgcore::kReferenceNormalError, 0x1p-52};
+constexpr Tolerance kDoubleTolerance{oracle::kExactPositionError, oracle::kExactNormalError,
+                                     0x1p-52};
 /// GL: as tests/glrender judges it (half a degree).
 constexpr Tolerance kFloatTolerance{1e-4, 8.7e-3, 0x1p-22};
 
@@ -37,11 +37,11 @@ enum class Verdict : uint8_t {
 };
 constexpr size_t kVerdicts = 5;
 
-/// Sums over pixels. A pixel that is not right is undecided if the reference is (see
-/// Reference::undecided), and else wrong.
+/// Sums over pixels. A pixel that is not right is undecided if there is a doubt (ExactRays::doubt),
+/// and else wrong.
 struct Tally {
   uint64_t pixels = 0;
-  uint64_t hits = 0;  // of the reference
+  uint64_t hits = 0;  // of the oracle
   uint64_t wrong[kVerdicts] = {};
   uint64_t undecided = 0;
   /// Wrong pixels that at least three of their four direct neighbours give away: those are right,
@@ -59,25 +59,25 @@ struct Tally {
   void add(const Tally& other);
 };
 
-/// The reference's picture, with what it can be asked about single pixels. Scene and view must
-/// outlive it.
+/// The exact picture, with what can be asked about single pixels. Scene and view must outlive it.
 class Oracle {
  public:
   Oracle(const csgcore::Scene& scene, const csgcore::View& view);
 
-  const csgcore::ReferenceHit& hit(size_t pixel) const { return hits_[pixel]; }
+  const oracle::ExactHit& hit(size_t pixel) const { return hits_[pixel]; }
   const csgcore::View& view() const { return *view_; }
-  double model_size() const { return reference_.model_size(); }
-  csgcore::Real displacement() const { return reference_.displacement(); }
+  double model_size() const { return scene_.size(); }
+  double displacement() const { return scene_.displacement(); }
   uint64_t hits() const;
   /// Remembers what it was asked before.
-  bool undecided(size_t pixel);
+  oracle::Doubt doubt(size_t pixel);
 
  private:
   const csgcore::View* view_;
-  csgcore::Reference reference_;
-  std::vector<csgcore::ReferenceHit> hits_;
-  std::unordered_map<size_t, bool> undecided_;
+  oracle::ExactScene scene_;
+  oracle::ExactRays rays_;
+  std::vector<oracle::ExactHit> hits_;
+  std::unordered_map<size_t, oracle::Doubt> doubts_;
 };
 
 /// `picture` must be of the oracle's scene and view.

@@ -27,9 +27,9 @@ class JudgeTest : public testing::Test {
   Hits perfect() const {
     Hits hits{kWidth, kHeight, {}, {}, {}, {}};
     for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
-      const csgcore::ReferenceHit& hit = oracle_.hit(i);
+      const oracle::ExactHit& hit = oracle_.hit(i);
       hits.primitive.push_back(hit.primitive);
-      hits.s.push_back(double(hit.s));
+      hits.s.push_back(hit.s.lower);
       hits.position.emplace_back(hit.position);
       hits.normal.emplace_back(hit.normal);
     }
@@ -131,7 +131,7 @@ TEST_F(JudgeTest, AWrongPixelOnAnEdgeIsNoSpeckle) {
   EXPECT_GT(edges, 5);
 }
 
-TEST(JudgeUndecidedTest, IsWhereTheReferenceIs) {
+TEST(JudgeUndecidedTest, IsWhereThereIsADoubt) {
   // Of the four rows of pixels that see the rod the topmost passes its lid by less than the
   // displacement.
   const Scene scene = rod(-1, 0.75 + 3e-12, 8).scene();

@@ -1,0 +1,102 @@
+// One primitive against one ray, in exact arithmetic or in intervals: the same formulas in both.
+//
+// A ray x(t) = origin + t·direction, relative to a pivot near the model, becomes in the primitive's
+// local space, about its middle and magnified by λ > 0 (a power of two times |det M| of the
+// local→world matrix M, so that no quotients are needed), o + t·d. There
+//   sphere:  |o + t·d|² ≤ (λr)²
+//   frustum: |z| ≤ λk, (2k)²(x² + y²) ≤ ρ(z)², ρ(z) = λk(r₀ + r₁) + (r₁ − r₀)z
+// with half its height k, its radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius, and not
+// negative within the slab. The wall's inequality is scaled by a power of four.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "csgcore/primitive.hpp"
+#include "exact_number.hpp"
+
+namespace oracle {
+
+template <class Number>
+using Vector = std::array<Number, 3>;
+
+/// Relative to a pivot, in world space and its prepared unit.
+template <class Number>
+struct NearRay {
+  Vector<Number> origin, direction;
+};
+
+/// A valid primitive, prepared for rays that are relative to a pivot.
+template <class Number>
+struct Target {
+  bool is_frustum;
+  std::array<Vector<Number>, 3> to_local;  // rows of λM⁻¹
+  Vector<Number> from_middle;  // from the local solid's middle to the pivot, in the world
+  Number radius;               // λr, or λk(r₀ + r₁)
+  Number growth, squared_height, half_height;  // r₁ − r₀, (2k)², λk; of a frustum only
+};
+
+/// `unit` is a power of two, by which lengths in the world are multiplied; if they are about 1
+/// thereafter, no interval overflows.
+Target<Exact> make_target(const csgcore::Primitive& primitive, const csgcore::Vec3& pivot,
+                          double unit);
+Target<Interval> enclose(const Target<Exact>& target);
+
+/// Surfaces of a primitive. A point of a frustum's rim, or a pointed end, belongs to the cap.
+enum class Surface : uint8_t { kWall, kBottom, kTop };
+
+/// The part of a ray within the closed primitive, if it has any length.
+struct Ends {
+  Surface begin, end;
+};
+
+/// A ray in a target's local space, magnified by λ.
+template <class Number>
+struct LocalRay {
+  Vector<Number> o, d;
+  Quadratic<Number> wall;
+};
+
+/// `base` is the ray's parameter that becomes t = 0, so that intervals stay narrow.
+template <class Number>
+LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& ray, double base);
+
+/// The parameter near which the ray passes the primitive, roughly.
+double base_of(const Target<Interval>& target, const NearRay<Interval>& ray);
+
+/// Where the ray meets the surface, which is that of an end.
+template <class Number>
+auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
+                 bool enters) {
+  if (surface == Surface::kWall) return root_of(ray.wall, enters);
+  const Number level = surface == Surface::kTop ? target.half_height : -target.half_height;
+  return quotient(Number(level - ray.o[2]), ray.d[2]);
+}
+
+LocalRay<Interval> enclose(const LocalRay<Exact>& ray);
+
+/// The same, as tight as doubles are, relative to the parameter. `enclosed` is enclose(exact).
+Interval enclose_crossing(const Target<Exact>& target, const LocalRay<Exact>& exact,
+                          const LocalRay<Interval>& enclosed, Surface surface, bool enters);
+
+template <class Number>
+std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray);
+
+/// The primitive's outward normal in world space, of any length, where t is within `t`.
+Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
+                           const Interval& t, Surface surface);
+
+/// |n·d| there, of the unit normal n and the ray's direction d in the world.
+Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
+                      const Interval& t, Surface surface);
+
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Interval length(const Vector<Interval>& v) {
+  return CGAL::sqrt(CGAL::square(v[0]) + CGAL::square(v[1]) + CGAL::square(v[2]));
+}
+
+}  // namespace oracle

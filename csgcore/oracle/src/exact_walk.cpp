@@ -1,0 +1,352 @@
+#include "exact_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace oracle {
+namespace {
+
+using csgcore::Projection;
+using csgcore::Vec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double middle(const Interval& interval) {
+  return interval.inf() + (interval.sup() - interval.inf()) / 2;
+}
+
+Vec3 middle(const Vector<Interval>& v) { return {middle(v[0]), middle(v[1]), middle(v[2])}; }
+
+}  // namespace
+
+ExactWalk::Shown ExactWalk::see(const SeenRay& ray) {
+  ++counts_.rays;
+  set_ray(ray);
+  collect();
+  evaluate();
+  Shown shown;
+  if (const std::optional<Cluster> cluster = first_turning_cluster()) {
+    shown = describe(shown_of(*cluster));
+  }
+  pass_until(0);
+  return shown;
+}
+
+// --- The ray's crossings ---
+
+void ExactWalk::set_ray(const SeenRay& ray) {
+  seen_ = ray;
+  unsettled_ = false;
+  const Vec3 &origin = ray.ray.origin, &direction = ray.ray.direction;
+  base_s_ = glm::dot(scene_.pivot - origin, direction) / glm::dot(direction, direction);
+  const Exact unit(scene_.unit);
+  for (int i = 0; i < 3; ++i) {
+    exact_ray_.direction[i] = unit * Exact(direction[i]);
+    exact_ray_.origin[i] = Exact(base_s_) * exact_ray_.direction[i] +
+                           unit * (Exact(origin[i]) - Exact(scene_.pivot[i]) + Exact(ray.shift[i]));
+    ray_.direction[i] = Interval(scene_.unit * direction[i]);
+    ray_.origin[i] = enclose(exact_ray_.origin[i]);
+  }
+  exact_eye_t_ = Exact(ray.thickness) - Exact(base_s_);
+  eye_t_ = enclose(exact_eye_t_);
+}
+
+void ExactWalk::collect() {
+  const bool from_eye = seen_.projection == Projection::kPerspective;
+  scene_.boxes.find(middle(ray_.origin), middle(ray_.direction),
+                    from_eye ? eye_t_.inf() : -kInfinity, items_);
+  candidates_.clear();
+  crossings_.clear();
+  for (const uint32_t item : items_) add_candidate(scene_.boxed[item]);
+  for (uint32_t i = 0; i < candidates_.size(); ++i) {
+    crossings_.push_back({i, false});
+    crossings_.push_back({i, true});
+  }
+  std::sort(crossings_.begin(), crossings_.end(), [this](const Crossing& a, const Crossing& b) {
+    const int sign = order(a, b);
+    return sign != 0 ? sign < 0 : primitive_of(a) < primitive_of(b);
+  });
+}
+
+void ExactWalk::add_candidate(uint32_t primitive) {
+  ++counts_.segments;
+  const Target<Interval>& target = scene_.intervals[primitive];
+  Candidate candidate{primitive, {}, base_of(target, ray_), {}, {}, {}, {}};
+  candidate.local = localize(target, ray_, candidate.base);
+  std::optional<Ends> ends;
+  try {
+    ends = ends_of(target, candidate.local);
+    if (!ends) return;
+    candidate.ends = *ends;
+    find_ends(candidate);
+  } catch (const Undecided&) {
+    candidate.exact = localize(scene_.exact[primitive], exact_ray_, 0);
+    ends = ends_of(scene_.exact[primitive], *candidate.exact);
+    ++counts_.exact_segments;
+    if (!ends) return;
+    candidate.ends = *ends;
+    find_ends(candidate);
+  }
+  candidates_.push_back(std::move(candidate));
+}
+
+/// The ends' parameters, from what there is.
+void ExactWalk::find_ends(Candidate& candidate) {
+  const Surface surfaces[2] = {candidate.ends.begin, candidate.ends.end};
+  if (candidate.exact) {
+    candidate.base = 0;
+    candidate.local = enclose(*candidate.exact);
+  }
+  for (const bool at_end : {false, true}) {
+    candidate.u[at_end] =
+        candidate.exact ? enclose_crossing(scene_.exact[candidate.primitive], *candidate.exact,
+                                           candidate.local, surfaces[at_end], !at_end)
+                        : crossing_of(scene_.intervals[candidate.primitive], candidate.local,
+                                      surfaces[at_end], !at_end);
+    candidate.t[at_end] = Interval(candidate.base) + candidate.u[at_end];
+  }
+}
+
+/// Makes the parameters as tight as doubles are.
+void ExactWalk::refine(Candidate& candidate) {
+  if (candidate.exact) return;
+  ++counts_.exact_segments;
+  candidate.exact = localize(scene_.exact[candidate.primitive], exact_ray_, 0);
+  find_ends(candidate);
+}
+
+Surface ExactWalk::surface_of(const Crossing& crossing) const {
+  const Ends& ends = candidates_[crossing.candidate].ends;
+  return crossing.at_end ? ends.end : ends.begin;
+}
+
+ExactRoot ExactWalk::exact_of(const Crossing& crossing) const {
+  const Candidate& candidate = candidates_[crossing.candidate];
+  return crossing_of(scene_.exact[candidate.primitive], *candidate.exact, surface_of(crossing),
+                     !crossing.at_end);
+}
+
+/// −1 if `a` comes first, 0 if they are one.
+int ExactWalk::order(const Crossing& a, const Crossing& b) {
+  if (a.candidate == b.candidate) return int(a.at_end) - int(b.at_end);
+  ++counts_.comparisons;
+  const auto sure = CGAL::compare(t_of(a), t_of(b));
+  if (CGAL::is_certain(sure)) return CGAL::get_certain(sure);
+  const auto alike = [this](const Crossing& c) { return scene_.first_alike[primitive_of(c)]; };
+  if (a.at_end == b.at_end && alike(a) == alike(b)) return 0;
+  refine(candidates_[a.candidate]);
+  refine(candidates_[b.candidate]);
+  const auto refined = CGAL::compare(t_of(a), t_of(b));
+  if (CGAL::is_certain(refined)) return CGAL::get_certain(refined);
+  ++counts_.exact_comparisons;
+  return compare(exact_of(a), exact_of(b));
+}
+
+bool ExactWalk::is_behind_eye(const Crossing& crossing) {
+  if (seen_.projection == Projection::kOrthographic) return false;
+  ++counts_.comparisons;
+  const auto sure = CGAL::compare(t_of(crossing), eye_t_);
+  if (CGAL::is_certain(sure)) return CGAL::get_certain(sure) <= 0;
+  refine(candidates_[crossing.candidate]);
+  ++counts_.exact_comparisons;
+  return compare(exact_of(crossing), quotient(exact_eye_t_, 1)) <= 0;
+}
+
+// --- Clusters ---
+
+void ExactWalk::pass_until(size_t count) {
+  while (passed_ < count) tree_.flip(primitive_of(crossings_[passed_++]));
+  while (passed_ > count) tree_.flip(primitive_of(crossings_[--passed_]));
+}
+
+/// The solid's value all along the ray.
+void ExactWalk::evaluate() {
+  values_.assign(1, tree_.value());
+  eye_ = 0;
+  while (eye_ < crossings_.size() && is_behind_eye(crossings_[eye_])) ++eye_;
+  while (passed_ < crossings_.size()) {
+    pass_until(passed_ + 1);
+    values_.push_back(tree_.value());
+  }
+}
+
+std::optional<ExactWalk::Cluster> ExactWalk::first_turning_cluster() {
+  const auto next_boundary = [this](size_t from) {
+    while (from < crossings_.size() && values_[from + 1] == values_[from]) ++from;
+    return from;
+  };
+  Cluster cluster{eye_, 0, 0, next_boundary(eye_)};
+  while (cluster.end < crossings_.size()) {
+    cluster.first = cluster.last = cluster.end;
+    for (;;) {
+      cluster.end = next_boundary(cluster.last + 1);
+      if (cluster.end == crossings_.size() ||
+          !together(crossings_[cluster.last], crossings_[cluster.end])) {
+        break;
+      }
+      cluster.last = cluster.end;
+    }
+    if (values_[cluster.last + 1] != values_[eye_]) return cluster;
+    cluster.begin = cluster.last + 1;
+  }
+  return std::nullopt;
+}
+
+/// |n·d| there.
+Interval ExactWalk::steepness(const Crossing& crossing) const {
+  const Candidate& candidate = candidates_[crossing.candidate];
+  return steepness_at(scene_.intervals[candidate.primitive], candidate.local,
+                      candidate.u[crossing.at_end], surface_of(crossing));
+}
+
+/// Along the normal of that of the two which the ray meets more squarely, in the prepared unit.
+Interval ExactWalk::thickness_between(const Crossing& a, const Crossing& b) const {
+  return CGAL::abs(t_of(b) - t_of(a)) * (CGAL::max)(steepness(a), steepness(b));
+}
+
+bool ExactWalk::together(const Crossing& a, const Crossing& b) {
+  ++counts_.thicknesses;
+  const double tolerance = scene_.unit * seen_.thickness;
+  Interval thickness = thickness_between(a, b);
+  if (!CGAL::is_certain(thickness < tolerance)) {
+    refine(candidates_[a.candidate]);
+    refine(candidates_[b.candidate]);
+    thickness = thickness_between(a, b);
+  }
+  const auto sure = thickness < tolerance;
+  if (CGAL::is_certain(sure)) return CGAL::get_certain(sure);
+  ++counts_.unsettled_thicknesses;
+  unsettled_ = true;
+  return middle(thickness) < tolerance;
+}
+
+// --- What is shown ---
+
+/// The crossings by which a cluster changes the primitives: its own, and those together with its
+/// first or its last boundary. The tree is left as it is after all of them.
+void ExactWalk::collect_changes(const Cluster& cluster) {
+  changed_.clear();
+  for (size_t i = cluster.begin; i < cluster.first; ++i) {
+    if (together(crossings_[i], crossings_[cluster.first])) changed_.push_back(crossings_[i]);
+  }
+  size_t end = cluster.last + 1;
+  for (size_t i = cluster.first; i < end; ++i) changed_.push_back(crossings_[i]);
+  for (size_t i = end; i < cluster.end; ++i) {
+    if (!together(crossings_[cluster.last], crossings_[i])) continue;
+    changed_.push_back(crossings_[i]);
+    end = i + 1;
+  }
+  pass_until(end);
+  drop_what_came_back();
+}
+
+/// What is both entered and left has not changed.
+void ExactWalk::drop_what_came_back() {
+  std::sort(changed_.begin(), changed_.end(), [this](const Crossing& a, const Crossing& b) {
+    return primitive_of(a) < primitive_of(b);
+  });
+  std::vector<Crossing> kept;
+  for (const Crossing& crossing : changed_) {
+    if (!kept.empty() && kept.back().candidate == crossing.candidate) {
+      kept.pop_back();
+    } else {
+      kept.push_back(crossing);
+    }
+  }
+  changed_ = std::move(kept);
+}
+
+/// Whether the value is that at the eye again without the primitive's change.
+bool ExactWalk::decides(const Crossing& crossing) {
+  tree_.flip(primitive_of(crossing));
+  const bool result = tree_.value() == bool(values_[eye_]);
+  tree_.flip(primitive_of(crossing));
+  return result;
+}
+
+/// Whether the change is of the kind that turns the value from what it is at the eye: added
+/// primitives that are entered and subtracted ones that are left, or the reverse for an eye inside.
+bool ExactWalk::turns(const Crossing& crossing) const {
+  const bool adds = crossing.at_end == bool(values_[eye_]);
+  const uint32_t primitive = primitive_of(crossing);
+  return adds ? tree_.is_added(primitive) : tree_.is_subtracted(primitive);
+}
+
+ExactWalk::Crossing ExactWalk::shown_of(const Cluster& cluster) {
+  collect_changes(cluster);
+  for (const Crossing& crossing : changed_) {
+    if (decides(crossing)) return crossing;
+  }
+  return lowest_decider_of_few(cluster);
+}
+
+/// Where several changes would do: without the later ones of those that turn the value, as far as
+/// it stays turned, one of the others decides.
+ExactWalk::Crossing ExactWalk::lowest_decider_of_few(const Cluster& cluster) {
+  std::vector<Crossing> few;
+  for (const Crossing& crossing : changed_) {
+    if (turns(crossing)) few.push_back(crossing);
+  }
+  std::vector<Crossing> undone;
+  while (!few.empty() && !decides(few.back())) {
+    undone.push_back(few.back());
+    tree_.flip(primitive_of(few.back()));
+    few.pop_back();
+  }
+  const auto seen = std::find_if(few.begin(), few.end(),
+                                 [this](const Crossing& crossing) { return decides(crossing); });
+  const Crossing result = seen != few.end() ? *seen : crossings_[cluster.first];
+  for (const Crossing& crossing : undone) tree_.flip(primitive_of(crossing));
+  return result;
+}
+
+ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
+  const uint32_t primitive = primitive_of(crossing);
+  const Target<Exact>& target = scene_.exact[primitive];
+  const Surface surface = surface_of(crossing);
+  const bool enters = !crossing.at_end;
+  // Anew from a point next to the crossing, so that nothing is lost on a tiny primitive.
+  const double base = middle(t_of(crossing));
+  const LocalRay<Exact> exact = localize(target, exact_ray_, base);
+  const LocalRay<Interval> local = enclose(exact);
+  const Interval u = enclose_crossing(target, exact, local, surface, enters);
+  Shown shown;
+  shown.hit.primitive = primitive;
+  shown.hit.s = tight_s(crossing_of(target, exact, surface, enters), base,
+                        Interval(base_s_) + (Interval(base) + u));
+  const Vector<Interval> normal = normal_at(scene_.intervals[primitive], local, u, surface);
+  const Interval t = Interval(base) + u, unit(scene_.unit);
+  for (int i = 0; i < 3; ++i) {
+    const Interval offset = (ray_.origin[i] + t * ray_.direction[i]) / unit;
+    shown.from_pivot[i] = middle(offset);
+    shown.hit.position[i] = middle(Interval(scene_.pivot[i]) + offset);
+  }
+  // Outward of the solid: against the ray unless the eye is inside.
+  const bool is_cut =
+      turns(crossing) ? enters == bool(values_[eye_]) : tree_.is_subtracted(primitive);
+  shown.hit.normal = (is_cut ? -1.0 : 1.0) * glm::normalize(middle(normal));
+  return shown;
+}
+
+/// The doubles next to base_s + base + u, which lies within `s`.
+Bounds ExactWalk::tight_s(const ExactRoot& u, double base, const Interval& s) const {
+  const Exact zero_s = Exact(base_s_) + Exact(base);
+  const auto sign_at = [&](double at) { return compare(u, quotient(Exact(at) - zero_s, 1)); };
+  Bounds bounds{s.inf(), s.sup()};
+  while (std::nextafter(bounds.lower, kInfinity) < bounds.upper) {
+    double half = bounds.lower + (bounds.upper - bounds.lower) / 2;
+    if (bounds.lower < 0 && bounds.upper > 0) half = 0;
+    if (half == bounds.upper) half = std::nextafter(bounds.lower, kInfinity);  // rounded up
+    const int sign = sign_at(half);
+    if (sign >= 0) bounds.lower = half;
+    if (sign <= 0) bounds.upper = half;
+  }
+  if (bounds.lower < bounds.upper) {
+    if (sign_at(bounds.lower) == 0) bounds.upper = bounds.lower;
+    if (sign_at(bounds.upper) == 0) bounds.lower = bounds.upper;
+  }
+  return bounds;
+}
+
+}  // namespace oracle

@@ -1,0 +1,127 @@
+// Set operations on Nef polyhedra. Slow to compile: nothing else includes CGAL/Nef_polyhedron_3.h.
+#include <CGAL/Nef_polyhedron_3.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Polyhedron_incremental_builder_3.h>
+
+#include <queue>
+#include <unordered_map>
+
+#include "nef_boundary.hpp"
+#include "nef_polytope.hpp"
+#include "nef_triangulation.hpp"
+
+namespace oracle {
+namespace {
+
+using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+using Surface = CGAL::Polyhedron_3<Kernel>;
+
+class SurfaceOf : public CGAL::Modifier_base<Surface::HalfedgeDS> {
+ public:
+  explicit SurfaceOf(const Polytope& polytope) : polytope_(polytope) {}
+  void operator()(Surface::HalfedgeDS& surface) override {
+    CGAL::Polyhedron_incremental_builder_3<Surface::HalfedgeDS> builder(surface, true);
+    builder.begin_surface(polytope_.vertices.size(), polytope_.facets.size());
+    for (const Point& vertex : polytope_.vertices) builder.add_vertex(vertex);
+    for (const auto& facet : polytope_.facets) builder.add_facet(facet.begin(), facet.end());
+    builder.end_surface();
+  }
+
+ private:
+  const Polytope& polytope_;
+};
+
+Nef nef_of(const ConvexPolyhedron& polyhedron) {
+  const Polytope polytope = polytope_of(polyhedron);
+  Surface surface;
+  SurfaceOf build(polytope);
+  surface.delegate(build);
+  return Nef(surface);
+}
+
+/// Of one or more operands, always the two smallest first: an operation takes time in proportion to
+/// both.
+template <class Operation>
+Nef accumulate(std::span<Nef> operands, Operation operation) {
+  const auto is_larger = [](const Nef& a, const Nef& b) {
+    return a.number_of_vertices() > b.number_of_vertices();
+  };
+  std::priority_queue queue(is_larger, std::vector<Nef>(operands.begin(), operands.end()));
+  while (queue.size() > 1) {
+    const Nef a = queue.top();
+    queue.pop();
+    const Nef b = queue.top();
+    queue.pop();
+    queue.push(operation(a, b));
+  }
+  return queue.top();
+}
+
+Nef apply(csgcore::Op op, std::span<Nef> operands) {
+  const auto unite = [](const Nef& a, const Nef& b) { return a + b; };
+  switch (op) {
+    case csgcore::Op::kUnion:
+      return accumulate(operands, unite);
+    case csgcore::Op::kIntersection:
+      return accumulate(operands, [](const Nef& a, const Nef& b) { return a * b; });
+    case csgcore::Op::kDifference:
+      break;
+  }
+  return operands.front() - accumulate(operands.subspan(1), unite);
+}
+
+Nef value_of(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra) {
+  std::vector<Nef> operands;
+  for (const csgcore::CsgToken& token : tree.tokens()) {
+    if (token.is_primitive) {
+      operands.push_back(nef_of(polyhedra[token.value]));
+      continue;
+    }
+    const std::size_t first = operands.size() - token.value;
+    operands[first] = apply(token.op, std::span(operands).subspan(first));
+    operands.resize(first + 1);
+  }
+  return operands.empty() ? Nef(Nef::EMPTY) : operands.front();
+}
+
+/// Of a regularised solid. (CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a
+/// cavity that holds something, and fails where a vertex touches a facet.)
+ExactBoundary boundary_of(const Nef& solid) {
+  ExactBoundary boundary;
+  std::unordered_map<Nef::Vertex_const_handle, std::size_t> indices;
+  const auto index_of = [&](Nef::Vertex_const_handle vertex) {
+    const auto [entry, is_new] = indices.try_emplace(vertex, indices.size());
+    if (is_new) boundary.vertices.push_back(vertex->point());
+    return entry->second;
+  };
+  Nef::Halffacet_const_iterator half;
+  CGAL_forall_halffacets(half, solid) {
+    // A halffacet looks into its volume; of the two, the one that looks out of the solid.
+    if (half->incident_volume()->mark()) continue;
+    Facet facet{half->plane().orthogonal_vector(), {}};
+    Nef::Halffacet_cycle_const_iterator cycle;
+    CGAL_forall_facet_cycles_of(cycle, half) {
+      if (!cycle.is_shalfedge()) continue;  // a vertex that touches the facet
+      std::vector<std::size_t>& corners = facet.cycles.emplace_back();
+      Nef::SHalfedge_around_facet_const_circulator edge{Nef::SHalfedge_const_handle(cycle)};
+      const auto first = edge;
+      do {
+        corners.push_back(index_of(edge->source()->center_vertex()));
+      } while (++edge != first);
+    }
+    triangulate(facet, boundary.vertices, boundary.triangles);
+  }
+  return boundary;
+}
+
+}  // namespace
+
+ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
+                           std::span<const ConvexPolyhedron> polyhedra) {
+  // What dangles or is cracked in between is of no volume, and makes none: closing the interior of
+  // the last solid is enough.
+  const Nef solid = value_of(tree, polyhedra).regularization();
+  return boundary_of(solid);
+}
+
+}  // namespace oracle

@@ -1,0 +1,127 @@
+#include "nef_polytope.hpp"
+
+#include <CGAL/Convex_hull_3/dual/halfspace_intersection_interior_point_3.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace oracle {
+namespace {
+
+using Hull = CGAL::Polyhedron_3<Kernel>;
+
+[[noreturn]] void throw_no_solid() {
+  throw std::invalid_argument("the half-spaces of a polyhedron bound no solid");
+}
+
+/// The plane p·x = 1 of a point p ≠ 0, and the other way round (polarity about the origin).
+Point pole_of(const Plane& plane) {
+  return {-plane.a() / plane.d(), -plane.b() / plane.d(), -plane.c() / plane.d()};
+}
+
+/// A point of doubles within. A linear program takes time in proportion to the square of its
+/// planes, so it gets some of them, and then those that its solution was found to be beyond.
+Point interior_point(const std::vector<Plane>& planes) {
+  constexpr std::size_t kFirstPlanes = 64;
+  std::vector<Plane> some;
+  for (std::size_t i = 0; i < planes.size(); i += planes.size() / kFirstPlanes + 1) {
+    some.push_back(planes[i]);
+  }
+  for (;;) {
+    const auto point = CGAL::halfspace_intersection_interior_point_3(some.begin(), some.end());
+    const bool has_all = some.size() >= planes.size();
+    if (!point && has_all) throw_no_solid();
+    if (!point) {  // some of the planes bound no solid
+      some = planes;
+      continue;
+    }
+    const auto excess = [&](const Plane& plane) {
+      return plane.orthogonal_vector() * (*point - CGAL::ORIGIN) + plane.d();
+    };
+    const auto worst =
+        std::max_element(planes.begin(), planes.end(),
+                         [&](const Plane& a, const Plane& b) { return excess(a) < excess(b); });
+    if (excess(*worst) < 0) return *point;
+    if (has_all) throw_no_solid();
+    some.push_back(*worst);
+  }
+}
+
+/// In world coordinates.
+Point interior_point(const ConvexPolyhedron& polyhedron) {
+  std::vector<Plane> planes;
+  for (const csgcore::HalfSpace& h : polyhedron.half_spaces) {
+    planes.emplace_back(h.normal.x, h.normal.y, h.normal.z, -h.offset);
+  }
+  if (planes.size() < 4) throw_no_solid();
+  const Point local = interior_point(planes);
+  const csgcore::Affine& map = polyhedron.local_to_world;
+  return point_of(map.translation) + local.x() * vector_of(map.linear[0]) +
+         local.y() * vector_of(map.linear[1]) + local.z() * vector_of(map.linear[2]);
+}
+
+}  // namespace
+
+Plane world_plane(const csgcore::HalfSpace& half_space, const csgcore::Affine& local_to_world) {
+  // n·M⁻¹·(x − t) ≤ o, multiplied by |det M|: no quotients.
+  const Vector x = vector_of(local_to_world.linear[0]);
+  const Vector y = vector_of(local_to_world.linear[1]);
+  const Vector z = vector_of(local_to_world.linear[2]);
+  const Number determinant = CGAL::determinant(x, y, z);
+  const Vector scaled = half_space.normal.x * CGAL::cross_product(y, z) +
+                        half_space.normal.y * CGAL::cross_product(z, x) +
+                        half_space.normal.z * CGAL::cross_product(x, y);
+  const Vector normal = determinant > 0 ? scaled : -scaled;
+  const Number offset =
+      CGAL::abs(determinant) * half_space.offset + normal * vector_of(local_to_world.translation);
+  return {normal.x(), normal.y(), normal.z(), -offset};
+}
+
+// About a point within, the hull of the planes' poles is the polar of the solid: its vertices are
+// the solid's facets, its facets the vertices. Where more than three planes meet in one vertex, the
+// hull has several coplanar triangles, whose poles are one and the same point.
+Polytope polytope_of(const ConvexPolyhedron& polyhedron) {
+  const Point inside = interior_point(polyhedron);
+  const Vector to_inside = inside - CGAL::ORIGIN;
+  std::vector<Point> poles;
+  for (const csgcore::HalfSpace& half_space : polyhedron.half_spaces) {
+    const Plane plane = world_plane(half_space, polyhedron.local_to_world);
+    poles.push_back(pole_of(
+        {plane.a(), plane.b(), plane.c(), plane.d() + plane.orthogonal_vector() * to_inside}));
+  }
+  Hull hull;
+  CGAL::convex_hull_3(poles.begin(), poles.end(), hull);
+  if (hull.size_of_facets() < 4 || !hull.is_closed()) throw_no_solid();
+
+  Polytope result;
+  std::map<Point, std::size_t> indices;
+  std::map<Hull::Facet_const_handle, std::size_t> vertex_of;
+  for (auto facet = hull.facets_begin(); facet != hull.facets_end(); ++facet) {
+    const auto edge = facet->halfedge();
+    const Plane plane(edge->vertex()->point(), edge->next()->vertex()->point(),
+                      edge->next()->next()->vertex()->point());
+    if (!(plane.d() < 0)) throw_no_solid();  // the hull does not hold the origin within
+    const Point vertex = pole_of(plane) + to_inside;
+    const auto [entry, is_new] = indices.try_emplace(vertex, result.vertices.size());
+    if (is_new) result.vertices.push_back(vertex);
+    vertex_of[facet] = entry->second;
+  }
+  for (auto vertex = hull.vertices_begin(); vertex != hull.vertices_end(); ++vertex) {
+    std::vector<std::size_t> facet;
+    auto edge = vertex->vertex_begin();
+    const auto first = edge;
+    do {
+      const std::size_t corner = vertex_of.at(edge->facet());
+      if (facet.empty() || facet.back() != corner) facet.push_back(corner);
+    } while (++edge != first);
+    while (facet.size() > 1 && facet.front() == facet.back()) facet.pop_back();
+    std::reverse(facet.begin(), facet.end());  // a circulator runs clockwise
+    if (facet.size() >= 3) result.facets.push_back(std::move(facet));
+  }
+  return result;
+}
+
+}  // namespace oracle

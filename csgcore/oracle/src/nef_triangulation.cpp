@@ -1,0 +1,62 @@
+#include "nef_triangulation.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Projection_traits_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <optional>
+
+namespace oracle {
+namespace {
+
+/// How many cycles a triangle lies within.
+using Nesting = std::optional<int>;
+
+using Traits = CGAL::Projection_traits_3<Kernel>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Traits>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+    Traits, CGAL::Triangulation_face_base_with_info_2<Nesting, Traits>>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+/// From the infinite face inwards.
+void find_nesting(const Triangulation& triangulation) {
+  std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
+  open.back()->info() = 0;
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const Triangulation::Face_handle face = open[next];
+    for (int side = 0; side < 3; ++side) {
+      const Triangulation::Face_handle neighbor = face->neighbor(side);
+      if (neighbor->info()) continue;
+      neighbor->info() = *face->info() + (face->is_constrained(side) ? 1 : 0);
+      open.push_back(neighbor);
+    }
+  }
+}
+
+}  // namespace
+
+void triangulate(const Facet& facet, const std::vector<Point>& points,
+                 std::vector<std::array<std::size_t, 3>>& triangles) {
+  Triangulation triangulation{Traits(facet.normal)};
+  for (const std::vector<std::size_t>& cycle : facet.cycles) {
+    std::vector<Triangulation::Vertex_handle> corners;
+    for (const std::size_t index : cycle) {
+      corners.push_back(triangulation.insert(points[index]));
+      corners.back()->info() = index;
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      triangulation.insert_constraint(corners[i], corners[(i + 1) % corners.size()]);
+    }
+  }
+  find_nesting(triangulation);
+  for (const Triangulation::Face_handle face : triangulation.finite_face_handles()) {
+    const bool is_within = *face->info() % 2 == 1;
+    if (!is_within) continue;
+    triangles.push_back(
+        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  }
+}
+
+}  // namespace oracle

@@ -1,0 +1,134 @@
+#include "prepared_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <map>
+
+#include "oracle/exact_rays.hpp"
+
+namespace oracle {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::Op;
+using csgcore::Primitive;
+using csgcore::Scene;
+using csgcore::Shape;
+using csgcore::Vec3;
+
+/// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
+constexpr double kThinnestPiece = 1e-9;
+
+/// The box relative to a point, tight, and wider by no more than rounding. RoundingUp must be on.
+Box box_about(const Vec3& point, const Primitive& primitive) {
+  const Affine& map = primitive.local_to_world;
+  Box box;
+  const auto add_disc = [&](double z, double radius, bool is_ball) {
+    for (int i = 0; i < 3; ++i) {
+      const Interval x = map.linear[0][i], y = map.linear[1][i], along = map.linear[2][i];
+      Interval reach2 = CGAL::square(x) + CGAL::square(y);
+      if (is_ball) reach2 += CGAL::square(along);
+      const Interval center =
+          enclose(Exact(map.translation[i]) - Exact(point[i]) + Exact(map.linear[2][i]) * Exact(z));
+      const Interval reach = CGAL::sqrt(reach2) * Interval(radius);
+      box.min[i] = std::min(box.min[i], (center - reach).inf());
+      box.max[i] = std::max(box.max[i], (center + reach).sup());
+    }
+  };
+  if (primitive.shape == Shape::kSphere) {
+    add_disc(0, primitive.r_bottom, true);
+  } else {
+    add_disc(primitive.z_min, primitive.r_bottom, false);
+    add_disc(primitive.z_max, primitive.r_top, false);
+  }
+  return box;
+}
+
+/// Of the model: a union's box is that of its operands' boxes, an intersection's their common part,
+/// a difference's that of its first operand.
+Box model_box(const Scene& scene, const std::vector<Box>& boxes) {
+  std::vector<Box> stack;
+  for (const csgcore::CsgToken& token : scene.model.tokens()) {
+    if (token.is_primitive) {
+      stack.push_back(boxes[token.value]);
+      continue;
+    }
+    const size_t first = stack.size() - token.value;
+    Box box = stack[first];
+    for (size_t i = first + 1; i < stack.size() && token.op != Op::kDifference; ++i) {
+      if (token.op == Op::kUnion) {
+        box.merge(stack[i]);
+      } else {
+        box = {glm::max(box.min, stack[i].min), glm::min(box.max, stack[i].max)};
+      }
+    }
+    stack.resize(first);
+    stack.push_back(box.empty() ? Box{} : box);
+  }
+  return stack.empty() ? Box{} : stack.back();
+}
+
+std::vector<Box> boxes_about(const Vec3& point, const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Primitive& primitive : scene.primitives) {
+    boxes.push_back(box_about(point, primitive));
+  }
+  return boxes;
+}
+
+/// Any point near the model will do.
+Vec3 pivot_of(const Scene& scene) {
+  const Box box = model_box(scene, boxes_about(Vec3(0.0), scene));
+  return box.empty() ? Vec3(0.0) : box.center();
+}
+
+std::vector<uint32_t> find_alike(const Scene& scene) {
+  std::map<std::vector<double>, uint32_t> first;
+  std::vector<uint32_t> result;
+  for (const Primitive& p : scene.primitives) {
+    std::vector<double> key{double(p.shape), p.r_bottom, p.r_top, p.z_min, p.z_max};
+    const Affine& map = p.local_to_world;
+    for (const Vec3& column : {map.linear[0], map.linear[1], map.linear[2], map.translation}) {
+      key.insert(key.end(), {column.x, column.y, column.z});
+    }
+    result.push_back(first.try_emplace(key, uint32_t(result.size())).first->second);
+  }
+  return result;
+}
+
+/// What the rounding of coordinates can do: those of a point near the model and those of the middle
+/// of a primitive, each to the spacing of the doubles there.
+double coordinate_rounding(const Vec3& pivot, double size) {
+  constexpr double kSpacing = std::numeric_limits<double>::epsilon();
+  const Vec3 far = glm::abs(pivot);
+  return 2 * kSpacing * (std::max({far.x, far.y, far.z}) + size);
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(const Scene& prepared)
+    : scene(prepared), outside(prepared.model, prepared.primitives.size()), boxes({}) {
+  const RoundingUp rounding_up;
+  pivot = pivot_of(scene);
+  const std::vector<Box> all = boxes_about(pivot, scene);
+  size = model_box(scene, all).diagonal();
+  thickness = kThinnestPiece * size;
+  displacement = kExactDisplacement * size + coordinate_rounding(pivot, size);
+  unit = size > 0 ? std::ldexp(1.0, -std::ilogb(size)) : 1;
+  for (const Primitive& primitive : scene.primitives) {
+    exact.push_back(make_target(primitive, pivot, unit));
+    intervals.push_back(enclose(exact.back()));
+  }
+  first_alike = find_alike(scene);
+  std::vector<Box> named;
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    if (!outside.names(i)) continue;
+    boxed.push_back(i);
+    named.push_back({unit * all[i].min, unit * all[i].max});
+  }
+  boxes = BoxTree(named);
+}
+
+}  // namespace oracle

@@ -1,0 +1,47 @@
+// The value of a CSG tree at a point, while the point enters and leaves primitives.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+
+namespace oracle {
+
+/// In the beginning the point is outside all primitives.
+class TreeValue {
+ public:
+  /// All of the tree's primitives are below `primitives`.
+  TreeValue(const csgcore::CsgTree& tree, size_t primitives);
+
+  bool value() const { return value_; }
+  /// The point changes sides of a primitive.
+  void flip(uint32_t primitive);
+
+  bool names(uint32_t primitive) const { return first_leaf_[primitive] != kNone; }
+  /// Whether the primitive stands within an even number of subtractions somewhere in the tree;
+  /// within an odd number.
+  bool is_added(uint32_t primitive) const { return signs_[primitive] & kAdded; }
+  bool is_subtracted(uint32_t primitive) const { return signs_[primitive] & kSubtracted; }
+
+ private:
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+  static constexpr uint8_t kAdded = 1, kSubtracted = 2;
+  /// A node holds if at least `needed` of its operands are in its favour: those that hold, or, of
+  /// the later ones of a difference, those that do not.
+  struct Node {
+    uint32_t needed = 1;
+    uint32_t in_favour = 0;
+    uint32_t parent = kNone;
+    uint32_t next_leaf = kNone;  // another one of the same primitive
+    bool is_subtracted = false;  // from its parent
+  };
+  void find_signs(const csgcore::CsgTree& tree);
+
+  std::vector<Node> nodes_;           // by token: parents come after their operands
+  std::vector<uint32_t> first_leaf_;  // by primitive
+  std::vector<uint8_t> signs_;
+  bool value_ = false;
+};
+
+}  // namespace oracle

@@ -1,0 +1,43 @@
+// Trees of polyhedra for the tests of the Nef oracle.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "oracle/nef_solid.hpp"
+
+namespace oracle {
+
+/// A tree and the polyhedra that it indexes into.
+struct NefScene {
+  csgcore::CsgTree tree;
+  std::vector<ConvexPolyhedron> polyhedra;
+};
+
+ConvexPolyhedron box(const csgcore::Vec3& min, const csgcore::Vec3& max,
+                     const csgcore::Affine& local_to_world = {});
+ConvexPolyhedron sphere(double radius, int fragments, const csgcore::Affine& local_to_world = {});
+ConvexPolyhedron frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
+                         const csgcore::Affine& local_to_world = {});
+csgcore::Affine shift(const csgcore::Vec3& by);
+
+/// One operation over all.
+NefScene scene_of(csgcore::Op op, std::vector<ConvexPolyhedron> polyhedra);
+
+/// Fails, and gives an empty solid, unless it is built.
+std::unique_ptr<const NefSolid> build(const NefScene& scene);
+
+/// The tree's value where `inside` tells what each polyhedron holds.
+bool value_of(const csgcore::CsgTree& tree, const std::function<bool(uint32_t)>& inside);
+
+/// A tree over `count` boxes, spheres and frusta of up to 8 fragments under random affine maps,
+/// some of which have planes in common, and the same design for OpenSCAD.
+struct RandomScene {
+  NefScene scene;
+  std::string scad;
+};
+RandomScene random_scene(uint32_t count, uint32_t seed);
+
+}  // namespace oracle
