@@ -1,6 +1,5 @@
 #include "tile_tracer.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>

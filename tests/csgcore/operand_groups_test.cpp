@@ -228,6 +228,21 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
     builder.close();
   });
   EXPECT_TRUE(nothing.groups().list().is_constant());
+  // Nor is what is left of it less something.
+  const Solid less = solid_of(balls_at({-4, 4, 0.5, 0}), [](CsgTreeBuilder& builder) {
+    builder.open(Op::kIntersection);
+    builder.open(Op::kDifference);
+    builder.open(Op::kUnion);
+    builder.primitive(0);
+    builder.primitive(1);
+    builder.close();
+    builder.primitive(2);
+    builder.close();
+    builder.primitive(3);
+    builder.close();
+  });
+  EXPECT_TRUE(less.groups().list().is_constant());
+  EXPECT_EQ(less.groups().list().root, CellList::kFalse);
 }
 
 TEST(OperandGroups, ManyOperandsAreFewLiterals) {

@@ -287,6 +287,38 @@ TEST(ScreenShapes, EveryInstructionSetAgrees) {
   }
 }
 
+TEST(ScreenExtents, RectanglesMeetATileOrNot) {
+  std::mt19937 random(6);
+  Extents extents(200);
+  for (Extent& extent : extents) {
+    extent = {};
+    for (const int axis : {0, 1}) {
+      extent.center[axis] = uniform(random, -10, 10);
+      extent.half[axis] = uniform(random, -1, 5);  // empty ones too
+    }
+    extent.inside2 = random() % 2 ? 0.0 : -1.0;
+  }
+  const Box tile{{-2, -3, 0}, {4, 1, 0}};
+  const std::vector<uint32_t> all = indices(static_cast<uint32_t>(extents.size()));
+  checks::for_each_simd_level([&](SimdLevel level) {
+    for (uint32_t first = 0; first + 64 < extents.size(); first += 13) {
+      const ExtentAnswers answers =
+          test_rectangles(extents.data(), all.data() + first, 64, {tile, tile, 0});
+      for (uint32_t bit = 0; bit < 64; ++bit) {
+        const Extent& extent = extents[first + bit];
+        bool meets = true;
+        for (const int axis : {0, 1}) {
+          meets &= extent.half[axis] >= 0 &&
+                   extent.center[axis] - extent.half[axis] <= tile.max[axis] &&
+                   extent.center[axis] + extent.half[axis] >= tile.min[axis];
+        }
+        EXPECT_EQ((answers.outside[0] >> bit & 1) == 0, meets) << checks::name_of(level);
+        EXPECT_EQ((answers.open >> bit & 1) != 0, extent.inside2 < 0);
+      }
+    }
+  });
+}
+
 // --- Lists made smaller ---
 
 /// A list for a tile of a picture, as a TileTracer makes it.
