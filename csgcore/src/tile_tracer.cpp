@@ -12,7 +12,7 @@ namespace csgcore {
 namespace {
 
 /// A tile of kTileSide_px is traced if its list is this short; of one packet in any case.
-constexpr uint32_t kTileList = 16;
+constexpr uint32_t kTileList = 32;
 /// So are larger ones whose list is this short: dividing it costs more than it saves.
 constexpr uint32_t kShortList = 3;
 constexpr uint32_t kShortListSide_px = 32;
@@ -229,12 +229,13 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
     list = simplify(tile, list, is_new, uncut != nullptr, own, workspace, cuts);
     if (cuts && !uncut) uncut = &given;
   };
-  simplify_list(has_groups(*list));
+  // Groups that are left of a list that was cut are mostly seen.
+  simplify_list(!uncut && has_groups(*list));
   const CellList* const closed = list;
   const bool is_behind = workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
   list = open_large_groups(tile, list, share, own.opened, workspace);
-  if (list != closed) simplify_list(true);
+  if (list != closed) simplify_list(!uncut);
   if (list->is_constant() && !uncut) {
     visitor.visit_empty(tile);
     return;
