@@ -4,13 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
 #include <utility>
 
 #include "csgcore/short_circuit_list.hpp"
 #include "extent_tests.hpp"
+#include "subtree_boxes.hpp"
 
 namespace csgcore {
 namespace {
@@ -40,35 +39,10 @@ Extent extent_of_box(const Box& box) {
   return extent;
 }
 
-Box intersection(const Box& a, const Box& b) {
-  const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
-  return box.empty() ? Box{} : box;
-}
-
 /// For each token, a box outside of which its subtree does not matter: it does not hold there, or
 /// the operations above do not ask.
 std::vector<Box> relevant_boxes(std::span<const CsgToken> tokens, const Extents& extents) {
-  std::vector<Box> boxes(tokens.size());
-  std::vector<size_t> roots;  // of the operands that wait for their operation
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const CsgToken& token = tokens[i];
-    if (token.is_primitive) {
-      boxes[i] = box_of(extents[token.value]);
-    } else {
-      const size_t first = roots.size() - token.value;
-      boxes[i] = boxes[roots[first]];
-      for (size_t k = first + 1; k < roots.size() && token.op != Op::kDifference; ++k) {
-        const Box& other = boxes[roots[k]];
-        if (token.op == Op::kIntersection) {
-          boxes[i] = intersection(boxes[i], other);
-        } else if (!other.empty()) {
-          boxes[i].merge(other);
-        }
-      }
-      roots.resize(first);
-    }
-    roots.push_back(i);
-  }
+  std::vector<Box> boxes = subtree_boxes(tokens, [&](uint32_t i) { return box_of(extents[i]); });
   struct Above {
     size_t token;
     uint32_t operands_left;

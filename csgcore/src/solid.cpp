@@ -3,36 +3,18 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <glm/common.hpp>
 #include <utility>
 
 #include "cell_list.hpp"
 #include "operand_groups.hpp"
+#include "subtree_boxes.hpp"
 
 namespace csgcore {
 namespace {
 
 Box bounds_of(const CanonicalPrimitives& primitives, const CsgTree& tree) {
-  std::vector<Box> stack;
-  for (const CsgToken& token : tree.tokens()) {
-    if (token.is_primitive) {
-      stack.push_back(primitives[token.value].bounds);
-      continue;
-    }
-    const size_t first = stack.size() - token.value;
-    Box box = stack[first];
-    for (size_t i = first + 1; i < stack.size() && token.op != Op::kDifference; ++i) {
-      if (token.op == Op::kUnion) {
-        if (!stack[i].empty()) box.merge(stack[i]);
-      } else {
-        box = {glm::max(box.min, stack[i].min), glm::min(box.max, stack[i].max)};
-      }
-    }
-    if (box.empty()) box = Box{};
-    stack.resize(first);
-    stack.push_back(box);
-  }
-  return stack.empty() ? Box{} : stack.back();
+  if (tree.empty()) return {};
+  return subtree_boxes(tree.tokens(), [&](uint32_t i) { return primitives[i].bounds; }).back();
 }
 
 /// In parallel where there are many.

@@ -232,7 +232,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   // Groups that are left of a list that was cut are mostly seen.
   simplify_list(!uncut && has_groups(*list));
   const CellList* const closed = list;
-  const bool is_behind = workspace.simplifier.is_partly_covered();
+  const bool is_behind = !uncut && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
   list = open_large_groups(tile, list, share, own.opened, workspace);
   if (list != closed) simplify_list(!uncut);

@@ -9,6 +9,7 @@
 #include "checks.hpp"
 #include "csgcore/tracer.hpp"
 #include "ray_oracle.hpp"
+#include "support/evaluate_tree.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
 
@@ -52,7 +53,8 @@ class TurnOracle {
     std::sort(crossings.begin(), crossings.end(),
               [](const Turn& a, const Turn& b) { return a.s < b.s; });
     const auto value = [&] {
-      return checks::evaluate_tree(scene_.model, [&](uint32_t i) { return inside[i]; });
+      return test_support::evaluate_tree(scene_.model.tokens(),
+                                         [&](uint32_t i) { return inside[i]; });
     };
     std::vector<Turn> result;
     bool last_value = value();

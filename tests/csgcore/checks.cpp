@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <set>
 
+#include "support/evaluate_tree.hpp"
 #include "support/models.hpp"
 
 namespace csgcore::checks {
@@ -57,28 +58,9 @@ bool holds(const Primitive& primitive, const Vec3& point) {
   return share >= 0 && share <= 1 && std::hypot(local.x, local.y) <= radius;
 }
 
-bool evaluate_tree(const CsgTree& tree, const std::function<bool(uint32_t)>& inside) {
-  std::vector<bool> stack;
-  for (const CsgToken& token : tree.tokens()) {
-    if (token.is_primitive) {
-      stack.push_back(inside(token.value));
-      continue;
-    }
-    const size_t first = stack.size() - token.value;
-    const auto begin = stack.begin() + static_cast<std::ptrdiff_t>(first);
-    const bool rest = std::find(begin + 1, stack.end(), true) != stack.end();
-    bool value = false;
-    if (token.op == Op::kUnion) value = stack[first] || rest;
-    if (token.op == Op::kIntersection) value = std::find(begin, stack.end(), false) == stack.end();
-    if (token.op == Op::kDifference) value = stack[first] && !rest;
-    stack.resize(first);
-    stack.push_back(value);
-  }
-  return !stack.empty() && stack.back();
-}
-
 bool holds(const Scene& scene, const Vec3& point) {
-  return evaluate_tree(scene.model, [&](uint32_t i) { return holds(scene.primitives[i], point); });
+  return test_support::evaluate_tree(scene.model.tokens(),
+                                     [&](uint32_t i) { return holds(scene.primitives[i], point); });
 }
 
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) {

@@ -1,5 +1,4 @@
-// What the tests of csgcore share: random input, and an evaluation of trees that shares nothing
-// with csgcore's.
+// What the tests of csgcore share: random input, and what holds by definition.
 #pragma once
 
 #include <functional>
@@ -21,10 +20,7 @@ Primitive random_primitive(std::mt19937& random);
 /// Membership by the definition of the primitive in its local space.
 bool holds(const Primitive& primitive, const Vec3& point_world);
 
-/// The tree's value where `inside` tells what each primitive holds, by its postfix form.
-bool evaluate_tree(const CsgTree& tree, const std::function<bool(uint32_t)>& inside);
-
-/// The scene's model, by the two above.
+/// The scene's model, by the definition above and test_support::evaluate_tree.
 bool holds(const Scene& scene, const Vec3& point_world);
 
 /// The value of a leaf's function at a point.

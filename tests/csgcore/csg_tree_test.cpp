@@ -6,11 +6,12 @@
 
 #include "checks.hpp"
 #include "csgcore/short_circuit_list.hpp"
+#include "support/evaluate_tree.hpp"
 
 namespace csgcore {
 namespace {
 
-using checks::evaluate_tree;
+using test_support::evaluate_tree;
 
 /// "0 1 2 -3" is primitives 0, 1, 2 and a difference over three operands; + union, * intersection.
 std::string text_of(const CsgTree& tree) {
@@ -181,7 +182,7 @@ TEST(CsgTreeBuilder, RandomTreesKeepTheirMeaning) {
     not_empty += !tree.empty();
     for (int i = 0; i < 30; ++i) {
       const uint32_t truth = static_cast<uint32_t>(random());
-      const bool value = evaluate_tree(tree, [&](uint32_t p) { return (truth >> p) & 1; });
+      const bool value = evaluate_tree(tree.tokens(), [&](uint32_t p) { return (truth >> p) & 1; });
       ASSERT_EQ(value, evaluate_calls(calls, truth));
     }
   }
@@ -210,7 +211,7 @@ TEST(ShortCircuitList, CompiledTreesKeepTheirMeaning) {
       const uint32_t truth = static_cast<uint32_t>(random());
       const auto inside = [&](uint32_t p) { return ((truth >> p) & 1) != 0; };
       ASSERT_EQ(evaluate(std::span<const Literal>(list.literals), inside),
-                evaluate_tree(tree, inside));
+                evaluate_tree(tree.tokens(), inside));
     }
   }
 }
@@ -252,7 +253,7 @@ TEST(CsgTree, AMillionLevelsDeep) {
     for (size_t p = 0; p < truth.size(); ++p) truth[p] = random() % 1000 < (p % 2 == 0 ? 999 : 1);
     const auto inside = [&](uint32_t p) { return static_cast<bool>(truth[p]); };
     EXPECT_EQ(evaluate(std::span<const Literal>(list.literals), inside),
-              evaluate_tree(tree, inside));
+              evaluate_tree(tree.tokens(), inside));
   }
 }
 

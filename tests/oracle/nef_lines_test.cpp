@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "evaluate_tree.hpp"
 #include "full_run.hpp"
 #include "nef_scenes.hpp"
 
@@ -244,7 +245,8 @@ void expect_agrees(const NefScene& scene, const NefSolid& solid, const Ray& line
     const Place place = after == parameters.begin()
                             ? Place::kOutside
                             : crossings[size_t(after - parameters.begin()) - 1].after;
-    EXPECT_EQ(place, value_of(scene.tree, covers) ? Place::kInside : Place::kOutside)
+    EXPECT_EQ(place, test_support::evaluate_tree(scene.tree.tokens(), covers) ? Place::kInside
+                                                                              : Place::kOutside)
         << name << " at " << middle.get_d();
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "full_run.hpp"
 #include "nef_scenes.hpp"
@@ -10,19 +9,6 @@
 
 namespace oracle {
 namespace {
-
-using csgcore::Mesh;
-
-double volume_of(const Mesh& mesh) {
-  double six_times = 0;
-  for (const auto& face : mesh.faces) {
-    for (size_t i = 2; i < face.size(); ++i) {
-      six_times += glm::dot(mesh.vertices[face[0]],
-                            glm::cross(mesh.vertices[face[i - 1]], mesh.vertices[face[i]]));
-    }
-  }
-  return six_times / 6;
-}
 
 /// How far OpenSCAD's vertices may be off: it snaps them to a grid of 2⁻²⁰ and writes six digits of
 /// coordinates below 10.

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 namespace oracle {
 namespace {
 
 using csgcore::Affine;
-using csgcore::CsgToken;
 using csgcore::Op;
 using csgcore::Vec3;
 
@@ -104,24 +104,15 @@ std::unique_ptr<const NefSolid> build(const NefScene& scene) {
   return result.solid ? std::move(result.solid) : NefSolid::build({}, {}).solid;
 }
 
-bool value_of(const csgcore::CsgTree& tree, const std::function<bool(uint32_t)>& inside) {
-  std::vector<bool> values;
-  for (const CsgToken& token : tree.tokens()) {
-    if (token.is_primitive) {
-      values.push_back(inside(token.value));
-      continue;
+double volume_of(const csgcore::Mesh& mesh) {
+  double six_times = 0;
+  for (const auto& face : mesh.faces) {
+    for (size_t i = 2; i < face.size(); ++i) {
+      six_times += glm::dot(mesh.vertices[face[0]],
+                            glm::cross(mesh.vertices[face[i - 1]], mesh.vertices[face[i]]));
     }
-    const size_t first = values.size() - token.value;
-    bool value = values[first];
-    for (size_t i = first + 1; i < values.size(); ++i) {
-      if (token.op == Op::kUnion) value = value || values[i];
-      if (token.op == Op::kIntersection) value = value && values[i];
-      if (token.op == Op::kDifference) value = value && !values[i];
-    }
-    values.resize(first);
-    values.push_back(value);
   }
-  return !values.empty() && values.back();
+  return six_times / 6;
 }
 
 RandomScene random_scene(uint32_t count, uint32_t seed) {

@@ -29,8 +29,8 @@ NefScene scene_of(csgcore::Op op, std::vector<ConvexPolyhedron> polyhedra);
 /// Fails, and gives an empty solid, unless it is built.
 std::unique_ptr<const NefSolid> build(const NefScene& scene);
 
-/// The tree's value where `inside` tells what each polyhedron holds.
-bool value_of(const csgcore::CsgTree& tree, const std::function<bool(uint32_t)>& inside);
+/// Of a closed mesh, counterclockwise from outside.
+double volume_of(const csgcore::Mesh& mesh);
 
 /// A tree over `count` boxes, spheres and frusta of up to 8 fragments under random affine maps,
 /// some of which have planes in common, and the same design for OpenSCAD.

@@ -21,17 +21,6 @@ using testing::ElementsAre;
 
 NefScene lone(ConvexPolyhedron polyhedron) { return scene_of(Op::kUnion, {std::move(polyhedron)}); }
 
-double volume_of(const Mesh& mesh) {
-  double six_times = 0;
-  for (const auto& face : mesh.faces) {
-    for (size_t i = 2; i < face.size(); ++i) {
-      six_times += glm::dot(mesh.vertices[face[0]],
-                            glm::cross(mesh.vertices[face[i - 1]], mesh.vertices[face[i]]));
-    }
-  }
-  return six_times / 6;
-}
-
 TEST(NefSolid, VolumesAreExact) {
   const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
   EXPECT_EQ(build(lone(unit))->volume(), 1);

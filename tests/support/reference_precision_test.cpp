@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "evaluate_tree.hpp"
 #include "models.hpp"
 #include "reference_test_scenes.hpp"
 #include "reference_tree.hpp"
@@ -120,24 +121,6 @@ TEST(ReferenceRays, UndecidedIsWhereNeighboursAtTheDisplacementDiffer) {
 
 // --- The counting tree ---
 
-bool value_of(std::span<const CsgToken> tokens, const std::vector<bool>& inside) {
-  std::vector<bool> stack;
-  for (const CsgToken& token : tokens) {
-    if (token.is_primitive) {
-      stack.push_back(inside[token.value]);
-      continue;
-    }
-    const auto first = stack.end() - long(token.value);
-    const long held = std::count(first, stack.end(), true);
-    const bool value = token.op == Op::kUnion          ? held > 0
-                       : token.op == Op::kIntersection ? held == long(token.value)
-                                                       : *first && held == 1;
-    stack.erase(first, stack.end());
-    stack.push_back(value);
-  }
-  return !stack.empty() && stack.front();
-}
-
 TEST(ReferenceTree, CountsAsTheTreeEvaluates) {
   int changes = 0;
   for (uint32_t seed = 1; seed <= 50; ++seed) {
@@ -152,7 +135,9 @@ TEST(ReferenceTree, CountsAsTheTreeEvaluates) {
       tree.flip(slot);
       inside[tree.slots()[slot]] = !inside[tree.slots()[slot]];
       ASSERT_EQ(tree.inside(slot), inside[tree.slots()[slot]]);
-      ASSERT_EQ(tree.value(), value_of(tokens, inside)) << "seed " << seed << ", step " << i;
+      ASSERT_EQ(tree.value(),
+                test_support::evaluate_tree(tokens, [&](uint32_t p) { return inside[p]; }))
+          << "seed " << seed << ", step " << i;
       changes += tree.value() != before;
     }
   }

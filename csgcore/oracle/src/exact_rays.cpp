@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
+#include <numbers>
 #include <thread>
 
 #include "exact_walk.hpp"
@@ -65,7 +66,7 @@ class ExactRays::Impl {
     const Vec3 up = glm::cross(right, forward);
     constexpr int kDirections = 8;
     for (int i = 0; i < kDirections; ++i) {
-      const double angle = 2 * 3.14159265358979323846 * i / kDirections;
+      const double angle = 2 * std::numbers::pi * i / kDirections;
       if (moved_differs(std::cos(angle) * right + std::sin(angle) * up)) return Doubt::kSilhouette;
     }
     if (projection == Projection::kPerspective &&

@@ -1,0 +1,47 @@
+// How far the parts of a CSG tree reach.
+#pragma once
+
+#include <glm/common.hpp>
+#include <span>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+inline Box intersection(const Box& a, const Box& b) {
+  const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
+  return box.empty() ? Box{} : box;
+}
+
+/// For each token of a tree in postfix order the box of its subtree: a union's is that of its
+/// operands' boxes, an intersection's their intersection, a difference's that of its first operand.
+/// `box_of(primitive)` is a primitive's.
+template <typename BoxOf>
+std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, BoxOf&& box_of) {
+  std::vector<Box> boxes(tokens.size());
+  std::vector<size_t> roots;  // of the operands that wait for their operation
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    const CsgToken& token = tokens[i];
+    if (token.is_primitive) {
+      boxes[i] = box_of(token.value);
+    } else {
+      const size_t first = roots.size() - token.value;
+      boxes[i] = boxes[roots[first]];
+      for (size_t k = first + 1; k < roots.size() && token.op != Op::kDifference; ++k) {
+        const Box& other = boxes[roots[k]];
+        if (token.op == Op::kIntersection) {
+          boxes[i] = intersection(boxes[i], other);
+        } else if (!other.empty()) {
+          boxes[i].merge(other);
+        }
+      }
+      roots.resize(first);
+    }
+    roots.push_back(i);
+  }
+  return boxes;
+}
+
+}  // namespace csgcore
