@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {
+
+class Polyhedron;
 
 /// Linear RGBA as the file gives it, each in [0, 1].
 struct Color {
@@ -18,6 +21,7 @@ struct Color {
 enum class Shape : uint8_t {
   kSphere,   // centred at the local origin, radius `r_bottom`
   kFrustum,  // local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between
+  kPolyhedron,  // convex; `polyhedron`
 };
 
 /// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.
@@ -27,7 +31,8 @@ struct Primitive {
   double r_top = 0;     // the frustum's radius at z_max (0: pointed)
   double z_min = 0;     // frustum only, z_min < z_max
   double z_max = 0;
-  Affine local_to_world;       // nonsingular; a mirror (det < 0) is fine
+  std::shared_ptr<const Polyhedron> polyhedron;  // a polyhedron's local solid, else null
+  Affine local_to_world;                         // nonsingular; a mirror (det < 0) is fine
   std::optional<Color> color;  // none: the scheme's front colour, or its back colour on cut faces
   /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
   uint32_t id = 0;
@@ -36,6 +41,8 @@ struct Primitive {
 Primitive make_sphere(double radius, const Affine& local_to_world = {});
 Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
                        const Affine& local_to_world = {});
+Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
+                          const Affine& local_to_world = {});
 
 /// False for what is the empty set by openscad.md §2 (a size that is ≤ 0, infinite or nan; a matrix
 /// that is not finite), and for a singular matrix, which flattens the solid to nothing.

@@ -1,0 +1,88 @@
+// Convex polyhedra as primitives: OpenSCAD's cube and convex polyhedron, and its faceted spheres,
+// cylinders and cones.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "csgcore/half_space.hpp"
+
+namespace csgcore {
+
+/// A convex solid in local coordinates, immutable, with what makes rays and cells cheap. However
+/// many faces it has, a ray is cut by few of them: it is first cut by a quadric that encloses the
+/// solid, and then by faces in a hierarchy, of which whole branches are passed over.
+///
+/// Primitives share it: it is large, and 10,000 nut traps have the same.
+///
+/// Canonical space: x_local = center + scale · x_canonical, by coordinate. There the enclosing
+/// quadric is that of canonical_primitive.hpp for a sphere or a frustum.
+class Polyhedron {
+ public:
+  /// A half-space of the hierarchy, in canonical space. Of a face (skip = 0) it is the face's own.
+  /// Of a branch it is implied by the faces in the branch's place: a point of the enclosing quadric
+  /// that lies within it lies within all of the branch's faces, and not on them. The branch's
+  /// entries are the next `skip`.
+  struct Entry {
+    Vec3 normal;
+    double limit;  // normal · x ≤ limit; of a face 1
+    uint32_t skip;
+  };
+
+  /// What encloses the solid, in canonical space.
+  struct Enclosure {
+    bool is_frustum;  // else the unit ball
+    double radius_mid = 0, radius_slope = 0;
+  };
+
+  /// The intersection of the half-spaces, and its vertices, but for rounding. It has an interior,
+  /// and is bounded.
+  Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices);
+
+  /// OpenSCAD's facets of a sphere (see facets.hpp), a frustum; and a box that is not empty.
+  static std::shared_ptr<const Polyhedron> sphere(double radius, int fragments);
+  static std::shared_ptr<const Polyhedron> frustum(double z_min, double z_max, double r_bottom,
+                                                   double r_top, int fragments);
+  static std::shared_ptr<const Polyhedron> box(const Box& box);
+  /// Null if the mesh does not bound one convex solid (see half_spaces).
+  static std::shared_ptr<const Polyhedron> from(const Mesh& mesh);
+
+  /// In local coordinates: the solid's definition, whose doubles are exact.
+  const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
+  /// In local coordinates, but for rounding.
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+
+  const Vec3& center() const { return center_; }
+  const Vec3& scale() const { return scale_; }
+  const Enclosure& enclosure() const { return enclosure_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+
+  /// Whether the canonical point lies in the solid, closed, and so deep that no face is nearer than
+  /// `slack`.
+  bool contains(const Vec3& point_canonical, double slack = 0) const;
+  /// The normal of the face that the canonical point is outside of, or on, or nearest to, by
+  /// normal · x: of length 1 / (the face's distance from the canonical origin).
+  Vec3 nearest_face(const Vec3& point_canonical) const;
+  /// The vertex furthest along a canonical direction.
+  Vec3 support(const Vec3& direction_canonical) const;
+
+ private:
+  /// A ball about vertices; the next `skip` entries are within it. A vertex has skip = 0.
+  struct VertexEntry {
+    Vec3 center;
+    double radius;
+    uint32_t skip;
+  };
+  void prepare(const Vec3& center, const Vec3& scale, const Enclosure& enclosure);
+
+  std::vector<HalfSpace> half_spaces_;
+  std::vector<Vec3> vertices_;
+  Vec3 center_{0.0};
+  Vec3 scale_{1.0};
+  Enclosure enclosure_{};
+  std::vector<Entry> entries_;
+  std::vector<VertexEntry> vertex_entries_;
+};
+
+}  // namespace csgcore
