@@ -7,14 +7,34 @@
 #include <limits>
 
 #include "canonical_slack.hpp"
+#include "csgcore/polyhedron.hpp"
 #include "shapes.hpp"
 
 namespace csgcore {
 namespace {
 
 bool contains_canonical(const CanonicalPrimitive& primitive, const Vec3& point) {
-  return primitive.shape == Shape::kSphere ? sphere::contains(point)
-                                           : frustum::contains(primitive, point);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::contains(point);
+    case Shape::kFrustum:
+      return frustum::contains(primitive, point);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->contains(point);
+}
+
+CanonicalPrimitive canonicalize_shape(const Primitive& primitive) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::canonicalize(primitive);
+    case Shape::kFrustum:
+      return frustum::canonicalize(primitive);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron::canonicalize(primitive);
 }
 
 /// A ball against a box, by the exact distances of the box's nearest and furthest points.
@@ -73,8 +93,7 @@ double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell&
 }  // namespace
 
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  CanonicalPrimitive result = primitive.shape == Shape::kSphere ? sphere::canonicalize(primitive)
-                                                                : frustum::canonicalize(primitive);
+  CanonicalPrimitive result = canonicalize_shape(primitive);
   result.inversion_error = inversion_error(result);
   result.canonical_error =
       (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);
@@ -96,8 +115,15 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell) {
 }
 
 Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell) {
-  return primitive.shape == Shape::kSphere ? sphere::classify(primitive, cell)
-                                           : frustum::classify(primitive, cell);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::classify(primitive, cell);
+    case Shape::kFrustum:
+      return frustum::classify(primitive, cell);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron::classify(primitive, cell);
 }
 
 CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell) {

@@ -167,12 +167,10 @@ HWY_INLINE bool all_pass(D d, const Lanes3<D>& p, const Lanes3<D>& direction) {
   return hn::AllTrue(d, hn::Gt(hn::Mul(moment, moment), limit));
 }
 
+/// Of a ray p + t·direction in canonical space.
 template <class D>
-HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                              const Rays<D>& rays) {
-  const Mat3& map = primitive.world_to_canonical;
-  const Lanes3<D> p = transformed(d, map, rays.origin - broadcast(d, center));
-  const Lanes3<D> direction = transformed(d, map, rays.direction);
+HWY_INLINE Segment<D> canonical_segment(D d, const CanonicalPrimitive& primitive,
+                                        const Lanes3<D>& p, const Lanes3<D>& direction) {
   if (all_pass(d, p, direction)) return no_segment(d);
   const auto lateral2 = dot_xy(direction, direction);
   const Inverses<D> inverse = inverses(d, direction, lateral2);
@@ -181,6 +179,14 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
              primitive.radius_slope == 0
                  ? cylinder_wall(d, p, direction, inverse)
                  : cone_wall(d, primitive, p, direction, lateral2, inverse, ends));
+}
+
+template <class D>
+HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                              const Rays<D>& rays) {
+  const Mat3& map = primitive.world_to_canonical;
+  return canonical_segment(d, primitive, transformed(d, map, rays.origin - broadcast(d, center)),
+                           transformed(d, map, rays.direction));
 }
 
 /// Outward and unit, at the point that lies at τ = t.

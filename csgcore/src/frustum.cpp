@@ -21,20 +21,11 @@ Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) {
   return {direction.x * scale, direction.y * scale, at_top ? 1.0 : -1.0};
 }
 
-/// The point of the cell least far along `direction`.
-Vec3 lowest(const CanonicalCell& cell, const Vec3& direction) {
-  Vec3 point = cell.center;
-  for (int i = 0; i < 3; ++i) {
-    point -= (glm::dot(direction, cell.half[i]) > 0 ? 1.0 : -1.0) * cell.half[i];
-  }
-  return point;
-}
-
 }  // namespace
 
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
   CanonicalPrimitive result;
-  result.shape = Shape::kFrustum;
+  result.shape = result.enclosure = Shape::kFrustum;
   const double radius = std::max(primitive.r_bottom, primitive.r_top);
   const double half_height = 0.5 * (primitive.z_max - primitive.z_min);
   const double middle = 0.5 * primitive.z_min + 0.5 * primitive.z_max;
@@ -146,7 +137,7 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell_wor
                        : Vec3{0, 0, center.z > 0 ? 1.0 : -1.0};
   direction /= std::sqrt(glm::dot(direction, direction));
   for (int step = 0; step < kSteps; ++step) {
-    const Vec3 near = lowest(cell, direction);
+    const Vec3 near = cell.lowest(direction);
     if (frustum::contains(primitive, near)) return Classification::kCrosses;
     const Vec3 gap = near - support(primitive, direction);
     const double along = glm::dot(gap, direction);

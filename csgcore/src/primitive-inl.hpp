@@ -9,6 +9,7 @@
 #include <hwy/cache_control.h>
 
 #include "frustum-inl.hpp"
+#include "polyhedron-inl.hpp"
 #include "sphere-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,8 +20,15 @@ template <class D>
 HWY_INLINE Segment<D> segment_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
                                  const Rays<D>& rays) {
   const Vec3 center = primitive.center - pivot;
-  return primitive.shape == Shape::kSphere ? sphere_rays::segment(d, primitive, center, rays)
-                                           : frustum_rays::segment(d, primitive, center, rays);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere_rays::segment(d, primitive, center, rays);
+    case Shape::kFrustum:
+      return frustum_rays::segment(d, primitive, center, rays);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron_rays::segment(d, primitive, center, rays);
 }
 
 /// The primitive's own outward unit normal at τ = t, which lies on its surface.
@@ -28,9 +36,15 @@ template <class D>
 HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
                                const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
   const Vec3 center = primitive.center - pivot;
-  return primitive.shape == Shape::kSphere
-             ? sphere_rays::normal(d, primitive, center, rays, t)
-             : frustum_rays::normal(d, primitive, center, rays, t, on_cap);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere_rays::normal(d, primitive, center, rays, t);
+    case Shape::kFrustum:
+      return frustum_rays::normal(d, primitive, center, rays, t, on_cap);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron_rays::normal(d, primitive, center, rays, t);
 }
 
 /// Fetches what `segment_of` reads.

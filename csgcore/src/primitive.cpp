@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace csgcore {
 
@@ -25,12 +26,22 @@ Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top
   return primitive;
 }
 
+Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
+                          const Affine& local_to_world) {
+  Primitive primitive;
+  primitive.shape = Shape::kPolyhedron;
+  primitive.polyhedron = std::move(polyhedron);
+  primitive.local_to_world = local_to_world;
+  return primitive;
+}
+
 bool is_valid(const Primitive& primitive) {
   if (!primitive.local_to_world.finite()) return false;
   const double determinant = primitive.local_to_world.determinant();
   if (!std::isfinite(determinant) || determinant == 0) return false;
   // The inverse must be representable too: a determinant that underflows flattens the solid.
   if (!Affine{inverse(primitive.local_to_world.linear), Vec3{0.0}}.finite()) return false;
+  if (primitive.shape == Shape::kPolyhedron) return primitive.polyhedron != nullptr;
   if (primitive.shape == Shape::kSphere) {
     return std::isfinite(primitive.r_bottom) && primitive.r_bottom > 0;
   }

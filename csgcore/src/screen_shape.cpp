@@ -144,7 +144,7 @@ ScreenShape screen_shape(const CanonicalPrimitive& primitive, const FrameRays& f
   shape.offset[0] = shape.offset[1] = offset_right;
   shape.offset[2] = shape.offset[3] = offset_up;
   shape.offset_forward = glm::dot(offset, view.forward);
-  const bool is_sphere = primitive.shape == Shape::kSphere;
+  const bool is_sphere = primitive.enclosure == Shape::kSphere;
   shape.radius_top = is_sphere ? -1 : primitive.radius_mid + primitive.radius_slope;
   shape.radius_bottom = is_sphere ? -1 : primitive.radius_mid - primitive.radius_slope;
   shape.slack = kPlaneSlack * glm::dot(glm::abs(offset) + glm::abs(view.eye) + glm::abs(map[0]) +

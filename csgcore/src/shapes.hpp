@@ -1,6 +1,8 @@
 // The per-shape answers behind canonical_primitive.hpp; private to csgcore.
 #pragma once
 
+#include <glm/geometric.hpp>
+
 #include "csgcore/canonical_primitive.hpp"
 
 namespace csgcore {
@@ -17,6 +19,14 @@ struct CanonicalCell {
     return center + ((corner & 1) ? 1.0 : -1.0) * half[0] + ((corner & 2) ? 1.0 : -1.0) * half[1] +
            ((corner & 4) ? 1.0 : -1.0) * half[2];
   }
+  /// The point least far along `direction`.
+  Vec3 lowest(const Vec3& direction) const {
+    Vec3 point = center;
+    for (int i = 0; i < 3; ++i) {
+      point -= (glm::dot(direction, half[i]) > 0 ? 1.0 : -1.0) * half[i];
+    }
+    return point;
+  }
 };
 
 CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell);
@@ -32,5 +42,10 @@ CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_canonical);
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 }  // namespace frustum
+
+namespace polyhedron {
+CanonicalPrimitive canonicalize(const Primitive& primitive);
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
+}  // namespace polyhedron
 
 }  // namespace csgcore

@@ -1,5 +1,6 @@
 // Primitives in canonical form, and the questions that the subdivision asks of them. A new
-// primitive is one file that answers these questions (see sphere.cpp, frustum.cpp).
+// primitive is one file that answers these questions (see sphere.cpp, frustum.cpp,
+// polyhedron_primitive.cpp).
 #pragma once
 
 #include "csgcore/primitive.hpp"
@@ -12,8 +13,11 @@ enum class Classification : uint8_t { kOutside, kInside, kCrosses };
 /// Canonical space: x_canonical = world_to_canonical · (x_world − center).
 ///   kSphere:  the unit ball.
 ///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
+///   kPolyhedron: see polyhedron.hpp.
 struct alignas(64) CanonicalPrimitive {
   Shape shape = Shape::kSphere;
+  /// kSphere or kFrustum: what encloses a polyhedron in canonical space; of others their own shape.
+  Shape enclosure = Shape::kSphere;
   double radius_mid = 1;
   double radius_slope = 0;
   Vec3 center{0.0};  // world position of the canonical origin
@@ -28,6 +32,7 @@ struct alignas(64) CanonicalPrimitive {
   /// Bound of what the rounding of world_to_canonical alone does, relative to the largest canonical
   /// coordinate.
   double inversion_error = 0;
+  std::shared_ptr<const Polyhedron> polyhedron;  // of a polyhedron, else null
   std::optional<Color> color;
   uint32_t id = 0;
 };

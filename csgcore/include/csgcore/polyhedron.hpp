@@ -30,15 +30,18 @@ class Polyhedron {
     uint32_t skip;
   };
 
-  /// What encloses the solid, in canonical space.
-  struct Enclosure {
-    bool is_frustum;  // else the unit ball
+  /// Canonical space, and the quadric there that just holds the solid.
+  struct Canonical {
+    Vec3 center, scale;
+    bool in_frustum;  // else in the unit ball
     double radius_mid = 0, radius_slope = 0;
   };
 
   /// The intersection of the half-spaces, and its vertices, but for rounding. It has an interior,
   /// and is bounded.
   Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices);
+  /// With a quadric that the vertices are known to lie on.
+  Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices, Canonical canonical);
 
   /// OpenSCAD's facets of a sphere (see facets.hpp), a frustum; and a box that is not empty.
   static std::shared_ptr<const Polyhedron> sphere(double radius, int fragments);
@@ -53,17 +56,15 @@ class Polyhedron {
   /// In local coordinates, but for rounding.
   const std::vector<Vec3>& vertices() const { return vertices_; }
 
-  const Vec3& center() const { return center_; }
-  const Vec3& scale() const { return scale_; }
-  const Enclosure& enclosure() const { return enclosure_; }
+  const Canonical& canonical() const { return canonical_; }
   const std::vector<Entry>& entries() const { return entries_; }
 
   /// Whether the canonical point lies in the solid, closed, and so deep that no face is nearer than
   /// `slack`.
   bool contains(const Vec3& point_canonical, double slack = 0) const;
-  /// The normal of the face that the canonical point is outside of, or on, or nearest to, by
-  /// normal · x: of length 1 / (the face's distance from the canonical origin).
-  Vec3 nearest_face(const Vec3& point_canonical) const;
+  /// The canonical normal of the face in which the ray from the canonical origin through the point,
+  /// which is another one, leaves the solid.
+  Vec3 face_towards(const Vec3& point_canonical) const;
   /// The vertex furthest along a canonical direction.
   Vec3 support(const Vec3& direction_canonical) const;
 
@@ -74,13 +75,14 @@ class Polyhedron {
     double radius;
     uint32_t skip;
   };
-  void prepare(const Vec3& center, const Vec3& scale, const Enclosure& enclosure);
+  void list_faces();
+  void list_vertices();
+  /// The factor by which the enclosing quadric grows until the point lies on it.
+  double gauge(const Vec3& point_canonical) const;
 
   std::vector<HalfSpace> half_spaces_;
   std::vector<Vec3> vertices_;
-  Vec3 center_{0.0};
-  Vec3 scale_{1.0};
-  Enclosure enclosure_{};
+  Canonical canonical_;
   std::vector<Entry> entries_;
   std::vector<VertexEntry> vertex_entries_;
 };

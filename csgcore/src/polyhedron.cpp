@@ -1,0 +1,291 @@
+#include "csgcore/polyhedron.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace csgcore {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// By this share the enclosing quadric is larger than it need be, and a branch's faces are taken to
+/// lie so much further in: far above what is rounded, so that a branch that is passed over would
+/// not have moved a crossing by its last bit; far below the distance between faces.
+constexpr double kMargin = 1e-9;
+
+/// Branches of so few entries would be tested at the cost of the entries themselves.
+constexpr size_t kFewEntries = 8;
+
+/// Lists the points `items` (indices) as a hierarchy in preorder: `open(items)` before the points
+/// of a branch, `close(entry)` after them with what `open` gave, `add(i)` for each point. Clusters
+/// are halved across their longest side.
+template <typename Open, typename Close, typename Add>
+void list_clusters(std::span<const Vec3> points, std::span<uint32_t> items, bool is_whole,
+                   const Open& open, const Close& close, const Add& add) {
+  if (items.size() <= kFewEntries) {
+    for (const uint32_t i : items) add(i);
+    return;
+  }
+  const size_t entry = is_whole ? 0 : open(std::span<const uint32_t>(items));
+  Box box;
+  for (const uint32_t i : items) box.merge(points[i]);
+  const Vec3 size = box.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto half = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
+  std::nth_element(items.begin(), half, items.end(), [&](uint32_t a, uint32_t b) {
+    return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+  });
+  for (const std::span<uint32_t> part :
+       {std::span(items.begin(), half), std::span(half, items.end())}) {
+    list_clusters(points, part, false, open, close, add);
+  }
+  if (!is_whole) close(entry);
+}
+
+std::vector<uint32_t> all_indices(size_t count) {
+  std::vector<uint32_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
+}
+
+/// The support of a frustum in canonical space.
+double frustum_support(const Polyhedron::Canonical& frustum, const Vec3& direction) {
+  const double lateral = std::hypot(direction.x, direction.y);
+  return std::max(direction.z + lateral * (frustum.radius_mid + frustum.radius_slope),
+                  -direction.z + lateral * (frustum.radius_mid - frustum.radius_slope));
+}
+
+/// At most the least axis · p of the points p of the frustum with normal · p ≥ offset; +∞ if there
+/// are none. By the Lagrangian dual, whose every value is a bound: offset·λ − support(λ·normal −
+/// axis), λ ≥ 0, is concave in λ.
+double least_in_frustum(const Polyhedron::Canonical& frustum, const Vec3& axis, const Vec3& normal,
+                        double offset) {
+  if (offset >= frustum_support(frustum, normal)) return kInfinity;
+  const auto bound = [&](double lambda) {
+    return offset * lambda - frustum_support(frustum, lambda * normal - axis);
+  };
+  double high = 1 / glm::length(normal);
+  while (bound(2 * high) > bound(high)) high *= 2;
+  high *= 2;
+  double low = 0;
+  constexpr int kSteps = 40;  // each keeps 2/3
+  for (int step = 0; step < kSteps; ++step) {
+    const double a = low + (high - low) / 3;
+    const double b = high - (high - low) / 3;
+    (bound(a) < bound(b) ? low : high) = bound(a) < bound(b) ? a : b;
+  }
+  return bound(0.5 * (low + high));
+}
+
+/// The same of the unit ball, whose cap the half-space cuts off; `axis` is of unit length.
+double least_in_ball(const Vec3& axis, const Vec3& normal, double offset) {
+  const double length = glm::length(normal);
+  const double height = offset / length;
+  if (height >= 1) return kInfinity;
+  const double cosine = glm::dot(axis, normal) / length;
+  if (-cosine >= height) return -1;  // −axis lies in the cap
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  return height * cosine - std::sqrt(1 - height * height) * sine;
+}
+
+Vec3 mean_of(const std::vector<Vec3>& points) {
+  Vec3 sum(0.0);
+  for (const Vec3& point : points) sum += point / static_cast<double>(points.size());
+  return sum;
+}
+
+/// About the vertices' mean.
+Polyhedron::Canonical within_ball(const std::vector<Vec3>& vertices) {
+  const Vec3 center = mean_of(vertices);
+  Vec3 half(0.0);
+  for (const Vec3& vertex : vertices) half = glm::max(half, glm::abs(vertex - center));
+  double radius = 0;
+  for (const Vec3& vertex : vertices) {
+    radius = std::max(radius, glm::length((vertex - center) / half));
+  }
+  return {center, half * radius, false};
+}
+
+/// The half-space in canonical space, as normal · x ≤ 1. The offset from the centre is the small
+/// difference of what may be large: in long double.
+Vec3 canonical_normal(const HalfSpace& half_space, const Vec3& center, const Vec3& scale) {
+  long double offset = half_space.offset;
+  for (int i = 0; i < 3; ++i) {
+    offset -= static_cast<long double>(half_space.normal[i]) * center[i];
+  }
+  Vec3 normal;
+  for (int i = 0; i < 3; ++i) {
+    normal[i] =
+        static_cast<double>(half_space.normal[i] * static_cast<long double>(scale[i]) / offset);
+  }
+  return normal;
+}
+
+}  // namespace
+
+Polyhedron::Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices,
+                       Canonical canonical)
+    : half_spaces_(std::move(half_spaces)),
+      vertices_(std::move(vertices)),
+      canonical_(std::move(canonical)) {
+  canonical_.scale *= 1 + kMargin;
+  list_faces();
+  list_vertices();
+}
+
+Polyhedron::Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices)
+    : Polyhedron(std::move(half_spaces), vertices, within_ball(vertices)) {}
+
+std::shared_ptr<const Polyhedron> Polyhedron::sphere(double radius, int fragments) {
+  return std::make_shared<const Polyhedron>(csgcore::half_spaces(faceted_sphere(radius, fragments)),
+                                            sphere_mesh(radius, fragments).vertices,
+                                            Canonical{Vec3(0.0), Vec3(radius), false});
+}
+
+std::shared_ptr<const Polyhedron> Polyhedron::frustum(double z_min, double z_max, double r_bottom,
+                                                      double r_top, int fragments) {
+  const double radius = std::max(r_bottom, r_top);
+  const double bottom = r_bottom / radius;
+  const double top = r_top / radius;
+  return std::make_shared<const Polyhedron>(
+      csgcore::half_spaces(faceted_frustum(z_min, z_max, r_bottom, r_top, fragments)),
+      frustum_mesh(z_min, z_max, r_bottom, r_top, fragments).vertices,
+      Canonical{{0, 0, 0.5 * z_min + 0.5 * z_max},
+                {radius, radius, 0.5 * (z_max - z_min)},
+                true,
+                0.5 * (bottom + top),
+                0.5 * (top - bottom)});
+}
+
+std::shared_ptr<const Polyhedron> Polyhedron::box(const Box& box) {
+  return std::make_shared<const Polyhedron>(csgcore::half_spaces(box), box_mesh(box).vertices);
+}
+
+std::shared_ptr<const Polyhedron> Polyhedron::from(const Mesh& mesh) {
+  std::optional<std::vector<HalfSpace>> half_spaces = csgcore::half_spaces(mesh);
+  if (!half_spaces) return nullptr;
+  return std::make_shared<const Polyhedron>(std::move(*half_spaces), mesh.vertices);
+}
+
+void Polyhedron::list_faces() {
+  std::vector<Vec3> normals;
+  for (const HalfSpace& half_space : half_spaces_) {
+    normals.push_back(canonical_normal(half_space, canonical_.center, canonical_.scale));
+  }
+  const auto branch_of = [&](std::span<const uint32_t> items) {
+    Vec3 axis(0.0);
+    for (const uint32_t i : items) axis += glm::normalize(normals[i]);
+    const double length = glm::length(axis);
+    // Of faces all around there is no half-space that they imply.
+    if (!(length > kMargin)) return Entry{Vec3(0.0), -kInfinity, 0};
+    axis /= length;
+    double limit = kInfinity;
+    for (const uint32_t i : items) {
+      const double offset = 1 - kMargin * std::max(1.0, glm::length(normals[i]));
+      limit = std::min(limit, canonical_.in_frustum
+                                  ? least_in_frustum(canonical_, axis, normals[i], offset)
+                                  : least_in_ball(axis, normals[i], offset));
+    }
+    return Entry{axis, limit, 0};
+  };
+  std::vector<uint32_t> faces = all_indices(normals.size());
+  list_clusters(
+      normals, faces, true,
+      [&](std::span<const uint32_t> items) {
+        entries_.push_back(branch_of(items));
+        return entries_.size() - 1;
+      },
+      [&](size_t entry) { entries_[entry].skip = uint32_t(entries_.size() - entry - 1); },
+      [&](uint32_t i) {
+        entries_.push_back({normals[i], 1, 0});
+      });
+}
+
+void Polyhedron::list_vertices() {
+  std::vector<Vec3> points;
+  for (const Vec3& vertex : vertices_) {
+    points.push_back((vertex - canonical_.center) / canonical_.scale);
+  }
+  std::vector<uint32_t> corners = all_indices(points.size());
+  list_clusters(
+      points, corners, true,
+      [&](std::span<const uint32_t> items) {
+        Box box;
+        for (const uint32_t i : items) box.merge(points[i]);
+        double radius = 0;
+        for (const uint32_t i : items) {
+          radius = std::max(radius, glm::length(points[i] - box.center()));
+        }
+        vertex_entries_.push_back({box.center(), radius, 0});
+        return vertex_entries_.size() - 1;
+      },
+      [&](size_t entry) {
+        vertex_entries_[entry].skip = uint32_t(vertex_entries_.size() - entry - 1);
+      },
+      [&](uint32_t i) {
+        vertex_entries_.push_back({points[i], 0, 0});
+      });
+}
+
+bool Polyhedron::contains(const Vec3& point, double slack) const {
+  if (!(gauge(point) <= 1)) return false;
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    const double reach = glm::dot(entry.normal, point);
+    const bool is_face = entry.skip == 0;
+    if (is_face && !(reach <= 1 - slack * glm::length(entry.normal))) return false;
+    if (!is_face && reach <= entry.limit && slack <= kMargin) i += entry.skip;
+  }
+  return true;
+}
+
+Vec3 Polyhedron::face_towards(const Vec3& point) const {
+  // Of all faces it is the one that reaches highest there, and on all of the ray. On the enclosing
+  // quadric, which is not within the solid, it is in no branch that is passed over.
+  const Vec3 p = point / gauge(point);
+  Vec3 normal(0.0);
+  double furthest = -kInfinity;
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    const double reach = glm::dot(entry.normal, p);
+    if (entry.skip > 0) {
+      if (reach <= entry.limit) i += entry.skip;
+    } else if (reach > furthest) {
+      furthest = reach;
+      normal = entry.normal;
+    }
+  }
+  return normal;
+}
+
+double Polyhedron::gauge(const Vec3& p) const {
+  if (!canonical_.in_frustum) return glm::length(p);
+  const double lateral = std::hypot(p.x, p.y) - canonical_.radius_slope * p.z;
+  return std::max(std::abs(p.z), lateral / canonical_.radius_mid);
+}
+
+Vec3 Polyhedron::support(const Vec3& direction) const {
+  const double length = glm::length(direction);
+  Vec3 vertex(0.0);
+  double furthest = -kInfinity;
+  for (size_t i = 0; i < vertex_entries_.size(); ++i) {
+    const VertexEntry& entry = vertex_entries_[i];
+    const double reach = glm::dot(entry.center, direction);
+    if (entry.skip > 0) {
+      if (reach + entry.radius * length <= furthest) i += entry.skip;
+    } else if (reach > furthest) {
+      furthest = reach;
+      vertex = entry.center;
+    }
+  }
+  return vertex;
+}
+
+}  // namespace csgcore
