@@ -55,8 +55,9 @@ struct alignas(64) RayPacket {
   double inverse_length2[kPacketRays];
 };
 
-/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞; and whether that end
-/// lies on a flat face.
+/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞; and what the normal
+/// there is asked for with: of a frustum, whether that end lies on a cap; of a polyhedron, whether
+/// the ray leaves there.
 struct alignas(64) PacketSegments {
   double start[kPacketRays];
   double end[kPacketRays];

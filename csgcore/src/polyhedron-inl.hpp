@@ -63,8 +63,9 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
       live = hn::Lt(segment.start, segment.end);
     }
   }
-  return segment_if(d, live, hn::Add(base, segment.start), hn::Add(base, segment.end), no_lanes(d),
-                    no_lanes(d));
+  const auto start = hn::Add(base, segment.start);
+  const auto end = hn::Add(base, segment.end);
+  return segment_if(d, hn::Lt(start, end), start, end, no_lanes(d), hn::Not(no_lanes(d)));
 }
 
 /// The factor by which the enclosing quadric grows until the point lies on it.
@@ -76,14 +77,17 @@ HWY_INLINE hn::Vec<D> gauge(D d, const CanonicalPrimitive& primitive, const Lane
   return hn::Max(hn::Abs(p.z), hn::Mul(wall, hn::Set(d, 1 / primitive.radius_mid)));
 }
 
-/// Outward and unit, at the point that lies at τ = t: as Polyhedron::face_towards.
+/// Outward and unit, at the point that lies at τ = t: as Polyhedron::face_towards, but that on an
+/// edge a ray enters by a face towards it, and leaves by one away from it.
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Vec<D> t) {
+                            const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> leaves) {
   const Mat3& map = primitive.world_to_canonical;
   const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
   Lanes3<D> point = transformed(d, map, offset);
   point = scaled(point, hn::Div(hn::Set(d, 1.0), gauge(d, primitive, point)));
+  const Lanes3<D> direction = transformed(d, map, rays.direction);
+  const auto zero = hn::Zero(d);
   auto furthest = hn::Set(d, -kInfinity);
   Lanes3<D> result = broadcast(d, Vec3(0, 0, 1));
   const std::vector<Polyhedron::Entry>& entries = primitive.polyhedron->entries();
@@ -94,7 +98,10 @@ HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3
     if (entry.skip > 0) {
       if (hn::AllFalse(d, hn::Gt(reach, hn::Set(d, entry.limit)))) i += entry.skip;
     } else {
-      const auto is_further = hn::Gt(reach, furthest);
+      const auto growth = dot(d, normal, direction);
+      const auto faces =
+          hn::Or(hn::And(leaves, hn::Gt(growth, zero)), hn::AndNot(leaves, hn::Lt(growth, zero)));
+      const auto is_further = hn::And(faces, hn::Gt(reach, furthest));
       furthest = hn::IfThenElse(is_further, reach, furthest);
       result = if_then_else(is_further, normal, result);
     }

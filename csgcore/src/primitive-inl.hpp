@@ -44,7 +44,7 @@ HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const V
     case Shape::kPolyhedron:
       break;
   }
-  return polyhedron_rays::normal(d, primitive, center, rays, t);
+  return polyhedron_rays::normal(d, primitive, center, rays, t, on_cap);
 }
 
 /// Fetches what `segment_of` reads.

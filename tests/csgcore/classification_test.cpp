@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "checks.hpp"
+#include "csgcore/polyhedron.hpp"
 
 namespace csgcore {
 namespace {
@@ -25,6 +26,17 @@ Box random_cell(std::mt19937& random, const CanonicalPrimitive& primitive) {
 /// Points of the primitive, from its axis and centre to its surface, by its local form.
 std::vector<Vec3> points_of(const Primitive& primitive, int steps) {
   std::vector<Vec3> points;
+  if (primitive.shape == Shape::kPolyhedron) {
+    std::mt19937 random(1);
+    const Vec3 middle = primitive.local_to_world.point(primitive.polyhedron->canonical().center);
+    for (int i = 0; i < 2 * steps * steps; ++i) {
+      const Vec3 surface = checks::surface_point(primitive, random);
+      for (const double inner : {1.0, 0.9, 0.5, 0.0}) {
+        points.push_back(glm::mix(middle, surface, inner));
+      }
+    }
+    return points;
+  }
   const double turn = 2 * std::acos(-1.0) / (2 * steps);
   for (int i = 0; i <= steps; ++i) {
     const double share = double(i) / steps;
@@ -151,6 +163,21 @@ Primitive cone_down(std::mt19937& random, const Affine& map) {
   return make_frustum(0, checks::uniform(random, 0.5, 3), 0, 1, map);
 }
 
+Primitive box(std::mt19937& random, const Affine& map) {
+  return make_polyhedron(
+      Polyhedron::box({Vec3(-1), checks::random_point(random, {Vec3(-0.7), Vec3(2)})}), map);
+}
+Primitive octahedron(std::mt19937&, const Affine& map) { return checks::make_octahedron(map); }
+Primitive nut(std::mt19937& random, const Affine& map) {
+  return checks::faceted(cylinder(random, map), 6);
+}
+Primitive faceted_ball(std::mt19937& random, const Affine& map) {
+  return checks::faceted(sphere(random, map), 3 + int(random() % 40));
+}
+Primitive pyramid(std::mt19937& random, const Affine& map) {
+  return checks::faceted(cone_up(random, map), 3 + int(random() % 20));
+}
+
 class ClassificationOf : public testing::TestWithParam<std::tuple<MakeShape, MakeMap>> {};
 
 TEST_P(ClassificationOf, IsNeverWrongAndTight) {
@@ -167,7 +194,8 @@ TEST_P(ClassificationOf, IsNeverWrongAndTight) {
 
 INSTANTIATE_TEST_SUITE_P(EveryShapeAndMap, ClassificationOf,
                          testing::Combine(testing::Values(sphere, cylinder, frustum, cone_up,
-                                                          cone_down),
+                                                          cone_down, box, octahedron, nut,
+                                                          faceted_ball, pyramid),
                                           testing::Values(similarity, axis_aligned, affine)));
 
 TEST(Classification, CellsThatTouch) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "checks.hpp"
+#include "csgcore/polyhedron.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
 #include "support/full_run.hpp"
@@ -158,7 +159,14 @@ const Primitive kShapes[] = {make_sphere(1),
                              make_frustum(0, 2, 1, 0),  // cones, pointed at either end
                              make_frustum(-1, 0.5, 0, 1),
                              make_frustum(-1, 1, 0.25, 1),
-                             make_frustum(-1, 1, 1, 1 - 1e-12)};  // hardly a cone
+                             make_frustum(-1, 1, 1, 1 - 1e-12),  // hardly a cone
+                             make_polyhedron(Polyhedron::box({Vec3(-1), {0.5, 1, 2}})),
+                             checks::make_octahedron(),
+                             checks::faceted(make_sphere(1), 5),
+                             checks::faceted(make_sphere(1), 12),
+                             checks::faceted(make_frustum(-1, 1, 0.5, 0.5), 6),
+                             checks::faceted(make_frustum(0, 2, 1, 0), 4),
+                             checks::faceted(make_frustum(-1, 1, 0.25, 1), 32)};
 
 struct Placement {
   const char* name;

@@ -54,19 +54,6 @@ TEST(Primitive, IsValidUnderMatrices) {
   EXPECT_FALSE(is_valid(make_sphere(1, map)));
 }
 
-/// A random point of the local solid's surface, in world space.
-Vec3 surface_point(std::mt19937& random, const Primitive& primitive) {
-  if (primitive.shape == Shape::kSphere) {
-    return primitive.local_to_world.point(primitive.r_bottom * checks::random_direction(random));
-  }
-  const double share =
-      random() % 3 == 0 ? static_cast<double>(random() % 2) : checks::uniform(random, 0, 1);
-  const double z = primitive.z_min + share * (primitive.z_max - primitive.z_min);
-  const double r = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
-  const double angle = checks::uniform(random, 0, 2 * std::acos(-1.0));
-  return primitive.local_to_world.point({r * std::cos(angle), r * std::sin(angle), z});
-}
-
 TEST(CanonicalPrimitive, BoundsAreTightAndHoldEverything) {
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
@@ -74,7 +61,7 @@ TEST(CanonicalPrimitive, BoundsAreTightAndHoldEverything) {
     const CanonicalPrimitive canonical = canonicalize(primitive);
     const Extent extent = extent_of(canonical);
     Box sampled;
-    for (int i = 0; i < 20000; ++i) sampled.merge(surface_point(random, primitive));
+    for (int i = 0; i < 20000; ++i) sampled.merge(checks::surface_point(primitive, random));
     const double size = canonical.bounds.diagonal();
     for (int axis = 0; axis < 3; ++axis) {
       ASSERT_GE(sampled.min[axis], canonical.bounds.min[axis] - 1e-14 * size);
@@ -100,7 +87,7 @@ TEST(CanonicalPrimitive, ContainsWhatThePrimitiveDoes) {
       inside += contains(canonical, point);
     }
     // Just within and just beyond the surface, along the line from the middle.
-    const Vec3 surface = surface_point(random, primitive);
+    const Vec3 surface = checks::surface_point(primitive, random);
     ASSERT_TRUE(contains(canonical, glm::mix(canonical.center, surface, 1 - 1e-9)));
     ASSERT_FALSE(contains(canonical, glm::mix(canonical.center, surface, 1 + 1e-9)));
   }

@@ -9,6 +9,8 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace csgcore::checks {
 namespace {
 
@@ -39,6 +41,20 @@ RayOracle::RayOracle(const Primitive& primitive, const Vec3& pivot)
       world_to_local_(glm::inverse(LongMat3(primitive.local_to_world.linear))),
       pivot_from_local_origin_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)) {
   const LongMat3 local_to_world(primitive.local_to_world.linear);
+  const LongVec3 translation(primitive.local_to_world.translation);
+  condition_ = largest_row_sum(absolute(local_to_world) * absolute(world_to_local_));
+  if (primitive.shape == Shape::kPolyhedron) {
+    const LongVec3 center(primitive.polyhedron->canonical().center);
+    size_ = 0;
+    for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+      size_ = std::max(size_, glm::length(local_to_world * (LongVec3(vertex) - center)));
+    }
+    const LongVec3 to_middle = local_to_world * center;
+    middle_from_pivot_ = to_middle - pivot_from_local_origin_;
+    coordinates_ =
+        glm::length(to_middle) == 0 ? 0 : glm::length(to_middle) + glm::length(translation);
+    return;
+  }
   const bool is_sphere = primitive.shape == Shape::kSphere;
   const Real radius = std::max(primitive.r_bottom, primitive.r_top);
   const Real half_height = is_sphere ? radius : (Real(primitive.z_max) - Real(primitive.z_min)) / 2;
@@ -46,10 +62,8 @@ RayOracle::RayOracle(const Primitive& primitive, const Vec3& pivot)
   size_ = glm::length(local_to_world[0]) * radius + glm::length(local_to_world[1]) * radius +
           glm::length(local_to_world[2]) * half_height;
   const LongVec3 to_middle = local_to_world[2] * middle;
-  const LongVec3 translation(primitive.local_to_world.translation);
   middle_from_pivot_ = to_middle - pivot_from_local_origin_;
   coordinates_ = middle == 0 ? 0 : glm::length(to_middle) + glm::length(translation);
-  condition_ = largest_row_sum(absolute(local_to_world) * absolute(world_to_local_));
 }
 
 Real RayOracle::error_bound(const LongRay& ray) const {
@@ -60,7 +74,7 @@ Real RayOracle::error_bound(const LongRay& ray) const {
 
 Real RayOracle::Side::gap() const { return outside / glm::length(gradient); }
 
-std::array<RayOracle::Side, 3> RayOracle::sides(const LongVec3& point) const {
+std::vector<RayOracle::Side> RayOracle::sides(const LongVec3& point) const {
   const LongVec3 local = world_to_local_ * (point + pivot_from_local_origin_);
   const auto side = [&](Real outside, const LongVec3& gradient) {
     return Side{outside, glm::transpose(world_to_local_) * gradient};
@@ -68,7 +82,15 @@ std::array<RayOracle::Side, 3> RayOracle::sides(const LongVec3& point) const {
   if (primitive_.shape == Shape::kSphere) {
     const Real length = glm::length(local);
     const Side all = side(length - primitive_.r_bottom, length > 0 ? local / length : LongVec3(1));
-    return {all, all, all};
+    return {all};
+  }
+  if (primitive_.shape == Shape::kPolyhedron) {
+    std::vector<Side> faces;
+    for (const HalfSpace& half_space : primitive_.polyhedron->half_spaces()) {
+      const LongVec3 normal(half_space.normal);
+      faces.push_back(side(glm::dot(normal, local) - half_space.offset, normal));
+    }
+    return faces;
   }
   const Real above = local.z - primitive_.z_max;
   const Real below = primitive_.z_min - local.z;
@@ -86,7 +108,7 @@ std::array<RayOracle::Side, 3> RayOracle::sides(const LongVec3& point) const {
 }
 
 RayOracle::Side RayOracle::nearest(const LongVec3& point) const {
-  const std::array<Side, 3> all = sides(point);
+  const std::vector<Side> all = sides(point);
   return *std::max_element(all.begin(), all.end(),
                            [](const Side& a, const Side& b) { return a.gap() < b.gap(); });
 }
@@ -94,25 +116,30 @@ RayOracle::Side RayOracle::nearest(const LongVec3& point) const {
 Real RayOracle::gap(const LongVec3& point) const { return nearest(point).gap(); }
 
 void RayOracle::expect_normal(const LongVec3& point, const Vec3& normal, Real reach) const {
-  const auto normal_at = [&](const LongVec3& p) { return glm::normalize(nearest(p).gradient); };
-  const LongVec3 expected = normal_at(point);
-  Real spread = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int sign : {-1, 1}) {
-      LongVec3 beside = point;
-      beside[axis] += sign * reach;
-      spread = std::max(spread, glm::length(normal_at(beside) - expected));
+  const Real nearest_gap = gap(point);
+  Real error = std::numeric_limits<Real>::infinity();
+  for (const Side& side : sides(point)) {
+    if (side.gap() < nearest_gap - reach) continue;
+    const LongVec3 expected = glm::normalize(side.gradient);
+    Real spread = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int sign : {-1, 1}) {
+        LongVec3 beside = point;
+        beside[axis] += sign * reach;
+        spread = std::max(spread, glm::length(glm::normalize(nearest(beside).gradient) - expected));
+      }
     }
+    error = std::min(error, glm::length(LongVec3(normal) - expected) - 2 * spread);
   }
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-  EXPECT_LE(glm::length(LongVec3(normal) - expected),
-            2 * spread + Real(kRoundings * kEpsilon) * condition_);
+  EXPECT_LE(error, Real(kRoundings * kEpsilon) * condition_);
   EXPECT_NEAR(glm::length(normal), 1, kRoundings * kEpsilon);
 }
 
 Real RayOracle::outside(const LongRay& ray, Real t) const {
-  const std::array<Side, 3> all = sides(ray.at(t));
-  return std::max({all[0].outside, all[1].outside, all[2].outside});
+  Real result = -std::numeric_limits<Real>::infinity();
+  for (const Side& side : sides(ray.at(t))) result = std::max(result, side.outside);
+  return result;
 }
 
 /// Where the ray is deepest inside, by golden section.

@@ -2,9 +2,9 @@
 // search instead of formulas, and how far a double may be off.
 #pragma once
 
-#include <array>
 #include <glm/mat3x3.hpp>
 #include <span>
+#include <vector>
 
 #include "csgcore/primitive.hpp"
 #include "packet.hpp"
@@ -52,18 +52,18 @@ class RayOracle {
   /// How far a point (relative to the pivot) lies outside of the primitive, along the normal there;
   /// inside of it negative. Exact at the surface, and of the first order next to it.
   Real gap(const LongVec3& point) const;
-  /// Fails unless a vector is the outward unit normal at the point, up to how much the normal
-  /// changes within `reach` of it, and rounding.
+  /// Fails unless a vector is the outward unit normal at the point, of any side that is there, up
+  /// to how much the normal changes within `reach` of it, and rounding.
   void expect_normal(const LongVec3& point, const Vec3& normal, Real reach) const;
 
  private:
-  /// The sides of a primitive: its wall and, of a frustum, its two caps.
+  /// The sides of a primitive: its wall and, of a frustum, its two caps; a polyhedron's faces.
   struct Side {
     Real outside;       // local units; convex, negative on the inside
     LongVec3 gradient;  // of it, in the world
     Real gap() const;
   };
-  std::array<Side, 3> sides(const LongVec3& point) const;
+  std::vector<Side> sides(const LongVec3& point) const;
   Side nearest(const LongVec3& point) const;
   /// Negative within the primitive, and convex along any line.
   Real outside(const LongRay& ray, Real t) const;

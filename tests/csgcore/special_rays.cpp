@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "checks.hpp"
+#include "csgcore/polyhedron.hpp"
 
 namespace csgcore::checks {
 
@@ -16,15 +17,30 @@ const char* name_of(RayKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
+namespace {
+
+/// A polyhedron as a cylinder with its heights, at which its axis lies within.
+Primitive cylinder_of(const Primitive& primitive) {
+  if (primitive.shape != Shape::kPolyhedron) return primitive;
+  Box box;
+  for (const Vec3& vertex : primitive.polyhedron->vertices()) box.merge(vertex);
+  Primitive cylinder = make_frustum(box.min.z, box.max.z, 1, 1);
+  cylinder.polyhedron = primitive.polyhedron;
+  return cylinder;
+}
+
+}  // namespace
+
 SpecialRays::SpecialRays(const Primitive& primitive, const Vec3& pivot, std::mt19937& random)
     : map_(primitive.local_to_world),
       pivot_(pivot),
       random_(random),
+      primitive_(cylinder_of(primitive)),
       is_sphere_(primitive.shape == Shape::kSphere),
-      r_bottom_(primitive.r_bottom),
-      r_top_(is_sphere_ ? primitive.r_bottom : primitive.r_top),
-      z_min_(is_sphere_ ? -primitive.r_bottom : primitive.z_min),
-      z_max_(is_sphere_ ? primitive.r_bottom : primitive.z_max),
+      r_bottom_(primitive_.r_bottom),
+      r_top_(is_sphere_ ? r_bottom_ : primitive_.r_top),
+      z_min_(is_sphere_ ? -r_bottom_ : primitive_.z_min),
+      z_max_(is_sphere_ ? r_bottom_ : primitive_.z_max),
       size_(std::max({r_bottom_, r_top_, z_max_ - z_min_})) {}
 
 std::vector<PivotRay> SpecialRays::next(RayKind kind) {
@@ -75,6 +91,12 @@ Vec3 SpecialRays::sideways() {
 }
 
 Vec3 SpecialRays::on_surface(const Vec3& sideways, double z) const {
+  if (primitive_.polyhedron) {
+    const double length = glm::length(sideways);  // the share of the way to the surface
+    if (length == 0) return {0, 0, z};
+    const double room = room_along(primitive_.polyhedron->half_spaces(), {0, 0, z}, sideways);
+    return length * room * sideways + Vec3{0, 0, z};
+  }
   const double share = (z - z_min_) / (z_max_ - z_min_);
   const double radius = is_sphere_ ? std::sqrt(std::max(0.0, r_bottom_ * r_bottom_ - z * z))
                                    : r_bottom_ + share * (r_top_ - r_bottom_);

@@ -50,7 +50,7 @@ class SpecialRays {
   Vec3 any_direction();
   /// A unit vector in the local x-y plane, often an axis.
   Vec3 sideways();
-  /// On the wall or, of a sphere, at that height.
+  /// On the wall or, of a sphere or a polyhedron, at that height.
   Vec3 on_surface(const Vec3& sideways, double z) const;
   double any_height() {
     return chance(0.3) ? (chance(0.5) ? z_min_ : z_max_) : pick(z_min_, z_max_);
@@ -65,6 +65,7 @@ class SpecialRays {
   const Affine map_;
   const Vec3 pivot_;
   std::mt19937& random_;
+  const Primitive primitive_;
   const bool is_sphere_;
   const double r_bottom_, r_top_, z_min_, z_max_;
   const double size_;  // local

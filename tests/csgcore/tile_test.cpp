@@ -74,21 +74,6 @@ struct Screen {
   }
 };
 
-/// On the sphere, or on the frustum's wall or rims.
-Vec3 surface_point(const Primitive& primitive, std::mt19937& random) {
-  Vec3 local = checks::random_direction(random);
-  if (primitive.shape == Shape::kSphere) {
-    local *= primitive.r_bottom;
-  } else {
-    const double share = random() % 2 ? uniform(random, 0, 1) : static_cast<double>(random() % 2);
-    const double radius = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
-    const double length = std::hypot(local.x, local.y);
-    local = {radius * local.x / length, radius * local.y / length,
-             primitive.z_min + share * (primitive.z_max - primitive.z_min)};
-  }
-  return primitive.local_to_world.point(local);
-}
-
 std::vector<Primitive> random_primitives(std::mt19937& random, int count) {
   std::vector<Primitive> primitives;
   while (static_cast<int>(primitives.size()) < count) {
@@ -129,7 +114,7 @@ std::vector<glm::dvec2> points_at(const Screen& screen, const Primitive& primiti
   std::vector<glm::dvec2> points;
   const View& view = screen.frame.view;
   for (uint32_t i = 0; i < kPacketRays; ++i) {
-    glm::dvec2 point = screen.project(surface_point(primitive, random));
+    glm::dvec2 point = screen.project(checks::surface_point(primitive, random));
     point.x = std::clamp(point.x, -0.5, view.width_px - 0.5);
     point.y = std::clamp(point.y, -0.5, view.height_px - 0.5);
     if (centers_only) {
@@ -189,7 +174,7 @@ TEST(ScreenExtents, AreTight) {
       if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
       glm::dvec2 low(1e9), high(-1e9);
       for (int point = 0; point < 3000; ++point) {
-        const glm::dvec2 at = screen.project(surface_point(primitives[i], random));
+        const glm::dvec2 at = screen.project(checks::surface_point(primitives[i], random));
         low = glm::min(low, at);
         high = glm::max(high, at);
       }
