@@ -1,0 +1,196 @@
+// Convex polyhedra by their hierarchies, against all of their faces and vertices.
+#include "csgcore/polyhedron.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "checks.hpp"
+#include "packet.hpp"
+
+namespace csgcore {
+namespace {
+
+using Entry = Polyhedron::Entry;
+using Shared = std::shared_ptr<const Polyhedron>;
+
+struct Named {
+  const char* name;
+  Shared polyhedron;
+};
+
+std::vector<Named> all_kinds() {
+  return {{"cube", Polyhedron::box({Vec3(-1), Vec3(1)})},
+          {"plate", Polyhedron::box({Vec3(3), Vec3(4, 8, 3 + 1e-7)})},
+          {"octahedron", checks::make_octahedron().polyhedron},
+          {"triangular prism", Polyhedron::frustum(0, 1, 2, 2, 3)},
+          {"hexagonal prism", Polyhedron::frustum(-4, 1, 2, 2, 6)},
+          {"pyramid", Polyhedron::frustum(0, 3, 1, 0, 4)},
+          {"pyramid upside down", Polyhedron::frustum(0, 3, 0, 1, 7)},
+          {"cylinder", Polyhedron::frustum(0, 1e-3, 5, 5, 200)},
+          {"frustum", Polyhedron::frustum(-1, 1, 1, 0.2, 90)},
+          {"sphere of 3", Polyhedron::sphere(2, 3)},
+          {"sphere of 5", Polyhedron::sphere(2, 5)},
+          {"sphere of 48", Polyhedron::sphere(0.1, 48)},
+          {"sphere of 200", Polyhedron::sphere(10, 200)}};
+}
+
+std::vector<Vec3> faces_of(const Polyhedron& polyhedron) {
+  std::vector<Vec3> faces;
+  for (const Entry& entry : polyhedron.entries()) {
+    if (entry.skip == 0) faces.push_back(entry.normal);
+  }
+  return faces;
+}
+
+Vec3 canonical(const Polyhedron& polyhedron, const Vec3& local) {
+  return (local - polyhedron.canonical().center) / polyhedron.canonical().scale;
+}
+
+bool is_enclosed(const Polyhedron& polyhedron, const Vec3& p) {
+  const Polyhedron::Canonical& quadric = polyhedron.canonical();
+  if (!quadric.in_frustum) return glm::length(p) <= 1;
+  return std::abs(p.z) <= 1 &&
+         std::hypot(p.x, p.y) <= quadric.radius_mid + quadric.radius_slope * p.z;
+}
+
+TEST(Polyhedron, FacesAreTheHalfSpaces) {
+  for (const auto& [name, polyhedron] : all_kinds()) {
+    const std::vector<HalfSpace>& half_spaces = polyhedron->half_spaces();
+    ASSERT_EQ(faces_of(*polyhedron).size(), half_spaces.size()) << name;
+    for (const Vec3& vertex : polyhedron->vertices()) {
+      const Vec3 p = canonical(*polyhedron, vertex);
+      EXPECT_TRUE(is_enclosed(*polyhedron, p)) << name;
+      int touching = 0;
+      for (const Vec3& face : faces_of(*polyhedron)) {
+        const double beyond = (glm::dot(face, p) - 1) / glm::length(face);
+        EXPECT_LE(beyond, 1e-13) << name;
+        touching += beyond > -1e-12;
+      }
+      EXPECT_GE(touching, 3) << name;
+    }
+  }
+}
+
+/// What the tracer relies on: whoever passes a branch over loses nothing.
+TEST(Polyhedron, BranchesImplyTheirFaces) {
+  std::mt19937 random(1);
+  for (const auto& [name, polyhedron] : all_kinds()) {
+    const std::vector<Entry>& entries = polyhedron->entries();
+    int passed_over = 0;
+    for (int round = 0; round < 200; ++round) {
+      // Near the surface, where it matters.
+      const Vec3 face = polyhedron->face_towards(checks::random_direction(random));
+      Vec3 p = checks::random_point(random, {Vec3(-1), Vec3(1)});
+      const double reach = glm::dot(face, p);
+      if (reach > 0 && round % 2 == 0) p *= checks::uniform(random, 0.99, 1.01) / reach;
+      if (!is_enclosed(*polyhedron, p)) continue;
+      for (size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].skip == 0 || glm::dot(entries[i].normal, p) > entries[i].limit) continue;
+        for (size_t k = i + 1; k <= i + entries[i].skip; ++k) {
+          if (entries[k].skip == 0) {
+            ASSERT_LT(glm::dot(entries[k].normal, p), 1) << name;
+          }
+        }
+        passed_over += 1;
+        i += entries[i].skip;
+      }
+    }
+    if (entries.size() > 20) {
+      EXPECT_GT(passed_over, 50) << name;
+    }
+  }
+}
+
+TEST(Polyhedron, AnswersAreThoseOfAllFacesAndVertices) {
+  std::mt19937 random(2);
+  for (const auto& [name, polyhedron] : all_kinds()) {
+    const std::vector<Vec3> faces = faces_of(*polyhedron);
+    for (int round = 0; round < 300; ++round) {
+      const Vec3 direction = checks::random_direction(random);
+      double furthest = 0;
+      for (const Vec3& face : faces) furthest = std::max(furthest, glm::dot(face, direction));
+      EXPECT_DOUBLE_EQ(glm::dot(polyhedron->face_towards(direction), direction), furthest) << name;
+      EXPECT_DOUBLE_EQ(glm::dot(polyhedron->face_towards(9.0 * direction), direction), furthest);
+      const Vec3 surface = direction / furthest;
+      for (const double slack : {0.0, 1e-12, 1e-3}) {
+        const double depth = slack * glm::length(polyhedron->face_towards(direction));
+        EXPECT_TRUE(polyhedron->contains(surface * (1 - 1e-10), 0)) << name;
+        EXPECT_FALSE(polyhedron->contains(surface * (1 - depth + 1e-10), slack)) << name;
+        EXPECT_FALSE(polyhedron->contains(surface * (1 + 1e-10), slack)) << name;
+      }
+      double support = -std::numeric_limits<double>::infinity();
+      for (const Vec3& vertex : polyhedron->vertices()) {
+        support = std::max(support, glm::dot(direction, canonical(*polyhedron, vertex)));
+      }
+      EXPECT_DOUBLE_EQ(glm::dot(polyhedron->support(direction), direction), support) << name;
+    }
+    EXPECT_FALSE(polyhedron->contains(Vec3(std::numeric_limits<double>::quiet_NaN()))) << name;
+  }
+}
+
+/// Some ray by all half-spaces.
+std::pair<double, double> segment_of(const Polyhedron& polyhedron, const Vec3& o, const Vec3& d) {
+  double start = -std::numeric_limits<double>::infinity();
+  double end = -start;
+  for (const HalfSpace& half_space : polyhedron.half_spaces()) {
+    const double growth = glm::dot(half_space.normal, d);
+    const double at = (half_space.offset - glm::dot(half_space.normal, o)) / growth;
+    if (growth < 0) start = std::max(start, at);
+    if (growth > 0) end = std::min(end, at);
+  }
+  return {start, end};
+}
+
+TEST(Polyhedron, RaysAreCutByAllFaces) {
+  std::mt19937 random(3);
+  for (const auto& [name, polyhedron] : all_kinds()) {
+    const CanonicalPrimitive primitive = canonicalize(make_polyhedron(polyhedron));
+    const Vec3 size = primitive.bounds.size();
+    int crossed = 0;
+    for (int round = 0; round < 60; ++round) {
+      RayPacket packet;
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        const Vec3 at = checks::random_point(random, primitive.bounds);
+        const Vec3 direction = size * checks::random_direction(random);
+        for (int axis = 0; axis < 3; ++axis) {
+          packet.origin[axis][lane] = at[axis] - 2 * direction[axis];
+          packet.direction[axis][lane] = direction[axis];
+        }
+        packet.inverse_length2[lane] = 1 / glm::dot(direction, direction);
+      }
+      PacketSegments segments;
+      intersect(FrameRays{}, packet, primitive, segments);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        Vec3 o, d;
+        for (int axis = 0; axis < 3; ++axis) {
+          o[axis] = packet.origin[axis][lane];
+          d[axis] = packet.direction[axis][lane];
+        }
+        const auto [start, end] = segment_of(*polyhedron, o, d);
+        if (end - start < 1e-9) continue;
+        ASSERT_NEAR(segments.start[lane], start, 1e-9) << name;
+        ASSERT_NEAR(segments.end[lane], end, 1e-9) << name;
+        ++crossed;
+      }
+    }
+    EXPECT_GT(crossed, 100) << name;
+  }
+}
+
+TEST(Polyhedron, OnlyOfConvexMeshes) {
+  // The corner of a cube is pushed in.
+  Mesh mesh = box_mesh({Vec3(0), Vec3(1)});
+  ASSERT_TRUE(Polyhedron::from(mesh));
+  for (Vec3& vertex : mesh.vertices) {
+    if (vertex == Vec3(1)) vertex = Vec3(0.4);
+  }
+  EXPECT_FALSE(Polyhedron::from(mesh));
+  EXPECT_FALSE(Polyhedron::from(Mesh{}));
+}
+
+}  // namespace
+}  // namespace csgcore
