@@ -15,15 +15,17 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace polyhedron_rays {
 
-/// The part of a segment within a face's half-space, normal · (o + t·d) ≤ 1.
+/// The part of a segment within a face's half-space, height + t·growth ≤ 1, in the lanes where an
+/// end lies beyond it.
 template <class D>
-HWY_INLINE Segment<D> cut(D d, const Segment<D>& segment, hn::Vec<D> room, hn::Vec<D> growth) {
+HWY_INLINE Segment<D> cut(D d, const Segment<D>& segment, hn::Vec<D> height, hn::Vec<D> growth,
+                          hn::Mask<D> beyond) {
   const auto zero = hn::Zero(d);
-  const auto at = hn::Div(room, growth);
-  const auto leaves = hn::Gt(growth, zero);
-  const auto enters = hn::Lt(growth, zero);
-  // A ray along the face is within it for ever or never.
-  const auto never = hn::And(hn::Not(hn::Or(leaves, enters)), hn::Lt(room, zero));
+  const auto at = hn::Div(hn::Sub(hn::Set(d, 1.0), height), growth);
+  const auto enters = hn::And(beyond, hn::Lt(growth, zero));
+  const auto leaves = hn::And(beyond, hn::Gt(growth, zero));
+  // A ray along the face is beyond it for ever.
+  const auto never = hn::And(beyond, hn::Eq(growth, zero));
   auto start = hn::IfThenElse(enters, hn::Max(segment.start, at), segment.start);
   start = hn::IfThenElse(never, hn::Set(d, kInfinity), start);
   const auto end = hn::IfThenElse(leaves, hn::Min(segment.end, at), segment.end);
@@ -52,14 +54,14 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
     const Lanes3<D> normal = broadcast(d, entry.normal);
     const auto height = dot(d, normal, o);
     const auto growth = dot(d, normal, direction);
-    if (entry.skip > 0) {
-      // What holds at both ends holds between them.
-      const auto at_start = hn::Add(height, hn::Mul(segment.start, growth));
-      const auto at_end = hn::Add(height, hn::Mul(segment.end, growth));
-      const auto beyond = hn::Gt(hn::Max(at_start, at_end), hn::Set(d, entry.limit));
-      if (hn::AllFalse(d, hn::And(live, beyond))) i += entry.skip;
-    } else {
-      segment = cut(d, segment, hn::Sub(hn::Set(d, 1.0), height), growth);
+    // What holds at both ends holds between them.
+    const auto at_start = hn::Add(height, hn::Mul(segment.start, growth));
+    const auto at_end = hn::Add(height, hn::Mul(segment.end, growth));
+    const auto beyond = hn::And(live, hn::Gt(hn::Max(at_start, at_end), hn::Set(d, entry.limit)));
+    if (hn::AllFalse(d, beyond)) {
+      i += entry.skip;
+    } else if (entry.skip == 0) {
+      segment = cut(d, segment, height, growth, beyond);
       live = hn::Lt(segment.start, segment.end);
     }
   }

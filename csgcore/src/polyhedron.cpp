@@ -55,6 +55,14 @@ std::vector<uint32_t> all_indices(size_t count) {
   return indices;
 }
 
+/// Of points all around the origin, whatever direction.
+Vec3 mean_direction(std::span<const Vec3> points, std::span<const uint32_t> items) {
+  Vec3 sum(0.0);
+  for (const uint32_t i : items) sum += glm::normalize(points[i]);
+  const double length = glm::length(sum);
+  return length > 0 ? sum / length : Vec3(0, 0, 1);
+}
+
 /// The support of a frustum in canonical space.
 double frustum_support(const Polyhedron::Canonical& frustum, const Vec3& direction) {
   const double lateral = std::hypot(direction.x, direction.y);
@@ -180,12 +188,7 @@ void Polyhedron::list_faces() {
     normals.push_back(canonical_normal(half_space, canonical_.center, canonical_.scale));
   }
   const auto branch_of = [&](std::span<const uint32_t> items) {
-    Vec3 axis(0.0);
-    for (const uint32_t i : items) axis += glm::normalize(normals[i]);
-    const double length = glm::length(axis);
-    // Of faces all around there is no half-space that they imply.
-    if (!(length > kMargin)) return Entry{Vec3(0.0), -kInfinity, 0};
-    axis /= length;
+    const Vec3 axis = mean_direction(normals, items);
     double limit = kInfinity;
     for (const uint32_t i : items) {
       const double offset = 1 - kMargin * std::max(1.0, glm::length(normals[i]));
@@ -195,6 +198,9 @@ void Polyhedron::list_faces() {
     }
     return Entry{axis, limit, 0};
   };
+  double longest = 0;
+  for (const Vec3& normal : normals) longest = std::max(longest, glm::length(normal));
+  inner_radius_ = (1 - kMargin) / longest;
   std::vector<uint32_t> faces = all_indices(normals.size());
   list_clusters(
       normals, faces, true,
@@ -213,17 +219,22 @@ void Polyhedron::list_vertices() {
   for (const Vec3& vertex : vertices_) {
     points.push_back((vertex - canonical_.center) / canonical_.scale);
   }
+  const auto branch_of = [&](std::span<const uint32_t> items) {
+    VertexEntry branch{mean_direction(points, items)};
+    branch.cosine = 1;
+    for (const uint32_t i : items) {
+      const double length = glm::length(points[i]);
+      branch.reach = std::max(branch.reach, length);
+      branch.cosine = std::min(branch.cosine, glm::dot(branch.direction, points[i]) / length);
+    }
+    branch.sine = std::sqrt(std::max(0.0, 1 - branch.cosine * branch.cosine));
+    return branch;
+  };
   std::vector<uint32_t> corners = all_indices(points.size());
   list_clusters(
       points, corners, true,
       [&](std::span<const uint32_t> items) {
-        Box box;
-        for (const uint32_t i : items) box.merge(points[i]);
-        double radius = 0;
-        for (const uint32_t i : items) {
-          radius = std::max(radius, glm::length(points[i] - box.center()));
-        }
-        vertex_entries_.push_back({box.center(), radius, 0});
+        vertex_entries_.push_back(branch_of(items));
         return vertex_entries_.size() - 1;
       },
       [&](size_t entry) {
@@ -235,6 +246,8 @@ void Polyhedron::list_vertices() {
 }
 
 bool Polyhedron::contains(const Vec3& point, double slack) const {
+  const double inner = inner_radius_ - slack;
+  if (inner > 0 && glm::dot(point, point) <= inner * inner) return true;
   if (!(gauge(point) <= 1)) return false;
   for (size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
@@ -273,16 +286,23 @@ double Polyhedron::gauge(const Vec3& p) const {
 
 Vec3 Polyhedron::support(const Vec3& direction) const {
   const double length = glm::length(direction);
+  // No vertex of a branch reaches further; the margin is for rounding.
+  const auto reach_of = [&](const VertexEntry& branch, double along) {
+    const double cosine = along / length;
+    if (cosine >= branch.cosine) return branch.reach * length;
+    const double across = std::sqrt(std::max(0.0, length * length - along * along));
+    return branch.reach * (along * branch.cosine + across * branch.sine + kMargin * length);
+  };
   Vec3 vertex(0.0);
   double furthest = -kInfinity;
   for (size_t i = 0; i < vertex_entries_.size(); ++i) {
     const VertexEntry& entry = vertex_entries_[i];
-    const double reach = glm::dot(entry.center, direction);
+    const double along = glm::dot(entry.direction, direction);
     if (entry.skip > 0) {
-      if (reach + entry.radius * length <= furthest) i += entry.skip;
-    } else if (reach > furthest) {
-      furthest = reach;
-      vertex = entry.center;
+      if (reach_of(entry, along) <= furthest) i += entry.skip;
+    } else if (along > furthest) {
+      furthest = along;
+      vertex = entry.direction;
     }
   }
   return vertex;

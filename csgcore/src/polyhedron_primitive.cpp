@@ -49,6 +49,11 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell_wor
   if (polyhedron.contains(cell.center)) {
     return holds_corners(polyhedron, cell) ? Classification::kInside : Classification::kCrosses;
   }
+  // Most of what is outside is outside of what encloses it.
+  const Classification enclosure = primitive.enclosure == Shape::kSphere
+                                       ? sphere::classify(primitive, cell_world)
+                                       : frustum::classify(primitive, cell_world);
+  if (enclosure == Classification::kOutside) return enclosure;
   // A separating direction, as frustum::classify finds it, from the normal of the face towards the
   // cell on.
   constexpr int kSteps = 8;

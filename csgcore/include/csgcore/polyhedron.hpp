@@ -69,11 +69,12 @@ class Polyhedron {
   Vec3 support(const Vec3& direction_canonical) const;
 
  private:
-  /// A ball about vertices; the next `skip` entries are within it. A vertex has skip = 0.
+  /// A vertex (skip = 0), or a branch: seen from the canonical origin, the next `skip` entries lie
+  /// within an angle about an axis, and no further off than `reach`.
   struct VertexEntry {
-    Vec3 center;
-    double radius;
-    uint32_t skip;
+    Vec3 direction;  // of unit length; a vertex itself
+    double reach = 0, cosine = 0, sine = 0;
+    uint32_t skip = 0;
   };
   void list_faces();
   void list_vertices();
@@ -83,6 +84,7 @@ class Polyhedron {
   std::vector<HalfSpace> half_spaces_;
   std::vector<Vec3> vertices_;
   Canonical canonical_;
+  double inner_radius_ = 0;  // of a ball about the canonical origin within the solid
   std::vector<Entry> entries_;
   std::vector<VertexEntry> vertex_entries_;
 };
