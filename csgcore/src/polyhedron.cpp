@@ -295,14 +295,36 @@ Vec3 Polyhedron::support(const Vec3& direction) const {
   };
   Vec3 vertex(0.0);
   double furthest = -kInfinity;
+  const auto visit = [&](const VertexEntry& entry, double along) {
+    if (along <= furthest) return;
+    furthest = along;
+    vertex = entry.direction;
+  };
+  // First by whichever branch reaches furthest: most others are then passed over.
+  for (size_t begin = 0, end = vertex_entries_.size(); begin < end;) {
+    size_t next_begin = end, next_end = end;
+    double next_reach = -kInfinity;
+    for (size_t i = begin; i < end; i += vertex_entries_[i].skip + 1) {
+      const VertexEntry& entry = vertex_entries_[i];
+      const double along = glm::dot(entry.direction, direction);
+      if (entry.skip == 0) {
+        visit(entry, along);
+      } else if (const double reach = reach_of(entry, along); reach > next_reach) {
+        next_reach = reach;
+        next_begin = i + 1;
+        next_end = next_begin + entry.skip;
+      }
+    }
+    begin = next_begin;
+    end = next_end;
+  }
   for (size_t i = 0; i < vertex_entries_.size(); ++i) {
     const VertexEntry& entry = vertex_entries_[i];
     const double along = glm::dot(entry.direction, direction);
-    if (entry.skip > 0) {
-      if (reach_of(entry, along) <= furthest) i += entry.skip;
-    } else if (along > furthest) {
-      furthest = along;
-      vertex = entry.direction;
+    if (entry.skip == 0) {
+      visit(entry, along);
+    } else if (reach_of(entry, along) <= furthest) {
+      i += entry.skip;
     }
   }
   return vertex;
