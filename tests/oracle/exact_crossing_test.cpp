@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
+#include "csgcore/polyhedron.hpp"
 #include "exact_primitive.hpp"
+#include "near_planes.hpp"
 #include "support/models.hpp"
 
 namespace oracle {
@@ -13,8 +16,16 @@ namespace {
 using csgcore::make_frustum;
 using csgcore::make_sphere;
 using csgcore::Mat3;
+using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Vec3;
+
+template <class Number>
+std::vector<uint32_t> all_planes(const Target<Number>& target) {
+  std::vector<uint32_t> planes(target.planes.size());
+  std::iota(planes.begin(), planes.end(), 0u);
+  return planes;
+}
 
 /// A primitive on a ray; the ray is relative to the world's origin, and moved by the parameter 0.
 class Met {
@@ -27,7 +38,7 @@ class Met {
       ray.direction[i] = direction[i];
     }
     local_ = localize(target_, ray, 0);
-    ends_ = ends_of(target_, local_);
+    ends_ = ends_of(target_, local_, all_planes(target_));
   }
 
   const std::optional<Ends>& ends() const { return ends_; }
@@ -223,9 +234,9 @@ TEST(ExactSegment, IntervalsEncloseWhatIsExact) {
       const double base = base_of(enclosed, ray_enclosed);
       const LocalRay<Exact> local = localize(target, ray, base);
       const LocalRay<Interval> local_enclosed = localize(enclosed, ray_enclosed, base);
-      const std::optional<Ends> ends = ends_of(target, local);
+      const std::optional<Ends> ends = ends_of(target, local, all_planes(target));
       try {
-        const std::optional<Ends> same = ends_of(enclosed, local_enclosed);
+        const std::optional<Ends> same = ends_of(enclosed, local_enclosed, all_planes(enclosed));
         ASSERT_EQ(same.has_value(), ends.has_value());
         if (!ends) continue;
         ++met;
@@ -249,6 +260,155 @@ TEST(ExactSegment, IntervalsEncloseWhatIsExact) {
   }
   EXPECT_GT(met, 300);
   EXPECT_LT(undecided, 3);
+}
+
+// --- Polyhedra ---
+
+Surface face(uint32_t index) { return Surface(index); }
+
+/// |x|, |y|, |z| ≤ 1: faces +x, −x, +y, −y, +z, −z.
+Primitive cube(const csgcore::Affine& map = {}) {
+  return csgcore::make_polyhedron(Polyhedron::box({Vec3(-1), Vec3(1)}), map);
+}
+
+TEST(ExactPolyhedron, AnEdgeOrAVertexBelongsToTheLowestFace) {
+  const Met vertices(cube(), Vec3(-2), Vec3(1));
+  ASSERT_TRUE(vertices.ends());
+  EXPECT_EQ(vertices.ends()->begin, face(1));
+  EXPECT_EQ(vertices.ends()->end, face(0));
+  EXPECT_EQ(compare(vertices.entry(), rational(1)), 0);
+  EXPECT_EQ(compare(vertices.exit(), rational(3)), 0);
+  const Met edges(cube(), {0.25, 2, 2}, {0, -1, -1});
+  ASSERT_TRUE(edges.ends());
+  EXPECT_EQ(edges.ends()->begin, face(2));
+  EXPECT_EQ(edges.ends()->end, face(3));
+  // Beside the edge, by less than doubles tell.
+  const Met beside(cube({Mat3(1.0), {0, 0, 0x1p-200}}), {0.25, 2, 2}, {0, -1, -1});
+  ASSERT_TRUE(beside.ends());
+  EXPECT_EQ(beside.ends()->begin, face(2));
+  EXPECT_EQ(beside.ends()->end, face(5));
+  // Mirrored, and a million times as long.
+  const Mat3 long_and_mirrored{Vec3{0, -1e6, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, -1}};
+  const Met mapped(cube({long_and_mirrored, Vec3(0.0)}), {-2e-6, -2e6, -2}, {1e-6, 1e6, 1});
+  ASSERT_TRUE(mapped.ends());
+  EXPECT_EQ(mapped.ends()->begin, face(0));
+}
+
+TEST(ExactPolyhedron, WhatTouchesHasNoLength) {
+  EXPECT_FALSE(Met(cube(), {0, 2, 0}, {1, -1, 0}).ends());  // an edge
+  EXPECT_TRUE(Met(cube(), {0, std::nextafter(2.0, 0.0), 0}, {1, -1, 0}).ends());
+  EXPECT_FALSE(Met(cube(), {-1, 3, 1}, {1, -1, 0.5}).ends());  // a vertex
+  // In a face, and in an edge: within the closed solid.
+  EXPECT_TRUE(Met(cube(), {-3, 1, 0}, kX).ends());
+  EXPECT_TRUE(Met(cube(), {-3, 1, -1}, kX).ends());
+  EXPECT_FALSE(Met(cube(), {-3, std::nextafter(1.0, 2.0), 0}, kX).ends());
+  EXPECT_FALSE(Met(cube(), {-3, std::nextafter(1.0, 2.0), -1}, kX).ends());
+}
+
+TEST(ExactPolyhedron, AFaceOfItsOwnFrame) {
+  // 3-4-5: half of a cube of 10, turned by its matrix, and by its half-spaces' normals, which are
+  // of different lengths; one goes through the origin.
+  const Mat3 turned{Vec3{3, 4, 0}, Vec3{-4, 3, 0}, Vec3{0, 0, 5}};
+  std::vector<csgcore::HalfSpace> faces{{{3, 4, 0}, 25},
+                                        {{-48, -64, 0}, 16 * 25},
+                                        {{-4, 3, 0}, 25},
+                                        {{0x4p-30, -0x3p-30, 0}, 0},
+                                        {{0, 0, 0x1p100}, 0x5p100},
+                                        {{0, 0, -1}, 5}};
+  const Primitive in_world = csgcore::make_polyhedron(std::make_shared<Polyhedron>(
+      faces, std::vector<Vec3>{Vec3(3, 4, 5), Vec3(-1, 7, -5), Vec3(-7, 1, 5), Vec3(-3, -4, -5)}));
+  const Primitive local =
+      csgcore::make_polyhedron(Polyhedron::box({Vec3(-1, 0, -1), Vec3(1)}), {turned, Vec3(0.0)});
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> number(-6, 6);
+  int met = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 origin{number(random), number(random), number(random)};
+    const Vec3 direction{number(random), number(random), number(random)};
+    const Met a(in_world, origin, direction), b(local, origin, direction);
+    ASSERT_EQ(a.ends().has_value(), b.ends().has_value());
+    if (!a.ends()) continue;
+    ++met;
+    EXPECT_EQ(a.ends()->begin, b.ends()->begin);
+    EXPECT_EQ(a.ends()->end, b.ends()->end);
+    EXPECT_EQ(compare(a.entry(), b.entry()), 0);
+    EXPECT_EQ(compare(a.exit(), b.exit()), 0);
+  }
+  EXPECT_GT(met, 100);
+}
+
+/// A ray that is relative to the world's origin, in both arithmetics.
+struct BothRays {
+  BothRays(const Vec3& origin, const Vec3& direction) {
+    for (int i = 0; i < 3; ++i) {
+      exact.origin[i] = origin[i], exact.direction[i] = direction[i];
+      enclosed.origin[i] = origin[i], enclosed.direction[i] = direction[i];
+    }
+  }
+  NearRay<Exact> exact;
+  NearRay<Interval> enclosed;
+};
+
+/// Through two points of a solid, the middles of up to four of its vertices each (often one, or two
+/// neighbours): through its edges and vertices and within its faces, but for rounding.
+BothRays special_ray(const Primitive& primitive, std::mt19937& random) {
+  const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
+  const auto point = [&] {
+    const size_t count = 1 + random() % 4, first = random() % vertices.size();
+    Vec3 sum(0.0);
+    for (size_t i = 0; i < count; ++i) sum += vertices[(first + i) % vertices.size()];
+    return primitive.local_to_world.point(sum / double(count));
+  };
+  const Vec3 from = point(), to = point();
+  const Vec3 along = from == to ? primitive.local_to_world.linear[random() % 3] : to - from;
+  return {from - 2.0 * along, along};
+}
+
+TEST(ExactPolyhedron, PlanesThatAreNearAreAllThatBoundARay) {
+  std::mt19937 random(11);
+  std::vector<std::shared_ptr<const Polyhedron>> solids;
+  for (const int fragments : {3, 4, 6, 7, 30}) {
+    solids.push_back(Polyhedron::sphere(0.3, fragments));
+    solids.push_back(Polyhedron::frustum(-0.2, 0.3, 0.4, 0.1, fragments));
+    solids.push_back(Polyhedron::frustum(-0.2, 0.3, 0.3, 0.3, fragments));
+  }
+  solids.push_back(Polyhedron::box({Vec3(-0.3, -0.4, 0), Vec3(0.5, 0.1, 1e-9)}));
+  const RoundingUp rounding_up;
+  int met = 0, missed = 0;
+  size_t near = 0, all = 0;
+  for (const auto& solid : solids) {
+    for (int map = 0; map < 4; ++map) {
+      const csgcore::Affine place =
+          map == 0 ? csgcore::Affine{} : test_support::random_affine(random);
+      const Primitive primitive = csgcore::make_polyhedron(solid, place);
+      const Target<Exact> target = make_target(primitive, Vec3(0.0), 1);
+      const Target<Interval> enclosed = enclose(target);
+      for (int i = 0; i < 60; ++i) {
+        const BothRays ray = special_ray(primitive, random);
+        const double base = base_of(enclosed, ray.enclosed);
+        const LocalRay<Exact> local = localize(target, ray.exact, base);
+        const std::optional<Ends> ends = ends_of(target, local, all_planes(target));
+        NearPlanes planes;
+        const bool may_meet = planes.find(enclosed, localize(enclosed, ray.enclosed, base));
+        missed += !ends;
+        if (!may_meet) {
+          ASSERT_FALSE(ends);
+          continue;
+        }
+        const std::optional<Ends> same = ends_of(target, local, planes.planes());
+        ASSERT_EQ(same.has_value(), ends.has_value());
+        if (!ends) continue;
+        ++met;
+        ASSERT_EQ(same->begin, ends->begin);
+        ASSERT_EQ(same->end, ends->end);
+        near += planes.planes().size();
+        all += target.planes.size();
+      }
+    }
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(missed, 50);
+  EXPECT_LT(near, all / 10);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "csgcore/polyhedron.hpp"
 #include "support/reference_test_scenes.hpp"
 
 namespace oracle {
@@ -14,6 +15,7 @@ namespace {
 
 using csgcore::Mat3;
 using csgcore::Op;
+using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Projection;
 using csgcore::Ray;
@@ -101,6 +103,43 @@ TEST(ExactRays, LengthsWhoseSquaresNoDoubleHolds) {
     EXPECT_NEAR(hit_of(scene, {{1.5 * unit, 0, 10 * unit}, {0, 0, -1}}).position.z / unit,
                 std::sqrt(1.75), 1e-14);
   }
+}
+
+Primitive block(const Vec3& min, const Vec3& max, const csgcore::Affine& map = {}) {
+  return csgcore::make_polyhedron(Polyhedron::box({min, max}), map);
+}
+
+TEST(ExactRays, FacesOfPolyhedra) {
+  const Scene scene =
+      scene_of(Op::kDifference,
+               {block(Vec3(-2), Vec3(2)), block({-1, -1, 0.5}, {1, 1, 2}), rod(-3, 3, 0.25)});
+  const ExactHit floor = hit_of(scene, {{0.5, 0.5, 10}, {0, 0, -1}});
+  EXPECT_EQ(floor.primitive, 1u);  // flush with the top, which is open
+  EXPECT_EQ(floor.s.lower, 9.5);
+  EXPECT_EQ(floor.s.upper, 9.5);
+  EXPECT_EQ(floor.position, Vec3(0.5, 0.5, 0.5));
+  EXPECT_EQ(floor.normal, Vec3(0, 0, 1));
+  EXPECT_EQ(hit_of(scene, {{1.5, 0.5, 10}, {0, 0, -1}}).s.lower, 8);
+  EXPECT_FALSE(hit_of(scene, {{0.125, 0.125, 10}, {0, 0, -1}}).hit());
+  const ExactHit side = hit_of(scene, {{0, 9, -1}, {0, -1, 0}});
+  EXPECT_EQ(side.primitive, 0u);
+  EXPECT_EQ(side.normal, Vec3(0, 1, 0));
+  EXPECT_DOUBLE_EQ(ExactScene(scene).size(), 4 * std::sqrt(3));
+  // A hexagonal prism: its corners at 0°, 60°, …; the face between the first two looks at 30°.
+  const Scene prism = scene_of(
+      Op::kUnion,
+      {csgcore::make_polyhedron(Polyhedron::frustum(0, 1, 2, 2, 6), {Mat3(1.0), {0.1, 0.2, 0.3}})});
+  const Vec3 outward{std::sqrt(0.75), 0.5, 0};
+  const ExactHit face = hit_of(prism, {Vec3(0.1, 0.2, 0.7) + 5.0 * outward, -outward});
+  EXPECT_NEAR(face.s.lower, 5 - std::sqrt(3), 2e-15);
+  EXPECT_NEAR(glm::length(face.normal - outward), 0, 1e-15);
+}
+
+TEST(ExactRays, AnEdgeIsOfTheLowestFace) {
+  const Scene scene = scene_of(Op::kUnion, {block(Vec3(-1), Vec3(1))});
+  EXPECT_EQ(hit_of(scene, {Vec3(3), Vec3(-1)}).normal, Vec3(1, 0, 0));
+  EXPECT_EQ(hit_of(scene, {{0, 3, 3}, {0, -1, -1}}).normal, Vec3(0, 1, 0));
+  EXPECT_EQ(hit_of(scene, {{0, -3, -3}, {0, 1, 1}}).normal, Vec3(0, -1, 0));
 }
 
 // --- Crossings that are equal ---
@@ -270,6 +309,23 @@ TEST(ExactRays, DoubtNearSilhouettes) {
   const Scene covered = scene_of(Op::kUnion, {rod(-1, 1, 1), rod(-2, 2, 3)});
   EXPECT_EQ(doubt_of(covered, {{1, 0, 5}, {0, 0, -1}}), Doubt::kNone);
   EXPECT_EQ(doubt_of(covered, {{0, 3, 5}, {0, 0, -1}}), Doubt::kSilhouette);
+}
+
+TEST(ExactRays, DoubtAtEdgesOfPolyhedra) {
+  const Scene scene = scene_of(Op::kUnion, {block(Vec3(-1), Vec3(1))});
+  const double step = ExactScene(scene).displacement();
+  // Past the edge, and over an edge at which one face follows the other.
+  const auto beside = [&](double x) { return doubt_of(scene, {{x, 0, 5}, {0, 0, -1}}); };
+  const auto over = [&](double x) { return doubt_of(scene, {{x, -2, 5}, {0, 0.6, -1}}); };
+  const auto across = [&](double x) { return doubt_of(scene, {{3 + x, 0.1, 3}, {-1, 0, -1}}); };
+  for (const double sign : {-1, 1}) {
+    EXPECT_EQ(beside(1 + sign * 0.5 * step), Doubt::kSilhouette);
+    EXPECT_EQ(beside(1 + sign * 2 * step), Doubt::kNone);
+    EXPECT_EQ(over(1 + sign * 0.5 * step), Doubt::kSilhouette);
+    EXPECT_EQ(over(sign * 0.5 * step), Doubt::kNone);
+    EXPECT_EQ(across(sign * 0.5 * step), Doubt::kSilhouette);
+    EXPECT_EQ(across(sign * 3 * step), Doubt::kNone);
+  }
 }
 
 TEST(ExactRays, DoubtAtTheEyeAndAtTau) {

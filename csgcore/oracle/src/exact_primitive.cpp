@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+
+#include "csgcore/polyhedron.hpp"
 
 namespace oracle {
 namespace {
 
 using csgcore::Affine;
+using csgcore::HalfSpace;
+using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
@@ -77,18 +82,33 @@ struct Part {
 };
 
 template <class Number>
-std::optional<Part> within_slab(const Target<Number>& target, const LocalRay<Number>& ray) {
-  const int direction = sign_of(ray.d[2]);
-  if (direction > 0) return Part{Surface::kBottom, Surface::kTop};
-  if (direction < 0) return Part{Surface::kTop, Surface::kBottom};
-  const bool inside = sign_of(Number(target.half_height - ray.o[2])) >= 0 &&
-                      sign_of(Number(target.half_height + ray.o[2])) >= 0;
-  return inside ? std::optional(Part{}) : std::nullopt;
+std::optional<Part> within_planes(const Target<Number>& target, const LocalRay<Number>& ray,
+                                  std::span<const uint32_t> planes) {
+  Part part;
+  for (const uint32_t i : planes) {
+    const Plane<Number>& plane = target.planes[i];
+    const int direction = sign_of(dot(plane.normal, ray.d));
+    if (direction == 0) {
+      if (sign_of(Number(plane.limit - dot(plane.normal, ray.o))) < 0) return {};
+      continue;
+    }
+    const bool enters = direction < 0;
+    std::optional<Surface>& bound = enters ? part.begin : part.end;
+    const auto crossing = [&](Surface surface) {
+      return crossing_of(target, ray, surface, enters);
+    };
+    // Of planes that are met at once the first stays.
+    if (!bound || direction * compare(crossing(Surface(i)), crossing(*bound)) < 0) {
+      bound = Surface(i);
+    }
+  }
+  return part;
 }
 
 /// Of the cone's two nappes that with ρ ≥ 0.
 template <class Number>
 std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Number>& ray) {
+  if (target.shape == Shape::kPolyhedron) return Part{};
   const Quadratic<Number>& wall = ray.wall;
   const int a = sign_of(wall.a);
   if (a > 0) {
@@ -106,6 +126,60 @@ std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Num
   return sign_of(wall.c) <= 0 ? std::optional(Part{}) : std::nullopt;
 }
 
+Plane<Exact> scaled(const HalfSpace& half_space, const Vector<Exact>& middle,
+                    const Exact& magnification) {
+  const Vec3 size = glm::abs(half_space.normal);
+  const Exact scale = power_of_two(-std::ilogb(std::max({size.x, size.y, size.z})));
+  Plane<Exact> plane;
+  for (int i = 0; i < 3; ++i) plane.normal[i] = Exact(half_space.normal[i]);
+  plane.limit = scale * magnification * (Exact(half_space.offset) - dot(plane.normal, middle));
+  for (Exact& coordinate : plane.normal) coordinate = scale * coordinate;
+  return plane;
+}
+
+/// A frustum's wall and planes; λ is `magnification`.
+void add_frustum(const Primitive& primitive, const Exact& magnification, Target<Exact>& target) {
+  const Exact half(0.5), bottom(primitive.z_min), top(primitive.z_max);
+  const Exact r_bottom(primitive.r_bottom), r_top(primitive.r_top);
+  const Exact wall_scale = power_of_two(-std::ilogb(primitive.z_max - primitive.z_min));
+  const Exact half_height = magnification * half * (top - bottom);
+  target.growth = wall_scale * (r_top - r_bottom);
+  target.squared_height = CGAL::square(Exact(wall_scale * (top - bottom)));
+  target.radius = wall_scale * half_height * (r_bottom + r_top);
+  target.planes = {{{0, 0, -1}, half_height}, {{0, 0, 1}, half_height}};
+  target.weight = {1, 1, 0};
+}
+
+csgcore::Box vertex_box(const Polyhedron& polyhedron) {
+  csgcore::Box box;
+  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
+  return box;
+}
+
+void add_polyhedron(const Polyhedron& polyhedron, const Vector<Exact>& middle,
+                    const Exact& magnification, Target<Exact>& target) {
+  for (const HalfSpace& half_space : polyhedron.half_spaces()) {
+    target.planes.push_back(scaled(half_space, middle, magnification));
+  }
+  const Vec3 size = vertex_box(polyhedron).size();
+  const Vec3 slender = std::min({size.x, size.y, size.z}) / size;
+  target.weight = slender * slender;
+}
+
+/// In local space: any point well within the solid will do.
+Vector<Exact> middle_of(const Primitive& primitive) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      break;
+    case Shape::kFrustum:
+      return {0, 0, Exact(0.5) * (Exact(primitive.z_min) + Exact(primitive.z_max))};
+    case Shape::kPolyhedron:
+      const Vec3 center = vertex_box(*primitive.polyhedron).center();
+      return {center.x, center.y, center.z};
+  }
+  return {0, 0, 0};
+}
+
 }  // namespace
 
 Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double unit) {
@@ -115,7 +189,7 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
     for (int j = 0; j < 3; ++j) columns[i][j] = Exact(unit) * Exact(map.linear[i][j]);
   }
   Target<Exact> target;
-  target.is_frustum = primitive.shape == Shape::kFrustum;
+  target.shape = primitive.shape;
   target.to_local = {cross(columns[1], columns[2]), cross(columns[2], columns[0]),
                      cross(columns[0], columns[1])};
   const Exact determinant = dot(columns[0], target.to_local[0]);
@@ -124,29 +198,30 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
     for (Exact& entry : row) entry = scale * entry;
   }
   const Exact magnification = scale * determinant;
-  Exact local_middle = 0;
-  if (target.is_frustum) {
-    const Exact half(0.5), bottom(primitive.z_min), top(primitive.z_max);
-    const Exact r_bottom(primitive.r_bottom), r_top(primitive.r_top);
-    const Exact wall_scale = power_of_two(-std::ilogb(primitive.z_max - primitive.z_min));
-    local_middle = half * (bottom + top);
-    target.growth = wall_scale * (r_top - r_bottom);
-    target.squared_height = CGAL::square(Exact(wall_scale * (top - bottom)));
-    target.half_height = magnification * half * (top - bottom);
-    target.radius = wall_scale * target.half_height * (r_bottom + r_top);
-  } else {
-    target.radius = magnification * Exact(primitive.r_bottom);
+  const Vector<Exact> middle = middle_of(primitive);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      target.radius = magnification * Exact(primitive.r_bottom);
+      target.weight = Vec3(1.0);
+      break;
+    case Shape::kFrustum:
+      add_frustum(primitive, magnification, target);
+      break;
+    case Shape::kPolyhedron:
+      add_polyhedron(*primitive.polyhedron, middle, magnification, target);
+      break;
   }
   for (int i = 0; i < 3; ++i) {
-    target.from_middle[i] =
-        Exact(unit) * (Exact(pivot[i]) - Exact(map.translation[i])) - columns[2][i] * local_middle;
+    target.from_middle[i] = Exact(unit) * (Exact(pivot[i]) - Exact(map.translation[i]));
+    for (int j = 0; j < 3; ++j) target.from_middle[i] -= columns[j][i] * middle[j];
   }
   return target;
 }
 
 Target<Interval> enclose(const Target<Exact>& target) {
   Target<Interval> result;
-  result.is_frustum = target.is_frustum;
+  result.shape = target.shape;
+  result.weight = target.weight;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) result.to_local[i][j] = enclose(target.to_local[i][j]);
     result.from_middle[i] = enclose(target.from_middle[i]);
@@ -154,7 +229,11 @@ Target<Interval> enclose(const Target<Exact>& target) {
   result.radius = enclose(target.radius);
   result.growth = enclose(target.growth);
   result.squared_height = enclose(target.squared_height);
-  result.half_height = enclose(target.half_height);
+  for (const Plane<Exact>& plane : target.planes) {
+    result.planes.push_back(
+        {{enclose(plane.normal[0]), enclose(plane.normal[1]), enclose(plane.normal[2])},
+         enclose(plane.limit)});
+  }
   return result;
 }
 
@@ -167,8 +246,8 @@ LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& r
     local.d[i] = dot(target.to_local[i], ray.direction);
     local.o[i] = dot(target.to_local[i], offset) + Number(base) * local.d[i];
   }
-  local.wall = target.is_frustum ? frustum_wall(target, local.o, local.d)
-                                 : sphere_wall(target, local.o, local.d);
+  if (target.shape == Shape::kSphere) local.wall = sphere_wall(target, local.o, local.d);
+  if (target.shape == Shape::kFrustum) local.wall = frustum_wall(target, local.o, local.d);
   return local;
 }
 
@@ -203,58 +282,60 @@ double base_of(const Target<Interval>& target, const NearRay<Interval>& ray) {
       d[i] += entry * middle(ray.direction[j]);
     }
   }
-  double od = o[0] * d[0] + o[1] * d[1], dd = d[0] * d[0] + d[1] * d[1];
-  if (!target.is_frustum) {
-    od += o[2] * d[2];
-    dd += d[2] * d[2];
+  double od = 0, dd = 0;
+  for (int i = 0; i < 3; ++i) {
+    od += target.weight[i] * o[i] * d[i];
+    dd += target.weight[i] * d[i] * d[i];
   }
   // Of a frustum, next to the axis, but within the slab.
   double base = dd > 0 ? -od / dd : 0;
-  if (target.is_frustum && d[2] != 0) {
-    const double half = middle(target.half_height) / std::abs(d[2]), center = -o[2] / d[2];
+  if (target.shape == Shape::kFrustum && d[2] != 0) {
+    const double half = middle(target.planes[0].limit) / std::abs(d[2]), center = -o[2] / d[2];
     base = std::clamp(base, center - half, center + half);
   }
   return std::isfinite(base) ? base : 0;
 }
 
 template <class Number>
-std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray) {
+std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray,
+                            std::span<const uint32_t> planes) {
   const std::optional<Part> wall = within_wall(target, ray);
   if (!wall) return {};
-  std::optional<Part> part = wall;
-  if (target.is_frustum) {
-    part = within_slab(target, ray);
-    if (!part) return {};
-    const auto beyond = [&](Surface surface, bool enters) {
-      return compare(crossing_of(target, ray, Surface::kWall, enters),
-                     crossing_of(target, ray, surface, enters));
-    };
-    if (wall->begin && (!part->begin || beyond(*part->begin, true) > 0)) part->begin = wall->begin;
-    if (wall->end && (!part->end || beyond(*part->end, false) < 0)) part->end = wall->end;
-  }
+  std::optional<Part> part = within_planes(target, ray, planes);
+  if (!part) return {};
+  const auto beyond = [&](Surface surface, bool enters) {
+    return compare(crossing_of(target, ray, Surface::kWall, enters),
+                   crossing_of(target, ray, surface, enters));
+  };
+  if (wall->begin && (!part->begin || beyond(*part->begin, true) > 0)) part->begin = wall->begin;
+  if (wall->end && (!part->end || beyond(*part->end, false) < 0)) part->end = wall->end;
   const Ends ends{*part->begin, *part->end};
-  // Two crossings of the wall lie apart, and so do the caps.
-  if ((ends.begin == Surface::kWall) == (ends.end == Surface::kWall)) return ends;
+  // Two crossings of the wall lie apart.
+  if (ends.begin == ends.end) return ends;
   const bool has_length = compare(crossing_of(target, ray, ends.begin, true),
                                   crossing_of(target, ray, ends.end, false)) < 0;
   return has_length ? std::optional(ends) : std::nullopt;
 }
 
-template std::optional<Ends> ends_of(const Target<Exact>&, const LocalRay<Exact>&);
-template std::optional<Ends> ends_of(const Target<Interval>&, const LocalRay<Interval>&);
+template std::optional<Ends> ends_of(const Target<Exact>&, const LocalRay<Exact>&,
+                                     std::span<const uint32_t>);
+template std::optional<Ends> ends_of(const Target<Interval>&, const LocalRay<Interval>&,
+                                     std::span<const uint32_t>);
 
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                            const Interval& t, Surface surface) {
-  Vector<Interval> local{0, 0, surface == Surface::kTop ? 1 : -1};
+  Vector<Interval> local;
   if (surface == Surface::kWall) {
     // Half the gradient.
     for (int i = 0; i < 3; ++i) local[i] = ray.o[i] + t * ray.d[i];
-    if (target.is_frustum) {
+    if (target.shape == Shape::kFrustum) {
       const Interval radius = radius_at(target, local[2]);
       local[0] *= target.squared_height;
       local[1] *= target.squared_height;
       local[2] = -target.growth * radius;
     }
+  } else {
+    local = target.planes[uint32_t(surface)].normal;
   }
   Vector<Interval> world;
   for (int i = 0; i < 3; ++i) {
@@ -267,8 +348,9 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface) {
   // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
-  const Interval across =
-      surface == Surface::kWall ? CGAL::sqrt(ray.wall.discriminant) : CGAL::abs(ray.d[2]);
+  const Interval across = surface == Surface::kWall
+                              ? CGAL::sqrt(ray.wall.discriminant)
+                              : CGAL::abs(dot(target.planes[uint32_t(surface)].normal, ray.d));
   return across / length(normal_at(target, ray, t, surface));
 }
 

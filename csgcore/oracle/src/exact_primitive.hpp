@@ -5,12 +5,16 @@
 // local→world matrix M, so that no quotients are needed), o + t·d. There
 //   sphere:  |o + t·d|² ≤ (λr)²
 //   frustum: |z| ≤ λk, (2k)²(x² + y²) ≤ ρ(z)², ρ(z) = λk(r₀ + r₁) + (r₁ − r₀)z
+//   polyhedron: n·(o + t·d) ≤ λ(offset − n·middle) for all its half-spaces
 // with half its height k, its radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius, and not
-// negative within the slab. The wall's inequality is scaled by a power of four.
+// negative within the slab. The wall's inequality is scaled by a power of four, a half-space's by a
+// power of two.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "csgcore/primitive.hpp"
 #include "exact_number.hpp"
@@ -20,20 +24,36 @@ namespace oracle {
 template <class Number>
 using Vector = std::array<Number, 3>;
 
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// Relative to a pivot, in world space and its prepared unit.
 template <class Number>
 struct NearRay {
   Vector<Number> origin, direction;
 };
 
-/// A valid primitive, prepared for rays that are relative to a pivot.
+/// normal·x ≤ limit within.
+template <class Number>
+struct Plane {
+  Vector<Number> normal;  // its largest coordinate is between 1 and 2
+  Number limit;
+};
+
+/// A valid primitive, prepared for rays that are relative to a pivot: what lies within its wall, if
+/// it has one, and within all its planes.
 template <class Number>
 struct Target {
-  bool is_frustum;
+  csgcore::Shape shape;
   std::array<Vector<Number>, 3> to_local;  // rows of λM⁻¹
-  Vector<Number> from_middle;  // from the local solid's middle to the pivot, in the world
-  Number radius;               // λr, or λk(r₀ + r₁)
-  Number growth, squared_height, half_height;  // r₁ − r₀, (2k)², λk; of a frustum only
+  Vector<Number> from_middle;         // from the local solid's middle to the pivot, in the world
+  Number radius;                      // of the wall: λr, or λk(r₀ + r₁)
+  Number growth, squared_height;      // r₁ − r₀, (2k)²; of a frustum's
+  std::vector<Plane<Number>> planes;  // of a frustum the bottom and the top; a polyhedron's faces
+  /// The solid lies about its middle as far as a ball, by this measure: Σ weight·x².
+  csgcore::Vec3 weight;
 };
 
 /// `unit` is a power of two, by which lengths in the world are multiplied; if they are about 1
@@ -42,8 +62,10 @@ Target<Exact> make_target(const csgcore::Primitive& primitive, const csgcore::Ve
                           double unit);
 Target<Interval> enclose(const Target<Exact>& target);
 
-/// Surfaces of a primitive. A point of a frustum's rim, or a pointed end, belongs to the cap.
-enum class Surface : uint8_t { kWall, kBottom, kTop };
+/// Surfaces of a primitive: the wall, or the plane of that index. A point of a frustum's rim, or a
+/// pointed end, belongs to the cap; one of a polyhedron's edge or vertex to the face of the lowest
+/// index.
+enum class Surface : uint32_t { kBottom = 0, kTop = 1, kWall = 0xFFFFFFFFu };
 
 /// The part of a ray within the closed primitive, if it has any length.
 struct Ends {
@@ -69,8 +91,8 @@ template <class Number>
 auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
                  bool enters) {
   if (surface == Surface::kWall) return root_of(ray.wall, enters);
-  const Number level = surface == Surface::kTop ? target.half_height : -target.half_height;
-  return quotient(Number(level - ray.o[2]), ray.d[2]);
+  const Plane<Number>& plane = target.planes[uint32_t(surface)];
+  return quotient(Number(plane.limit - dot(plane.normal, ray.o)), dot(plane.normal, ray.d));
 }
 
 LocalRay<Interval> enclose(const LocalRay<Exact>& ray);
@@ -79,8 +101,10 @@ LocalRay<Interval> enclose(const LocalRay<Exact>& ray);
 Interval enclose_crossing(const Target<Exact>& target, const LocalRay<Exact>& exact,
                           const LocalRay<Interval>& enclosed, Surface surface, bool enters);
 
+/// `planes` are indices in rising order, of all planes that may bound the part (see NearPlanes).
 template <class Number>
-std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray);
+std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray,
+                            std::span<const uint32_t> planes);
 
 /// The primitive's outward normal in world space, of any length, where t is within `t`.
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
@@ -89,11 +113,6 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 /// |n·d| there, of the unit normal n and the ray's direction d in the world.
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface);
-
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 inline Interval length(const Vector<Interval>& v) {
   return CGAL::sqrt(CGAL::square(v[0]) + CGAL::square(v[1]) + CGAL::square(v[2]));

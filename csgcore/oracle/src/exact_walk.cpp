@@ -74,15 +74,16 @@ void ExactWalk::add_candidate(uint32_t primitive) {
   const Target<Interval>& target = scene_.intervals[primitive];
   Candidate candidate{primitive, {}, base_of(target, ray_), {}, {}, {}, {}};
   candidate.local = localize(target, ray_, candidate.base);
+  if (!near_planes_.find(target, candidate.local)) return;
   std::optional<Ends> ends;
   try {
-    ends = ends_of(target, candidate.local);
+    ends = ends_of(target, candidate.local, near_planes_.planes());
     if (!ends) return;
     candidate.ends = *ends;
     find_ends(candidate);
   } catch (const Undecided&) {
     candidate.exact = localize(scene_.exact[primitive], exact_ray_, 0);
-    ends = ends_of(scene_.exact[primitive], *candidate.exact);
+    ends = ends_of(scene_.exact[primitive], *candidate.exact, near_planes_.planes());
     ++counts_.exact_segments;
     if (!ends) return;
     candidate.ends = *ends;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "csgcore/view.hpp"
+#include "near_planes.hpp"
 #include "oracle/exact_rays.hpp"
 #include "prepared_scene.hpp"
 
@@ -104,6 +105,7 @@ class ExactWalk {
   Interval eye_t_;
 
   std::vector<uint32_t> items_;
+  NearPlanes near_planes_;
   std::vector<Candidate> candidates_;
   std::vector<Crossing> crossings_;  // in order along the ray
   std::vector<uint8_t> values_;      // of the solid, before each crossing and after the last

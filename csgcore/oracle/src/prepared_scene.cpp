@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <map>
+#include <utility>
 
+#include "csgcore/polyhedron.hpp"
 #include "oracle/exact_rays.hpp"
 
 namespace oracle {
@@ -21,27 +23,48 @@ using csgcore::Vec3;
 /// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
 constexpr double kThinnestPiece = 1e-9;
 
-/// The box relative to a point, tight, and wider by no more than rounding. RoundingUp must be on.
+/// One coordinate of a local point's image, relative to a point, however far both are from the
+/// origin.
+Interval coordinate_about(const Vec3& point, const Affine& map, const Vec3& local, int axis) {
+  Exact sum = Exact(map.translation[axis]) - Exact(point[axis]);
+  for (int i = 0; i < 3; ++i) sum += Exact(map.linear[i][axis]) * Exact(local[i]);
+  return enclose(sum);
+}
+
+void merge(const Interval& coordinate, int axis, Box& box) {
+  box.min[axis] = std::min(box.min[axis], coordinate.inf());
+  box.max[axis] = std::max(box.max[axis], coordinate.sup());
+}
+
+void merge_disc(const Vec3& point, const Affine& map, double z, double radius, bool is_ball,
+                Box& box) {
+  for (int i = 0; i < 3; ++i) {
+    const Interval x = map.linear[0][i], y = map.linear[1][i], along = map.linear[2][i];
+    Interval reach2 = CGAL::square(x) + CGAL::square(y);
+    if (is_ball) reach2 += CGAL::square(along);
+    const Interval reach = CGAL::sqrt(reach2) * Interval(radius);
+    merge(coordinate_about(point, map, {0, 0, z}, i) + Interval(-1, 1) * reach, i, box);
+  }
+}
+
+/// The box relative to a point, tight, and wider by no more than rounding; of a polyhedron as tight
+/// as its vertices are. RoundingUp must be on.
 Box box_about(const Vec3& point, const Primitive& primitive) {
   const Affine& map = primitive.local_to_world;
   Box box;
-  const auto add_disc = [&](double z, double radius, bool is_ball) {
-    for (int i = 0; i < 3; ++i) {
-      const Interval x = map.linear[0][i], y = map.linear[1][i], along = map.linear[2][i];
-      Interval reach2 = CGAL::square(x) + CGAL::square(y);
-      if (is_ball) reach2 += CGAL::square(along);
-      const Interval center =
-          enclose(Exact(map.translation[i]) - Exact(point[i]) + Exact(map.linear[2][i]) * Exact(z));
-      const Interval reach = CGAL::sqrt(reach2) * Interval(radius);
-      box.min[i] = std::min(box.min[i], (center - reach).inf());
-      box.max[i] = std::max(box.max[i], (center + reach).sup());
-    }
-  };
-  if (primitive.shape == Shape::kSphere) {
-    add_disc(0, primitive.r_bottom, true);
-  } else {
-    add_disc(primitive.z_min, primitive.r_bottom, false);
-    add_disc(primitive.z_max, primitive.r_top, false);
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      merge_disc(point, map, 0, primitive.r_bottom, true, box);
+      break;
+    case Shape::kFrustum:
+      merge_disc(point, map, primitive.z_min, primitive.r_bottom, false, box);
+      merge_disc(point, map, primitive.z_max, primitive.r_top, false, box);
+      break;
+    case Shape::kPolyhedron:
+      for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+        for (int i = 0; i < 3; ++i) merge(coordinate_about(point, map, vertex, i), i, box);
+      }
+      break;
   }
   return box;
 }
@@ -85,7 +108,7 @@ Vec3 pivot_of(const Scene& scene) {
 }
 
 std::vector<uint32_t> find_alike(const Scene& scene) {
-  std::map<std::vector<double>, uint32_t> first;
+  std::map<std::pair<const csgcore::Polyhedron*, std::vector<double>>, uint32_t> first;
   std::vector<uint32_t> result;
   for (const Primitive& p : scene.primitives) {
     std::vector<double> key{double(p.shape), p.r_bottom, p.r_top, p.z_min, p.z_max};
@@ -93,7 +116,8 @@ std::vector<uint32_t> find_alike(const Scene& scene) {
     for (const Vec3& column : {map.linear[0], map.linear[1], map.linear[2], map.translation}) {
       key.insert(key.end(), {column.x, column.y, column.z});
     }
-    result.push_back(first.try_emplace(key, uint32_t(result.size())).first->second);
+    result.push_back(
+        first.try_emplace({p.polyhedron.get(), key}, uint32_t(result.size())).first->second);
   }
   return result;
 }
