@@ -10,11 +10,14 @@
 #include <utility>
 
 #include "child_process.hpp"
+#include "csgcore/polyhedron.hpp"
 #include "nef_lines.hpp"
 
 namespace oracle {
 namespace {
 
+using csgcore::Primitive;
+using csgcore::Shape;
 using csgcore::Vec3;
 
 /// a, b, c, d, divided by the absolute value of the first that is not 0: the same for all
@@ -53,13 +56,20 @@ Rational sum_of(std::vector<Rational> terms) {
 
 }  // namespace
 
-ConvexPolyhedron faceted(const csgcore::Primitive& primitive, int fragments) {
-  const csgcore::FacetedRevolution solid =
-      primitive.shape == csgcore::Shape::kSphere
-          ? csgcore::faceted_sphere(primitive.r_bottom, fragments)
-          : csgcore::faceted_frustum(primitive.z_min, primitive.z_max, primitive.r_bottom,
-                                     primitive.r_top, fragments);
-  return {half_spaces(solid), primitive.local_to_world};
+ConvexPolyhedron faceted(const Primitive& primitive, int fragments) {
+  const auto half_spaces = [&] {
+    switch (primitive.shape) {
+      case Shape::kSphere:
+        return csgcore::half_spaces(csgcore::faceted_sphere(primitive.r_bottom, fragments));
+      case Shape::kFrustum:
+        return csgcore::half_spaces(csgcore::faceted_frustum(
+            primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top, fragments));
+      case Shape::kPolyhedron:
+        break;
+    }
+    return primitive.polyhedron->half_spaces();
+  };
+  return {half_spaces(), primitive.local_to_world};
 }
 
 class NefSolid::Impl {
@@ -128,6 +138,14 @@ NefBuild NefSolid::build(const csgcore::CsgTree& tree, std::span<const ConvexPol
   std::istringstream in(output.text);
   auto impl = std::make_unique<const Impl>(read_boundary(in), tree, polyhedra);
   return {NefStatus::kBuilt, std::unique_ptr<const NefSolid>(new NefSolid(std::move(impl))), {}};
+}
+
+NefBuild NefSolid::build(const csgcore::Scene& scene, int fragments, const NefLimits& limits) {
+  std::vector<ConvexPolyhedron> polyhedra;
+  for (const Primitive& primitive : scene.primitives) {
+    polyhedra.push_back(faceted(primitive, fragments));
+  }
+  return build(scene.model, polyhedra, limits);
 }
 
 NefSolid::NefSolid(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}

@@ -22,6 +22,7 @@
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/half_space.hpp"
 #include "csgcore/primitive.hpp"
+#include "csgcore/scene.hpp"
 #include "csgcore/view.hpp"
 
 namespace oracle {
@@ -35,8 +36,8 @@ struct ConvexPolyhedron {
   csgcore::Affine local_to_world;
 };
 
-/// A primitive of a scene, as the polyhedron that OpenSCAD makes of it with so many fragments (≥
-/// 3).
+/// A primitive of a scene: of a smooth one the polyhedron that OpenSCAD makes of it with so many
+/// fragments (≥ 3), of a polyhedron its own half-spaces.
 ConvexPolyhedron faceted(const csgcore::Primitive& primitive, int fragments);
 
 /// How long a solid may take to build.
@@ -89,6 +90,9 @@ class NefSolid {
   /// std::system_error where no process can be had.
   static NefBuild build(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra,
                         const NefLimits& limits = {});
+  /// Of a scene's model, its smooth primitives with so many fragments; the polyhedra go by the
+  /// primitives' indices.
+  static NefBuild build(const csgcore::Scene& scene, int fragments, const NefLimits& limits = {});
   ~NefSolid();
 
   bool empty() const;
