@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace csgcore::reference {
 namespace {
 
@@ -67,6 +69,7 @@ LongVec3 exact_offset(const Vec3& a, double s, const Vec3& d, const Vec3& b) {
 
 RayTarget::RayTarget(const Primitive& primitive, const Vec3& pivot)
     : shape_(primitive.shape),
+      polyhedron_(primitive.polyhedron),
       world_to_local_(glm::inverse(LongMat3(primitive.local_to_world.linear))),
       r_bottom_(primitive.r_bottom),
       r_top_(primitive.r_top) {
@@ -122,14 +125,41 @@ Span RayTarget::cross_frustum(const NearRay& local) const {
   return span;
 }
 
+Span RayTarget::cross_polyhedron(const NearRay& local) const {
+  Span span{-kInfinity, kInfinity};
+  const std::vector<csgcore::HalfSpace>& faces = polyhedron_->half_spaces();
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const LongVec3 normal(faces[i].normal);
+    const Real room = Real(faces[i].offset) - glm::dot(normal, local.origin);
+    const Real ascent = glm::dot(normal, local.direction);
+    if (ascent == 0 && room < 0) return {};
+    const Real t = room / ascent;
+    if (ascent < 0 && t > span.begin) span.begin = t, span.begin_surface = Surface(i);
+    if (ascent > 0 && t < span.end) span.end = t, span.end_surface = Surface(i);
+  }
+  return span;
+}
+
 Span RayTarget::span(const NearRay& ray) const {
   const NearRay local = localize(ray);
-  return shape_ == Shape::kSphere ? cross_sphere(local) : cross_frustum(local);
+  switch (shape_) {
+    case Shape::kSphere:
+      return cross_sphere(local);
+    case Shape::kFrustum:
+      return cross_frustum(local);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return cross_polyhedron(local);
 }
 
 LongVec3 RayTarget::normal(const NearRay& ray, Real t, Surface surface) const {
   const NearRay local = localize(ray);
   LongVec3 normal = local.origin + t * local.direction;
+  if (shape_ == Shape::kPolyhedron) {
+    normal = LongVec3(polyhedron_->half_spaces()[uint32_t(surface)].normal);
+    return glm::normalize(glm::transpose(world_to_local_) * normal);
+  }
   if (surface == Surface::kBottom) normal = LongVec3(0, 0, -1);
   if (surface == Surface::kTop) normal = LongVec3(0, 0, 1);
   if (surface == Surface::kSide && shape_ == Shape::kFrustum) {
@@ -145,6 +175,11 @@ double furthest(const Primitive& p, const HalfSpace& half_space) {
   const Vec3 local = glm::transpose(p.local_to_world.linear) * normal;
   const double base = glm::dot(p.local_to_world.translation - half_space.point, normal);
   if (p.shape == Shape::kSphere) return base + p.r_bottom * glm::length(local);
+  if (p.shape == Shape::kPolyhedron) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : p.polyhedron->vertices()) most = std::max(most, glm::dot(local, v));
+    return base + most;
+  }
   const double across = std::hypot(local.x, local.y);
   return base +
          std::max(local.z * p.z_min + across * p.r_bottom, local.z * p.z_max + across * p.r_top);

@@ -18,7 +18,8 @@ struct NearRay {
   LongVec3 origin, direction;
 };
 
-enum class Surface : uint8_t { kSide, kBottom, kTop };
+/// Of a polyhedron, the half-space of that index.
+enum class Surface : uint32_t { kBottom = 0, kTop = 1, kSide = 0xFFFFFFFFu };
 
 /// The part of a ray inside a primitive. Empty unless begin < end.
 struct Span {
@@ -39,11 +40,13 @@ class RayTarget {
   NearRay localize(const NearRay& ray) const;
   Span cross_sphere(const NearRay& local) const;
   Span cross_frustum(const NearRay& local) const;
+  Span cross_polyhedron(const NearRay& local) const;
   Real radius_at(Real z) const;
 
   Shape shape_;
+  std::shared_ptr<const Polyhedron> polyhedron_;
   LongMat3 world_to_local_;
-  LongVec3 middle_to_pivot_;  // from the local solid's middle, in the world
+  LongVec3 middle_to_pivot_;  // from the local solid's middle (a polyhedron's origin), in the world
   Real r_bottom_, r_top_;
   Real half_height_ = 0;  // of the frustum; local z is measured from its middle
   Real slope_ = 0;
