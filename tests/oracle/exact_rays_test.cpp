@@ -255,14 +255,13 @@ TEST(ExactRays, TheOrderOfCrossings1e31ApartDecides) {
 }
 
 TEST(ExactRays, LikePrimitivesThatAreALastBitApart) {
-  // A skin of 1.4 τ, and halfway through it 1 − 2, two equal rods of which one stands 2⁻⁶⁰ higher.
-  // Where 1 does, the gap between them makes one cluster of the skin.
+  // A skin of 1.4 τ, and halfway through it 1 − 2, two equal rods of which one stands 2⁻⁶⁰ higher,
+  // or two boxes of one frame. Where 1 does, the gap between them makes one cluster of the skin.
   const Primitive aside = ball(1, {3, 3, -3});
   const double tolerance =
       ExactScene(scene_of(Op::kUnion, {rod(-1e-9, 1e-9, 1), aside})).thickness();
-  const auto is_whole = [&](double higher) {
-    const Scene scene = scene_of({rod(-0.7 * tolerance, 0.7 * tolerance, 1),
-                                  rod(-10, 0, 2, {0, 0, higher}), rod(-10, 0, 2), aside},
+  const auto is_whole = [&](const Primitive& higher, const Primitive& lower) {
+    const Scene scene = scene_of({rod(-0.7 * tolerance, 0.7 * tolerance, 1), higher, lower, aside},
                                  [](csgcore::CsgTreeBuilder& builder) {
                                    builder.open(Op::kUnion);
                                    builder.open(Op::kDifference);
@@ -277,8 +276,12 @@ TEST(ExactRays, LikePrimitivesThatAreALastBitApart) {
                                  });
     return hit_of(scene, {{0.25, 0.25, 3}, {0, 0, -1}}).hit();
   };
-  EXPECT_FALSE(is_whole(0x1p-60));
-  EXPECT_TRUE(is_whole(-0x1p-60));
+  const auto rod_at = [](double height) { return rod(-10, 0, 2, {0, 0, height}); };
+  const auto block_to = [](double height) { return block({-2, -2, -10}, {2, 2, height}); };
+  EXPECT_FALSE(is_whole(rod_at(0x1p-60), rod_at(0)));
+  EXPECT_TRUE(is_whole(rod_at(-0x1p-60), rod_at(0)));
+  EXPECT_FALSE(is_whole(block_to(0x1p-60), block_to(0)));
+  EXPECT_TRUE(is_whole(block_to(-0x1p-60), block_to(0)));
 }
 
 TEST(ExactRays, NormalsOfTinyPrimitives) {

@@ -49,6 +49,8 @@ struct Family {
   std::vector<Case> cases;
   /// Faces coincide all over: GL's bar is speckle (design.md §3).
   bool is_coincident = false;
+  /// GL does not draw them yet.
+  bool has_polyhedra = false;
 };
 
 /// What GoogleTest prints of a family.
@@ -63,6 +65,7 @@ std::vector<Family> thin_families();
 std::vector<Family> far_families();
 std::vector<Family> singular_families();
 std::vector<Family> tree_families();
+std::vector<Family> polyhedron_families();
 Family tolerance_family();
 Family design_family();
 

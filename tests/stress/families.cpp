@@ -10,6 +10,7 @@ const std::vector<Family>& families() {
                                             far_families(),
                                             singular_families(),
                                             tree_families(),
+                                            polyhedron_families(),
                                             {tolerance_family(), design_family()}}) {
       result.insert(result.end(), some.begin(), some.end());
     }

@@ -1,10 +1,16 @@
 #include "parts.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace stress {
+
+using csgcore::HalfSpace;
+using csgcore::Polyhedron;
 
 Part::Part(const Primitive& primitive)
     : primitives_{primitive}, steps_{{Step::Kind::kPrimitive, Op::kUnion, 0}} {}
@@ -78,6 +84,37 @@ Part rod(double z_min, double z_max, double radius, const Vec3& at) {
 }
 Part cone(double z_min, double z_max, double r_bottom, double r_top, const Vec3& at) {
   return csgcore::make_frustum(z_min, z_max, r_bottom, r_top, {Mat3{1.0}, at});
+}
+
+Part brick(const Vec3& min, const Vec3& max) {
+  return csgcore::make_polyhedron(Polyhedron::box({min, max}));
+}
+Part cube(double size, const Vec3& at) { return brick(at - 0.5 * size, at + 0.5 * size); }
+Part prism(double z_min, double z_max, double radius, int fragments, const Vec3& at) {
+  return csgcore::make_polyhedron(Polyhedron::frustum(z_min, z_max, radius, radius, fragments),
+                                  {Mat3{1.0}, at});
+}
+Part faceted_ball(double radius, int fragments, const Vec3& at) {
+  return csgcore::make_polyhedron(Polyhedron::sphere(radius, fragments), {Mat3{1.0}, at});
+}
+
+Part dodecahedron(double scale) {
+  constexpr double kPhi = std::numbers::phi;
+  std::vector<HalfSpace> faces;
+  std::vector<Vec3> vertices;
+  const auto turned_thrice = [](const Vec3& v, int times) {
+    return Vec3{v[(3 - times) % 3], v[(4 - times) % 3], v[(5 - times) % 3]};
+  };
+  for (int signs = 0; signs < 4; ++signs) {
+    const double s = signs & 1 ? -1 : 1, t = signs & 2 ? -1 : 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      faces.push_back({turned_thrice({0, s * kPhi, t}, axis), scale * (1 + kPhi)});
+      vertices.push_back(scale * turned_thrice({0, s / kPhi, t * kPhi}, axis));
+    }
+    vertices.push_back(scale * Vec3{s, t, 1});
+    vertices.push_back(scale * Vec3{s, t, -1});
+  }
+  return csgcore::make_polyhedron(std::make_shared<Polyhedron>(faces, vertices));
 }
 
 Mat3 turned(double x_deg, double y_deg, double z_deg) {

@@ -65,6 +65,15 @@ Part ball(double radius, const Vec3& at = Vec3{0.0});
 Part rod(double z_min, double z_max, double radius, const Vec3& at = Vec3{0.0});
 Part cone(double z_min, double z_max, double r_bottom, double r_top, const Vec3& at = Vec3{0.0});
 
+// Convex polyhedra.
+Part brick(const Vec3& min, const Vec3& max);
+Part cube(double size, const Vec3& at = Vec3{0.0});  // centred
+Part prism(double z_min, double z_max, double radius, int fragments, const Vec3& at = Vec3{0.0});
+Part faceted_ball(double radius, int fragments, const Vec3& at = Vec3{0.0});
+/// About the origin; its outermost coordinate is φ·`scale`, and eight of its vertices are the
+/// corners of the cube of ±`scale`.
+Part dodecahedron(double scale);
+
 /// Rotations about the axes, in this order, as OpenSCAD's rotate([x, y, z]) has them; rounded.
 Mat3 turned(double x_deg, double y_deg, double z_deg);
 Affine turn(double x_deg, double y_deg, double z_deg);
