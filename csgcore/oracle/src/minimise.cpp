@@ -1,0 +1,229 @@
+#include "oracle/minimise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "csgcore/polyhedron.hpp"
+#include "shortest_text.hpp"
+#include "tree_order.hpp"
+
+namespace oracle {
+namespace {
+
+using csgcore::Affine;
+using csgcore::CsgToken;
+using csgcore::CsgTree;
+using csgcore::Polyhedron;
+using csgcore::Primitive;
+using csgcore::Scene;
+using csgcore::Shape;
+using csgcore::Vec3;
+using Tokens = std::vector<CsgToken>;
+
+/// All numbers of a primitive but a polyhedron's own.
+std::vector<double*> numbers_of(Primitive& primitive) {
+  std::vector<double*> numbers;
+  if (primitive.shape != Shape::kPolyhedron) numbers.push_back(&primitive.r_bottom);
+  if (primitive.shape == Shape::kFrustum) {
+    numbers.insert(numbers.end(), {&primitive.r_top, &primitive.z_min, &primitive.z_max});
+  }
+  Affine& map = primitive.local_to_world;
+  for (Vec3* column : {&map.translation, &map.linear[0], &map.linear[1], &map.linear[2]}) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(&(*column)[i]);
+  }
+  return numbers;
+}
+
+/// Tokens, shapes that are not balls, half-spaces, digits: the smaller scene is that of which the
+/// first that differs is smaller.
+using Size = std::tuple<size_t, size_t, size_t, size_t>;
+
+Size size_of(const Scene& scene) {
+  size_t shapes = 0, half_spaces = 0, digits = 0;
+  for (Primitive primitive : scene.primitives) {
+    shapes += primitive.shape != Shape::kSphere;
+    if (primitive.polyhedron) half_spaces += primitive.polyhedron->half_spaces().size();
+    for (const double* number : numbers_of(primitive)) {
+      if (*number != 0) digits += shortest_text(*number).size();
+    }
+  }
+  return {scene.model.tokens().size(), shapes, half_spaces, digits};
+}
+
+/// Only the primitives that the tokens name, with their indices for ids.
+Scene scene_of(const std::vector<Primitive>& primitives, const Tokens& tokens) {
+  constexpr uint32_t kUnnamed = std::numeric_limits<uint32_t>::max();
+  std::vector<uint32_t> indices(primitives.size(), kUnnamed);
+  for (const CsgToken& token : tokens) {
+    if (token.is_primitive) indices[token.value] = 0;
+  }
+  Scene scene;
+  for (size_t i = 0; i < primitives.size(); ++i) {
+    if (indices[i] == kUnnamed) continue;
+    indices[i] = uint32_t(scene.primitives.size());
+    scene.primitives.push_back(primitives[i]);
+    scene.primitives.back().id = indices[i];
+  }
+  Tokens renamed = tokens;
+  for (CsgToken& token : renamed) {
+    if (token.is_primitive) token.value = indices[token.value];
+  }
+  csgcore::CsgTreeBuilder builder;
+  visit_outside_in(renamed, builder);
+  scene.model = builder.finish();
+  return scene;
+}
+
+/// Solids that a polyhedron may become: its box, and the simplest ones.
+std::vector<std::shared_ptr<const Polyhedron>> simpler(const Polyhedron& polyhedron) {
+  csgcore::Box box;
+  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
+  std::vector<std::shared_ptr<const Polyhedron>> result{Polyhedron::frustum(-1, 1, 1, 0, 3),
+                                                        Polyhedron::box({Vec3(-1), Vec3(1)}),
+                                                        Polyhedron::box(box)};
+  for (const int fragments : {3, 4, 6}) {
+    result.push_back(Polyhedron::frustum(-1, 1, 1, 1, fragments));
+    result.push_back(Polyhedron::sphere(1, fragments));
+  }
+  return result;
+}
+
+class Minimiser {
+ public:
+  Minimiser(const Scene& scene, const Shows& shows, uint32_t most_tries)
+      : shows_(shows), tries_left_(most_tries) {
+    const std::span<const CsgToken> tokens = scene.model.tokens();
+    best_ = scene_of(scene.primitives, {tokens.begin(), tokens.end()});
+    size_ = size_of(best_);
+  }
+
+  Scene run() {
+    while (keep_a_subtree() || drop_operands() || simplify_shapes() || simplify_numbers()) {
+    }
+    return best_;
+  }
+
+ private:
+  Tokens tokens() const { return {best_.model.tokens().begin(), best_.model.tokens().end()}; }
+
+  /// Takes the scene if it is smaller and shows what is looked for.
+  bool take(Scene scene) {
+    const Size size = size_of(scene);
+    if (!(size < size_) || tries_left_ == 0) return false;
+    for (const Primitive& primitive : scene.primitives) {
+      if (!csgcore::is_valid(primitive)) return false;
+    }
+    --tries_left_;
+    if (!shows_(scene)) return false;
+    best_ = std::move(scene);
+    size_ = size;
+    return true;
+  }
+
+  bool take(const Primitive& primitive, size_t index) {
+    Scene scene = best_;
+    scene.primitives[index] = primitive;
+    return take(std::move(scene));
+  }
+
+  bool keep_a_subtree() {
+    const Tokens all = tokens();
+    const std::vector<size_t> firsts = first_tokens(all);
+    std::vector<size_t> roots(all.size());
+    for (size_t i = 0; i < roots.size(); ++i) roots[i] = i;
+    std::stable_sort(roots.begin(), roots.end(),
+                     [&](size_t a, size_t b) { return a - firsts[a] < b - firsts[b]; });
+    return std::any_of(roots.begin(), roots.end(), [&](size_t root) {
+      return take(scene_of(best_.primitives,
+                           {all.begin() + long(firsts[root]), all.begin() + long(root) + 1}));
+    });
+  }
+
+  /// Of every operation some operands in a row: half of them, a quarter, …, one.
+  bool drop_operands() {
+    const Tokens all = tokens();
+    const std::vector<size_t> firsts = first_tokens(all);
+    for (size_t i = all.size(); i-- > 0;) {
+      if (all[i].is_primitive) continue;
+      std::vector<size_t> ends{i};  // after the operands, the last one first
+      while (ends.back() > firsts[i]) ends.push_back(firsts[ends.back() - 1]);
+      const size_t count = ends.size() - 1;
+      for (size_t part = count / 2; part > 0; part /= 2) {
+        for (size_t k = 0; k + part <= count; k += part) {
+          if (take(without(all, i, ends[k + part], ends[k], count - part))) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Without the tokens [from, to), operands of the operation `op`, which keeps so many.
+  Scene without(const Tokens& all, size_t op, size_t from, size_t to, size_t operands) const {
+    Tokens rest = all;
+    rest[op].value = uint32_t(operands);
+    if (operands == 1) rest.erase(rest.begin() + long(op));
+    rest.erase(rest.begin() + long(from), rest.begin() + long(to));
+    return scene_of(best_.primitives, rest);
+  }
+
+  bool simplify_shapes() {
+    for (size_t i = 0; i < best_.primitives.size(); ++i) {
+      Primitive primitive = best_.primitives[i];
+      if (primitive.shape == Shape::kSphere) continue;
+      const Affine& map = primitive.local_to_world;
+      if (take(csgcore::make_sphere(1, map), i)) return true;
+      if (primitive.shape != Shape::kPolyhedron) continue;
+      for (const auto& solid : simpler(*primitive.polyhedron)) {
+        if (take(csgcore::make_polyhedron(solid, map), i)) return true;
+      }
+    }
+    return false;
+  }
+
+  bool simplify_numbers() {
+    bool taken = false;
+    for (size_t i = 0; i < best_.primitives.size(); ++i) {
+      Primitive upright = best_.primitives[i];
+      upright.local_to_world.linear = csgcore::Mat3(1.0);
+      taken |= take(upright, i);
+      const size_t count = numbers_of(upright).size();
+      for (size_t k = 0; k < count; ++k) taken |= simplify_number(i, k);
+    }
+    return taken;
+  }
+
+  bool simplify_number(size_t index, size_t which) {
+    const double number = *numbers_of(best_.primitives[index])[which];
+    const auto take_number = [&](double simple) {
+      Primitive primitive = best_.primitives[index];
+      *numbers_of(primitive)[which] = simple;
+      return take(primitive, index);
+    };
+    if (take_number(0) || take_number(std::copysign(1, number))) return true;
+    for (int digits = 1; digits <= std::numeric_limits<double>::digits10; ++digits) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.*g", digits, number);
+      if (take_number(std::strtod(text, nullptr))) return true;
+    }
+    return false;
+  }
+
+  const Shows& shows_;
+  uint32_t tries_left_;
+  Scene best_;
+  Size size_;
+};
+
+}  // namespace
+
+Scene minimise(const Scene& scene, const Shows& shows, uint32_t most_tries) {
+  return Minimiser(scene, shows, most_tries).run();
+}
+
+}  // namespace oracle
