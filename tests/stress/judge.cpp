@@ -34,18 +34,9 @@ Errors errors_of(const ExactHit& expected, const Hits& picture, size_t i) {
           glm::length(picture.normal[i] - expected.normal), distance(picture.s[i], expected.s)};
 }
 
-const char* name_of(Doubt doubt) {
-  switch (doubt) {
-    case Doubt::kNone:
-      return "no doubt";
-    case Doubt::kSilhouette:
-      return "silhouette";
-    case Doubt::kEye:
-      return "eye";
-    case Doubt::kThickness:
-      return "thickness";
-  }
-  return "";
+/// What rounding does to the coordinates of a point.
+double rounding(const Vec3& point, const Tolerance& tolerance) {
+  return tolerance.coordinate * glm::length(point);
 }
 
 class Judge {
@@ -64,28 +55,19 @@ class Judge {
   }
 
  private:
-  /// What rounding does to the coordinates of a point.
-  double rounding(const Vec3& point) const { return tolerance_.coordinate * glm::length(point); }
-
   Verdict verdict(size_t i) {
     const ExactHit& expected = oracle_.hit(i);
-    const bool hit = picture_.primitive[i] != Hits::kMiss;
     tally_.hits += expected.hit();
-    if (hit != expected.hit()) return Verdict::kWrongHit;
-    if (!hit) return Verdict::kRight;
-    if (picture_.primitive[i] != expected.primitive) return Verdict::kWrongPrimitive;
-    const Errors errors = errors_of(expected, picture_, i);
-    const double size = oracle_.model_size();
-    const double far =
-        tolerance_.position * size + rounding(expected.position) + oracle_.displacement();
-    const double far_s = far + 2 * tolerance_.coordinate * std::abs(expected.s.lower);
-    if (!(errors.position <= far && errors.s <= far_s)) return Verdict::kWrongPosition;
-    if (!(errors.normal <= tolerance_.normal)) return Verdict::kWrongNormal;
-    tally_.position_errors.add(errors.position / size);
-    tally_.normal_errors.add(errors.normal);
-    tally_.position_rounding =
-        std::max(tally_.position_rounding, rounding(expected.position) / size);
-    return Verdict::kRight;
+    const Verdict result = verdict_of(expected, picture_, i, tolerance_, oracle_.scene());
+    if (result == Verdict::kRight && expected.hit()) {
+      const Errors errors = errors_of(expected, picture_, i);
+      const double size = oracle_.model_size();
+      tally_.position_errors.add(errors.position / size);
+      tally_.normal_errors.add(errors.normal);
+      tally_.position_rounding =
+          std::max(tally_.position_rounding, rounding(expected.position, tolerance_) / size);
+    }
+    return result;
   }
 
   void count(size_t i) {
@@ -145,6 +127,34 @@ class Judge {
 };
 
 }  // namespace
+
+const char* name_of(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::kNone:
+      return "no doubt";
+    case Doubt::kSilhouette:
+      return "silhouette";
+    case Doubt::kEye:
+      return "eye";
+    case Doubt::kThickness:
+      return "thickness";
+  }
+  return "";
+}
+
+Verdict verdict_of(const ExactHit& expected, const Hits& picture, size_t pixel,
+                   const Tolerance& tolerance, const oracle::ExactScene& scene) {
+  const bool hit = picture.primitive[pixel] != Hits::kMiss;
+  if (hit != expected.hit()) return Verdict::kWrongHit;
+  if (!hit) return Verdict::kRight;
+  if (picture.primitive[pixel] != expected.primitive) return Verdict::kWrongPrimitive;
+  const Errors errors = errors_of(expected, picture, pixel);
+  const double far = tolerance.position * scene.size() + rounding(expected.position, tolerance) +
+                     scene.displacement();
+  const double far_s = far + 2 * tolerance.coordinate * std::abs(expected.s.lower);
+  if (!(errors.position <= far && errors.s <= far_s)) return Verdict::kWrongPosition;
+  return errors.normal <= tolerance.normal ? Verdict::kRight : Verdict::kWrongNormal;
+}
 
 uint64_t Tally::wrong_pixels() const {
   uint64_t sum = 0;

@@ -37,6 +37,12 @@ enum class Verdict : uint8_t {
 };
 constexpr size_t kVerdicts = 5;
 
+/// A pixel, held against what the exact ray sees of the scene.
+Verdict verdict_of(const oracle::ExactHit& expected, const csgcore::Hits& picture, size_t pixel,
+                   const Tolerance& tolerance, const oracle::ExactScene& scene);
+
+const char* name_of(oracle::Doubt doubt);
+
 /// Sums over pixels. A pixel that is not right is undecided if there is a doubt (ExactRays::doubt),
 /// and else wrong.
 struct Tally {
@@ -67,7 +73,7 @@ class Oracle {
   const oracle::ExactHit& hit(size_t pixel) const { return hits_[pixel]; }
   const csgcore::View& view() const { return *view_; }
   double model_size() const { return scene_.size(); }
-  double displacement() const { return scene_.displacement(); }
+  const oracle::ExactScene& scene() const { return scene_; }
   uint64_t hits() const;
   /// Remembers what it was asked before.
   oracle::Doubt doubt(size_t pixel);

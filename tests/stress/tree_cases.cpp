@@ -4,6 +4,7 @@
 #include <random>
 
 #include "cases.hpp"
+#include "random_scenes.hpp"
 #include "support/models.hpp"
 
 namespace stress {
@@ -119,9 +120,20 @@ int whole(std::mt19937& random, int low, int high) {
   return std::uniform_int_distribution<int>(low, high)(random);
 }
 
+/// A cube, a prism of 3 to 8 sides, or a faceted ball.
+Part lattice_polyhedron(std::mt19937& random) {
+  const int kind = whole(random, 0, 4), fragments = whole(random, 3, 8);
+  if (kind == 0) return faceted_ball(whole(random, 1, 3), fragments);
+  const int z = whole(random, -2, 1), height = whole(random, 1, 4);
+  if (kind == 1) return prism(z, z + height, whole(random, 1, 3), fragments);
+  const int x = whole(random, -2, 1), y = whole(random, -2, 1);
+  return brick({x, y, z}, {x + whole(random, 1, 4), y + whole(random, 1, 4), z + height});
+}
+
 /// Everything in whole numbers and right angles, so that caps, walls and axes coincide all over.
-Part lattice_primitive(std::mt19937& random) {
+Part lattice_primitive(std::mt19937& random, bool with_polyhedra) {
   const auto shape = [&]() -> Part {
+    if (with_polyhedra && whole(random, 0, 2) > 0) return lattice_polyhedron(random);
     const int kind = whole(random, 0, 5);
     if (kind == 0) return ball(whole(random, 1, 3));
     const int z = whole(random, -2, 1), height = whole(random, 1, 4);
@@ -138,11 +150,11 @@ Part lattice_primitive(std::mt19937& random) {
   return upright.under({frames[random() % std::size(frames)], at});
 }
 
-Scene lattice_tree(uint32_t seed) {
+Scene lattice_tree(uint32_t seed, bool with_polyhedra) {
   std::mt19937 random(seed);
   std::vector<Part> operands;
   for (int left = whole(random, 3, 12); left > 0; --left) {
-    operands.push_back(lattice_primitive(random));
+    operands.push_back(lattice_primitive(random, with_polyhedra));
     while (operands.size() > 1 && whole(random, 0, 2) > 0) {
       const Part last = operands.back();
       operands.pop_back();
@@ -172,11 +184,24 @@ std::vector<Camera> lattice_cameras(const Scene& scene, PictureSize size) {
 
 constexpr uint32_t kSeedsInSample = 8;
 
-Family lattice_family() {
-  Family family{"random_lattice", {}, true};
+Family lattice_family(const char* name, bool with_polyhedra) {
+  Family family{name, {}, true, with_polyhedra};
   for (uint32_t seed = 1; seed <= 100; ++seed) {
-    family.cases.push_back({"seed_" + std::to_string(seed), [seed] { return lattice_tree(seed); },
-                            lattice_cameras, seed > kSeedsInSample});
+    family.cases.push_back({"seed_" + std::to_string(seed),
+                            [=] { return lattice_tree(seed, with_polyhedra); }, lattice_cameras,
+                            seed > kSeedsInSample});
+  }
+  return family;
+}
+
+/// (Other trees than random_trees_test's.)
+Family random_polyhedra_family() {
+  constexpr uint32_t kFirstSeed = 1000001;
+  Family family{"random_polyhedra", {}, false, true};
+  for (uint32_t i = 0; i < 60; ++i) {
+    family.cases.push_back({"seed_" + std::to_string(kFirstSeed + i),
+                            [=] { return random_scene(kFirstSeed + i, false); }, default_cameras,
+                            i >= kSeedsInSample});
   }
   return family;
 }
@@ -194,6 +219,9 @@ Family random_family() {
 
 }  // namespace
 
-std::vector<Family> tree_families() { return {deep(), random_family(), lattice_family()}; }
+std::vector<Family> tree_families() {
+  return {deep(), random_family(), lattice_family("random_lattice", false),
+          random_polyhedra_family(), lattice_family("lattice_of_polyhedra", true)};
+}
 
 }  // namespace stress

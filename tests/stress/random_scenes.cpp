@@ -1,0 +1,165 @@
+#include "random_scenes.hpp"
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "csgcore/polyhedron.hpp"
+#include "support/models.hpp"
+
+namespace stress {
+namespace {
+
+using csgcore::Polyhedron;
+using Random = std::mt19937;
+
+constexpr uint32_t kMostPrimitives = 12;
+constexpr uint32_t kMostFragments = 8;
+constexpr int kMostDepth = 5;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+bool by_chance(Random& random, double share) { return uniform(random, 0, 1) < share; }
+
+/// From 1 to 4; often whole, so that sizes are equal.
+double length(Random& random) {
+  const double number = uniform(random, 1, 4);
+  return by_chance(random, 0.6) ? std::round(number) : number;
+}
+
+struct FrustumSize {
+  double z_min, z_max, r_bottom, r_top;
+};
+
+FrustumSize frustum_size(Random& random) {
+  const double z_min = -length(random), z_max = length(random), radius = length(random);
+  switch (random() % 4) {
+    case 0:
+      return {z_min, z_max, radius, length(random)};
+    case 1:
+      return {z_min, z_max, radius, 0};
+    case 2:
+      return {z_min, z_max, 0, radius};
+    default:
+      return {z_min, z_max, radius, radius};
+  }
+}
+
+/// In its own frame, which is to be a place in the world.
+Primitive random_primitive(Random& random, bool only_polyhedra) {
+  const int fragments = 3 + int(random() % (kMostFragments - 2));
+  switch (random() % (only_polyhedra ? 3 : 5)) {
+    case 0: {
+      const Vec3 size{length(random), length(random), length(random)};
+      return csgcore::make_polyhedron(Polyhedron::box({-size, size}));
+    }
+    case 1:
+      return csgcore::make_polyhedron(Polyhedron::sphere(length(random), fragments));
+    case 2: {
+      const FrustumSize size = frustum_size(random);
+      return csgcore::make_polyhedron(
+          Polyhedron::frustum(size.z_min, size.z_max, size.r_bottom, size.r_top, fragments));
+    }
+    case 3:
+      return csgcore::make_sphere(length(random));
+    default: {
+      const FrustumSize size = frustum_size(random);
+      return csgcore::make_frustum(size.z_min, size.z_max, size.r_bottom, size.r_top);
+    }
+  }
+}
+
+Vec3 whole_offset(Random& random) {
+  Vec3 offset(0.0);
+  offset[random() % 3] = std::round(uniform(random, -4, 4));
+  return offset;
+}
+
+/// Shares planes with what stands in the frame, or an axis: shifted by whole numbers, or turned
+/// about z so that hexagons, squares and cubes come to lie on themselves, but for rounding.
+Affine related(const Affine& frame, Random& random) {
+  switch (random() % 4) {
+    case 0:
+      return frame;
+    case 1:
+      return csgcore::compose(frame, {Mat3{1.0}, whole_offset(random)});
+    case 2:
+      return csgcore::compose(frame, turn(0, 0, random() % 2 ? 60 : 90));
+    default:
+      return csgcore::compose(frame, turn(90, 0, 0));
+  }
+}
+
+Affine random_frame(Random& random) {
+  if (by_chance(random, 0.7)) return test_support::random_affine(random);
+  return {Mat3{1.0}, whole_offset(random)};
+}
+
+std::vector<Primitive> random_primitives(Random& random, bool only_polyhedra) {
+  std::vector<Primitive> primitives;
+  const uint32_t count = 1 + random() % kMostPrimitives;
+  for (uint32_t i = 0; i < count; ++i) {
+    Primitive primitive = random_primitive(random, only_polyhedra);
+    primitive.local_to_world = random_frame(random);
+    if (i > 0 && by_chance(random, 0.5)) {
+      const Primitive& other = primitives[random() % i];
+      if (by_chance(random, 0.2)) primitive = other;
+      primitive.local_to_world = related(other.local_to_world, random);
+    }
+    primitive.id = i;
+    primitives.push_back(primitive);
+  }
+  return primitives;
+}
+
+/// Operations open and close at random between the primitives; intersections are rarer, as deep
+/// ones are mostly empty.
+csgcore::CsgTree random_tree(Random& random, uint32_t primitives) {
+  constexpr Op kOps[] = {Op::kUnion,      Op::kUnion,       Op::kUnion,      Op::kUnion,
+                         Op::kDifference, Op::kDifference,  Op::kDifference, Op::kDifference,
+                         Op::kDifference, Op::kIntersection};
+  csgcore::CsgTreeBuilder tree;
+  int depth = 0;
+  for (uint32_t i = 0; i < primitives; ++i) {
+    for (; depth < kMostDepth && by_chance(random, 0.5); ++depth) {
+      tree.open(kOps[random() % std::size(kOps)]);
+    }
+    tree.primitive(i);
+    for (; depth > 0 && by_chance(random, 0.4); --depth) tree.close();
+  }
+  for (; depth > 0; --depth) tree.close();
+  return tree.finish();
+}
+
+}  // namespace
+
+Scene random_scene(uint32_t seed, bool only_polyhedra) {
+  Random random(seed);
+  Scene scene;
+  scene.primitives = random_primitives(random, only_polyhedra);
+  scene.model = random_tree(random, uint32_t(scene.primitives.size()));
+  return scene;
+}
+
+View random_view(const Scene& scene, PictureSize size, uint32_t seed) {
+  Random random(seed);
+  const Box box = camera_box(scene);
+  const Projection projection =
+      random() % 3 == 0 ? Projection::kOrthographic : Projection::kPerspective;
+  const double distance = std::exp2(uniform(random, -1, 5));
+  View view = random() % 4 == 0 ? view_along(box, size, projection, int(random() % 3), distance)
+                                : view_around(box, size, projection, uniform(random, 0, 360),
+                                              uniform(random, -90, 90), distance);
+  view.half_height *= uniform(random, 0.5, 1);
+  if (projection == Projection::kPerspective && random() % 4 == 0) {
+    const Vec3 half = 0.5 * box.size();
+    view.eye = box.center();
+    for (int i = 0; i < 3; ++i) view.eye[i] += half[i] * uniform(random, -1, 1);
+    view.half_height = uniform(random, 0.3, 1.5);
+  }
+  return view;
+}
+
+}  // namespace stress

@@ -1,0 +1,18 @@
+// Random trees of all primitives under random affine maps, with coincidences planted in them.
+#pragma once
+
+#include <cstdint>
+
+#include "cases.hpp"
+
+namespace stress {
+
+/// Up to 12 primitives within about [-10, 10]³: spheres, frusta, cubes, faceted spheres and frusta
+/// of 3 to 8 fragments, often of whole numbers. Half of them share planes or an axis with an
+/// earlier one, or are the same. `only_polyhedra`: no smooth ones.
+Scene random_scene(uint32_t seed, bool only_polyhedra);
+
+/// From around the scene, near or far, or from within; or without perspective, often along an axis.
+View random_view(const Scene& scene, PictureSize size, uint32_t seed);
+
+}  // namespace stress

@@ -1,0 +1,147 @@
+// The CPU tracer on thousands of random trees against the exact ray oracle. The full run has 10,000
+// trees of 1,024 rays each.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cpu_methods.hpp"
+#include "disagreement.hpp"
+#include "judge.hpp"
+#include "random_scenes.hpp"
+#include "support/full_run.hpp"
+
+namespace {
+
+using csgcore::Hits;
+using csgcore::Solid;
+using oracle::Doubt;
+using oracle::ExactHit;
+using oracle::ExactRays;
+using oracle::ExactScene;
+using stress::Method;
+using stress::Scene;
+using stress::Verdict;
+using stress::View;
+
+/// Even, so that no row of pixels lies in the middle of a symmetric scene.
+constexpr stress::PictureSize kPicture{32, 32};
+constexpr uint32_t kParts = 10;          // so that they run side by side
+constexpr double kMostUndecided = 1e-5;  // of the rays; a sample of fewer may have one
+
+uint32_t trees_of_a_part() { return test_support::full_run() ? 1000 : 60; }
+
+Hits picture_by(const Method& method, const Scene& scene, const View& view) {
+  const Solid solid(csgcore::canonical_primitives(scene), scene.model);
+  return method.prepare(scene, solid)(view);
+}
+
+csgcore::Ray ray_of(const View& view, size_t pixel) {
+  return csgcore::pixel_ray(view, double(pixel % view.width_px), double(pixel / view.width_px));
+}
+
+bool is_wrong(const Method& method, const Scene& scene, const View& view, size_t pixel) {
+  const ExactScene exact(scene);
+  ExactRays rays(exact);
+  const csgcore::Ray ray = ray_of(view, pixel);
+  const ExactHit expected = rays.first_hit(ray, view.projection);
+  const Hits picture = picture_by(method, scene, view);
+  return stress::verdict_of(expected, picture, pixel, stress::kDoubleTolerance, exact) !=
+             Verdict::kRight &&
+         rays.doubt(ray, view.projection) == Doubt::kNone;
+}
+
+struct Sums {
+  uint64_t hits = 0, undecided = 0;
+  oracle::ExactCounts exact;
+};
+
+/// Empty, or what is wrong.
+std::string judge_tree(const Scene& scene, const View& view, const std::vector<Method>& methods,
+                       Sums& sums) {
+  const ExactScene exact(scene);
+  ExactRays rays(exact);
+  const std::vector<ExactHit> expected = oracle::exact_picture(exact, view, &sums.exact);
+  for (const ExactHit& hit : expected) sums.hits += hit.hit();
+  std::vector<bool> is_undecided(expected.size());
+  for (const Method& method : methods) {
+    const Hits picture = picture_by(method, scene, view);
+    for (size_t i = 0; i < expected.size(); ++i) {
+      const Verdict verdict =
+          stress::verdict_of(expected[i], picture, i, stress::kDoubleTolerance, exact);
+      if (verdict == Verdict::kRight) continue;
+      const Doubt doubt = rays.doubt(ray_of(view, i), view.projection);
+      if (doubt == Doubt::kNone) {
+        const auto shows = [&](const Scene& smaller) { return is_wrong(method, smaller, view, i); };
+        return "by " + method.name + ", " + stress::minimised(scene, view, i, shows);
+      }
+      if (!is_undecided[i]) {
+        std::printf("undecided by %s: %s at pixel %zu\n", method.name.c_str(),
+                    stress::name_of(doubt), i);
+      }
+      is_undecided[i] = true;
+    }
+  }
+  for (const bool undecided : is_undecided) sums.undecided += undecided;
+  return {};
+}
+
+class RandomTrees : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
+  const std::vector<Method> kd_trees = stress::cpu_methods();
+  Sums sums;
+  for (uint32_t i = 0; i < trees_of_a_part(); ++i) {
+    const uint32_t seed = 1 + GetParam() + kParts * i;
+    const Scene scene = stress::random_scene(seed, false);
+    const View view = stress::random_view(scene, kPicture, seed);
+    const std::vector<Method> methods{stress::cpu_method("tiles"),
+                                      kd_trees[1 + i % (kd_trees.size() - 1)]};
+    const std::string wrong = judge_tree(scene, view, methods, sums);
+    ASSERT_EQ(wrong, "") << "tree " << seed;
+  }
+  const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::printf("%s: %u trees, %llu rays, %llu hits, %llu undecided; %llu crossings coincide\n",
+              test_support::full_run() ? "full run" : "sample", trees_of_a_part(),
+              number(sums.exact.rays), number(sums.hits), number(sums.undecided),
+              number(sums.exact.exact_comparisons));
+  const auto rays = double(sums.exact.rays);
+  EXPECT_GT(double(sums.hits), rays / 10);
+  EXPECT_GT(double(sums.exact.exact_comparisons), rays / 50);
+  EXPECT_LE(double(sums.undecided), std::max(1.0, kMostUndecided * rays));
+}
+
+INSTANTIATE_TEST_SUITE_P(, RandomTrees, testing::Range(0u, kParts));
+
+// A renderer that takes the wrong sign for one coordinate of its spheres.
+TEST(RandomTreesPlanted, AWrongSignIsFoundAndMinimised) {
+  const Method tiles = stress::cpu_method("tiles");
+  const Method wrong{"planted", [&](const Scene& scene, const Solid&) -> stress::Drawer {
+                       return [&](const View& view) {
+                         Scene flipped = scene;
+                         for (csgcore::Primitive& primitive : flipped.primitives) {
+                           if (primitive.shape != csgcore::Shape::kSphere) continue;
+                           primitive.local_to_world.translation.y *= -1;
+                         }
+                         return picture_by(tiles, flipped, view);
+                       };
+                     }};
+  int found = 0;
+  for (uint32_t seed = 1; seed <= 30; ++seed) {
+    const Scene scene = stress::random_scene(seed, false);
+    Sums sums;
+    const std::string report =
+        judge_tree(scene, stress::random_view(scene, kPicture, seed), {wrong}, sums);
+    if (report.empty()) continue;
+    ++found;
+    // What is left is one sphere that is wrong by itself.
+    EXPECT_THAT(report, testing::StartsWith("by planted, pixel"));
+    EXPECT_THAT(report, testing::HasSubstr("scene.primitives = {\n    make_sphere("));
+    EXPECT_THAT(report, testing::HasSubstr("builder.primitive(0);\nscene.model"));
+    EXPECT_THAT(report, testing::HasSubstr(") sphere("));
+  }
+  EXPECT_GE(found, 3);
+}
+
+}  // namespace
