@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
 #include <thread>
 
+#include "csgcore/polyhedron.hpp"
 #include "nef_scenes.hpp"
 
 namespace oracle {
@@ -69,6 +71,47 @@ TEST(NefSolid, FacetedPrimitivesHaveTheMeshesVolume) {
     EXPECT_NEAR(cone->volume().get_d(), cone_volume, 1e-14 * cone_volume) << fragments;
     EXPECT_EQ(build(lone(frustum(-1, 2, 0, 0.5, fragments)))->planes().size(),
               static_cast<size_t>(fragments) + 1);
+  }
+}
+
+TEST(NefSolid, OfASceneWithPolyhedra) {
+  using csgcore::Polyhedron;
+  const Affine map{Mat3(Vec3(1, 0.5, 0), Vec3(0, -2, 0), Vec3(0.1, 0, 1)), Vec3(0.3, 0, 0)};
+  csgcore::Scene scene;
+  scene.model = scene_of(Op::kDifference, {{}, {}, {}}).tree;
+  scene.primitives = {csgcore::make_sphere(2, map),
+                      csgcore::make_polyhedron(Polyhedron::box({Vec3(0), Vec3(1, 2, 3)}), map),
+                      csgcore::make_polyhedron(Polyhedron::frustum(-1, 2, 1, 0.5, 6), map)};
+  const NefScene same = scene_of(
+      Op::kDifference,
+      {sphere(2, 9, map), box(Vec3(0), Vec3(1, 2, 3), map), frustum(-1, 2, 1, 0.5, 6, map)});
+  EXPECT_EQ(NefSolid::build(scene, 9).solid->volume(), build(same)->volume());
+  EXPECT_LT(NefSolid::build(scene, 4).solid->volume(), build(same)->volume());
+}
+
+// What the exact ray oracle bounds polyhedra by.
+TEST(NefSolid, PolyhedraHaveTheirVertices) {
+  using csgcore::Polyhedron;
+  std::vector<std::shared_ptr<const Polyhedron>> solids{
+      Polyhedron::box({Vec3(-1, 0, 2), Vec3(1e-7, 1.0 / 3, 1e6)}),
+      Polyhedron::from(csgcore::sphere_mesh(1, 5)),
+      Polyhedron::from(csgcore::frustum_mesh(0, 1, 2, 0, 7))};
+  for (const int fragments : {3, 6, 7, 24}) {
+    solids.push_back(Polyhedron::sphere(1.0 / 3, fragments));
+    solids.push_back(Polyhedron::frustum(1.0 / 3, 0.4, 1.1, 0.9, fragments));
+    solids.push_back(Polyhedron::frustum(-1, 0.4, 0, 0.9, fragments));
+  }
+  for (const auto& solid : solids) {
+    csgcore::Box box;
+    for (const Vec3& vertex : solid->vertices()) box.merge(vertex);
+    const auto exact = build(lone({solid->half_spaces(), {}}));
+    const double rounding = 1e-13 * box.diagonal();
+    EXPECT_LE(glm::length(exact->bounds().min - box.min), rounding);
+    EXPECT_LE(glm::length(exact->bounds().max - box.max), rounding);
+    for (const Vec3& vertex : exact->mesh().vertices) {
+      const auto is_near = [&](const Vec3& v) { return glm::length(v - vertex) <= rounding; };
+      EXPECT_TRUE(std::any_of(solid->vertices().begin(), solid->vertices().end(), is_near));
+    }
   }
 }
 

@@ -99,7 +99,7 @@ TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
     const std::vector<Method> methods{stress::cpu_method("tiles"),
                                       kd_trees[1 + i % (kd_trees.size() - 1)]};
     const std::string wrong = judge_tree(scene, view, methods, sums);
-    ASSERT_EQ(wrong, "") << "tree " << seed;
+    ASSERT_TRUE(wrong.empty()) << "tree " << seed << ", " << wrong;
   }
   const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf("%s: %u trees, %llu rays, %llu hits, %llu undecided; %llu crossings coincide\n",

@@ -48,9 +48,15 @@ Size size_of(const Scene& scene) {
   size_t shapes = 0, half_spaces = 0, digits = 0;
   for (Primitive primitive : scene.primitives) {
     shapes += primitive.shape != Shape::kSphere;
-    if (primitive.polyhedron) half_spaces += primitive.polyhedron->half_spaces().size();
-    for (const double* number : numbers_of(primitive)) {
-      if (*number != 0) digits += shortest_text(*number).size();
+    const auto count_digits = [&](double number) {
+      if (number != 0) digits += shortest_text(number).size();
+    };
+    for (const double* number : numbers_of(primitive)) count_digits(*number);
+    if (!primitive.polyhedron) continue;
+    half_spaces += primitive.polyhedron->half_spaces().size();
+    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
+      for (int i = 0; i < 3; ++i) count_digits(half_space.normal[i]);
+      count_digits(half_space.offset);
     }
   }
   return {scene.model.tokens().size(), shapes, half_spaces, digits};
@@ -87,7 +93,7 @@ std::vector<std::shared_ptr<const Polyhedron>> simpler(const Polyhedron& polyhed
   std::vector<std::shared_ptr<const Polyhedron>> result{Polyhedron::frustum(-1, 1, 1, 0, 3),
                                                         Polyhedron::box({Vec3(-1), Vec3(1)}),
                                                         Polyhedron::box(box)};
-  for (const int fragments : {3, 4, 6}) {
+  for (int fragments = 3; fragments <= 8; ++fragments) {
     result.push_back(Polyhedron::frustum(-1, 1, 1, 1, fragments));
     result.push_back(Polyhedron::sphere(1, fragments));
   }
