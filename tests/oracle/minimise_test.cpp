@@ -131,20 +131,22 @@ TEST(SceneText, OpenScad) {
       scene_of({make_sphere(2, {Mat3(1.0), Vec3(0, 0, 1)}), make_frustum(-1, 2, 3, 0),
                 make_polyhedron(Polyhedron::frustum(0, 1, 1, 0, 4))},
                [](CsgTreeBuilder& builder) {
-                 builder.primitive(2);
+                 builder.open(Op::kDifference);
                  builder.open(Op::kIntersection);
                  builder.primitive(0);
                  builder.primitive(1);
                  builder.close();
+                 builder.primitive(2);
+                 builder.close();
                });
   EXPECT_EQ(as_openscad(scene),
-            "union() {\n"
-            "  polyhedron([[1, 0, 0], [0, 1, 0], [-1, -0, 0], [-0, -1, 0], [0, 0, 1]], "
-            "[[0, 4, 1], [1, 4, 2], [2, 4, 3], [0, 3, 4], [0, 1, 2, 3]]);\n"
+            "difference() {\n"
             "  intersection() {\n"
             "    translate([0, 0, 1]) sphere(2);\n"
             "    translate([0, 0, -1]) cylinder(3, 3, 0);\n"
             "  }\n"
+            "  polyhedron([[1, 0, 0], [0, 1, 0], [-1, -0, 0], [-0, -1, 0], [0, 0, 1]], "
+            "[[0, 4, 1], [1, 4, 2], [2, 4, 3], [0, 3, 4], [0, 1, 2, 3]]);\n"
             "}\n");
 }
 

@@ -1,8 +1,7 @@
 #include "oracle/minimise.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -110,7 +109,7 @@ class Minimiser {
   }
 
   Scene run() {
-    while (keep_a_subtree() || drop_operands() || simplify_shapes() || simplify_numbers()) {
+    while (drop_operands() || simplify_shapes() || simplify_numbers()) {
     }
     return best_;
   }
@@ -136,19 +135,6 @@ class Minimiser {
     Scene scene = best_;
     scene.primitives[index] = primitive;
     return take(std::move(scene));
-  }
-
-  bool keep_a_subtree() {
-    const Tokens all = tokens();
-    const std::vector<size_t> firsts = first_tokens(all);
-    std::vector<size_t> roots(all.size());
-    for (size_t i = 0; i < roots.size(); ++i) roots[i] = i;
-    std::stable_sort(roots.begin(), roots.end(),
-                     [&](size_t a, size_t b) { return a - firsts[a] < b - firsts[b]; });
-    return std::any_of(roots.begin(), roots.end(), [&](size_t root) {
-      return take(scene_of(best_.primitives,
-                           {all.begin() + long(firsts[root]), all.begin() + long(root) + 1}));
-    });
   }
 
   /// Of every operation some operands in a row: half of them, a quarter, …, one.
