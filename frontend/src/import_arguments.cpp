@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace frontend {
 namespace {
+
+using csgcore::Vec3;
+
+/// In place of an index that no point can have.
+constexpr uint32_t kNoPoint = std::numeric_limits<uint32_t>::max();
 
 std::string_view name_of(ValueKind kind) {
   switch (kind) {
@@ -25,13 +30,26 @@ std::string_view name_of(ValueKind kind) {
   return "";
 }
 
+[[noreturn]] void throw_wrong(const SyntaxTree& tree, const SyntaxNode& node,
+                              std::string_view argument, std::string_view found,
+                              std::string_view wanted) {
+  throw Error(
+      tree.file_name, node.location,
+      std::string(name_of(node.kind)) + ": " + std::string(argument) + " is " + std::string(found),
+      "it must be " + std::string(wanted));
+}
+
 [[noreturn]] void throw_wrong_type(const SyntaxTree& tree, const SyntaxNode& node,
-                                   std::string_view argument, ValueKind found,
+                                   std::string_view argument, const Value& found,
                                    std::string_view wanted) {
-  throw Error(tree.file_name, node.location,
-              std::string(name_of(node.kind)) + ": " + std::string(argument) + " is " +
-                  std::string(name_of(found)),
-              "it must be " + std::string(wanted));
+  throw_wrong(tree, node, argument, name_of(found.kind), wanted);
+}
+
+bool read_center(const SyntaxTree& tree, const SyntaxNode& node, const Value& value) {
+  if (value.kind != ValueKind::kBool) {
+    throw_wrong_type(tree, node, "center", value, "true or false");
+  }
+  return value.boolean;
 }
 
 /// What a round primitive's arguments may be called.
@@ -91,16 +109,13 @@ RoundArguments read_round_arguments(const SyntaxTree& tree, const SyntaxNode& no
     const Value& value = argument.value;
     if (which == kCount || value.kind == ValueKind::kUndef) continue;
     if (which == kCenter) {
-      if (value.kind != ValueKind::kBool) {
-        throw_wrong_type(tree, node, "center", value.kind, "true or false");
-      }
-      result.center = value.boolean;
+      result.center = read_center(tree, node, value);
       continue;
     }
     if (value.kind != ValueKind::kNumber) {
       const auto known = std::find_if(kRoundNames.begin(), kRoundNames.end(),
                                       [&](const RoundName& n) { return n.argument == which; });
-      throw_wrong_type(tree, node, known->name, value.kind, "a number");
+      throw_wrong_type(tree, node, known->name, value, "a number");
     }
     result.numbers[which] = value.number;
     result.given |= 1u << which;
@@ -130,6 +145,33 @@ const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::
   return positional;
 }
 
+/// The elements of the list of that name or place; none where it is missing.
+std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                     std::string_view name, size_t position) {
+  const Value* list = find_argument(tree, node, name, position);
+  if (list == nullptr || list->kind == ValueKind::kUndef) return {};
+  if (list->kind != ValueKind::kList) throw_wrong_type(tree, node, name, *list, "a list");
+  return tree.elements_of(*list);
+}
+
+/// A list of up to three numbers, at least `fewest`; the rest are 0.
+Vec3 read_vector(const SyntaxTree& tree, const SyntaxNode& node, const Value& list,
+                 std::string_view name, std::string_view wanted, size_t fewest) {
+  if (list.kind != ValueKind::kList) throw_wrong_type(tree, node, name, list, wanted);
+  const std::span<const Value> numbers = tree.elements_of(list);
+  if (numbers.size() < fewest || numbers.size() > 3) {
+    throw_wrong(tree, node, name, "a list of " + std::to_string(numbers.size()), wanted);
+  }
+  Vec3 result(0.0);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i].kind != ValueKind::kNumber) {
+      throw_wrong(tree, node, name, "a list with " + std::string(name_of(numbers[i].kind)), wanted);
+    }
+    result[static_cast<int>(i)] = numbers[i].number;
+  }
+  return result;
+}
+
 /// −1 or any other negative channel marks an invalid colour; nan compares false, so it is one too.
 std::optional<csgcore::Color> checked_color(const std::array<double, 4>& channels) {
   std::array<float, 4> result;
@@ -157,25 +199,65 @@ RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& no
   return result;
 }
 
+csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node) {
+  Vec3 size(1.0);
+  const Value* given = find_argument(tree, node, "size", 0);
+  if (given != nullptr && given->kind == ValueKind::kNumber) {
+    size = Vec3(given->number);
+  } else if (given != nullptr && given->kind != ValueKind::kUndef) {
+    size = read_vector(tree, node, *given, "size", "a number or a list of three numbers", 3);
+  }
+  bool is_centered = false;
+  const Value* center = find_argument(tree, node, "center", 1);
+  if (center != nullptr && center->kind != ValueKind::kUndef) {
+    is_centered = read_center(tree, node, *center);
+  }
+  const Vec3 min = is_centered ? -size / 2.0 : Vec3(0.0);
+  return {min, is_centered ? size / 2.0 : size};
+}
+
+PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node) {
+  PolyhedronArguments result;
+  for (const Value& point : list_argument(tree, node, "points", 0)) {
+    result.points.push_back(
+        read_vector(tree, node, point, "a point", "a list of three numbers", 2));
+  }
+  std::span<const Value> faces = list_argument(tree, node, "faces", 1);
+  if (faces.empty()) faces = list_argument(tree, node, "triangles", 1);
+  for (const Value& face : faces) {
+    constexpr std::string_view kWanted = "a list of indices of points";
+    if (face.kind != ValueKind::kList) throw_wrong_type(tree, node, "a face", face, kWanted);
+    std::vector<uint32_t>& indices = result.faces.emplace_back();
+    for (const Value& index : tree.elements_of(face)) {
+      if (index.kind != ValueKind::kNumber) {
+        throw_wrong_type(tree, node, "an index of a face", index, "a number");
+      }
+      const bool is_index = index.number > -1 && index.number < kNoPoint;
+      indices.push_back(is_index ? static_cast<uint32_t>(index.number) : kNoPoint);
+    }
+  }
+  return result;
+}
+
 FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node) {
   FileMatrix result;
   const Value* matrix = find_argument(tree, node, "m", 0);
   if (matrix == nullptr || matrix->kind == ValueKind::kUndef) return result;
   if (matrix->kind != ValueKind::kList) {
-    throw_wrong_type(tree, node, "the matrix", matrix->kind, "a list of four rows");
+    throw_wrong_type(tree, node, "the matrix", *matrix, "a list of four rows");
   }
   const std::span<const Value> rows = tree.elements_of(*matrix);
   for (size_t row = 0; row < std::min<size_t>(rows.size(), 4); ++row) {
     if (rows[row].kind == ValueKind::kUndef) continue;
     if (rows[row].kind != ValueKind::kList) {
-      throw_wrong_type(tree, node, "a row of the matrix", rows[row].kind, "a list of four numbers");
+      throw_wrong_type(tree, node, "a row of the matrix", rows[row], "a list of four numbers");
     }
     const std::span<const Value> entries = tree.elements_of(rows[row]);
     for (size_t column = 0; column < std::min<size_t>(entries.size(), 4); ++column) {
       const Value& entry = entries[column];
       if (entry.kind == ValueKind::kUndef) continue;
       if (entry.kind != ValueKind::kNumber) {
-        throw_wrong_type(tree, node, "an entry of the matrix", entry.kind, "a number");
+        throw_wrong_type(tree, node, "an entry of the matrix", entry, "a number");
       }
       const int r = static_cast<int>(row);
       const int c = static_cast<int>(column);
@@ -204,7 +286,7 @@ std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNod
         continue;
       }
       if (elements[i].kind != ValueKind::kNumber) {
-        throw_wrong_type(tree, node, "a channel", elements[i].kind, "a number from 0 to 1");
+        throw_wrong_type(tree, node, "a channel", elements[i], "a number from 0 to 1");
       }
       channels[i] = elements[i].number;
     }
@@ -219,12 +301,12 @@ std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNod
     }
     channels = {named->r, named->g, named->b, named->a};
   } else {
-    throw_wrong_type(tree, node, "the colour", color->kind, "a list of numbers or a name");
+    throw_wrong_type(tree, node, "the colour", *color, "a list of numbers or a name");
   }
   const Value* alpha = find_argument(tree, node, "alpha", 1);
   if (alpha != nullptr && alpha->kind != ValueKind::kUndef) {
     if (alpha->kind != ValueKind::kNumber) {
-      throw_wrong_type(tree, node, "alpha", alpha->kind, "a number from 0 to 1");
+      throw_wrong_type(tree, node, "alpha", *alpha, "a number from 0 to 1");
     }
     channels[3] = alpha->number;
   }

@@ -21,6 +21,19 @@ struct RoundPrimitive {
 /// Throws Error for an argument of the wrong type; `undef` counts as missing.
 RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node);
 
+/// Cube node → its box in local coordinates; it may be empty, flat or infinite. `size` is a number
+/// or three, 1 where it is missing. Throws Error for an argument of the wrong type.
+csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node);
+
+/// Polyhedron node: its faces run clockwise seen from outside (csgcore::polyhedron_mesh). `faces`
+/// goes before `triangles`, its older name. A point without a z lies at 0; an index that is no
+/// index counts as one beyond the points. Throws Error for an argument of the wrong type.
+struct PolyhedronArguments {
+  std::vector<csgcore::Vec3> points;
+  std::vector<std::vector<uint32_t>> faces;
+};
+PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node);
+
 /// The affine part of a multmatrix as it stands in the file, before the division by m[3][3].
 struct FileMatrix {
   csgcore::Affine map;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace frontend {
 namespace {
 
@@ -54,6 +56,25 @@ const UnitBoxes& unit_boxes(int fragments) {
   return last;
 }
 
+/// In local coordinates.
+Box faceted_round_box(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings) {
+  const double radius = std::max(primitive.r_bottom, primitive.r_top);
+  const UnitBoxes& unit = unit_boxes(fragment_count(primitive, settings));
+  if (primitive.shape == csgcore::Shape::kSphere) {
+    return {radius * unit.sphere.min, radius * unit.sphere.max};
+  }
+  Box box{radius * unit.polygon.min, radius * unit.polygon.max};
+  box.min.z = primitive.z_min;
+  box.max.z = primitive.z_max;
+  return box;
+}
+
+Box box_of_points(std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& point : points) box.merge(point);
+  return box;
+}
+
 Box intersection(const Box& a, const Box& b) {
   return {glm::max(a.min, b.min), glm::min(a.max, b.max)};
 }
@@ -91,17 +112,14 @@ struct OpenOperation {
 
 }  // namespace
 
+int fragment_count(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings) {
+  return csgcore::fragment_count(std::max(primitive.r_bottom, primitive.r_top), settings);
+}
+
 Box faceted_box(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings) {
-  const double radius = std::max(primitive.r_bottom, primitive.r_top);
-  const UnitBoxes& unit = unit_boxes(csgcore::fragment_count(radius, settings));
-  Box local;
-  if (primitive.shape == csgcore::Shape::kSphere) {
-    local = {radius * unit.sphere.min, radius * unit.sphere.max};
-  } else {
-    local = {radius * unit.polygon.min, radius * unit.polygon.max};
-    local.min.z = primitive.z_min;
-    local.max.z = primitive.z_max;
-  }
+  const Box local = primitive.shape == csgcore::Shape::kPolyhedron
+                        ? box_of_points(primitive.polyhedron->vertices())
+                        : faceted_round_box(primitive, settings);
   const csgcore::Affine& map = primitive.local_to_world;
   const Vec3 half = 0.5 * local.size();
   const Vec3 reach = glm::abs(map.linear[0]) * half.x + glm::abs(map.linear[1]) * half.y +

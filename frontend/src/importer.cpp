@@ -1,5 +1,6 @@
 #include "frontend/importer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "frames.hpp"
 #include "healing.hpp"
 #include "import_arguments.hpp"
+#include "import_polyhedra.hpp"
 #include "import_view_box.hpp"
 #include "marks.hpp"
 #include "matrix_healing.hpp"
@@ -26,16 +28,16 @@ using csgcore::Primitive;
 
 constexpr size_t kKinds = static_cast<size_t>(NodeKind::kRoof) + 1;
 constexpr uint32_t kNone = 0xFFFFFFFFu;
-// openscad.md §3: people choose so few fragments on purpose, for a prism or a pyramid.
-constexpr double kFewFragments = 8;
 
-enum class Role : uint8_t { kRound, kOperation, kUnsupportedLeaf, kUnsupportedOperation };
+enum class Role : uint8_t { kSolid, kOperation, kUnsupportedLeaf, kUnsupportedOperation };
 
 Role role_of(NodeKind kind) {
   switch (kind) {
     case NodeKind::kSphere:
     case NodeKind::kCylinder:
-      return Role::kRound;
+    case NodeKind::kCube:
+    case NodeKind::kPolyhedron:
+      return Role::kSolid;
     case NodeKind::kMultmatrix:
     case NodeKind::kColor:
     case NodeKind::kGroup:
@@ -44,8 +46,6 @@ Role role_of(NodeKind kind) {
     case NodeKind::kDifference:
     case NodeKind::kIntersection:
       return Role::kOperation;
-    case NodeKind::kCube:
-    case NodeKind::kPolyhedron:
     case NodeKind::kCircle:
     case NodeKind::kSquare:
     case NodeKind::kPolygon:
@@ -69,7 +69,7 @@ Role role_of(NodeKind kind) {
 
 bool is_primitive_node(NodeKind kind) {
   const Role role = role_of(kind);
-  return role == Role::kRound || role == Role::kUnsupportedLeaf;
+  return role == Role::kSolid || role == Role::kUnsupportedLeaf;
 }
 
 Op operation_of(NodeKind kind) {
@@ -98,20 +98,31 @@ struct Context {
   bool flattened;  // a matrix with inf or nan on the way: nothing is left
 };
 
-/// The nodes of one kind, or of all, that cannot be drawn.
+/// The nodes of one kind that cannot be drawn.
 struct Unsupported {
   uint32_t count = 0;
   uint32_t first = kNone;  // node
+  std::string why;         // of the first; empty: no node of the kind can be
 
-  void add(uint32_t node) {
-    if (count++ == 0) first = node;
+  void add(uint32_t node, const char* reason) {
+    if (count++ > 0) return;
+    first = node;
+    why = reason;
   }
 };
+
+const char* why_not(Convexity convexity) {
+  return convexity == Convexity::kTooLarge
+             ? "it has too many faces"
+             : "it is not the closed boundary of one convex solid, its faces plane and clockwise "
+               "seen from outside";
+}
 
 /// From the tree to primitives in their frames.
 class Collector {
  public:
-  Collector(const SyntaxTree& tree, NodeRange selected) : tree_(tree), selected_(selected) {
+  Collector(const SyntaxTree& tree, NodeRange selected, const ImportOptions& options)
+      : tree_(tree), selected_(selected), options_(options) {
     primitive_of.assign(tree.nodes.size(), kNone);
   }
 
@@ -134,10 +145,11 @@ class Collector {
   std::vector<Primitive> primitives;
   std::vector<uint32_t> frame_of;  // by primitive
   std::vector<Box> boxes;          // by primitive, faceted
+  std::vector<int> fragments;      // by primitive; 0: it is not to be faceted
+  PolyhedronPool polyhedra;
   FrameTree frames;
   std::vector<uint32_t> left_out;  // nodes that cannot be drawn
   std::array<Unsupported, kKinds> unsupported;
-  Unsupported few_fragments;
   std::vector<Warning> warnings;
   uint32_t primitive_nodes = 0;
   bool any_modifiers = false;
@@ -145,15 +157,16 @@ class Collector {
  private:
   /// Growing by doubling would copy, and touch, twice the memory.
   void reserve() {
-    size_t rounds = 0;
+    size_t solids = 0;
     size_t matrices = 0;
     for (const SyntaxNode& node : tree_.nodes) {
-      rounds += node.kind == NodeKind::kSphere || node.kind == NodeKind::kCylinder;
+      solids += role_of(node.kind) == Role::kSolid;
       matrices += node.kind == NodeKind::kMultmatrix;
     }
-    primitives.reserve(rounds);
-    frame_of.reserve(rounds);
-    boxes.reserve(rounds);
+    primitives.reserve(solids);
+    frame_of.reserve(solids);
+    boxes.reserve(solids);
+    fragments.reserve(solids);
     frames.reserve(matrices);
   }
 
@@ -161,8 +174,8 @@ class Collector {
   bool visit(uint32_t index, uint32_t id) {
     const SyntaxNode& node = tree_.nodes[index];
     switch (role_of(node.kind)) {
-      case Role::kRound:
-        add_round(index, id);
+      case Role::kSolid:
+        add_solid(index, id);
         return false;
       case Role::kOperation:
         if (node.kind == NodeKind::kMultmatrix) enter_matrix(node);
@@ -174,9 +187,13 @@ class Collector {
       case Role::kUnsupportedLeaf:
         break;
     }
-    unsupported[static_cast<size_t>(node.kind)].add(index);
-    left_out.push_back(index);
+    leave_out(index, "");
     return false;
+  }
+
+  void leave_out(uint32_t index, const char* reason) {
+    unsupported[static_cast<size_t>(tree_.nodes[index].kind)].add(index, reason);
+    left_out.push_back(index);
   }
 
   void enter_matrix(const SyntaxNode& node) {
@@ -219,24 +236,52 @@ class Collector {
     contexts_.push_back(context);
   }
 
-  void add_round(uint32_t index, uint32_t id) {
-    const RoundPrimitive round = read_round_primitive(tree_, tree_.nodes[index]);
+  void add_solid(uint32_t index, uint32_t id) {
+    const SyntaxNode& node = tree_.nodes[index];
     const Context& context = contexts_.back();
-    if (context.flattened) return;
-    Primitive primitive = round.primitive;
-    primitive.local_to_world = frames[context.frame].to_world;
+    const csgcore::Affine& to_world = frames[context.frame].to_world;
+    Primitive primitive;
+    csgcore::FacetSettings facets;
+    if (node.kind == NodeKind::kCube) {
+      primitive = polyhedra.box(read_cube(tree_, node), to_world);
+    } else if (node.kind == NodeKind::kPolyhedron) {
+      const PolyhedronArguments arguments = read_polyhedron(tree_, node);
+      const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
+      if (convexity == Convexity::kNothing || context.flattened) return;
+      if (convexity != Convexity::kConvex) return leave_out(index, why_not(convexity));
+    } else {
+      RoundPrimitive round = read_round_primitive(tree_, node);
+      primitive = std::move(round.primitive);
+      primitive.local_to_world = to_world;
+      facets = round.facets;
+      if (options_.fn) facets.fn = *options_.fn;
+    }
     primitive.color = context.color;
     primitive.id = id;
-    if (!csgcore::is_valid(primitive)) return;
-    if (round.facets.fn > 0 && round.facets.fn <= kFewFragments) few_fragments.add(index);
+    if (context.flattened || !csgcore::is_valid(primitive)) return;
     primitive_of[index] = static_cast<uint32_t>(primitives.size());
-    boxes.push_back(faceted_box(primitive, round.facets));
+    boxes.push_back(faceted_box(primitive, facets));
+    fragments.push_back(keeps_facets(primitive, facets) ? fragment_count(primitive, facets) : 0);
     frame_of.push_back(context.frame);
-    primitives.push_back(primitive);
+    primitives.push_back(std::move(primitive));
+  }
+
+  bool keeps_facets(const Primitive& primitive, const csgcore::FacetSettings& facets) const {
+    if (primitive.shape == csgcore::Shape::kPolyhedron) return false;
+    switch (options_.facets) {
+      case Facets::kNone:
+        return false;
+      case Facets::kFew:
+        return facets.fn > 0 && facets.fn <= options_.few_fragments;
+      case Facets::kAll:
+        return true;
+    }
+    return false;
   }
 
   const SyntaxTree& tree_;
   NodeRange selected_;
+  const ImportOptions& options_;
   std::vector<Context> contexts_;
 };
 
@@ -322,8 +367,10 @@ std::string counted(uint32_t count, NodeKind kind) {
     kinds += counted(collected.unsupported[i].count, static_cast<NodeKind>(i));
   }
   const SyntaxNode& first = tree.nodes[collected.left_out.front()];
+  const std::string& why = collected.unsupported[static_cast<size_t>(first.kind)].why;
   throw Error(tree.file_name, first.location,
-              std::string(name_of(first.kind)) + " cannot be drawn; of all nodes " +
+              std::string(name_of(first.kind)) + " cannot be drawn" +
+                  (why.empty() ? "" : ", since " + why) + "; of all nodes " +
                   std::to_string(collected.left_out.size()) + " cannot: " + kinds,
               "--skip-unsupported draws the rest");
 }
@@ -337,18 +384,27 @@ void warn_of_unsupported(const SyntaxTree& tree, const Collector& collected,
         tree.file_name, tree.nodes[kind.first].location,
         counted(kind.count, static_cast<NodeKind>(i)) +
             (kind.count == 1 ? " node is left out" : " nodes are left out; this is the first"),
-        "it cannot be drawn"));
+        kind.why.empty() ? "it cannot be drawn" : kind.why));
   }
 }
 
-void warn_of_few_fragments(const SyntaxTree& tree, const Collector& collected,
-                           std::vector<Warning>& warnings) {
-  if (collected.few_fragments.count == 0) return;
-  warnings.push_back(make_warning(
-      tree.file_name, tree.nodes[collected.few_fragments.first].location,
-      "drawn smooth, in spite of $fn ≤ 8: " + std::to_string(collected.few_fragments.count) +
-          " round primitive" + (collected.few_fragments.count == 1 ? "" : "s; this is the first"),
-      "facets are not drawn yet"));
+/// Healing is done by then: it knows axes and caps of what is round.
+void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& warnings) {
+  uint32_t count = 0;
+  uint32_t first = kNone;  // primitive
+  for (uint32_t i = 0; i < collected.primitives.size(); ++i) {
+    const int fragments = collected.fragments[i];
+    if (fragments == 0 || collected.polyhedra.facet(collected.primitives[i], fragments)) continue;
+    if (count++ == 0) first = i;
+  }
+  if (count == 0) return;
+  const auto node = std::find(collected.primitive_of.begin(), collected.primitive_of.end(), first);
+  warnings.push_back(
+      make_warning(tree.file_name, tree.nodes[node - collected.primitive_of.begin()].location,
+                   std::to_string(count) + " round primitive" +
+                       (count == 1 ? " is smooth" : "s are smooth; this is the first") +
+                       ": more than " + std::to_string(kMostFacets) + " facets would be needed",
+                   "give a smaller $fn"));
 }
 
 Marks marks_of(const SyntaxTree& tree, NodeRange selected, const Collector& collected) {
@@ -371,18 +427,18 @@ Box union_of(std::span<const Box> boxes) {
 
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options) {
   const NodeRange selected = selected_nodes(tree);
-  Collector collected(tree, selected);
+  Collector collected(tree, selected, options);
   collected.collect();
   if (!collected.left_out.empty() && !options.skip_unsupported) throw_unsupported(tree, collected);
 
   ImportedDesign design;
   design.warnings = std::move(collected.warnings);
   warn_of_unsupported(tree, collected, design.warnings);
-  warn_of_few_fragments(tree, collected, design.warnings);
   design.primitive_nodes = collected.primitive_nodes;
 
   const std::vector<Box>& boxes = collected.boxes;
   merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
+  facet(tree, collected, design.warnings);
   const Marks marks = marks_of(tree, selected, collected);
   Emitter emitter(tree, collected.primitive_of, marks);
   design.scene.model = emitter.model(selected);

@@ -77,7 +77,8 @@ constexpr Row kOwnOptions[] = {
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
     {"facets", Takes::kText, "N",
-     "N, all or none; accepted, without effect: everything round is smooth"},
+     "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
+     "is exactly round"},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface"},
     {"shading", Takes::kText, "HOW", "openscad or phong; default openscad"},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output"},

@@ -248,11 +248,17 @@ Technique read_technique(const Arguments& arguments, const RenderSettings& rende
   return technique;
 }
 
-void check_facets(const Arguments& arguments) {
+void read_facets(const Arguments& arguments, ImportOptions& import) {
   if (!arguments.has("facets")) return;
   const std::string& value = arguments.text("facets");
-  if (value != "all" && value != "none" && !parse_number<uint32_t>(value)) {
-    bad_value("facets", value, "give a number from 0, all or none");
+  if (value == "all") {
+    import.facets = Facets::kAll;
+  } else if (value == "none") {
+    import.facets = Facets::kNone;
+  } else if (const std::optional<uint32_t> fragments = parse_number<uint32_t>(value)) {
+    import.few_fragments = *fragments;
+  } else {
+    bad_value("facets", value, "give a whole number from 0, all or none");
   }
 }
 
@@ -261,7 +267,6 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
   render.shading = choice(arguments, "shading", kShadings, render.shading);
   render.show = choice(arguments, "show", kShows, render.show);
   render.renderer = choice(arguments, "renderer", kRenderers, render.renderer);
-  check_facets(arguments);
   render.leaf_primitives =
       arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, 8, "give a whole number from 1");
   render.threshold_px =
@@ -342,8 +347,7 @@ void read_openscad_arguments(const Arguments& arguments, Options& options) {
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
-  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "animate",
-                                        "debug",  "d",       "facets"};
+  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "animate", "debug", "d"};
   constexpr const char* kForScad[] = {
       "D", "p", "P", "m", "hardwarnings", "check-parameters", "check-parameter-ranges"};
   const auto given = [&arguments](std::span<const char* const> names) {
@@ -402,6 +406,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.import.skip_unsupported = arguments.has("skip-unsupported");
   read_image_size(arguments, options.camera);
   read_camera(arguments, options.camera);
+  read_facets(arguments, options.import);
   read_render(arguments, options.render);
   read_view(arguments, options);
   read_outputs(arguments, options);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "csgcore/polyhedron.hpp"
 #include "frontend/error.hpp"
 
 namespace frontend {
@@ -24,10 +25,23 @@ constexpr int kLargestExponent = 300;
               "scale it to between 1e-90 and 1e90 across");
 }
 
-/// The least e, or one more, with |x| < 2^e for all extents x of the primitive.
-int size_exponent(const Primitive& primitive) {
-  const double local = std::max(
+/// No coordinate of the local solid is larger. Of a polyhedron a bound, of the order of its size.
+double local_extent(const Primitive& primitive) {
+  if (primitive.shape == csgcore::Shape::kPolyhedron) {
+    const csgcore::Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
+    double extent = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      extent = std::max(extent, std::abs(canonical.center[axis]) + canonical.scale[axis]);
+    }
+    return extent;
+  }
+  return std::max(
       {primitive.r_bottom, primitive.r_top, std::abs(primitive.z_min), std::abs(primitive.z_max)});
+}
+
+/// The least e, or a few more, with |x| < 2^e for all extents x of the primitive.
+int size_exponent(const Primitive& primitive) {
+  const double local = local_extent(primitive);
   double stretch = 0;
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {

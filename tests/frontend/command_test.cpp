@@ -155,6 +155,14 @@ TEST_F(Command, HandsItsOptionsToTheRenderer) {
   EXPECT_EQ(view_.width_px, 4u);
 }
 
+TEST_F(Command, FacetsAreAsAsked) {
+  const std::string nut = folder_.write("nut.csg", "cylinder($fn = 6, r = 1, h = 1);\n");
+  EXPECT_EQ(run({"-o", png_, nut}).err, "");
+  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kPolyhedron);
+  EXPECT_EQ(run({"-o", png_, "--facets=none", nut}).err, "");
+  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kFrustum);
+}
+
 TEST_F(Command, WithoutACameraTheDesignFillsThePicture) {
   const std::string round = folder_.write("round.csg", "sphere($fn = 200, r = 1);\n");
   run({"-o", png_, round});
@@ -307,7 +315,7 @@ TEST_F(Command, QuietShowsErrorsOnly) {
 TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   folder_.write("x.png", "before");
   folder_.write("bad.csg", "sphere(r = 1);\ncube(;\n");
-  folder_.write("cube.csg", "sphere(r = 1);\n  cube(size = [1, 1, 1], center = false);\n");
+  folder_.write("surface.csg", "sphere(r = 1);\n  surface(file = \"x.dat\");\n");
   const auto names = folder_.names();
   const auto expect_failure = [&](const std::vector<std::string>& arguments,
                                   const std::string& text) {
@@ -327,7 +335,7 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   expect_failure({"-o", png_, folder_.path()}, "is a folder");
   expect_failure({"-o", png_, "validate"}, "validate: error: ");
   expect_failure({"-o", png_, folder_ / "bad.csg"}, "bad.csg:2:");
-  expect_failure({"-o", png_, folder_ / "cube.csg"}, "cube.csg:2:3: error: ");
+  expect_failure({"-o", png_, folder_ / "surface.csg"}, "surface.csg:2:3: error: ");
   expect_failure({"-o", png_, "-o", folder_ / "none/y.png", file_}, "none/y.png: error: ");
   expect_failure({"-o", png_, "--stats", folder_ / "none/s.json", file_}, "none/s.json");
   expect_failure({"-o", png_, "--camera=0,0,0,0,0,0,0", file_}, "distance");
@@ -346,10 +354,10 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
 }
 
 TEST_F(Command, SkipUnsupportedDrawsTheRest) {
-  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\ncube(size = 1);\n");
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\nsquare(size = 1);\n");
   const Outcome outcome = run({"-o", png_, "--skip-unsupported", mixed});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
-  EXPECT_THAT(outcome.err, HasSubstr("cube"));
+  EXPECT_THAT(outcome.err, HasSubstr("square"));
   EXPECT_EQ(drawings_, 1);
 }
 
@@ -380,10 +388,10 @@ TEST_F(Command, ExportsAScad) {
 }
 
 TEST_F(Command, PlacesInAnExportedCsgAreNotShownAsPlacesInTheScad) {
-  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'cube(size = 1);'"));
-  const std::string scad = folder_.write("a.scad", "// a comment\ncube(1);");
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'square(size = 1);'"));
+  const std::string scad = folder_.write("a.scad", "// a comment\nsquare(1);");
   EXPECT_THAT(run({"-o", png_, scad}).err,
-              StartsWith(scad + " (its .csg):1:1: error: cube cannot be drawn"));
+              StartsWith(scad + " (its .csg):1:1: error: square cannot be drawn"));
 }
 
 TEST_F(Command, AFailedExportLeavesNothing) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/facets.hpp"
+#include "csgcore/polyhedron.hpp"
 #include "frontend/parser.hpp"
 
 namespace frontend {
@@ -133,7 +135,8 @@ TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
 
 TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
   const ImportedDesign design = import_text(
-      "cube(); *sphere(); hull() { circle(); sphere(); } sphere(0); %sphere(); sphere(); text();",
+      "surface(); *sphere(); hull() { circle(); sphere(); } sphere(0); %sphere(); sphere(); "
+      "text();",
       {.skip_unsupported = true});
   EXPECT_EQ(design.primitive_nodes, 8u);
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");
@@ -348,58 +351,21 @@ TEST(ImporterModifiers, RootAndDisable) {
   EXPECT_EQ(only_primitive("multmatrix([[1,0,0,3]]) { color([1,0,0]) { !sphere(); } }")
                 .local_to_world.translation,
             Vec3(0.0));
-  EXPECT_EQ(error_of("!sphere(); cube();"), "no error");
-  EXPECT_EQ(error_of("sphere(); *cube();"), "no error");
+  EXPECT_EQ(error_of("!sphere(); surface();"), "no error");
+  EXPECT_EQ(error_of("sphere(); *surface();"), "no error");
 }
 
-// --- What cannot be drawn -------------------------------------------------------------------
+// --- Polyhedra ------------------------------------------------------------------------------
 
-TEST(ImporterUnsupported, IsAnErrorThatNamesTheFirstAndCounts) {
-  EXPECT_EQ(error_of("sphere();\n linear_extrude(height = 1) { square(); circle(); }\n"
-                     "cube(); cube();"),
-            "a.csg:2:2: error: linear_extrude cannot be drawn; of all nodes 3 cannot: 2 cube, "
-            "1 linear_extrude (--skip-unsupported draws the rest)");
+csgcore::Box box_of(const Primitive& primitive) {
+  EXPECT_EQ(primitive.shape, Shape::kPolyhedron);
+  csgcore::Box box;
+  if (!primitive.polyhedron) return box;
+  for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+    box.merge(primitive.local_to_world.point(vertex));
+  }
+  return box;
 }
-
-TEST(ImporterUnsupported, IsSkippedOnDemandWithAWarningPerKind) {
-  const ImportedDesign design =
-      import_text("sphere();\ncube();\n hull() { sphere(); }\ncube();", {.skip_unsupported = true});
-  EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
-  ASSERT_THAT(design.warnings, SizeIs(2));
-  EXPECT_EQ(
-      design.warnings[0].text,
-      "a.csg:2:1: warning: 2 cube nodes are left out; this is the first (it cannot be drawn)");
-  EXPECT_EQ(design.warnings[1].text,
-            "a.csg:3:2: warning: 1 hull node is left out (it cannot be drawn)");
-}
-
-TEST(ImporterUnsupported, LeavesTheRestAsItWouldBeWithout) {
-  const ImportOptions skip{.skip_unsupported = true};
-  EXPECT_EQ(model_of("difference() { sphere(); cube(); sphere(); }", skip), "(0-2)");
-  EXPECT_EQ(model_of("intersection() { sphere(); group() { cube(); } }", skip), "0");
-  EXPECT_EQ(model_of("union() { cube(); sphere(); }", skip), "1");
-}
-
-TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
-  const ImportOptions skip{.skip_unsupported = true};
-  // The holes of a plate that is not drawn must not appear as bodies.
-  EXPECT_EQ(model_of("difference() { cube(); sphere(); } sphere();", skip), "2");
-  EXPECT_EQ(model_of("difference() { group() { cube(); group(); } sphere(); } sphere();", skip),
-            "2");
-  EXPECT_EQ(model_of("difference() { group() { cube(); sphere(); } sphere(); }", skip), "(1-2)");
-  EXPECT_EQ(model_of("intersection() { difference() { cube(); sphere(); } sphere(); }", skip), "2");
-}
-
-TEST(ImporterWarnings, OfRoundPrimitivesWithFewFragments) {
-  const ImportedDesign design = import_text(
-      "sphere($fn = 9); sphere($fn = 0);\n cylinder($fn = 6); *sphere($fn = 5); sphere($fn = 8);");
-  ASSERT_THAT(design.warnings, SizeIs(1));
-  EXPECT_EQ(design.warnings[0].text,
-            "a.csg:2:2: warning: drawn smooth, in spite of $fn ≤ 8: 2 round primitives; this is "
-            "the first (facets are not drawn yet)");
-}
-
-// --- What --viewall looks at -----------------------------------------------------------------
 
 void expect_box(const csgcore::Box& box, const Vec3& min, const Vec3& max, double tolerance) {
   for (int i = 0; i < 3; ++i) {
@@ -407,6 +373,313 @@ void expect_box(const csgcore::Box& box, const Vec3& min, const Vec3& max, doubl
     EXPECT_NEAR(box.max[i], max[i], tolerance) << i;
   }
 }
+
+TEST(ImporterCube, TakesEverySpellingOfItsSize) {
+  const auto expect_cube = [](const std::string& text, const Vec3& min, const Vec3& max) {
+    SCOPED_TRACE(text);
+    expect_box(box_of(only_primitive(text)), min, max, 0);
+  };
+  expect_cube("cube(size = [2, 3.5, 4], center = false);", Vec3(0.0), Vec3(2, 3.5, 4));
+  expect_cube("cube(size = [2, 3.5, 4], center = true);", Vec3(-1, -1.75, -2), Vec3(1, 1.75, 2));
+  expect_cube("cube([1, 2, 3], true);", Vec3(-0.5, -1, -1.5), Vec3(0.5, 1, 1.5));
+  expect_cube("cube(3);", Vec3(0.0), Vec3(3.0));
+  expect_cube("cube(size = undef, center = undef);", Vec3(0.0), Vec3(1.0));
+  expect_cube("cube();", Vec3(0.0), Vec3(1.0));
+  expect_cube("multmatrix([[0,-1,0,5],[2,0,0,0],[0,0,1,0],[0,0,0,1]]) { cube([1, 2, 3]); }",
+              Vec3(3, 0, 0), Vec3(5, 2, 3));
+}
+
+TEST(ImporterCube, HasColourAndId) {
+  const Primitive cube = import_text("sphere(); color([1, 0, 0]) { cube(); }").scene.primitives[1];
+  EXPECT_EQ(cube.id, 1u);
+  EXPECT_EQ(cube.color->r, 1);
+}
+
+TEST(ImporterCube, SharesOnePolyhedron) {
+  const std::vector<Primitive> cubes =
+      import_text("cube([1, 2, 3]); multmatrix([[0,1,0,0],[1,0,0,0],[0,0,1,0]]) { cube(7); }")
+          .scene.primitives;
+  EXPECT_EQ(cubes[0].polyhedron, cubes[1].polyhedron);
+}
+
+// A tetrahedron; faces clockwise seen from outside.
+const std::string kCorner = "points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]], ";
+const std::string kFaces = "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]";
+
+TEST(ImporterPolyhedron, IsTakenWhereItIsConvex) {
+  const Primitive primitive = only_primitive("polyhedron(" + kCorner + kFaces + ");");
+  expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
+  EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+  const std::string older =
+      "polyhedron(" + kCorner + "triangles = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);";
+  const std::string positional =
+      "polyhedron([[0,0],[3,0],[0,4],[0,0,5],[9,9,9]], [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], 2);";
+  const std::string careless =
+      "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3.2,2,-5,77,1e99,nan]]);";
+  for (const std::string& text : {older, positional, careless}) {
+    EXPECT_EQ(only_primitive(text).polyhedron->half_spaces().size(), 4u) << text;
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
+  }
+}
+
+TEST(ImporterPolyhedron, EqualOnesAreOne) {
+  const std::string tetrahedron = "polyhedron(" + kCorner + kFaces + ");";
+  const std::vector<Primitive> primitives =
+      import_text(tetrahedron + "multmatrix([[1,0,0,9]]) { " + tetrahedron + "}" +
+                  "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5.5]], " + kFaces + ");")
+          .scene.primitives;
+  EXPECT_EQ(primitives[0].polyhedron, primitives[1].polyhedron);
+  EXPECT_NE(primitives[0].polyhedron, primitives[2].polyhedron);
+}
+
+TEST(ImporterPolyhedron, OfAnySize) {
+  for (const char* size : {"1e-60", "1e60"}) {
+    const std::string text = "polyhedron(points = [[0,0,0],[" + std::string(size) + ",0,0],[0," +
+                             size + ",0],[0,0," + size + "]], " + kFaces + ");";
+    const double expected = std::stod(size);
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(expected), 1e-15 * expected);
+  }
+}
+
+TEST(ImporterPolyhedron, IsUnsupportedWhereItIsNotConvexAndClosed) {
+  const std::string open = "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3]]);";
+  const std::string inverted =
+      "polyhedron(" + kCorner + "faces = [[2,1,0],[1,3,0],[3,2,0],[2,3,1]]);";
+  const std::string flat = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);";
+  // An octahedron with one vertex pushed in.
+  const std::string dented =
+      "polyhedron([[1,0,0],[0,1,0],[-1,0,0],[0,-1,0],[0,0,1],[0,0,0.5]], [[4,1,0],[4,2,1],[4,3,2],"
+      "[4,0,3],[0,1,5],[1,2,5],[2,3,5],[3,0,5]]);";
+  for (const std::string& text : {open, inverted, flat, dented}) {
+    EXPECT_EQ(error_of("sphere();\n " + text),
+              "a.csg:2:2: error: polyhedron cannot be drawn, since it is not the closed boundary "
+              "of one convex solid, its faces plane and clockwise seen from outside; of all nodes "
+              "1 cannot: 1 polyhedron (--skip-unsupported draws the rest)");
+    const ImportedDesign design =
+        import_text("difference() { cube(); " + text + " }", {.skip_unsupported = true});
+    EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
+    ASSERT_THAT(design.warnings, SizeIs(1));
+    EXPECT_EQ(design.warnings[0].text,
+              "a.csg:1:24: warning: 1 polyhedron node is left out (it is not the closed boundary "
+              "of one convex solid, its faces plane and clockwise seen from outside)");
+  }
+}
+
+TEST(ImporterPolyhedron, OfTooManyFacesIsNotLookedAt) {
+  // Two apexes and a ring: convex, with n + 2 vertices and 2n faces.
+  constexpr int kRing = 16384;
+  static_assert(2ull * kRing * (kRing + 2) > (1 << 28));
+  std::string points = "[0,0,1],[0,0,-1]", faces;
+  for (int i = 0; i < kRing; ++i) {
+    const double angle = 2 * M_PI * i / kRing;
+    const std::string a = std::to_string(2 + i), b = std::to_string(2 + (i + 1) % kRing);
+    points += ",[" + std::to_string(std::cos(angle)) + "," + std::to_string(std::sin(angle)) + "]";
+    faces += (i == 0 ? "[" : ",[") + b + "," + a + ",0],[" + a + "," + b + ",1]";
+  }
+  EXPECT_THAT(error_of("polyhedron([" + points + "],[" + faces + "]);"),
+              HasSubstr("polyhedron cannot be drawn, since it has too many faces; "));
+}
+
+TEST(ImporterPrimitives, RefuseSizesAndFacesOfTheWrongType) {
+  EXPECT_EQ(error_of("cube(size = [1, 2]);"),
+            "a.csg:1:1: error: cube: size is a list of 2 (it must be a number or a list of three "
+            "numbers)");
+  EXPECT_THAT(error_of("cube([1, undef, 2]);"), HasSubstr("size is a list with undef"));
+  EXPECT_THAT(error_of("cube([1, 2, 3, 4]);"), HasSubstr("size is a list of 4"));
+  EXPECT_THAT(error_of("cube(\"a\");"), HasSubstr("size is a string"));
+  EXPECT_THAT(error_of("cube(1, 1);"), HasSubstr("center is a number"));
+  EXPECT_THAT(error_of("polyhedron(points = 3);"), HasSubstr("points is a number"));
+  EXPECT_THAT(error_of("polyhedron(points = [3]);"), HasSubstr("a point is a number"));
+  EXPECT_THAT(error_of("polyhedron(points = [[3]]);"), HasSubstr("a point is a list of 1"));
+  EXPECT_THAT(error_of("polyhedron([[1,2,true]]);"), HasSubstr("a point is a list with a boolean"));
+  EXPECT_THAT(error_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
+  EXPECT_THAT(error_of("polyhedron([], [1]);"), HasSubstr("a face is a number"));
+  EXPECT_THAT(error_of("polyhedron([], [[[]]]);"), HasSubstr("an index of a face is a list"));
+}
+
+TEST(ImporterPrimitives, PolyhedraThatAreTheEmptySetCount) {
+  const std::string infinite = "polyhedron([[0,0,0],[3,0,0],[0,4,0],[0,0,inf]], " + kFaces + ");";
+  const std::string nan = "polyhedron([[0,0,0],[nan,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
+  const std::string flattened =
+      "multmatrix([[inf,0,0,0]]) { polyhedron(" + kCorner + "faces = [[0,1,2]]); }";
+  for (const std::string& empty :
+       {std::string("cube(0);"), std::string("cube([1, -1, 1]);"),
+        std::string("cube([-1, -1, 1]);"), std::string("cube([1, 0, 1], center = true);"),
+        std::string("cube(inf);"), std::string("cube([1, nan, 1]);"), std::string("polyhedron();"),
+        std::string("polyhedron([[1,2,3]], []);"), infinite, nan, flattened}) {
+    EXPECT_EQ(model_of(empty + "sphere();"), "1") << empty;
+    EXPECT_EQ(model_of("difference() { " + empty + " sphere(); }"), "-") << empty;
+    EXPECT_EQ(import_text(empty).primitive_nodes, 1u) << empty;
+  }
+}
+
+// --- OpenSCAD's facets ------------------------------------------------------------------------
+
+/// The faces of the only primitive, 0 if it is smooth.
+size_t faces_of(const std::string& text, ImportOptions options = {}) {
+  const ImportedDesign design = import_text(text, options);
+  EXPECT_THAT(design.scene.primitives, SizeIs(1)) << text;
+  const Primitive& primitive = design.scene.primitives.at(0);
+  return primitive.polyhedron ? primitive.polyhedron->half_spaces().size() : 0;
+}
+
+TEST(ImporterFacets, OfFewFragmentsAreKept) {
+  EXPECT_EQ(faces_of("cylinder($fn = 6);"), 8u);
+  EXPECT_EQ(faces_of("cylinder($fn = 8, r1 = 0);"), 9u);
+  EXPECT_EQ(faces_of("cylinder($fn = 9);"), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 8.5);"), 0u);  // as written, not as it is truncated
+  EXPECT_EQ(faces_of("cylinder($fn = 1);"), 5u);
+  EXPECT_EQ(faces_of("sphere($fn = 6);"), 14u);
+  for (const char* fn : {"0", "-3", "inf", "nan", "100"}) {
+    EXPECT_EQ(faces_of("sphere($fn = " + std::string(fn) + ");"), 0u) << fn;
+  }
+  EXPECT_EQ(faces_of("cylinder();"), 0u);
+}
+
+TEST(ImporterFacets, AsTheOptionsSay) {
+  const ImportOptions none{.facets = Facets::kNone};
+  const ImportOptions all{.facets = Facets::kAll};
+  const ImportOptions few{.few_fragments = 12};
+  EXPECT_EQ(faces_of("cylinder($fn = 6);", none), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 12);", few), 14u);
+  EXPECT_EQ(faces_of("cylinder($fn = 13);", few), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 3);", {.few_fragments = 0}), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 100);", all), 102u);
+  EXPECT_EQ(faces_of("cylinder($fn = 0, $fa = 12, $fs = 2, r = 9);", all), 31u);
+  EXPECT_EQ(faces_of("cylinder($fn = inf);", all), 5u);
+  // As if every one had that $fn; cubes have their own faces.
+  const ImportOptions forced{.facets = Facets::kAll, .fn = 5};
+  EXPECT_EQ(faces_of("cylinder($fn = 100);", forced), 7u);
+  EXPECT_EQ(faces_of("cylinder();", forced), 7u);
+  EXPECT_EQ(faces_of("cylinder();", {.fn = 5}), 7u);
+  EXPECT_EQ(faces_of("cylinder($fn = 5);", {.fn = 50}), 0u);
+  EXPECT_EQ(faces_of("cube();", none), 6u);
+}
+
+TEST(ImporterFacets, HaveOpenScadsVertices) {
+  const auto expect_vertices = [](const std::string& text, const csgcore::Mesh& mesh) {
+    const Primitive primitive = only_primitive(text);
+    ASSERT_TRUE(primitive.polyhedron) << text;
+    const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
+    ASSERT_EQ(vertices.size(), mesh.vertices.size()) << text;
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3 vertex = primitive.local_to_world.point(vertices[i]);
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(vertex[k], mesh.vertices[i][k], 1e-14) << text;
+    }
+  };
+  expect_vertices("sphere($fn = 7, r = 3);", csgcore::sphere_mesh(3, 7));
+  expect_vertices("cylinder($fn = 6, h = 4, r1 = 3, r2 = 1);",
+                  csgcore::frustum_mesh(0, 4, 3, 1, 6));
+  expect_vertices("cylinder($fn = 5, h = 4, r1 = 0, r2 = 3, center = true);",
+                  csgcore::frustum_mesh(-2, 2, 0, 3, 5));
+}
+
+TEST(ImporterFacets, AreSharedWhereOnlyTheSizeDiffers) {
+  const auto polyhedra = [](const std::string& text) {
+    std::vector<const csgcore::Polyhedron*> result;
+    for (const Primitive& primitive : import_text(text).scene.primitives) {
+      result.push_back(primitive.polyhedron.get());
+    }
+    return result;
+  };
+  const auto prisms =
+      polyhedra("cylinder($fn = 6); cylinder($fn = 6, h = 9, r = 7, center = true);");
+  EXPECT_EQ(prisms[0], prisms[1]);
+  const auto cones =
+      polyhedra("cylinder($fn = 6, r1 = 2, r2 = 1); cylinder($fn = 6, d1 = 8, d2 = 4);");
+  EXPECT_EQ(cones[0], cones[1]);
+  const auto balls = polyhedra("sphere($fn = 6); sphere($fn = 6, r = 5); sphere($fn = 7);");
+  EXPECT_EQ(balls[0], balls[1]);
+  EXPECT_NE(balls[0], balls[2]);
+  const auto others = polyhedra(
+      "cylinder($fn = 6); cylinder($fn = 6, r2 = 0); cylinder($fn = 6, r1 = 0); cylinder($fn = 5);"
+      "sphere($fn = 6);");
+  for (size_t i = 0; i < others.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) EXPECT_NE(others[i], others[k]) << i << ' ' << k;
+  }
+}
+
+TEST(ImporterFacets, KeepPlaceColourAndId) {
+  const std::vector<Primitive> primitives =
+      import_text(
+          "cube(); color([0, 1, 0]) { multmatrix([[-1,0,0,7],[0,1,0,0],[0,0,1,0]]) "
+          "{ cylinder($fn = 4, h = 3, r = 2, center = true); } }")
+          .scene.primitives;
+  expect_box(box_of(primitives.at(1)), Vec3(5, -2, -1.5), Vec3(9, 2, 1.5), 1e-15);
+  EXPECT_EQ(primitives[1].id, 1u);
+  EXPECT_EQ(primitives[1].color->g, 1);
+  EXPECT_LT(primitives[1].local_to_world.determinant(), 0);
+}
+
+TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
+  const ImportedDesign design = import_text(
+      "cylinder($fn = 50);\n sphere($fn = 1e6); cylinder($fn = 1e300);\n"
+      "sphere($fn = 60); cylinder($fn = 6);",
+      {.facets = Facets::kAll});
+  ASSERT_THAT(design.warnings, SizeIs(1));
+  EXPECT_EQ(design.warnings[0].text,
+            "a.csg:2:2: warning: 2 round primitives are smooth; this is the first: more than "
+            "131072 facets would be needed (give a smaller $fn)");
+  std::vector<Shape> shapes;
+  for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
+  EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
+                                  Shape::kPolyhedron, Shape::kPolyhedron));
+  // Many that are small each are too much as well, but for those that their text pays for.
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += "sphere($fn = " + std::to_string(30 + i) + ");";
+  text += "cylinder($fn = 6);";
+  const ImportedDesign many = import_text(text, {.facets = Facets::kAll});
+  uint64_t faces = 0;
+  for (const Primitive& primitive : many.scene.primitives) {
+    if (primitive.polyhedron) faces += primitive.polyhedron->half_spaces().size();
+  }
+  EXPECT_GT(faces, 100000u);
+  EXPECT_LT(faces, 131072u + 16u);
+  EXPECT_EQ(many.scene.primitives.back().shape, Shape::kPolyhedron);
+  EXPECT_THAT(many.warnings, SizeIs(1));
+}
+
+// --- What cannot be drawn -------------------------------------------------------------------
+
+TEST(ImporterUnsupported, IsAnErrorThatNamesTheFirstAndCounts) {
+  EXPECT_EQ(
+      error_of("sphere();\n linear_extrude(height = 1) { square(); circle(); }\n"
+               "surface(); surface();"),
+      "a.csg:2:2: error: linear_extrude cannot be drawn; of all nodes 3 cannot: 1 linear_extrude, "
+      "2 surface (--skip-unsupported draws the rest)");
+}
+
+TEST(ImporterUnsupported, IsSkippedOnDemandWithAWarningPerKind) {
+  const ImportedDesign design = import_text(
+      "sphere();\nsurface();\n hull() { sphere(); }\nsurface();", {.skip_unsupported = true});
+  EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
+  ASSERT_THAT(design.warnings, SizeIs(2));
+  EXPECT_EQ(design.warnings[0].text,
+            "a.csg:3:2: warning: 1 hull node is left out (it cannot be drawn)");
+  EXPECT_EQ(
+      design.warnings[1].text,
+      "a.csg:2:1: warning: 2 surface nodes are left out; this is the first (it cannot be drawn)");
+}
+
+TEST(ImporterUnsupported, LeavesTheRestAsItWouldBeWithout) {
+  const ImportOptions skip{.skip_unsupported = true};
+  EXPECT_EQ(model_of("difference() { sphere(); surface(); sphere(); }", skip), "(0-2)");
+  EXPECT_EQ(model_of("intersection() { sphere(); group() { surface(); } }", skip), "0");
+  EXPECT_EQ(model_of("union() { surface(); sphere(); }", skip), "1");
+}
+
+TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
+  const ImportOptions skip{.skip_unsupported = true};
+  // The holes of a plate that is not drawn must not appear as bodies.
+  EXPECT_EQ(model_of("difference() { surface(); sphere(); } sphere();", skip), "2");
+  EXPECT_EQ(model_of("difference() { group() { surface(); group(); } sphere(); } sphere();", skip),
+            "2");
+  EXPECT_EQ(model_of("difference() { group() { surface(); sphere(); } sphere(); }", skip), "(1-2)");
+  EXPECT_EQ(model_of("intersection() { difference() { surface(); sphere(); } sphere(); }", skip),
+            "2");
+}
+
+// --- What --viewall looks at -----------------------------------------------------------------
 
 TEST(ImporterViewBox, IsTheFacetedPrimitives) {
   // 5 fragments: the vertex nearest to -x lies at 144 degrees, to ±y at 72 degrees.
@@ -419,6 +692,20 @@ TEST(ImporterViewBox, IsTheFacetedPrimitives) {
   // 8 fragments, 4 rings, none at the equator.
   const double ring = std::cos(M_PI / 8);
   expect_box(import_text("sphere($fn = 8, r = 1);").view_box, Vec3(-ring), Vec3(ring), 1e-15);
+}
+
+TEST(ImporterViewBox, OfCubesAndPolyhedra) {
+  expect_box(import_text("multmatrix([[1,0,0,5]]) { cube([1, 2, 3], center = true); }").view_box,
+             Vec3(4.5, -1, -1.5), Vec3(5.5, 1, 1.5), 1e-15);
+  // The box of the corners of the local box, not of the vertices.
+  const double s = std::sqrt(0.5);
+  expect_box(import_text("multmatrix([[0.70710678118654752,-0.70710678118654752,0,0],"
+                         "[0.70710678118654752,0.70710678118654752,0,0],[0,0,1,0]]) { polyhedron(" +
+                         kCorner + kFaces + "); }")
+                 .view_box,
+             Vec3(-4 * s, 0, 0), Vec3(3 * s, 7 * s, 5), 1e-14);
+  EXPECT_EQ(import_text("sphere($fn = 100);", {.fn = 4}).view_box.max.z,
+            import_text("sphere($fn = 4);").view_box.max.z);
 }
 
 TEST(ImporterViewBox, HasTheTransformedCorners) {

@@ -238,10 +238,21 @@ TEST(Options, TilesHaveNoCells) {
 }
 
 TEST(Options, Facets) {
-  for (const char* value : {"0", "8", "all", "none"}) {
-    EXPECT_THAT(parse_drawing({"--facets", value}).warnings, ElementsAre(HasSubstr("--facets")));
+  const auto import = [](const std::vector<std::string>& words) {
+    const Options options = parse_drawing(words);
+    EXPECT_THAT(options.warnings, IsEmpty());
+    return options.import;
+  };
+  EXPECT_EQ(import({}).facets, Facets::kFew);
+  EXPECT_EQ(import({}).few_fragments, 8);
+  EXPECT_EQ(import({"--facets=all"}).facets, Facets::kAll);
+  EXPECT_EQ(import({"--facets", "none"}).facets, Facets::kNone);
+  EXPECT_EQ(import({"--facets=0"}).few_fragments, 0);
+  EXPECT_EQ(import({"--facets=12"}).facets, Facets::kFew);
+  EXPECT_EQ(import({"--facets=12"}).few_fragments, 12);
+  for (const char* value : {"x", "-1", "8.5", "", "ALL", "8 "}) {
+    EXPECT_THAT(drawing_error({"--facets=" + std::string(value)}), HasSubstr("--facets")) << value;
   }
-  EXPECT_THAT(drawing_error({"--facets=x"}), HasSubstr("--facets"));
 }
 
 TEST(Options, OtherFlags) {

@@ -1,6 +1,8 @@
 // Syntax tree → csgcore::Scene (openscad.md §2, design.md §3).
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -10,10 +12,23 @@
 
 namespace frontend {
 
+/// Which round primitives become the polyhedra that OpenSCAD makes of them (openscad.md §3); the
+/// others are exact quadrics.
+enum class Facets : uint8_t {
+  kNone,
+  kFew,  // those with 0 < $fn ≤ ImportOptions::few_fragments: prisms and pyramids on purpose
+  kAll,
+};
+
 struct ImportOptions {
   /// Leave out nodes that cannot be drawn, with one warning for each kind and its count, instead of
   /// throwing an Error.
   bool skip_unsupported = false;
+  Facets facets = Facets::kFew;
+  /// Of kFew. People who choose no more than 8 fragments mean the polygon (openscad.md §3).
+  double few_fragments = 8;
+  /// In place of the $fn of every round primitive in the file.
+  std::optional<double> fn{};
 };
 
 struct ImportedDesign {
@@ -28,7 +43,8 @@ struct ImportedDesign {
 };
 
 /// Throws Error for a node that cannot be drawn (it names the first with its place, and says how
-/// many there are) and for arguments of the wrong type.
+/// many there are) and for arguments of the wrong type. A round primitive whose facets would take
+/// too much memory stays smooth, with one warning for all.
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {});
 
 }  // namespace frontend
