@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "faces.hpp"
+
 namespace frontend {
 namespace {
 
@@ -44,8 +46,13 @@ struct Entry {
   double key;
   double tolerance;  // the key is off by no more, whatever the rounding did
   uint32_t primitive;
-  uint8_t cap;  // of a plane: 0 at z_min, 1 at z_max
+  uint8_t face;  // of a plane
 };
+
+static_assert(kMostComparedFaces <= 32, "a bit each in an uint32_t");
+// A polyhedron's face is moved along a direction that other faces run in. If it leads away from the
+// plane by less than this share (60° aslant), the polyhedron would move by more than twice the gap.
+constexpr double kLeastProgress = 0.5;
 
 /// Where the caps' centres and the axis are.
 struct FrustumPlace {
@@ -101,16 +108,21 @@ class Merger {
     return frame.linear_error == 0 && frame.point_error == 0;
   }
 
-  double error_at(uint32_t primitive, const Vec3& local) const {
+  double error_at(uint32_t primitive, const Vec3& point) const {
     const Frame& frame = frames_[frame_of_[primitive]];
-    return frame.point_error + frame.linear_error * glm::length(local);
+    if (frame.linear_error == 0) return frame.point_error;
+    return frame.point_error + frame.linear_error * glm::length(local_of(frame, point));
+  }
+
+  static Vec3 local_of(const Frame& frame, const Vec3& point) {
+    return csgcore::inverse(frame.to_world.linear) * (point - frame.to_world.translation);
   }
 
   /// How far rounding may have turned a direction of the primitive, in radians.
   double turn_error(uint32_t primitive) const {
     const double error = frames_[frame_of_[primitive]].linear_error;
     if (error == 0) return 0;
-    const Mat3& map = primitives_[primitive].local_to_world.linear;
+    const Mat3& map = frames_[frame_of_[primitive]].to_world.linear;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) least = std::min(least, glm::length(map[i]));
     return 2 * error / least;
@@ -123,29 +135,33 @@ class Merger {
     return place + size_ * glm::dot(direction, kDirectionProbe);
   }
 
-  void add_entries(Feature kind, uint32_t index, std::vector<Entry>& entries) const {
+  void add_entries(Feature kind, uint32_t index, std::vector<Entry>& entries) {
     const Primitive& primitive = primitives_[index];
-    if ((primitive.shape == Shape::kSphere) != (kind == Feature::kCenter)) return;
-    if (kind == Feature::kCenter) {
-      const Vec3& center = primitive.local_to_world.translation;
-      entries.push_back(
-          {glm::dot(center - origin_, kOffsetProbe), error_at(index, Vec3(0.0)), index, 0});
-      return;
-    }
-    const FrustumPlace place = place_of(primitive);
     const double turn = 2 * size_ * turn_error(index);
     if (kind == Feature::kPlane) {
-      for (uint8_t cap = 0; cap < 2; ++cap) {
-        if (cap_radius(primitive, cap) == 0) continue;
-        entries.push_back({directed_key(place.normal, place.center[cap] - origin_, true),
-                           error_at(index, cap_center_local(primitive, cap)) + turn, index, cap});
+      const bool is_frustum = primitive.shape == Shape::kFrustum;
+      const auto count = static_cast<uint8_t>(faces_.count(primitive));
+      for (uint8_t i = 0; i < count; ++i) {
+        if (is_frustum && cap_radius(primitive, i) == 0) continue;
+        const Face face = faces_.at(primitive, i);
+        entries.push_back({directed_key(face.normal, face.center - origin_, true),
+                           error_at(index, face.center) + turn, index, i});
       }
       return;
     }
+    if (kind == Feature::kCenter) {
+      if (primitive.shape != Shape::kSphere) return;
+      const Vec3& center = primitive.local_to_world.translation;
+      entries.push_back(
+          {glm::dot(center - origin_, kOffsetProbe), error_at(index, center), index, 0});
+      return;
+    }
+    if (primitive.shape != Shape::kFrustum) return;
+    const FrustumPlace place = place_of(primitive);
     const Vec3 from_origin = place.center[0] - origin_;
     const Vec3 foot = from_origin - place.axis * glm::dot(from_origin, place.axis);
-    entries.push_back({directed_key(place.axis, foot, false),
-                       error_at(index, cap_center_local(primitive, 0)) + turn, index, 0});
+    entries.push_back(
+        {directed_key(place.axis, foot, false), error_at(index, place.center[0]) + turn, index, 0});
   }
 
   void merge_kind(Feature kind) {
@@ -179,7 +195,7 @@ class Merger {
       const bool exact_a = exact(a.primitive);
       const bool exact_b = exact(b.primitive);
       if (exact_a != exact_b) return exact_a;
-      return a.primitive < b.primitive || (a.primitive == b.primitive && a.cap < b.cap);
+      return a.primitive < b.primitive || (a.primitive == b.primitive && a.face < b.face);
     });
     std::vector<Entry> leaders;
     for (const Entry& entry : run) {
@@ -212,8 +228,7 @@ class Merger {
     if (!common) return 0;
     Vec3 error(0.0);
     for (const uint32_t primitive : {a, b}) {
-      const Affine& map = frames_[frame_of_[primitive]].to_world;
-      const Vec3 local = csgcore::inverse(map.linear) * (point - map.translation);
+      const Vec3 local = local_of(frames_[frame_of_[primitive]], point);
       error += frames_.error_of_point(frame_of_[primitive], *common, local);
     }
     const Vec3 seen = glm::abs(direction * frames_[*common].to_world.linear);
@@ -230,56 +245,80 @@ class Merger {
     return std::abs(gap) < explained(leader.primitive, entry.primitive, point, direction);
   }
 
-  bool locked(uint32_t primitive, int cap) const {
-    return !locks_.empty() && (locks_[primitive] >> cap & 1) != 0;
+  bool locked(uint32_t primitive, uint32_t face) const {
+    return !locks_.empty() && (locks_[primitive] >> face & 1) != 0;
   }
 
   void lock(const Entry& entry) {
     if (locks_.empty()) locks_.resize(primitives_.size());
-    locks_[entry.primitive] |= static_cast<uint8_t>(1 << entry.cap);
+    locks_[entry.primitive] |= uint32_t{1} << entry.face;
   }
 
   bool merge_planes(const Entry& leader, const Entry& entry) {
-    const FrustumPlace ours = place_of(primitives_[entry.primitive]);
-    const FrustumPlace theirs = place_of(primitives_[leader.primitive]);
-    const Vec3 normal = theirs.normal;
-    const Vec3 target = theirs.center[leader.cap];
-    const Vec3 center = ours.center[entry.cap];
-    // Three points on the cap's rim tell both its place and its tilt.
-    const Mat3& map = primitives_[entry.primitive].local_to_world.linear;
-    const double radius = cap_radius(primitives_[entry.primitive], entry.cap);
+    const Face ours = faces_.at(primitives_[entry.primitive], entry.face);
+    const Face theirs = faces_.at(primitives_[leader.primitive], leader.face);
+    // The corners tell both the face's place and its tilt.
+    double extent = 0;
     bool all_noise = true;
-    for (const Vec3& rim : {map[0], map[1], -map[0] - map[1]}) {
-      const Vec3 point = center + radius * rim;
-      const double gap = glm::dot(normal, point - target);
-      if (!may_close(leader, entry, point, normal, gap)) return false;
+    for (const Vec3& corner : faces_.corners(primitives_[entry.primitive], entry.face)) {
+      const double gap = glm::dot(theirs.normal, corner - theirs.center);
+      if (!may_close(leader, entry, corner, theirs.normal, gap)) return false;
       all_noise = all_noise && is_noise(gap);
+      extent = std::max(extent, glm::length(corner - ours.center));
     }
-    const double gap = glm::dot(normal, center - target);
-    if (!all_noise && !align_plane(entry, ours, normal, gap, radius)) return false;
+    if (!all_noise && !align_face(entry, ours, theirs, extent)) return false;
     lock(leader);
     lock(entry);
     return true;
   }
 
-  /// Moves the cap onto the plane, along its normal only: the axis stays where it is. A shear that
-  /// is constant along the normal moves the other cap alike.
-  bool align_plane(const Entry& entry, const FrustumPlace& ours, const Vec3& normal, double gap,
-                   double radius) {
+  /// Moves the face, which reaches so far from its centre, onto the target's plane.
+  bool align_face(const Entry& entry, const Face& ours, const Face& target, double extent) {
     Primitive& primitive = primitives_[entry.primitive];
-    const Vec3 center = ours.center[entry.cap];
-    const Vec3 slope = normal - ours.normal / glm::dot(ours.normal, normal);
-    if (!locked(entry.primitive, 1 - entry.cap)) {
-      move(primitive, center, normal * gap, glm::outerProduct(normal, slope));
-      return true;
-    }
-    // The other cap must stay: only the distance between the two may change.
-    const double rim = radius * glm::length(primitive.local_to_world.linear[0]);
-    if (!is_noise(glm::length(slope) * rim)) return false;
-    const Vec3 other = ours.center[1 - entry.cap];
-    const double height = glm::dot(ours.normal, center - other);
-    move(primitive, other, Vec3(0.0), glm::outerProduct(normal * (gap / height), ours.normal));
+    const std::optional<Vec3> along = way_of(entry, ours, target.normal);
+    if (!along) return false;
+    const std::optional<uint32_t> other = faces_.opposite(primitive, entry.face);
+    const double gap = glm::dot(target.normal, ours.center - target.center);
+    const Vec3 step = *along / glm::dot(*along, target.normal);
+    const Vec3 slope = target.normal - ours.normal / glm::dot(ours.normal, step);
+    const bool other_locked = other && locked(entry.primitive, *other);
+    if (other_locked && !is_noise(glm::length(slope) * extent)) return false;
+    const Vec3 other_center = other ? faces_.at(primitive, *other).center : Vec3(0.0);
+    // A shear that is constant along the way moves the parallel face alike …
+    move(primitive, ours.center, step * gap, glm::outerProduct(step, slope));
+    if (!other || !(other_locked || faces_.is_parallelepiped(primitive))) return true;
+    // … and a stretch from the plane puts it back.
+    const Vec3 moved = faces_.at(primitive, *other).center;
+    move(primitive, target.center, Vec3(0.0),
+         glm::outerProduct((moved - other_center) / glm::dot(target.normal, moved - target.center),
+                           target.normal));
     return true;
+  }
+
+  /// The direction in which the face may move so that the others stay in their planes: all of a
+  /// parallelepiped, which has the freedom; those of a polyhedron that are locked; of a frustum
+  /// there is only the axis to keep. None: it may not.
+  std::optional<Vec3> way_of(const Entry& entry, const Face& ours, const Vec3& normal) {
+    const Primitive& primitive = primitives_[entry.primitive];
+    if (primitive.shape == Shape::kFrustum) return normal;
+    const bool keeps_all = faces_.is_parallelepiped(primitive);
+    std::vector<Vec3> kept;  // normals, no two of them parallel
+    for (uint32_t face = 0; face < faces_.count(primitive); ++face) {
+      if (!keeps_all && !locked(entry.primitive, face)) continue;
+      const Vec3 other = faces_.at(primitive, face).normal;
+      const auto is_parallel = [&](const Vec3& known) { return parallel(known, other); };
+      if (is_parallel(ours.normal) || std::any_of(kept.begin(), kept.end(), is_parallel)) continue;
+      kept.push_back(other);
+    }
+    Vec3 way = normal;
+    if (kept.size() == 1) way = normal - kept[0] * glm::dot(kept[0], normal);
+    if (kept.size() > 1) way = glm::cross(kept[0], kept[1]);
+    way = glm::normalize(way);
+    for (const Vec3& other : kept) {
+      if (std::abs(glm::dot(way, other)) > kParallel) return std::nullopt;
+    }
+    if (!(std::abs(glm::dot(way, normal)) >= kLeastProgress)) return std::nullopt;
+    return way;
   }
 
   bool merge_axes(const Entry& leader, const Entry& entry) {
@@ -388,10 +427,11 @@ class Merger {
   std::span<Primitive> primitives_;
   std::span<const uint32_t> frame_of_;
   const FrameTree& frames_;
+  Faces faces_;
   Vec3 origin_;
   double size_;
   double noise_;
-  std::vector<uint8_t> locks_;  // bit per cap: its plane is shared, and may not move any more
+  std::vector<uint32_t> locks_;  // bit per face: its plane is shared, and may not move any more
 };
 
 }  // namespace

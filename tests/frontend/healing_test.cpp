@@ -16,6 +16,7 @@
 #include <random>
 #include <string>
 
+#include "csgcore/polyhedron.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "matrix_healing.hpp"
@@ -106,6 +107,37 @@ double axis_gap(const Primitive& a, const Primitive& b) {
   for (int cap = 0; cap < 2; ++cap) {
     const Vec3 offset = cap_center(b, cap) - cap_center(a, 0);
     gap = std::max(gap, glm::length(glm::cross(axis, offset)));
+  }
+  return gap;
+}
+
+/// The sides of a cube.
+enum Side { kRight, kLeft, kBack, kFront, kTop, kBottom };
+
+/// The four corners of a cube's side.
+std::array<Vec3, 4> corners(const Primitive& cube, Side side) {
+  const int axis = side / 2;
+  std::array<Vec3, 4> result;
+  for (int i = 0; i < 4; ++i) {
+    Vec3 corner(0.0);
+    corner[axis] = side % 2 == 0 ? 1 : 0;
+    corner[(axis + 1) % 3] = i == 1 || i == 2;
+    corner[(axis + 2) % 3] = i >= 2;
+    result[i] = cube.local_to_world.point(corner);
+  }
+  return result;
+}
+
+Vec3 side_normal(const Primitive& cube, Side side) {
+  const std::array<Vec3, 4> at = corners(cube, side);
+  return glm::normalize(glm::cross(at[1] - at[0], at[3] - at[0]));
+}
+
+/// How far the side of `b` leaves the plane of the side of `a`, at most.
+double side_gap(const Primitive& a, Side side_a, const Primitive& b, Side side_b) {
+  double gap = 0;
+  for (const Vec3& corner : corners(b, side_b)) {
+    gap = std::max(gap, std::abs(glm::dot(side_normal(a, side_a), corner - corners(a, side_a)[0])));
   }
   return gap;
 }
@@ -369,6 +401,138 @@ TEST(HealingFeatures, BothCapsOfOneCylinderMayBeShared) {
   EXPECT_LT(axis_gap(primitives[0], primitives[2]), kAgrees);
 }
 
+TEST(HealingFeatures, FlushCubesInTurnedFrames) {
+  // The angles are not to be guessed, and the top of the plate is the others' bottom in the design
+  // only.
+  const std::vector<Primitive> primitives = import_scad(
+      "a = [17.12345678, 23.23456789, 41.3456789];"
+      "module turned() rotate([0, 0, a.z]) rotate([0, a.y, 0]) rotate([a.x, 0, 0]) children();"
+      "rotate(a) cube([20, 20, 2]);"
+      "turned() translate([3, 4, 2]) cube([5, 6, 7]);"
+      "turned() translate([15, 15, 2]) cylinder(h = 3, r = 2);"
+      "turned() translate([4, 13, 4]) cube(4, center = true);");
+  const Vec3 normal = side_normal(primitives[0], kTop);
+  EXPECT_LT(side_gap(primitives[0], kTop, primitives[1], kBottom), kAgrees);
+  EXPECT_LT(side_gap(primitives[0], kTop, primitives[3], kBottom), kAgrees);
+  EXPECT_LT(
+      std::abs(glm::dot(normal, cap_center(primitives[2], 0) - corners(primitives[0], kTop)[0])),
+      kAgrees);
+  EXPECT_LT(glm::length(glm::cross(normal, cap_normal(primitives[2]))), kAgrees);
+  // The rest moves by no more than the rounding.
+  EXPECT_NEAR(glm::length(corners(primitives[1], kTop)[2] - corners(primitives[1], kBottom)[3]),
+              std::hypot(5, 7), 2e-5);
+}
+
+TEST(HealingFeatures, EachFaceOfACubeMovesAlone) {
+  // A cube at 0.333333 + 0.333333 between neighbours at 0.666667 below and 2.66667 above, along
+  // every axis.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 2/3, 2/3]) translate([-4, -4, -4]) cube(4);"
+      "translate([8/3, 8/3, 8/3]) cube(4);"
+      "translate([1/3, 1/3, 1/3]) translate([1/3, 1/3, 1/3]) cube(2);");
+  const Primitive& cube = primitives[2];
+  for (const Side upper : {kRight, kBack, kTop}) {
+    const Side lower = static_cast<Side>(upper + 1);
+    EXPECT_LT(side_gap(primitives[0], upper, cube, lower), kAgrees);
+    EXPECT_LT(side_gap(primitives[1], lower, cube, upper), kAgrees);
+  }
+  EXPECT_NEAR(cube.local_to_world.linear[0].x, 2.000003, 1e-9);
+}
+
+TEST(HealingFeatures, AMovedFaceTearsNothingElse) {
+  // A and B stand in one frame and share a plane, A's other side is flush with C's.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([0, 0, 2/3]) translate([0, 0, -1]) cube(1);"
+      "translate([0, 0, 1/3]) translate([0, 0, 1/3]) {"
+      "  cube([1, 1, 2]); translate([3, 0, 1]) cube(1); }");
+  EXPECT_LT(side_gap(primitives[0], kTop, primitives[1], kBottom), kAgrees);
+  EXPECT_LT(side_gap(primitives[1], kTop, primitives[2], kTop), kAgrees);
+  EXPECT_NEAR(primitives[2].local_to_world.translation.z, 1.666666, 1e-12);
+}
+
+TEST(HealingFeatures, AFaceOfAShearedCubeMovesAlongTheOthers) {
+  // Along its normal it would take the leaning top and bottom with it, which B shares.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 0, 0]) translate([-1, 0, 0]) cube([1, 9, 9]);"
+      "translate([1/3, 0, 0]) translate([1/3, 0, 0])"
+      "  multmatrix([[1, 0, 0], [0, 1, 0], [0.5, 0, 1]]) {"
+      "    cube(1); translate([3, 3, 0]) cube(1); }");
+  EXPECT_LT(side_gap(primitives[0], kRight, primitives[1], kLeft), kAgrees);
+  EXPECT_LT(side_gap(primitives[1], kTop, primitives[2], kTop), kAgrees);
+  EXPECT_LT(side_gap(primitives[1], kBottom, primitives[2], kBottom), kAgrees);
+}
+
+TEST(HealingFeatures, TwoFacesThatCannotBothBeReachedDoNotUndoOneAnother) {
+  // Three chains of rounded matrices for one rotation: the plates are not parallel.
+  const std::vector<Primitive> primitives = import_scad(
+      "a = [17.12345678, 23.23456789, 41.3456789];"
+      "rotate(a) cube([20, 20, 2]);"
+      "rotate([0, 0, a.z]) rotate([a.x, a.y, 0]) translate([0, 0, 5]) cube([20, 20, 2]);"
+      "rotate([0, 0, a.z]) rotate([0, a.y, 0]) rotate([a.x, 0, 0]) translate([5, 5, 2])"
+      "  cube([10, 10, 3]);");
+  EXPECT_GT(glm::length(
+                glm::cross(side_normal(primitives[0], kTop), side_normal(primitives[1], kBottom))),
+            1e-8);
+  EXPECT_LT(side_gap(primitives[0], kTop, primitives[2], kBottom), kAgrees) << "it comes first";
+  EXPECT_LT(side_gap(primitives[1], kBottom, primitives[2], kTop), 2e-5);
+}
+
+TEST(HealingFeatures, SidesOfACubeInAShearedFrameStay) {
+  const std::string shear = "multmatrix([[1, 0, 0.5], [0, 1, 0.25], [0, 0, 1]])";
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 0, 2/3]) " + shear + " cube([1, 1, 2]);" +
+      "translate([1/3, 0, 1/3]) translate([1/3, 0, 1/3]) " + shear + " cube([1, 1, 3]);");
+  for (const Side side : {kLeft, kRight, kFront, kBack, kBottom}) {
+    EXPECT_LT(side_gap(primitives[0], side, primitives[1], side), kAgrees) << side;
+  }
+}
+
+TEST(HealingFeatures, CubeOfAScaledFrame) {
+  const std::vector<Primitive> primitives =
+      import_scad("cube(1); scale([1/3, 1/7, 1]) cube([3, 7, 2]);");
+  EXPECT_NEAR(primitives[1].local_to_world.linear[0].x, 1, kAgrees);
+  EXPECT_NEAR(primitives[1].local_to_world.linear[1].y, 1, kAgrees);
+}
+
+TEST(HealingFeatures, PolyhedraMoveAsAWhole) {
+  // A wedge on a plate and against a wall: both in the wedge's own frame are lower by a rounding.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 0, 2/3]) { translate([0, 0, -1]) cube([9, 9, 1]);"
+      "  translate([-1, 0, 0]) cube([1, 9, 9]); }"
+      "translate([1/3, 1, 1/3]) translate([1/3, 1, 1/3]) polyhedron("
+      "points = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 5]],"
+      "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);");
+  const Affine& wedge = primitives[2].local_to_world;
+  EXPECT_EQ(wedge.translation, Vec3(0.666667, 2, 0.666667));
+  EXPECT_LT(difference(wedge.linear, Mat3(4.0)), kAgrees);
+}
+
+TEST(HealingFeatures, PolyhedraMoveAlongWhatTheyShareAlready) {
+  // A wall that leans, x = z / 2, and a floor; the tetrahedron touches both.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 0, 2/3]) { translate([0, 0, -1]) cube([9, 9, 1]);"
+      "  multmatrix([[1, 0, 0.5], [0, 1, 0], [0, 0, 1]]) translate([-1, 0, 0]) cube([1, 9, 9]); }"
+      "translate([1/3, 1, 1/3]) translate([1/3, 1, 1/3]) polyhedron("
+      "points = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [2, 0, 4]],"
+      "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);");
+  EXPECT_NEAR(primitives[2].local_to_world.translation.x, 0.666667, kAgrees);
+  EXPECT_NEAR(primitives[2].local_to_world.translation.z, 0.666667, kAgrees);
+}
+
+TEST(HealingFeatures, LiteralDifferencesOfCubesStay) {
+  const std::string turned =  // 17.12345678, 23.23456789, 41.3456789
+      "multmatrix([[0.689851,-0.544118,0.477537,0.333333],[0.607024,0.79419,0.0280116,0.666667],"
+      "[-0.394496,0.270552,0.878165,1.66667],[0,0,0,1]]) {";
+  for (const std::string& frame : {turned, std::string("group() {")}) {
+    const std::vector<Primitive> primitives =
+        import_text(frame +
+                    "cube([2, 2, 1]); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) {"
+                    "cube([1, 1.000001, 0.999999]); } }");
+    EXPECT_NEAR(side_gap(primitives[0], kTop, primitives[1], kTop), 1e-6, 1e-10);
+    EXPECT_LT(side_gap(primitives[0], kFront, primitives[1], kFront), 1e-15);
+  }
+}
+
 TEST(HealingFeatures, RandomSpheresStay) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-10, 10);
@@ -392,7 +556,12 @@ TEST(HealingFeatures, RandomSpheresStay) {
   }
 }
 
-/// Randomly nested frames with cylinders that coincide here and there.
+std::shared_ptr<const csgcore::Polyhedron> unit_cube() {
+  static const auto cube = csgcore::Polyhedron::box({Vec3(0.0), Vec3(1.0)});
+  return cube;
+}
+
+/// Randomly nested frames with cylinders, cubes and spheres that coincide here and there.
 struct RandomDesign {
   FrameTree frames;
   std::vector<Primitive> primitives;
@@ -416,6 +585,12 @@ struct RandomDesign {
         Primitive primitive =
             csgcore::make_frustum(0, whole(1, 3), whole(1, 2), whole(1, 2), frames[frame].to_world);
         if (i % 7 == 0) primitive = csgcore::make_sphere(1, frames[frame].to_world);
+        if (i % 3 == 1) {
+          primitive = csgcore::make_polyhedron(unit_cube(), frames[frame].to_world);
+          for (int axis = 0; axis < 3; ++axis) {
+            primitive.local_to_world.linear[axis] *= whole(1, 2);
+          }
+        }
         primitives.push_back(primitive);
         frame_of.push_back(frame);
         box.merge(primitive.local_to_world.translation + Vec3(4.0));
