@@ -32,6 +32,9 @@ constexpr size_t kMostRepresentatives = 16;
 // finer than 6 digits, since heal_matrix has made similarities exact, and coarser than the shears
 // that merging planes leaves behind.
 constexpr double kCircular = 1e-5;
+// A polyhedron's face is moved along a direction that other faces run in. If it leads away from the
+// plane by less than this share (60° aslant), the polyhedron would move by more than twice the gap.
+constexpr double kLeastProgress = 0.5;
 
 // Directions that no design has on purpose. Features are sorted by one number, their projection
 // onto these; what is equal has equal numbers, and what differs has equal ones by accident only.
@@ -48,11 +51,6 @@ struct Entry {
   uint32_t primitive;
   uint8_t face;  // of a plane
 };
-
-static_assert(kMostComparedFaces <= 32, "a bit each in an uint32_t");
-// A polyhedron's face is moved along a direction that other faces run in. If it leads away from the
-// plane by less than this share (60° aslant), the polyhedron would move by more than twice the gap.
-constexpr double kLeastProgress = 0.5;
 
 /// Where the caps' centres and the axis are.
 struct FrustumPlace {
@@ -431,6 +429,7 @@ class Merger {
   Vec3 origin_;
   double size_;
   double noise_;
+  static_assert(kMostComparedFaces <= 32, "a bit each");
   std::vector<uint32_t> locks_;  // bit per face: its plane is shared, and may not move any more
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -94,10 +95,14 @@ TEST_P(ExamplePictureTest, EqualsTheOracle) {
   EXPECT_LE(wrong.paper * 20, paper.hits);
 }
 
+/// Designs with polyhedra, which neither OpenGL nor the exact rays know yet.
+const std::set<std::string> kWithPolyhedra{"bracket", "dodecahedron", "nut_trap"};
+
 std::vector<fs::path> examples() {
   std::vector<fs::path> files{fs::path(SCADRAY_EXAMPLES_DIR) / "cs10000.scad"};
   for (const auto& entry : fs::directory_iterator(SCADRAY_EXAMPLES_DIR)) {
-    if (entry.path().extension() == ".csg") files.push_back(entry.path());
+    if (entry.path().extension() != ".csg") continue;
+    if (!kWithPolyhedra.contains(entry.path().stem())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
