@@ -1,15 +1,14 @@
-// A dodecahedron hollowed by a ball, which breaks through its faces: a frame of its edges. It stands
-// on a face. Millimetres.
+// A lampshade: a dodecahedron hollowed by a ball that breaks through its faces, a frame of its edges.
+// It stands on a face. Millimetres.
 
-radius = 30;             // to the edges' middles
-hollow = 28;             // the ball's
-$fn = 96;
+cube_edge = 100;         // of the cube whose corners are among the dodecahedron's
+hollow = 76;             // the ball's radius
+$fn = 64;
 
 phi = (1 + sqrt(5)) / 2;
 signs = [-1, 1];
 
-// The corners of a cube of edge 2, and of three rectangles through its middle. Their edges' middles
-// are phi away from it.
+// The corners of a cube of edge 2, and of three rectangles through its middle.
 points = [
     for (x = signs, y = signs, z = signs) [x, y, z],
     for (a = signs, b = signs) [0, a / phi, b * phi],
@@ -26,6 +25,6 @@ faces = [
 
 // [1, 0, phi] is the normal of a face.
 rotate([0, -atan(1 / phi), 0]) difference() {
-    color("Gold") polyhedron(points * radius / phi, faces);
+    color("Gold") polyhedron(points * cube_edge / 2, faces);
     color("SteelBlue") sphere(r = hollow);
 }

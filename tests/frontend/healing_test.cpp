@@ -379,6 +379,14 @@ TEST(HealingFeatures, WhatIsExactLeadsWhereverItStands) {
   EXPECT_LT(plane_gap(primitives[0], 0, primitives[1], 0), kAgrees);
 }
 
+TEST(HealingFeatures, WhatIsRoundIsHealedBeforeItGetsFacets) {
+  const std::vector<Primitive> primitives = import_scad(
+      "cylinder(r = 1, h = 5, $fn = 6); scale([1/3, 1/3, 1]) cylinder(r = 3, h = 4, $fn = 6);");
+  ASSERT_EQ(primitives[1].shape, csgcore::Shape::kPolyhedron);
+  EXPECT_EQ(primitives[0].polyhedron, primitives[1].polyhedron);
+  EXPECT_NEAR(glm::length(primitives[1].local_to_world.linear[0]), 1, kAgrees);
+}
+
 TEST(HealingFeatures, AnAxisMovesAlongObliqueCaps) {
   const std::string shear = "multmatrix([[1, 0, 0.5], [0, 1, 0], [0, 0, 1]])";
   const std::vector<Primitive> primitives = import_scad(

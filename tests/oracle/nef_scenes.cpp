@@ -104,17 +104,6 @@ std::unique_ptr<const NefSolid> build(const NefScene& scene) {
   return result.solid ? std::move(result.solid) : NefSolid::build({}, {}).solid;
 }
 
-double volume_of(const csgcore::Mesh& mesh) {
-  double six_times = 0;
-  for (const auto& face : mesh.faces) {
-    for (size_t i = 2; i < face.size(); ++i) {
-      six_times += glm::dot(mesh.vertices[face[0]],
-                            glm::cross(mesh.vertices[face[i - 1]], mesh.vertices[face[i]]));
-    }
-  }
-  return six_times / 6;
-}
-
 RandomScene random_scene(uint32_t count, uint32_t seed) {
   std::mt19937 random(seed);
   RandomScene result;

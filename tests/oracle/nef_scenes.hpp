@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "openscad_mesh.hpp"
 #include "oracle/nef_solid.hpp"
 
 namespace oracle {
@@ -29,8 +30,7 @@ NefScene scene_of(csgcore::Op op, std::vector<ConvexPolyhedron> polyhedra);
 /// Fails, and gives an empty solid, unless it is built.
 std::unique_ptr<const NefSolid> build(const NefScene& scene);
 
-/// Of a closed mesh, counterclockwise from outside.
-double volume_of(const csgcore::Mesh& mesh);
+using test_support::volume_of;
 
 /// A tree over `count` boxes, spheres and frusta of up to 8 fragments under random affine maps,
 /// some of which have planes in common, and the same design for OpenSCAD.

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <glm/geometric.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,11 +21,13 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-}  // namespace
+/// What OpenSCAD writes of the design, and what it says.
+struct Export {
+  std::string text;  // empty for an empty design
+  std::string said;
+};
 
-bool openscad_installed() { return !output_of("command -v openscad").empty(); }
-
-csgcore::Mesh openscad_mesh(const std::string& scad) {
+Export export_of(const std::string& scad, const std::string& format) {
   char path[] = "/tmp/scadray-test-XXXXXX";
   const int file = mkstemp(path);
   if (file < 0) throw std::runtime_error("no temporary file");
@@ -32,13 +35,28 @@ csgcore::Mesh openscad_mesh(const std::string& scad) {
   close(file);
   // Whether an empty design is what it found, only its messages tell.
   const std::string messages = path + std::string(".log");
-  const std::string text =
-      written ? output_of("openscad -o - --export-format=off - 2>" + messages + " <" + path) : "";
-  const std::string said = output_of("cat " + messages);
+  Export result;
+  if (written) {
+    result.text =
+        output_of("openscad -o - --export-format=" + format + " - 2>" + messages + " <" + path);
+  }
+  result.said = output_of("cat " + messages);
   unlink(path);
   unlink(messages.c_str());
-  if (said.find("top level object is empty") != std::string::npos) return {};
+  if (result.said.find("top level object is empty") != std::string::npos)
+    result.text.clear();
+  else if (result.text.empty())
+    throw std::runtime_error("openscad: " + result.said);
+  return result;
+}
 
+}  // namespace
+
+bool openscad_installed() { return !output_of("command -v openscad").empty(); }
+
+csgcore::Mesh openscad_mesh(const std::string& scad) {
+  const auto [text, said] = export_of(scad, "off");
+  if (text.empty()) return {};
   std::istringstream in(text);
   std::string magic;
   size_t vertices = 0, faces = 0, edges = 0;
@@ -57,6 +75,33 @@ csgcore::Mesh openscad_mesh(const std::string& scad) {
   }
   if (!in) throw std::runtime_error("openscad: a mesh that ends early");
   return mesh;
+}
+
+csgcore::Mesh openscad_triangles(const std::string& scad) {
+  const auto [text, said] = export_of(scad, "stl");
+  csgcore::Mesh mesh;
+  std::istringstream in(text);
+  std::string word;
+  while (in >> word) {
+    if (word != "vertex") continue;
+    csgcore::Vec3& v = mesh.vertices.emplace_back();
+    if (!(in >> v.x >> v.y >> v.z)) throw std::runtime_error("openscad: a mesh that ends early");
+    const auto corner = static_cast<uint32_t>(mesh.vertices.size() - 1);
+    if (corner % 3 == 2) mesh.faces.push_back({corner - 2, corner - 1, corner});
+  }
+  if (!text.empty() && mesh.faces.empty()) throw std::runtime_error("openscad: no ASCII STL");
+  return mesh;
+}
+
+double volume_of(const csgcore::Mesh& mesh) {
+  double six_times = 0;
+  for (const auto& face : mesh.faces) {
+    for (size_t i = 2; i < face.size(); ++i) {
+      six_times += glm::dot(mesh.vertices[face[0]],
+                            glm::cross(mesh.vertices[face[i - 1]], mesh.vertices[face[i]]));
+    }
+  }
+  return six_times / 6;
 }
 
 }  // namespace test_support
