@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "csgcore/polyhedron.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 
@@ -31,7 +32,24 @@ csgcore::Scene bitten_ball(double size) {
   return scene;
 }
 
-Image draw(double size, Projection projection, RendererKind renderer) {
+/// A cube with vertices of the given size, less a corner whose size is in the matrix.
+csgcore::Scene bitten_cube(double size) {
+  using csgcore::Vec3;
+  csgcore::Scene scene;
+  scene.primitives.push_back(
+      csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(-size), Vec3(size)})));
+  scene.primitives.push_back(csgcore::make_polyhedron(
+      csgcore::Polyhedron::box({Vec3(0.0), Vec3(2.0)}), {csgcore::Mat3(size), Vec3(0.5 * size)}));
+  csgcore::CsgTreeBuilder builder;
+  builder.open(Op::kDifference);
+  builder.primitive(0);
+  builder.primitive(1);
+  builder.close();
+  scene.model = builder.finish();
+  return scene;
+}
+
+Image draw(const csgcore::Scene& scene, double size, Projection projection, RendererKind renderer) {
   csgcore::View view;
   view.projection = projection;
   view.eye = {0, 0, 4 * size};
@@ -42,13 +60,14 @@ Image draw(double size, Projection projection, RendererKind renderer) {
   settings.renderer = renderer;
   settings.measured_channels = true;
   RenderStats stats;
-  return render(bitten_ball(size), view, settings, stats);
+  return render(scene, view, settings, stats);
 }
 
 class OfAnySize : public testing::TestWithParam<std::tuple<Projection, RendererKind>> {
  protected:
   static Image draw(double size) {
-    return frontend::draw(size, std::get<0>(GetParam()), std::get<1>(GetParam()));
+    const auto [projection, renderer] = GetParam();
+    return frontend::draw(bitten_ball(size), size, projection, renderer);
   }
 };
 
@@ -72,10 +91,22 @@ INSTANTIATE_TEST_SUITE_P(, OfAnySize,
                                                           Projection::kOrthographic),
                                           testing::Values(RendererKind::kGl, RendererKind::kCpu)));
 
+TEST(Render, PolyhedraOfAnySize) {
+  const auto draw_cube = [](double size) {
+    return draw(bitten_cube(size), size, Projection::kPerspective, RendererKind::kCpu);
+  };
+  const Image unit = draw_cube(1);
+  ASSERT_NEAR(unit.z[16 * 32 + 16], 3, 1e-6);
+  for (const int exponent : {-250, -60, 60, 250}) {
+    EXPECT_EQ(draw_cube(std::ldexp(1, exponent)).rgb, unit.rgb) << exponent;
+  }
+  EXPECT_THROW(draw_cube(std::ldexp(1, 305)), Error);
+}
+
 TEST(Render, RefusesWhatNoScaleMakesDrawable) {
   for (const double size : {1e100, 1e-100}) {
     try {
-      draw(size, Projection::kPerspective, RendererKind::kAuto);
+      draw(bitten_ball(size), size, Projection::kPerspective, RendererKind::kAuto);
       FAIL() << size;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("too large or too small")) << size;
