@@ -134,32 +134,47 @@ class Merger {
   }
 
   void add_entries(Feature kind, uint32_t index, std::vector<Entry>& entries) {
+    switch (kind) {
+      case Feature::kPlane:
+        return add_planes(index, entries);
+      case Feature::kAxis:
+        return add_axis(index, entries);
+      case Feature::kCenter:
+        return add_center(index, entries);
+    }
+  }
+
+  void add_planes(uint32_t index, std::vector<Entry>& entries) {
     const Primitive& primitive = primitives_[index];
+    const auto count = static_cast<uint8_t>(faces_.count(primitive));
+    if (count == 0) return;
     const double turn = 2 * size_ * turn_error(index);
-    if (kind == Feature::kPlane) {
-      const bool is_frustum = primitive.shape == Shape::kFrustum;
-      const auto count = static_cast<uint8_t>(faces_.count(primitive));
-      for (uint8_t i = 0; i < count; ++i) {
-        if (is_frustum && cap_radius(primitive, i) == 0) continue;
-        const Face face = faces_.at(primitive, i);
-        entries.push_back({directed_key(face.normal, face.center - origin_, true),
-                           error_at(index, face.center) + turn, index, i});
-      }
-      return;
+    const bool is_frustum = primitive.shape == Shape::kFrustum;
+    for (uint8_t i = 0; i < count; ++i) {
+      if (is_frustum && cap_radius(primitive, i) == 0) continue;
+      const Face face = faces_.at(primitive, i);
+      entries.push_back({directed_key(face.normal, face.center - origin_, true),
+                         error_at(index, face.center) + turn, index, i});
     }
-    if (kind == Feature::kCenter) {
-      if (primitive.shape != Shape::kSphere) return;
-      const Vec3& center = primitive.local_to_world.translation;
-      entries.push_back(
-          {glm::dot(center - origin_, kOffsetProbe), error_at(index, center), index, 0});
-      return;
-    }
+  }
+
+  void add_axis(uint32_t index, std::vector<Entry>& entries) const {
+    const Primitive& primitive = primitives_[index];
     if (primitive.shape != Shape::kFrustum) return;
     const FrustumPlace place = place_of(primitive);
+    const double turn = 2 * size_ * turn_error(index);
     const Vec3 from_origin = place.center[0] - origin_;
     const Vec3 foot = from_origin - place.axis * glm::dot(from_origin, place.axis);
     entries.push_back(
         {directed_key(place.axis, foot, false), error_at(index, place.center[0]) + turn, index, 0});
+  }
+
+  void add_center(uint32_t index, std::vector<Entry>& entries) const {
+    const Primitive& primitive = primitives_[index];
+    if (primitive.shape != Shape::kSphere) return;
+    const Vec3& center = primitive.local_to_world.translation;
+    entries.push_back(
+        {glm::dot(center - origin_, kOffsetProbe), error_at(index, center), index, 0});
   }
 
   void merge_kind(Feature kind) {
