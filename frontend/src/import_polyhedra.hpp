@@ -21,7 +21,7 @@ constexpr uint64_t kMostFacets = 1 << 17;
 /// Those of so few faces are in proportion to the text of their nodes, and not counted.
 constexpr uint64_t kFewFacets = 16;
 /// To see that a polyhedron is convex takes faces × vertices steps; with more it is not looked at.
-/// So many take about half a second.
+/// So many take about a second.
 constexpr uint64_t kMostConvexitySteps = 1 << 28;
 
 /// What has become of a polyhedron node.

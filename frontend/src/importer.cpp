@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -102,16 +103,16 @@ struct Context {
 struct Unsupported {
   uint32_t count = 0;
   uint32_t first = kNone;  // node
-  std::string why;         // of the first; empty: no node of the kind can be
+  std::string_view why;    // of the first; empty: no node of the kind can be
 
-  void add(uint32_t node, const char* reason) {
+  void add(uint32_t node, std::string_view reason) {
     if (count++ > 0) return;
     first = node;
     why = reason;
   }
 };
 
-const char* why_not(Convexity convexity) {
+std::string_view why_not(Convexity convexity) {
   return convexity == Convexity::kTooLarge
              ? "it has too many faces"
              : "it is not the closed boundary of one convex solid, its faces plane and clockwise "
@@ -191,7 +192,7 @@ class Collector {
     return false;
   }
 
-  void leave_out(uint32_t index, const char* reason) {
+  void leave_out(uint32_t index, std::string_view reason) {
     unsupported[static_cast<size_t>(tree_.nodes[index].kind)].add(index, reason);
     left_out.push_back(index);
   }
@@ -367,7 +368,7 @@ std::string counted(uint32_t count, NodeKind kind) {
     kinds += counted(collected.unsupported[i].count, static_cast<NodeKind>(i));
   }
   const SyntaxNode& first = tree.nodes[collected.left_out.front()];
-  const std::string& why = collected.unsupported[static_cast<size_t>(first.kind)].why;
+  const std::string why(collected.unsupported[static_cast<size_t>(first.kind)].why);
   throw Error(tree.file_name, first.location,
               std::string(name_of(first.kind)) + " cannot be drawn" +
                   (why.empty() ? "" : ", since " + why) + "; of all nodes " +
@@ -384,7 +385,7 @@ void warn_of_unsupported(const SyntaxTree& tree, const Collector& collected,
         tree.file_name, tree.nodes[kind.first].location,
         counted(kind.count, static_cast<NodeKind>(i)) +
             (kind.count == 1 ? " node is left out" : " nodes are left out; this is the first"),
-        kind.why.empty() ? "it cannot be drawn" : kind.why));
+        kind.why.empty() ? "it cannot be drawn" : std::string(kind.why)));
   }
 }
 
