@@ -299,7 +299,7 @@ class Merger {
     const Vec3 other_center = other ? faces_.at(primitive, *other).center : Vec3(0.0);
     // A shear that is constant along the way moves the parallel face alike …
     move(primitive, ours.center, step * gap, glm::outerProduct(step, slope));
-    if (!other || !(other_locked || faces_.is_parallelepiped(primitive))) return true;
+    if (!other || !(other_locked || others_run_along(primitive, ours.normal, *along))) return true;
     // … and a stretch from the plane puts it back.
     const Vec3 moved = faces_.at(primitive, *other).center;
     move(primitive, target.center, Vec3(0.0),
@@ -308,12 +308,23 @@ class Merger {
     return true;
   }
 
+  /// Faces that are not parallel to `normal` all run in the direction: a stretch along it moves
+  /// none of them out of its plane.
+  bool others_run_along(const Primitive& primitive, const Vec3& normal, const Vec3& direction) {
+    for (uint32_t face = 0; face < faces_.count(primitive); ++face) {
+      const Vec3 other = faces_.at(primitive, face).normal;
+      if (!parallel(other, normal) && std::abs(glm::dot(other, direction)) > kParallel) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   /// The direction in which the face may move so that the others stay in their planes: all of a
-  /// parallelepiped, which has the freedom; those of a polyhedron that are locked; of a frustum
-  /// there is only the axis to keep. None: it may not.
+  /// parallelepiped, which has the freedom; those of another polyhedron that are locked. A cap
+  /// moves along its normal. None: it may not.
   std::optional<Vec3> way_of(const Entry& entry, const Face& ours, const Vec3& normal) {
     const Primitive& primitive = primitives_[entry.primitive];
-    if (primitive.shape == Shape::kFrustum) return normal;
     const bool keeps_all = faces_.is_parallelepiped(primitive);
     std::vector<Vec3> kept;  // normals, no two of them parallel
     for (uint32_t face = 0; face < faces_.count(primitive); ++face) {

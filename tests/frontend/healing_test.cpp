@@ -470,6 +470,22 @@ TEST(HealingFeatures, AFaceOfAShearedCubeMovesAlongTheOthers) {
   EXPECT_LT(side_gap(primitives[1], kBottom, primitives[2], kBottom), kAgrees);
 }
 
+TEST(HealingFeatures, AMovedCapTearsNothingElse) {
+  // The same with cylinders, and with a hexagonal prism that is a polyhedron.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([0, 0, 2/3]) mirror([0, 0, 1]) cylinder(r = 5, h = 1);"
+      "translate([0, 0, 1/3]) translate([0, 0, 1/3]) {"
+      "  cylinder(h = 2, r = 1); translate([3, 0, 1]) cylinder(h = 1, r = 1);"
+      "  polyhedron([for (z = [0, 2], i = [0 : 5]) [cos(60 * i), sin(60 * i), z]],"
+      "    [[0, 1, 2, 3, 4, 5], [11, 10, 9, 8, 7, 6], [0, 6, 7, 1], [1, 7, 8, 2], [2, 8, 9, 3],"
+      "     [3, 9, 10, 4], [4, 10, 11, 5], [5, 11, 6, 0]]); }");
+  EXPECT_LT(plane_gap(primitives[0], 0, primitives[1], 0), kAgrees);
+  EXPECT_LT(plane_gap(primitives[1], 1, primitives[2], 1), kAgrees);
+  const Affine& prism = primitives[3].local_to_world;
+  EXPECT_NEAR(prism.translation.z, 0.666667, kAgrees);
+  EXPECT_NEAR(prism.translation.z + prism.linear[2].z, 2.666666, kAgrees);
+}
+
 TEST(HealingFeatures, TwoFacesThatCannotBothBeReachedDoNotUndoOneAnother) {
   // Three chains of rounded matrices for one rotation: the plates are not parallel.
   const std::vector<Primitive> primitives = import_scad(
@@ -503,16 +519,18 @@ TEST(HealingFeatures, CubeOfAScaledFrame) {
 }
 
 TEST(HealingFeatures, PolyhedraMoveAsAWhole) {
-  // A wedge on a plate and against a wall: both in the wedge's own frame are lower by a rounding.
+  // A truncated pyramid on a plate and against a wall. Its top cannot stay without moving its
+  // sides.
   const std::vector<Primitive> primitives = import_scad(
       "translate([2/3, 0, 2/3]) { translate([0, 0, -1]) cube([9, 9, 1]);"
       "  translate([-1, 0, 0]) cube([1, 9, 9]); }"
       "translate([1/3, 1, 1/3]) translate([1/3, 1, 1/3]) polyhedron("
-      "points = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 5]],"
-      "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);");
-  const Affine& wedge = primitives[2].local_to_world;
-  EXPECT_EQ(wedge.translation, Vec3(0.666667, 2, 0.666667));
-  EXPECT_LT(difference(wedge.linear, Mat3(4.0)), kAgrees);
+      "points = [[0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0], [0, 1, 5], [2, 1, 5], [2, 2, 5],"
+      "  [0, 2, 5]], faces = [[0, 1, 2, 3], [7, 6, 5, 4], [0, 3, 7, 4], [0, 4, 5, 1], [1, 5, 6, 2],"
+      "  [3, 2, 6, 7]]);");
+  const Affine& pyramid = primitives[2].local_to_world;
+  EXPECT_EQ(pyramid.translation, Vec3(0.666667, 2, 0.666667));
+  EXPECT_LT(difference(pyramid.linear, Mat3(4.0)), kAgrees);
 }
 
 TEST(HealingFeatures, PolyhedraMoveAlongWhatTheyShareAlready) {
