@@ -3,18 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <new>
 
 #include "elapsed.hpp"
 #include "frontend/axes_overlay.hpp"
 #include "frontend/channel_picture.hpp"
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
-#include "frontend/openscad_export.hpp"
 #include "frontend/options.hpp"
-#include "frontend/parser.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
@@ -23,13 +21,6 @@ namespace frontend {
 namespace {
 
 using csgcore::Image;
-
-bool has_suffix(const std::string& path, std::string_view suffix) {
-  if (path.size() < suffix.size()) return false;
-  return std::equal(
-      suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
-      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
-}
 
 Image background_picture(const csgcore::View& view, Rgb color, bool with_channels) {
   Image image;
@@ -83,40 +74,30 @@ class Run {
     std::fprintf(stderr, "%s\n", text.c_str());
   }
 
-  FileText read_csg() {
-    const Clock::time_point start = Clock::now();
-    FileText text = read_file(options_.input);  // for a .scad, to see that it can be read
-    stats_.read_ms = ms_since(start);
-    if (!has_suffix(options_.input, ".scad")) return text;
-    const Clock::time_point export_start = Clock::now();
-    text = export_with_openscad(
-        options_.input, options_.openscad_arguments,
-        [this](const std::string& line) {
-          if (!options_.quiet || line.starts_with("ERROR")) {
-            progress_.clear();
-            std::fprintf(stderr, "%s\n", line.c_str());
-          }
-        },
-        [this] { progress_.update("openscad", -1); });
-    stats_.export_ms = ms_since(export_start);
-    return text;
+  DesignFile read() {
+    DesignFileOptions reading;
+    reading.openscad_arguments = options_.openscad_arguments;
+    reading.message = [this](const std::string& line) {
+      if (!options_.quiet || line.starts_with("ERROR")) {
+        progress_.clear();
+        std::fprintf(stderr, "%s\n", line.c_str());
+      }
+    };
+    reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    return read_design(options_.input, reading);
   }
 
   ImportedDesign import() {
-    const FileText text = read_csg();
-    const std::string name = options_.input == "-" ? "standard input" : options_.input;
-    stats_.file = name;
-    stats_.file_bytes = text.view().size();
-    progress_.update("parsing", -1);
-    const Clock::time_point parse_start = Clock::now();
-    // Places in an exported design are not those of the .scad, and must not look as if they were.
-    const bool is_exported = has_suffix(options_.input, ".scad");
-    const SyntaxTree tree = parse(text.view(), is_exported ? name + " (its .csg)" : name);
-    stats_.parse_ms = ms_since(parse_start);
-    stats_.nodes = tree.nodes.size();
+    const DesignFile file = read();
+    stats_.file = file.name;
+    stats_.file_bytes = file.file_bytes;
+    stats_.read_ms = file.read_ms;
+    stats_.export_ms = file.export_ms;
+    stats_.parse_ms = file.parse_ms;
+    stats_.nodes = file.tree.nodes.size();
     progress_.update("importing", -1);
     const Clock::time_point import_start = Clock::now();
-    ImportedDesign design = import_design(tree, options_.import);
+    ImportedDesign design = import_design(file.tree, options_.import);
     stats_.import_ms = ms_since(import_start);
     stats_.primitive_nodes = design.primitive_nodes;
     for (const Warning& warning : design.warnings) say(warning.text);

@@ -9,8 +9,8 @@
 
 namespace frontend {
 
-/// design.md §2. (2, a disagreement, is for `validate`.)
-enum class ExitCode : int { kDone = 0, kFailure = 1 };
+/// design.md §2. kDisagreement is `scadray validate`'s alone.
+enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 
 /// frontend::render, or another with its contract.
 using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,

@@ -1,0 +1,47 @@
+#include "frontend/design_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "elapsed.hpp"
+#include "frontend/files.hpp"
+#include "frontend/openscad_export.hpp"
+#include "frontend/parser.hpp"
+
+namespace frontend {
+namespace {
+
+/// `suffix` in lower case.
+bool has_suffix(const std::string& path, std::string_view suffix) {
+  if (path.size() < suffix.size()) return false;
+  return std::equal(
+      suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
+      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
+}
+
+}  // namespace
+
+DesignFile read_design(const std::string& path, const DesignFileOptions& options) {
+  DesignFile design;
+  design.name = path == "-" ? "standard input" : path;
+  const Clock::time_point start = Clock::now();
+  FileText text = read_file(path);  // a .scad, too, to see that it can be read
+  design.read_ms = ms_since(start);
+  const bool is_exported = has_suffix(path, ".scad");
+  if (is_exported) {
+    const Clock::time_point export_start = Clock::now();
+    text = export_with_openscad(path, options.openscad_arguments, options.message,
+                                [&options] { options.progress("openscad"); });
+    design.export_ms = ms_since(export_start);
+  }
+  design.file_bytes = text.view().size();
+  options.progress("parsing");
+  const Clock::time_point parse_start = Clock::now();
+  // Places in an exported design are not those of the .scad, and must not look as if they were.
+  design.tree = parse(text.view(), is_exported ? design.name + " (its .csg)" : design.name);
+  design.parse_ms = ms_since(parse_start);
+  return design;
+}
+
+}  // namespace frontend

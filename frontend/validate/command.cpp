@@ -1,0 +1,120 @@
+#include "command.hpp"
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <new>
+#include <optional>
+
+#include "frontend/design_file.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/progress.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "scene_scale.hpp"
+#include "validation.hpp"
+
+namespace validation {
+namespace {
+
+using frontend::Error;
+using frontend::ExitCode;
+
+/// One run that compares.
+class Run {
+ public:
+  explicit Run(const Options& options)
+      : options_(options), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+
+  ExitCode execute() {
+    if (!options_.report.empty()) frontend::check_output(options_.report);
+    const csgcore::Scene design = import();
+    // As the picture is drawn: floats and products of three cannot hold every size.
+    const int exponent = frontend::scale_exponent(design);
+    const csgcore::Scene scene = exponent == 0 ? design : frontend::scaled(design, exponent);
+    const Result result =
+        validate(scene, options_.settings, [this](const std::string& stage, double fraction) {
+          progress_.update(stage.c_str(), fraction);
+        });
+    progress_.clear();
+    if (!options_.report.empty()) write_report(result, exponent);
+    if (!options_.quiet && options_.report != "-") std::fputs(table_of(result).c_str(), stdout);
+    return result.agrees() ? ExitCode::kDone : ExitCode::kDisagreement;
+  }
+
+ private:
+  void say(const std::string& text) {
+    progress_.clear();
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+
+  /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
+  csgcore::Scene import() {
+    frontend::DesignFileOptions reading;
+    reading.openscad_arguments = options_.openscad_arguments;
+    reading.message = [this](const std::string& line) {
+      if (!options_.quiet || line.starts_with("ERROR")) say(line);
+    };
+    reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    const frontend::DesignFile file = frontend::read_design(options_.input, reading);
+    name_ = file.name;
+    frontend::ImportedDesign design = frontend::import_design(file.tree, options_.import);
+    for (const frontend::Warning& warning : design.warnings) {
+      if (!options_.quiet) say(warning.text);
+    }
+    design.scene.background = {};
+    design.scene.highlight = {};
+    return std::move(design.scene);
+  }
+
+  void write_report(const Result& result, int exponent) {
+    const std::string json = report_of(result, name_, options_.settings, exponent);
+    const auto* first = reinterpret_cast<const std::byte*>(json.data());
+    const frontend::PendingOutput output{options_.report, {first, first + json.size()}};
+    frontend::write_outputs({&output, 1});
+  }
+
+  const Options& options_;
+  std::string name_;
+  frontend::ProgressLine progress_;
+};
+
+ExitCode run(const std::vector<std::string>& arguments) {
+  const Options options = parse_options(arguments);
+  switch (options.action) {
+    case Action::kHelp:
+      std::fputs(help_text().c_str(), stdout);
+      return ExitCode::kDone;
+    case Action::kVersion:
+      std::printf("scadray-validate version %s\n", SCADRAY_VERSION);
+      return ExitCode::kDone;
+    case Action::kValidate:
+      break;
+  }
+  std::optional<tbb::global_control> threads;
+  if (options.threads > 0) {
+    threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  }
+  return Run(options).execute();
+}
+
+}  // namespace
+
+ExitCode run_command(const std::vector<std::string>& arguments) {
+  try {
+    const ExitCode code = run(arguments);
+    if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
+    return code;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: out of memory (try a smaller design or --fn)\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return ExitCode::kFailure;
+}
+
+}  // namespace validation

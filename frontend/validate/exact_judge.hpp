@@ -1,0 +1,13 @@
+// The exact ray oracle as a judge of rays.
+#pragma once
+
+#include "oracle/exact_rays.hpp"
+#include "seen_ray.hpp"
+
+namespace validation {
+
+/// The scene must outlive the judge.
+std::unique_ptr<RayJudge> make_exact_judge(const oracle::ExactScene& scene,
+                                           const Tolerance& tolerance);
+
+}  // namespace validation

@@ -1,0 +1,260 @@
+#include "nef_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "csgcore/polyhedron.hpp"
+#include "oracle/exact_rays.hpp"
+
+namespace validation {
+
+using csgcore::Projection;
+using csgcore::Ray;
+using csgcore::Vec3;
+using oracle::Crossing;
+using oracle::Place;
+
+namespace {
+
+std::vector<oracle::ConvexPolyhedron> polyhedra_of(const csgcore::Scene& scene) {
+  std::vector<oracle::ConvexPolyhedron> polyhedra;
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    polyhedra.push_back({primitive.polyhedron->half_spaces(), primitive.local_to_world});
+  }
+  return polyhedra;
+}
+
+/// By how much coordinates so large are rounded, some operations on.
+double coordinate_rounding(const csgcore::Box& box) {
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  }
+  return 0x1p-50 * largest;
+}
+
+/// The boundary that a ray sees. Crossings of it that are nearer to each other than the tolerance
+/// are one, as in NUMERICS.md §1.
+struct Sight {
+  bool is_clear = true;  // false where the ray runs in the boundary, so that nothing can be said
+  std::vector<Crossing> crossings;  // none: nothing is seen
+  bool hit() const { return !crossings.empty(); }
+};
+
+double parameter(const Crossing& crossing) { return 0.5 * (crossing.s_lower + crossing.s_upper); }
+
+class NefJudge final : public RayJudge {
+ public:
+  NefJudge(const NefTruth& truth, const Tolerance& tolerance)
+      : truth_(truth), tolerance_(tolerance) {}
+
+  Verdict judge(const SeenRay& ray) override {
+    const Sight sight = look(ray.ray, ray.projection, truth_.thickness());
+    const char* difference = difference_of(ray.ray, ray.seen, sight);
+    Verdict verdict;
+    if (!difference) {
+      if (ray.seen.hit()) verdict.error = error_of(ray.ray, ray.seen, sight);
+    } else if (is_undecided(ray, sight)) {
+      verdict.outcome = Outcome::kUndecided;
+    } else {
+      verdict.outcome = Outcome::kDisagreed;
+      if (ray.seen.hit() && sight.hit()) verdict.error = error_of(ray.ray, ray.seen, sight);
+      verdict.details = {{"differs_in", difference},
+                         {"seen", json_of(ray.seen)},
+                         {"expected", expected(ray.ray, sight)}};
+    }
+    return verdict;
+  }
+
+ private:
+  const Vec3& normal_of(const Crossing& crossing) const {
+    return truth_.solid().planes()[crossing.plane].unit_normal;
+  }
+
+  /// From one crossing of the ray to a parameter, along the crossing's normal.
+  double distance(const Ray& ray, const Crossing& from, double s) const {
+    return std::abs((s - parameter(from)) * glm::dot(normal_of(from), ray.direction));
+  }
+
+  Sight look(const Ray& ray, Projection projection, double thickness) const {
+    Sight sight;
+    std::vector<Crossing> all = truth_.solid().crossings(ray);
+    sight.is_clear = std::none_of(all.begin(), all.end(),
+                                  [](const Crossing& c) { return c.after == Place::kBoundary; });
+    Place at_eye = Place::kOutside;
+    auto next = all.begin();
+    // What was crossed up to the tolerance has happened at a perspective's eye.
+    if (projection == Projection::kPerspective) {
+      for (; next != all.end() && parameter(*next) <= thickness; ++next) at_eye = next->after;
+    }
+    while (next != all.end()) {
+      const auto first = next++;
+      while (next != all.end() &&
+             std::max(distance(ray, *(next - 1), parameter(*next)),
+                      distance(ray, *next, parameter(*(next - 1)))) < thickness) {
+        ++next;
+      }
+      if ((next - 1)->after != at_eye) {
+        sight.crossings.assign(first, next);
+        break;
+      }
+    }
+    return sight;
+  }
+
+  /// As a share of the size: along the normals, as the tolerance is, so that it does not depend on
+  /// the angle at which the ray meets the surface.
+  double error_of(const Ray& ray, const Seen& seen, const Sight& sight) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Crossing& crossing : sight.crossings) {
+      least = std::min(least, distance(ray, crossing, seen.s));
+    }
+    return least / truth_.size();
+  }
+
+  /// Null if there is none that matters.
+  const char* difference_of(const Ray& ray, const Seen& seen, const Sight& sight) const {
+    if (seen.hit() != sight.hit()) return "hit or miss";
+    if (!seen.hit()) return nullptr;
+    // The crossing that is shown may be one that the solid does not have, within the tolerance of
+    // the one that it has.
+    const double rounding = tolerance_.coordinate * glm::length(seen.position);
+    const double far = tolerance_.position * truth_.size() + truth_.thickness() + rounding;
+    if (!(error_of(ray, seen, sight) * truth_.size() <= far)) return "position";
+    const auto has_normal = [&](const Crossing& crossing) {
+      return glm::length(seen.normal - normal_of(crossing)) <= tolerance_.normal;
+    };
+    if (std::none_of(sight.crossings.begin(), sight.crossings.end(), has_normal)) return "normal";
+    if (!is_of(seen, sight, far)) return "primitive";
+    return nullptr;
+  }
+
+  bool is_of(const Seen& seen, const Sight& sight, double far) const {
+    const auto has_primitive = [&](const Crossing& crossing) {
+      const auto& polyhedra = truth_.solid().planes()[crossing.plane].polyhedra;
+      return std::binary_search(polyhedra.begin(), polyhedra.end(), seen.primitive);
+    };
+    return std::any_of(sight.crossings.begin(), sight.crossings.end(), has_primitive) ||
+           truth_.has_face_at(seen.primitive, seen.position, seen.normal, far);
+  }
+
+  bool same(const Ray& ray, const Sight& a, const Sight& b) const {
+    if (!b.is_clear || a.hit() != b.hit()) return false;
+    if (!a.hit()) return true;
+    const auto is_near = [&](const Crossing& crossing) {
+      return glm::length(normal_of(crossing) - normal_of(b.crossings[0])) <= tolerance_.normal &&
+             distance(ray, crossing, parameter(b.crossings[0])) <=
+                 tolerance_.position * truth_.size() + truth_.thickness();
+    };
+    return std::any_of(a.crossings.begin(), a.crossings.end(), is_near);
+  }
+
+  /// Whether a ray or a tolerance that is displaced by what rounding may do sees something else.
+  bool is_undecided(const SeenRay& ray, const Sight& sight) const {
+    if (!sight.is_clear) return true;
+    const double tau = truth_.thickness(), aside = aside_of(ray.ray);
+    const auto differs = [&](const Ray& other, double thickness) {
+      return !same(ray.ray, sight, look(other, ray.projection, thickness));
+    };
+    constexpr int kDirections = 8;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kDirections;
+      if (differs(moved(ray.ray, angle, aside, 0), tau)) return true;
+    }
+    if (ray.projection == Projection::kPerspective &&
+        (differs(moved(ray.ray, 0, 0, aside), tau) || differs(moved(ray.ray, 0, 0, -aside), tau))) {
+      return true;
+    }
+    // Two surfaces, each displaced.
+    return differs(ray.ray, tau + 2 * aside) || differs(ray.ray, std::max(0.0, tau - 2 * aside));
+  }
+
+  /// No less than the rounding of the origin, or moving it would change nothing.
+  double aside_of(const Ray& ray) const {
+    return std::max({tolerance_.aside * truth_.size(), truth_.displacement(),
+                     0x1p-50 * glm::length(ray.origin)});
+  }
+
+  Json expected(const Ray& ray, const Sight& sight) const {
+    if (!sight.hit()) return {{"hit", false}};
+    const Crossing& crossing = sight.crossings[0];
+    return {{"hit", true},
+            {"primitives", truth_.solid().planes()[crossing.plane].polyhedra},
+            {"position", json_of(ray.origin + parameter(crossing) * ray.direction)},
+            {"normal", json_of(normal_of(crossing))}};
+  }
+
+  const NefTruth& truth_;
+  const Tolerance tolerance_;
+};
+
+}  // namespace
+
+NefTruth::NefTruth(const csgcore::Scene& scene, double size, double thickness,
+                   const oracle::NefLimits& limits)
+    : size_(size), thickness_(thickness), displacement_(oracle::kExactDisplacement * size) {
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    const csgcore::Mat3 world_to_local = csgcore::inverse(primitive.local_to_world.linear);
+    std::vector<WorldPlane>& planes = planes_.emplace_back();
+    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
+      const Vec3 normal = glm::transpose(world_to_local) * half_space.normal;
+      const double length = glm::length(normal);
+      planes.push_back(
+          {normal / length, half_space.offset / length +
+                                glm::dot(normal / length, primitive.local_to_world.translation)});
+    }
+  }
+  build_ = oracle::NefSolid::build(scene.model, polyhedra_of(scene), limits);
+  if (build_.solid && !build_.solid->empty()) {
+    displacement_ += coordinate_rounding(build_.solid->bounds());
+  }
+}
+
+double NefTruth::surface_distance(const Vec3& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<WorldPlane>& planes : planes_) {
+    double height = -std::numeric_limits<double>::infinity();
+    for (const WorldPlane& plane : planes) {
+      height = std::max(height, glm::dot(plane.unit_normal, point) - plane.offset);
+    }
+    least = std::min(least, std::abs(height));
+  }
+  return least;
+}
+
+bool NefTruth::has_face_at(uint32_t primitive, const Vec3& point, const Vec3& normal,
+                           double distance) const {
+  const std::vector<WorldPlane>& planes = planes_[primitive];
+  return std::any_of(planes.begin(), planes.end(), [&](const WorldPlane& plane) {
+    return std::abs(glm::dot(plane.unit_normal, point) - plane.offset) <= distance &&
+           1 - std::abs(glm::dot(plane.unit_normal, normal)) <= kDoubleTolerance.normal;
+  });
+}
+
+std::unique_ptr<RayJudge> make_nef_judge(const NefTruth& truth, const Tolerance& tolerance) {
+  return std::make_unique<NefJudge>(truth, tolerance);
+}
+
+Verdict judge_point(const NefTruth& truth, const Vec3& point, bool claimed_inside) {
+  Verdict verdict;
+  const Place place = truth.solid().locate(point);
+  if (place == Place::kBoundary) {
+    verdict.outcome = Outcome::kUndecided;
+  } else if (claimed_inside != (place == Place::kInside)) {
+    const double distance = truth.surface_distance(point);
+    verdict.error = distance / truth.size();
+    if (distance <= truth.displacement()) {
+      verdict.outcome = Outcome::kUndecided;
+    } else {
+      verdict.outcome = Outcome::kDisagreed;
+      verdict.details = {
+          {"differs_in", "membership"}, {"seen", claimed_inside}, {"expected", !claimed_inside}};
+    }
+  }
+  return verdict;
+}
+
+}  // namespace validation

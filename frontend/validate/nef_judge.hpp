@@ -1,0 +1,54 @@
+// The Nef oracle as a judge: of rays, by the definition of NUMERICS.md §1, and of points.
+#pragma once
+
+#include <vector>
+
+#include "csgcore/scene.hpp"
+#include "oracle/nef_solid.hpp"
+#include "seen_ray.hpp"
+
+namespace validation {
+
+/// A scene of polyhedra, and its solid by CGAL.
+class NefTruth {
+ public:
+  /// Of a scene whose primitives are all polyhedra. `size` is the design's (the diagonal of its
+  /// box), `thickness` the tolerance of the regularised operations. Throws std::system_error.
+  NefTruth(const csgcore::Scene& scene, double size, double thickness,
+           const oracle::NefLimits& limits);
+
+  /// What became of the building; if it was not built, nothing else may be asked.
+  oracle::NefStatus status() const { return build_.status; }
+  const std::string& reason() const { return build_.reason; }
+
+  const oracle::NefSolid& solid() const { return *build_.solid; }
+  double size() const { return size_; }
+  double thickness() const { return thickness_; }
+  /// By how much rounding may displace a surface for a renderer in double, in world units.
+  double displacement() const { return displacement_; }
+
+  /// At most the distance from a point to the surface of the nearest primitive.
+  double surface_distance(const csgcore::Vec3& point) const;
+  /// Whether the primitive has a face with that normal, or the opposite one, so near to the point.
+  bool has_face_at(uint32_t primitive, const csgcore::Vec3& point, const csgcore::Vec3& normal,
+                   double distance) const;
+
+ private:
+  struct WorldPlane {
+    csgcore::Vec3 unit_normal;
+    double offset;
+  };
+
+  std::vector<std::vector<WorldPlane>> planes_;  // of each primitive
+  double size_, thickness_, displacement_;
+  oracle::NefBuild build_;
+};
+
+/// The truth must outlive the judge.
+std::unique_ptr<RayJudge> make_nef_judge(const NefTruth& truth, const Tolerance& tolerance);
+
+/// Of a claim that the point is in the solid. The error is the depth at which a wrong point lies
+/// below, or stands above, the nearest surface of a primitive, as a share of the size.
+Verdict judge_point(const NefTruth& truth, const csgcore::Vec3& point, bool claimed_inside);
+
+}  // namespace validation

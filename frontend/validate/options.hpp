@@ -1,0 +1,34 @@
+// The command line of scadray-validate.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frontend/importer.hpp"
+#include "validation.hpp"
+
+namespace validation {
+
+enum class Action : uint8_t { kValidate, kHelp, kVersion };
+
+/// Checked: every value is in its documented range.
+struct Options {
+  Action action = Action::kValidate;
+  std::string input;   // "-": a .csg from standard input
+  std::string report;  // empty: none; "-": standard output
+  frontend::ImportOptions import;
+  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  Settings settings;
+  unsigned threads = 0;  // 0: as many as the machine has
+  bool quiet = false;
+};
+
+/// Throws frontend::Error for anything that is wrong with the arguments (without the program's
+/// name).
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// The text of --help.
+std::string help_text();
+
+}  // namespace validation

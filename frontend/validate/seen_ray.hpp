@@ -1,0 +1,67 @@
+// A ray, what a renderer sees along it, and the judges of that.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "check.hpp"
+#include "csgcore/image.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+
+namespace validation {
+
+/// In the terms of csgcore::Hits.
+struct Seen {
+  uint32_t primitive = csgcore::Hits::kMiss;
+  double s = std::numeric_limits<double>::infinity();
+  csgcore::Vec3 position{0.0};
+  csgcore::Vec3 normal{0.0};
+  bool hit() const { return primitive != csgcore::Hits::kMiss; }
+};
+
+Seen seen_at(const csgcore::Hits& hits, std::size_t pixel);
+
+/// An Image with measured channels as Hits; ids are taken back to the primitives that have them.
+csgcore::Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene);
+
+struct SeenRay {
+  csgcore::Ray ray;
+  csgcore::Projection projection;
+  Seen seen;
+};
+
+/// What a renderer may be off by and still be right.
+struct Tolerance {
+  double position;    // as a share of the design's size
+  double normal;      // length of the difference of the unit normals
+  double coordinate;  // relative rounding of the coordinates
+  /// Where rays so far to the side see another thing, as a share of the size, nothing is decided;
+  /// 0: as far as a renderer in double is off.
+  double aside;
+};
+
+/// The CPU: positions tell surfaces apart that lie a thickness tolerance apart (NUMERICS.md §1).
+constexpr Tolerance kDoubleTolerance{1e-9, 1e-5, 0x1p-52, 0};
+/// OpenGL computes in float, and agrees but for details below 1e-4 of the scene (NUMERICS.md §5);
+/// half a degree of the normal.
+constexpr Tolerance kFloatTolerance{1e-4, 8.7e-3, 0x1p-22, 1e-4};
+
+/// Judges one ray after the other; one object a thread. Errors are shares of the design's size.
+class RayJudge {
+ public:
+  virtual ~RayJudge() = default;
+  /// Of a disagreement, `details` say what differs, what was seen and what was expected.
+  virtual Verdict judge(const SeenRay& ray) = 0;
+};
+using MakeRayJudge = std::function<std::unique_ptr<RayJudge>()>;
+
+Json json_of(const csgcore::Vec3& v);
+Json json_of(const csgcore::Ray& ray, csgcore::Projection projection);
+Json json_of(const Seen& seen);
+
+/// The ray moved to its side, at `angle` (radians) about it, and forward.
+csgcore::Ray moved(const csgcore::Ray& ray, double angle, double aside, double forward);
+
+}  // namespace validation

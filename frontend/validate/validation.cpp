@@ -1,0 +1,357 @@
+#include "validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <thread>
+
+#include "csgcore/solid.hpp"
+#include "csgcore/subdivision.hpp"
+#include "exact_judge.hpp"
+#include "faceted_scene.hpp"
+#include "nef_judge.hpp"
+#include "planted_error.hpp"
+#include "samples.hpp"
+#include "traced_ray.hpp"
+#include "volume.hpp"
+
+namespace validation {
+namespace {
+
+using csgcore::Scene;
+using csgcore::Vec3;
+using csgcore::View;
+
+constexpr const char* kSmooth = "smooth, by rays in exact arithmetic";
+constexpr const char* kFaceted = "in facets, by CGAL Nef polyhedra";
+constexpr const char* kSagitta = "smooth, by CGAL within the facets' sagitta";
+
+/// Shares of the time limit by which the smooth scene's comparison and CGAL's building have to be
+/// done; the rest is for the comparisons with what CGAL has built.
+constexpr double kSmoothUntil = 0.3, kBuiltUntil = 0.85;
+
+/// CGAL takes 20 to 40 ms a primitive at least; what would take too long even at a tenth of that is
+/// not begun.
+constexpr double kLeastNefTime_s = 2e-3;
+
+/// A scene made ready for the CPU.
+class Model {
+ public:
+  explicit Model(const Scene& scene)
+      : solid_(csgcore::canonical_primitives(scene), scene.model), subdivision_(solid_, {}) {}
+
+  const csgcore::Solid& solid() const { return solid_; }
+  const csgcore::Subdivision& subdivision() const { return subdivision_; }
+
+  /// By the cell that holds it.
+  bool contains(const Vec3& point) const {
+    const csgcore::Leaf* leaf = subdivision_.find(point);
+    if (!leaf) return false;
+    if (leaf->literal_count == 0) return leaf->solid;
+    return csgcore::evaluate(subdivision_.literals_of(*leaf), [&](uint32_t primitive) {
+      return csgcore::contains(solid_.primitives()[primitive], point);
+    });
+  }
+
+ private:
+  csgcore::Solid solid_;
+  csgcore::Subdivision subdivision_;
+};
+
+/// The pictures of a scene by one renderer.
+struct Pictures {
+  std::vector<View> views;
+  std::vector<csgcore::Hits> hits;  // of each view
+};
+
+Pictures pictures_by_cpu(const Model& model, const std::vector<View>& views) {
+  Pictures pictures{views, {}};
+  for (const View& view : views) {
+    csgcore::TraceStats stats;
+    csgcore::trace(model.solid(), view, {}, pictures.hits.emplace_back(), stats);
+  }
+  return pictures;
+}
+
+bool has_polyhedra(const Scene& scene) {
+  return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const auto& primitive) {
+    return primitive.shape == csgcore::Shape::kPolyhedron;
+  });
+}
+
+/// Nothing if the settings, or the machine, have the CPU draw.
+std::optional<Pictures> pictures_by_gl(const Scene& scene, const std::vector<View>& views,
+                                       frontend::RendererKind renderer) {
+  if (renderer == frontend::RendererKind::kCpu) return std::nullopt;
+  frontend::RenderSettings settings;
+  settings.renderer = renderer;
+  settings.measured_channels = true;
+  Pictures pictures{views, {}};
+  for (const View& view : views) {
+    frontend::RenderStats stats;
+    const csgcore::Image image = frontend::render(scene, view, settings, stats);
+    if (!stats.renderer.starts_with("gl")) return std::nullopt;
+    pictures.hits.push_back(hits_of(image, scene));
+  }
+  return pictures;
+}
+
+class Validation {
+ public:
+  Validation(const Scene& scene, const Settings& settings, const Progress& progress)
+      : settings_(settings),
+        progress_(progress),
+        scene_(scene),
+        drawn_(with_error(scene_)),
+        smooth_(drawn_),
+        box_(csgcore::Solid(csgcore::canonical_primitives(scene_), scene_.model).bounds()) {
+    for (uint64_t i = 0; i < settings.views && !box_.empty(); ++i) {
+      views_.push_back(random_view(box_, settings.seed, i));
+    }
+  }
+
+  Result run() {
+    if (box_.empty()) {
+      result_.notes.push_back("the design is empty: there is nothing to compare");
+      return std::move(result_);
+    }
+    compare_smooth();
+    if (const std::unique_ptr<const NefTruth> truth = build_nef()) {
+      const Model facets(with_error(facets_));
+      compare_facets(*truth, facets);
+      compare_within_sagitta(*truth);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  Scene with_error(const Scene& scene) const {
+    return settings_.planted_error.empty() ? scene
+                                           : with_planted_error(scene, settings_.planted_error);
+  }
+
+  Clock::time_point after(double share) const {
+    return start_ + std::chrono::duration_cast<Clock::duration>(
+                        std::chrono::duration<double>(share * settings_.time_limit_s));
+  }
+
+  /// Of several checks that are left before the end, each may take as long.
+  static Clock::time_point next_deadline(Clock::time_point end, int checks_left) {
+    const Clock::time_point now = Clock::now();
+    return now + (std::max(end, now) - now) / checks_left;
+  }
+
+  void add(CheckResult check) { result_.checks.push_back(std::move(check)); }
+
+  void compare_rays(const char* group, const Model& model, const MakeRayJudge& make_judge,
+                    Clock::time_point deadline) {
+    add(run_check(group, "rays", settings_.rays, deadline, progress_, [&]() -> Judge {
+      return [&, judge = std::shared_ptr<RayJudge>(make_judge())](uint64_t i) {
+        const View view = random_ray_view(box_, settings_.seed, i);
+        const SeenRay ray{csgcore::pixel_ray(view, 0, 0), view.projection,
+                          traced_ray(model.subdivision(), view)};
+        Verdict verdict = judge->judge(ray);
+        if (verdict.outcome == Outcome::kDisagreed) {
+          verdict.details["ray"] = json_of(ray.ray, ray.projection);
+        }
+        return verdict;
+      };
+    }));
+  }
+
+  /// The first pixels are those of all views, so that each is judged where time is short.
+  void compare_pictures(const char* group, const char* name, const Pictures& pictures,
+                        const MakeRayJudge& make_judge, Clock::time_point deadline) {
+    if (pictures.views.empty()) return;
+    const std::vector<uint32_t> pixels = scattered_pixels(pictures.views[0]);
+    const uint64_t views = pictures.views.size();
+    add(run_check(group, name, pixels.size() * views, deadline, progress_, [&]() -> Judge {
+      return [&, judge = std::shared_ptr<RayJudge>(make_judge())](uint64_t i) {
+        const uint64_t v = i % views;
+        const View& view = pictures.views[v];
+        const uint32_t pixel = pixels[i / views];
+        const uint32_t x = pixel % view.width_px, y = pixel / view.width_px;
+        const SeenRay ray{csgcore::pixel_ray(view, x, y), view.projection,
+                          seen_at(pictures.hits[v], pixel)};
+        Verdict verdict = judge->judge(ray);
+        if (verdict.outcome == Outcome::kDisagreed) {
+          verdict.details["view"] = v;
+          verdict.details["pixel"] = {x, y};
+          verdict.details["ray"] = json_of(ray.ray, ray.projection);
+        }
+        return verdict;
+      };
+    }));
+  }
+
+  void compare_smooth() {
+    const oracle::ExactScene exact(scene_);
+    const auto judge_by = [&](const Tolerance& tolerance) -> MakeRayJudge {
+      return [&] { return make_exact_judge(exact, tolerance); };
+    };
+    const Clock::time_point end = after(kSmoothUntil);
+    compare_rays(kSmooth, smooth_, judge_by(kDoubleTolerance), next_deadline(end, 3));
+    compare_pictures(kSmooth, "pictures", pictures_by_cpu(smooth_, views_),
+                     judge_by(kDoubleTolerance), next_deadline(end, 2));
+    // OpenGL does not draw polyhedra yet.
+    if (has_polyhedra(scene_)) return;
+    if (const auto pictures = pictures_by_gl(drawn_, views_, settings_.renderer)) {
+      compare_pictures(kSmooth, "pictures by OpenGL", *pictures, judge_by(kFloatTolerance),
+                       next_deadline(end, 1));
+    }
+  }
+
+  /// Null, with a note, if CGAL does not get done.
+  std::unique_ptr<const NefTruth> build_nef() {
+    const Clock::time_point deadline = after(kBuiltUntil);
+    const double least_s = kLeastNefTime_s * static_cast<double>(scene_.primitives.size());
+    const double left_s = std::chrono::duration<double>(deadline - Clock::now()).count();
+    if (left_s <= least_s) return too_large();
+    facets_ = faceted(scene_, settings_.fragments);
+    // CGAL says nothing while it works.
+    const std::jthread watch([this, deadline](const std::stop_token& done) {
+      while (!done.stop_requested()) {
+        const auto left = std::chrono::ceil<std::chrono::seconds>(deadline - Clock::now());
+        progress_("CGAL, at most " + std::to_string(left.count()) + " s more", -1);
+        std::this_thread::sleep_for(kWatchInterval);
+      }
+    });
+    auto truth =
+        std::make_unique<const NefTruth>(facets_, box_.diagonal(), csgcore::thinnest_piece(box_),
+                                         oracle::NefLimits{deadline, nullptr});
+    if (truth->status() == oracle::NefStatus::kBuilt) return truth;
+    if (truth->status() == oracle::NefStatus::kDeadline) return too_large();
+    result_.notes.push_back("CGAL failed (" + truth->reason() +
+                            "): compared with rays in exact arithmetic only");
+    return nullptr;
+  }
+
+  std::unique_ptr<const NefTruth> too_large() {
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%g", settings_.time_limit_s);
+    result_.notes.push_back("too large for CGAL Nef polyhedra within --time-limit=" +
+                            std::string(limit) + " s: compared with rays in exact arithmetic only");
+    return nullptr;
+  }
+
+  void compare_facets(const NefTruth& truth, const Model& facets) {
+    const PointSampler points(box_, truth.solid().mesh(), settings_.seed);
+    const MakeRayJudge make_judge = [&] { return make_nef_judge(truth, kDoubleTolerance); };
+    const Clock::time_point end = after(1);
+    compare_volume(truth, facets);
+    compare_points(truth, facets, "points", next_deadline(end, 6),
+                   [&](uint64_t i) { return points.in_box(i); });
+    compare_points(truth, facets, "points near surfaces", next_deadline(end, 5),
+                   [&](uint64_t i) { return points.near_surface(i); });
+    compare_points(truth, facets, "points near edges", next_deadline(end, 4),
+                   [&](uint64_t i) { return points.near_edge(i); });
+    compare_rays(kFaceted, facets, make_judge, next_deadline(end, 3));
+    compare_pictures(kFaceted, "pictures", pictures_by_cpu(facets, views_), make_judge,
+                     next_deadline(end, 2));
+  }
+
+  template <typename PointOf>
+  void compare_points(const NefTruth& truth, const Model& facets, const char* name,
+                      Clock::time_point deadline, const PointOf& point_of) {
+    add(run_check(kFaceted, name, settings_.points, deadline, progress_, [&]() -> Judge {
+      return [&](uint64_t i) {
+        const Vec3 point = point_of(i);
+        Verdict verdict = judge_point(truth, point, facets.contains(point));
+        if (verdict.outcome == Outcome::kDisagreed) verdict.details["point"] = json_of(point);
+        return verdict;
+      };
+    }));
+  }
+
+  void compare_volume(const NefTruth& truth, const Model& facets) {
+    progress_("volume", -1);
+    const VolumeEstimate estimate =
+        estimate_volume(facets.subdivision(), settings_.seed, settings_.rays);
+    const double exact = truth.solid().volume().get_d();
+    const double error = std::abs(estimate.volume - exact);
+    Verdict verdict;
+    verdict.error = exact > 0 ? error / exact : error;
+    if (error > estimate.bound) {
+      verdict.outcome = Outcome::kDisagreed;
+      verdict.details = {{"differs_in", "volume"},
+                         {"seen", estimate.volume},
+                         {"bound", estimate.bound},
+                         {"expected", exact}};
+    }
+    CheckResult check;
+    check.group = kFaceted;
+    check.name = "volume";
+    check.planned = 1;
+    check.add(std::move(verdict));
+    add(std::move(check));
+    char note[200];
+    std::snprintf(note, sizeof note, "volume in facets: %.9g by CGAL, %.9g ± %.2g by %llu rays",
+                  exact, estimate.volume, estimate.bound,
+                  static_cast<unsigned long long>(estimate.rays));
+    result_.notes.emplace_back(note);
+  }
+
+  void compare_within_sagitta(const NefTruth& truth) {
+    const PointSampler points(box_, truth.solid().mesh(), settings_.seed);
+    std::vector<SagittaShell> shells;
+    for (const csgcore::Primitive& primitive : scene_.primitives) {
+      shells.emplace_back(primitive, settings_.fragments);
+    }
+    constexpr uint64_t kKinds = 3;
+    add(run_check(kSagitta, "points", kKinds * settings_.points, after(1), progress_,
+                  [&]() -> Judge {
+                    return [&](uint64_t i) {
+                      const Vec3 point = i % kKinds == 0   ? points.in_box(i / kKinds)
+                                         : i % kKinds == 1 ? points.near_surface(i / kKinds)
+                                                           : points.near_edge(i / kKinds);
+                      return judge_smooth_point(truth, shells, point);
+                    };
+                  }));
+  }
+
+  /// Undecided is what lies between a smooth surface and its facets: the error is how far below the
+  /// smooth surface.
+  Verdict judge_smooth_point(const NefTruth& truth, const std::vector<SagittaShell>& shells,
+                             const Vec3& point) const {
+    Verdict verdict = judge_point(truth, point, smooth_.contains(point));
+    if (verdict.outcome != Outcome::kDisagreed) return verdict;
+    double depth = std::numeric_limits<double>::infinity();
+    for (const SagittaShell& shell : shells) {
+      if (shell.contains(point)) depth = std::min(depth, shell.depth(point));
+    }
+    if (depth < std::numeric_limits<double>::infinity()) {
+      return {Outcome::kUndecided, depth / truth.size(), {}};
+    }
+    verdict.details["point"] = json_of(point);
+    return verdict;
+  }
+
+  static constexpr std::chrono::milliseconds kWatchInterval{100};
+
+  const Settings& settings_;
+  const Progress& progress_;
+  const Clock::time_point start_ = Clock::now();
+  const Scene& scene_;
+  const Scene drawn_;
+  Scene facets_;
+  const Model smooth_;
+  const csgcore::Box box_;
+  std::vector<View> views_;
+  Result result_;
+};
+
+}  // namespace
+
+bool Result::agrees() const {
+  return std::all_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return check.disagreed == 0; });
+}
+
+Result validate(const Scene& scene, const Settings& settings, const Progress& progress) {
+  return Validation(scene, settings, progress).run();
+}
+
+}  // namespace validation
