@@ -16,6 +16,7 @@
 #include "frontend/picture_file.hpp"
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
+#include "frontend/subcommand.hpp"
 
 namespace frontend {
 namespace {
@@ -169,6 +170,9 @@ void print_info() {
 }
 
 void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  if (!arguments.empty() && arguments[0] == "validate") {
+    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()});
+  }
   const Options options = parse_options(arguments);
   switch (options.action) {
     case Action::kHelp:

@@ -422,8 +422,9 @@ std::string help_text() {
   constexpr unsigned kColumns = 100;
   po::options_description all(
       "Usage: scadray -o OUT [options] FILE\n"
+      "       scadray validate [options] FILE    (scadray validate --help)\n"
       "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
-      ".csg from standard input",
+      ".csg from standard input. `validate` compares it with exact arithmetic instead",
       kColumns);
   all.add(openscad_options()).add(own_options());
   std::ostringstream text;

@@ -22,8 +22,13 @@ enum class Outcome : uint8_t {
 struct Verdict {
   Outcome outcome = Outcome::kAgreed;
   double error = 0;  // ≥ 0, in the unit of its check
-  Json details;      // of a disagreement: where, what was seen, what was expected
+  /// Of a disagreement: "seen" and "expected", and where. Either, or "nearest", may hold a
+  /// "primitive": its index, and later its id.
+  Json details;
 };
+
+/// The parts of a disagreement's details that may hold a primitive.
+constexpr const char* kWithPrimitive[] = {"seen", "expected", "nearest"};
 
 /// One row of the table.
 struct CheckResult {

@@ -182,7 +182,7 @@ class NefJudge final : public RayJudge {
     if (!sight.hit()) return {{"hit", false}};
     const Crossing& crossing = sight.crossings[0];
     return {{"hit", true},
-            {"primitives", truth_.solid().planes()[crossing.plane].polyhedra},
+            {"primitive", truth_.solid().planes()[crossing.plane].polyhedra.front()},
             {"position", json_of(ray.origin + parameter(crossing) * ray.direction)},
             {"normal", json_of(normal_of(crossing))}};
   }
@@ -213,16 +213,16 @@ NefTruth::NefTruth(const csgcore::Scene& scene, double size, double thickness,
   }
 }
 
-double NefTruth::surface_distance(const Vec3& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::vector<WorldPlane>& planes : planes_) {
+NefTruth::NearSurface NefTruth::nearest_surface(const Vec3& point) const {
+  NearSurface nearest{0, std::numeric_limits<double>::infinity()};
+  for (uint32_t primitive = 0; primitive < planes_.size(); ++primitive) {
     double height = -std::numeric_limits<double>::infinity();
-    for (const WorldPlane& plane : planes) {
+    for (const WorldPlane& plane : planes_[primitive]) {
       height = std::max(height, glm::dot(plane.unit_normal, point) - plane.offset);
     }
-    least = std::min(least, std::abs(height));
+    if (std::abs(height) < nearest.distance) nearest = {primitive, std::abs(height)};
   }
-  return least;
+  return nearest;
 }
 
 bool NefTruth::has_face_at(uint32_t primitive, const Vec3& point, const Vec3& normal,
@@ -244,14 +244,16 @@ Verdict judge_point(const NefTruth& truth, const Vec3& point, bool claimed_insid
   if (place == Place::kBoundary) {
     verdict.outcome = Outcome::kUndecided;
   } else if (claimed_inside != (place == Place::kInside)) {
-    const double distance = truth.surface_distance(point);
+    const auto [primitive, distance] = truth.nearest_surface(point);
     verdict.error = distance / truth.size();
     if (distance <= truth.displacement()) {
       verdict.outcome = Outcome::kUndecided;
     } else {
       verdict.outcome = Outcome::kDisagreed;
-      verdict.details = {
-          {"differs_in", "membership"}, {"seen", claimed_inside}, {"expected", !claimed_inside}};
+      verdict.details = {{"differs_in", "membership"},
+                         {"nearest", {{"primitive", primitive}}},
+                         {"seen", {{"inside", claimed_inside}}},
+                         {"expected", {{"inside", !claimed_inside}}}};
     }
   }
   return verdict;

@@ -27,8 +27,12 @@ class NefTruth {
   /// By how much rounding may displace a surface for a renderer in double, in world units.
   double displacement() const { return displacement_; }
 
-  /// At most the distance from a point to the surface of the nearest primitive.
-  double surface_distance(const csgcore::Vec3& point) const;
+  /// The primitive whose surface is nearest, and at most its distance.
+  struct NearSurface {
+    uint32_t primitive;
+    double distance;
+  };
+  NearSurface nearest_surface(const csgcore::Vec3& point) const;
   /// Whether the primitive has a face with that normal, or the opposite one, so near to the point.
   bool has_face_at(uint32_t primitive, const csgcore::Vec3& point, const csgcore::Vec3& normal,
                    double distance) const;

@@ -18,7 +18,7 @@ using frontend::RendererKind;
 // A sphere of 200 fragments has 20,002 facets, and takes CGAL minutes alone.
 constexpr int kMostFragments = 200;
 constexpr uint64_t kMostSamples = 1'000'000'000;
-constexpr uint64_t kMostViews = 1000;  // their pictures are held in memory
+constexpr uint64_t kMostViews = 100;  // their pictures are held in memory
 constexpr double kLongestLimit_s = 1e7;
 constexpr unsigned kMostThreads = 1024;
 
@@ -32,7 +32,8 @@ po::options_description option_table() {
   auto add = table.add_options();
   add("fn", text("N"), "fragments of the facets that CGAL is given, 3 to 200; default 8");
   add("points", text("N"), "random points of each kind; default 10000");
-  add("rays", text("N"), "random rays of each kind, and rays for the volume; default 10000");
+  add("rays", text("N"),
+      "random rays of each kind, and for the volume ten times as many; default 10000");
   add("views", text("N"), "pictures of random views, 160 x 120 pixels; default 3");
   add("seed", text("N"), "of the random numbers; default 1");
   add("time-limit", text("SECONDS"),

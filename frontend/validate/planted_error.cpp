@@ -77,18 +77,21 @@ CsgTree flipped(const CsgTree& tree, uint32_t primitive) {
 
 csgcore::Scene with_planted_error(const csgcore::Scene& scene, const std::string& error) {
   csgcore::Scene result = scene;
-  uint32_t primitive = 0;
+  uint32_t id = 0;
   double distance = 0;
-  const bool is_flip = std::sscanf(error.c_str(), "flip:%u", &primitive) == 1;
-  const bool is_move = std::sscanf(error.c_str(), "move:%u:%lf", &primitive, &distance) == 2;
-  if (!(is_flip || is_move) || primitive >= scene.primitives.size()) {
+  const bool is_flip = std::sscanf(error.c_str(), "flip:%u", &id) == 1;
+  const bool is_move = std::sscanf(error.c_str(), "move:%u:%lf", &id, &distance) == 2;
+  const auto primitive = std::find_if(result.primitives.begin(), result.primitives.end(),
+                                      [id](const auto& p) { return p.id == id; });
+  if (!(is_flip || is_move) || primitive == result.primitives.end()) {
     throw frontend::Error("", {}, std::string(kPlantedErrorVariable) + "=" + error,
-                          "give flip:K or move:K:DISTANCE with an index K of a primitive");
+                          "give flip:K or move:K:DISTANCE with a primitive's id K");
   }
   if (is_move) {
-    result.primitives[primitive].local_to_world.translation.x += distance;
+    primitive->local_to_world.translation.x += distance;
   } else {
-    result.model = flipped(scene.model, primitive);
+    result.model =
+        flipped(scene.model, static_cast<uint32_t>(primitive - result.primitives.begin()));
   }
   return result;
 }

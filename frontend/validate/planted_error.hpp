@@ -7,7 +7,7 @@
 
 namespace validation {
 
-/// "flip:K": what primitive K (an index) adds is cut away, and what it cuts away is added.
+/// "flip:K": what the primitive with id K adds is cut away, and what it cuts away is added.
 /// "move:K:DISTANCE": primitive K stands so much further along x, in world units. Throws
 /// frontend::Error for anything else.
 csgcore::Scene with_planted_error(const csgcore::Scene& scene, const std::string& error);

@@ -5,8 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
-
-#include "random.hpp"
+#include <tuple>
 
 namespace validation {
 
@@ -41,16 +40,8 @@ double random_distance(Random& random, double diagonal) {
   return diagonal * PointSampler::kNearest * std::pow(kSpan, random.uniform());
 }
 
-struct PickedTriangle {
-  Vec3 corner[3];
-};
-
-PickedTriangle pick_triangle(Random& random, const csgcore::Mesh& mesh,
-                             const std::vector<double>& areas) {
-  const auto at = std::upper_bound(areas.begin(), areas.end(), random.uniform() * areas.back());
-  const auto index = std::min<std::ptrdiff_t>(at - areas.begin(), std::ssize(areas) - 1);
-  const std::vector<uint32_t>& face = mesh.faces[static_cast<std::size_t>(index)];
-  return {{mesh.vertices[face[0]], mesh.vertices[face[1]], mesh.vertices[face[2]]}};
+bool comes_before(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
 }  // namespace
@@ -99,15 +90,30 @@ std::vector<uint32_t> scattered_pixels(const View& view) {
   return pixels;
 }
 
-PointSampler::PointSampler(const csgcore::Box& box, csgcore::Mesh boundary, uint64_t seed)
-    : box_(box), boundary_(std::move(boundary)), seed_(seed) {
+PointSampler::PointSampler(const csgcore::Box& box, const csgcore::Mesh& boundary, uint64_t seed)
+    : box_(box), seed_(seed) {
+  for (const std::vector<uint32_t>& face : boundary.faces) {
+    Triangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = boundary.vertices[face[i]];
+    const auto first = std::min_element(triangle.begin(), triangle.end(), comes_before);
+    std::rotate(triangle.begin(), first, triangle.end());
+    triangles_.push_back(triangle);
+  }
+  // CGAL's order is by addresses, and so another one in every run.
+  std::sort(triangles_.begin(), triangles_.end(), [](const Triangle& a, const Triangle& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), comes_before);
+  });
   double area = 0;
-  for (const std::vector<uint32_t>& face : boundary_.faces) {
-    const Vec3& origin = boundary_.vertices[face[0]];
-    area += 0.5 * glm::length(glm::cross(boundary_.vertices[face[1]] - origin,
-                                         boundary_.vertices[face[2]] - origin));
+  for (const auto& [a, b, c] : triangles_) {
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
     areas_.push_back(area);
   }
+}
+
+const PointSampler::Triangle& PointSampler::pick_triangle(Random& random) const {
+  const auto at = std::upper_bound(areas_.begin(), areas_.end(), random.uniform() * areas_.back());
+  const auto index = std::min<std::ptrdiff_t>(at - areas_.begin(), std::ssize(areas_) - 1);
+  return triangles_[static_cast<std::size_t>(index)];
 }
 
 Vec3 PointSampler::in_box(uint64_t index) const {
@@ -117,7 +123,7 @@ Vec3 PointSampler::in_box(uint64_t index) const {
 Vec3 PointSampler::near_surface(uint64_t index) const {
   if (areas_.empty()) return in_box(index);
   Random random(seed_, Random::Use::kPointsNearSurfaces, index);
-  const auto [corner] = pick_triangle(random, boundary_, areas_);
+  const Triangle& corner = pick_triangle(random);
   // Uniform in the triangle: the square is folded along its diagonal.
   double u = random.uniform(), v = random.uniform();
   if (u + v > 1) {
@@ -133,7 +139,7 @@ Vec3 PointSampler::near_surface(uint64_t index) const {
 Vec3 PointSampler::near_edge(uint64_t index) const {
   if (areas_.empty()) return in_box(index);
   Random random(seed_, Random::Use::kPointsNearEdges, index);
-  const auto [corner] = pick_triangle(random, boundary_, areas_);
+  const Triangle& corner = pick_triangle(random);
   const uint64_t edge = random.next() % 3;
   const Vec3 point = glm::mix(corner[edge], corner[(edge + 1) % 3], random.uniform());
   return point + random_distance(random, box_.diagonal()) * random.direction();

@@ -1,11 +1,13 @@
 // The rays, views and points that are compared.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/view.hpp"
+#include "random.hpp"
 
 namespace validation {
 
@@ -23,8 +25,9 @@ std::vector<uint32_t> scattered_pixels(const csgcore::View& view);
 /// Points in and about a solid.
 class PointSampler {
  public:
-  /// `boundary`: the solid's, in triangles. The box is not empty, and holds it.
-  PointSampler(const csgcore::Box& box, csgcore::Mesh boundary, uint64_t seed);
+  /// `boundary`: the solid's, in triangles; the points do not depend on their order. The box is not
+  /// empty, and holds it.
+  PointSampler(const csgcore::Box& box, const csgcore::Mesh& boundary, uint64_t seed);
 
   /// Anywhere in the box.
   csgcore::Vec3 in_box(uint64_t index) const;
@@ -38,8 +41,11 @@ class PointSampler {
   static constexpr double kNearest = 1e-7;  // 100 times the thickness that does not exist
 
  private:
+  using Triangle = std::array<csgcore::Vec3, 3>;
+  const Triangle& pick_triangle(Random& random) const;
+
   csgcore::Box box_;
-  csgcore::Mesh boundary_;
+  std::vector<Triangle> triangles_;
   std::vector<double> areas_;  // of the triangles up to each, it included
   uint64_t seed_;
 };

@@ -1,0 +1,32 @@
+#include "frontend/subcommand.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "frontend/error.hpp"
+
+namespace frontend {
+
+void run_subcommand(const std::string& name, const std::vector<std::string>& arguments) {
+  // Not the name by which this program was called: a link to it may lie elsewhere.
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  std::string program = self.parent_path() / ("scadray-" + name);
+  std::vector<char*> words{program.data()};
+  for (const std::string& argument : arguments) {
+    words.push_back(const_cast<char*>(argument.c_str()));  // execv's signature; not written to
+  }
+  words.push_back(nullptr);
+  execv(program.c_str(), words.data());
+  if (errno == ENOENT) {
+    throw Error("", {}, "this scadray has no `" + name + "`: " + program + " is not there",
+                "build scadray with SCADRAY_ORACLE=ON where CGAL is installed (libcgal-dev)");
+  }
+  throw Error(program, {}, std::string("cannot be run: ") + std::strerror(errno),
+              "check its permissions");
+}
+
+}  // namespace frontend
