@@ -89,7 +89,7 @@ VolumeEstimate estimate_volume(const csgcore::Subdivision& subdivision, uint64_t
   constexpr double kLeastSide = 16;  // fewer squares would not tell the error
   constexpr double kStandardErrors = 5;
   const double pairs = static_cast<double>(std::min(rays, kVolumePass)) / 2;
-  const auto side = static_cast<uint64_t>(std::max(kLeastSide, std::round(std::sqrt(pairs))));
+  const auto side = static_cast<uint64_t>(std::max(kLeastSide, std::ceil(std::sqrt(pairs))));
   Pass sum;
   uint64_t passes = 0, traced = 0;
   do {
