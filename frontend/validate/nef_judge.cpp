@@ -37,9 +37,9 @@ double coordinate_rounding(const csgcore::Box& box) {
 }
 
 /// The boundary that a ray sees. Crossings of it that are nearer to each other than the tolerance
-/// are one, as in NUMERICS.md §1.
+/// are one, as in NUMERICS.md §1. A ray that runs in a face sees where it enters that, but rays to
+/// its sides see other things: it is undecided.
 struct Sight {
-  bool is_clear = true;  // false where the ray runs in the boundary, so that nothing can be said
   std::vector<Crossing> crossings;  // none: nothing is seen
   bool hit() const { return !crossings.empty(); }
 };
@@ -81,9 +81,7 @@ class NefJudge final : public RayJudge {
 
   Sight look(const Ray& ray, Projection projection, double thickness) const {
     Sight sight;
-    std::vector<Crossing> all = truth_.solid().crossings(ray);
-    sight.is_clear = std::none_of(all.begin(), all.end(),
-                                  [](const Crossing& c) { return c.after == Place::kBoundary; });
+    const std::vector<Crossing> all = truth_.solid().crossings(ray);
     Place at_eye = Place::kOutside;
     auto next = all.begin();
     // What was crossed up to the tolerance has happened at a perspective's eye.
@@ -142,7 +140,7 @@ class NefJudge final : public RayJudge {
   }
 
   bool same(const Ray& ray, const Sight& a, const Sight& b) const {
-    if (!b.is_clear || a.hit() != b.hit()) return false;
+    if (a.hit() != b.hit()) return false;
     if (!a.hit()) return true;
     const auto is_near = [&](const Crossing& crossing) {
       return glm::length(normal_of(crossing) - normal_of(b.crossings[0])) <= tolerance_.normal &&
@@ -154,7 +152,6 @@ class NefJudge final : public RayJudge {
 
   /// Whether a ray or a tolerance that is displaced by what rounding may do sees something else.
   bool is_undecided(const SeenRay& ray, const Sight& sight) const {
-    if (!sight.is_clear) return true;
     const double tau = truth_.thickness(), aside = aside_of(ray.ray);
     const auto differs = [&](const Ray& other, double thickness) {
       return !same(ray.ray, sight, look(other, ray.projection, thickness));

@@ -84,6 +84,11 @@ std::string table_of(const Result& result) {
     is_cut_short = is_cut_short || check.compared < check.planned;
   }
   for (const std::string& note : result.notes) text += note + '\n';
+  if (result.cgal_s > 0) {
+    char time[64];
+    std::snprintf(time, sizeof time, "CGAL took %.1f s for its solid\n", result.cgal_s);
+    text += time;
+  }
   if (is_cut_short) text += "not all was compared: time ran out (raise --time-limit)\n";
   for (const CheckResult& check : result.checks) {
     if (check.disagreements.empty()) continue;

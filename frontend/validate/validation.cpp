@@ -25,9 +25,9 @@ using csgcore::Scene;
 using csgcore::Vec3;
 using csgcore::View;
 
-constexpr const char* kSmooth = "smooth, by rays in exact arithmetic";
-constexpr const char* kFaceted = "in facets, by CGAL Nef polyhedra";
-constexpr const char* kSagitta = "smooth, by CGAL within the facets' sagitta";
+constexpr const char* kSmooth = "as drawn, against rays in exact arithmetic";
+constexpr const char* kFaceted = "in facets, against CGAL Nef polyhedra";
+constexpr const char* kSagitta = "as drawn, against CGAL within the facets' sagitta";
 
 /// Shares of the time limit by which the smooth scene's comparison and CGAL's building have to be
 /// done; the rest is for the comparisons with what CGAL has built.
@@ -85,10 +85,11 @@ bool has_polyhedra(const Scene& scene) {
   });
 }
 
-/// Nothing if the settings, or the machine, have the CPU draw.
+/// Nothing if the settings, or the machine, have the CPU draw, and of polyhedra, which OpenGL does
+/// not draw yet.
 std::optional<Pictures> pictures_by_gl(const Scene& scene, const std::vector<View>& views,
                                        frontend::RendererKind renderer) {
-  if (renderer == frontend::RendererKind::kCpu) return std::nullopt;
+  if (renderer == frontend::RendererKind::kCpu || has_polyhedra(scene)) return std::nullopt;
   frontend::RenderSettings settings;
   settings.renderer = renderer;
   settings.measured_channels = true;
@@ -209,11 +210,13 @@ class Validation {
     compare_rays(kSmooth, smooth_, judge_by(kDoubleTolerance), next_deadline(end, 3));
     compare_pictures(kSmooth, "pictures", pictures_by_cpu(smooth_, views_),
                      judge_by(kDoubleTolerance), next_deadline(end, 2));
-    // OpenGL does not draw polyhedra yet.
-    if (has_polyhedra(scene_)) return;
-    if (const auto pictures = pictures_by_gl(drawn_, views_, settings_.renderer)) {
-      compare_pictures(kSmooth, "pictures by OpenGL", *pictures, judge_by(kFloatTolerance),
-                       next_deadline(end, 1));
+    compare_gl_pictures(kSmooth, drawn_, judge_by(kFloatTolerance), next_deadline(end, 1));
+  }
+
+  void compare_gl_pictures(const char* group, const Scene& drawn, const MakeRayJudge& make_judge,
+                           Clock::time_point deadline) {
+    if (const auto pictures = pictures_by_gl(drawn, views_, settings_.renderer)) {
+      compare_pictures(group, "pictures by OpenGL", *pictures, make_judge, deadline);
     }
   }
 
@@ -224,6 +227,7 @@ class Validation {
     const double left_s = std::chrono::duration<double>(deadline - Clock::now()).count();
     if (left_s <= least_s) return too_large();
     facets_ = faceted(scene_, settings_.fragments);
+    const Clock::time_point start = Clock::now();
     // CGAL says nothing while it works.
     const std::jthread watch([this, deadline](const std::stop_token& done) {
       while (!done.stop_requested()) {
@@ -235,7 +239,10 @@ class Validation {
     auto truth =
         std::make_unique<const NefTruth>(facets_, box_.diagonal(), csgcore::thinnest_piece(box_),
                                          oracle::NefLimits{deadline, nullptr});
-    if (truth->status() == oracle::NefStatus::kBuilt) return truth;
+    if (truth->status() == oracle::NefStatus::kBuilt) {
+      result_.cgal_s = std::chrono::duration<double>(Clock::now() - start).count();
+      return truth;
+    }
     if (truth->status() == oracle::NefStatus::kDeadline) return too_large();
     result_.notes.push_back("CGAL failed (" + truth->reason() +
                             "): compared with rays in exact arithmetic only");
@@ -252,18 +259,22 @@ class Validation {
 
   void compare_facets(const NefTruth& truth, const Model& facets) {
     const PointSampler points(box_, truth.solid().mesh(), settings_.seed);
-    const MakeRayJudge make_judge = [&] { return make_nef_judge(truth, kDoubleTolerance); };
+    const auto judge_by = [&](const Tolerance& tolerance) -> MakeRayJudge {
+      return [&] { return make_nef_judge(truth, tolerance); };
+    };
     const Clock::time_point end = after(1);
-    compare_volume(truth, facets, next_deadline(end, 7));
-    compare_points(truth, facets, "points", next_deadline(end, 6),
+    compare_volume(truth, facets, next_deadline(end, 8));
+    compare_points(truth, facets, "points", next_deadline(end, 7),
                    [&](uint64_t i) { return points.in_box(i); });
-    compare_points(truth, facets, "points near surfaces", next_deadline(end, 5),
+    compare_points(truth, facets, "points near surfaces", next_deadline(end, 6),
                    [&](uint64_t i) { return points.near_surface(i); });
-    compare_points(truth, facets, "points near edges", next_deadline(end, 4),
+    compare_points(truth, facets, "points near edges", next_deadline(end, 5),
                    [&](uint64_t i) { return points.near_edge(i); });
-    compare_rays(kFaceted, facets, make_judge, next_deadline(end, 3));
-    compare_pictures(kFaceted, "pictures", pictures_by_cpu(facets, views_), make_judge,
-                     next_deadline(end, 2));
+    compare_rays(kFaceted, facets, judge_by(kDoubleTolerance), next_deadline(end, 4));
+    compare_pictures(kFaceted, "pictures", pictures_by_cpu(facets, views_),
+                     judge_by(kDoubleTolerance), next_deadline(end, 3));
+    compare_gl_pictures(kFaceted, with_error(facets_), judge_by(kFloatTolerance),
+                        next_deadline(end, 2));
   }
 
   template <typename PointOf>

@@ -26,6 +26,7 @@ struct Settings {
 struct Result {
   std::vector<CheckResult> checks;
   std::vector<std::string> notes;  // what was not compared, and why; figures
+  double cgal_s = 0;               // that CGAL took for its solid; 0: it was not asked, or gave up
   bool agrees() const;
 };
 

@@ -97,7 +97,7 @@ void expect_whole_table(const Outcome& outcome) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.code, 0);
   constexpr uint64_t kPixels = 160 * 120;
-  const std::size_t facets_at = outcome.out.find("in facets, by CGAL");
+  const std::size_t facets_at = outcome.out.find("in facets, against CGAL");
   ASSERT_NE(facets_at, std::string::npos) << outcome.out;
   const std::string smooth = outcome.out.substr(0, facets_at);
   const std::string facets = outcome.out.substr(facets_at);

@@ -147,7 +147,7 @@ Result some_result() {
   CheckResult bad{"group two", "points", 3, 3, 1, 0, 2, 0, {}};
   bad.disagreements = {{{"seen", {{"primitive", 4}}}, {"expected", {{"primitive", 4}}}},
                        {{"seen", {{"primitive", 4}}}, {"expected", {{"primitive", 9}}}}};
-  return {{good, bad}, {"a note"}};
+  return {{good, bad}, {"a note"}, 1.25};
 }
 
 TEST(Report, Table) {
@@ -158,6 +158,7 @@ TEST(Report, Table) {
             "group two\n"
             "  points                          3          1          0          2  0\n"
             "a note\n"
+            "CGAL took 1.2 s for its solid\n"
             "not all was compared: time ran out (raise --time-limit)\n"
             "first disagreement, points (group two): "
             "{\"seen\":{\"primitive\":4},\"expected\":{\"primitive\":4}}\n"
