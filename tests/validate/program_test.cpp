@@ -146,6 +146,16 @@ TEST_F(Validate, APrimitiveThatIsMovedEverSoLittleIsFoundAndNamed) {
   EXPECT_THAT(outcome.out, HasSubstr("first disagreement, rays (in facets"));
 }
 
+// A node that is empty has an id, but is no primitive of the scene.
+TEST_F(Validate, PrimitivesAreNamedByTheirIds) {
+  const Environment planted(kPlanted, "move:2:0.1");
+  const Outcome outcome = run_few({folder_.write("a.csg",
+                                                 "sphere(r = 0, $fn = 0); sphere(r = 1, $fn = 0);"
+                                                 "cylinder(h = 3, r1 = 0.5, r2 = 0.5, $fn = 0);")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.out, HasSubstr("disagreements name: 2 ("));
+}
+
 TEST_F(Validate, AnErrorThatCannotBePlantedIsRefused) {
   for (const char* error : {"flip:9", "turn:1", "move:1"}) {
     const Environment planted(kPlanted, error);
@@ -171,6 +181,20 @@ TEST_F(Validate, WithoutTimeForCgalByExactRaysAlone) {
   // And that alone finds an error, too.
   const Environment planted(kPlanted, "flip:7");
   EXPECT_EQ(run({"--renderer=cpu", "--time-limit=0", example("cs100")}).code, 2);
+}
+
+TEST_F(Validate, CgalIsNotBegunWithThousandsOfPrimitives) {
+  std::string csg;
+  for (int i = 0; i < 20000; ++i) {
+    csg += "multmatrix([[1,0,0," + std::to_string(i % 100) + "],[0,1,0," + std::to_string(i / 100) +
+           "],[0,0,1,0],[0,0,0,1]]) sphere(r = 0.4, $fn = 0);\n";
+  }
+  const Clock::time_point start = Clock::now();
+  const Outcome outcome =
+      run({"--renderer=cpu", "--rays=10", "--views=0", folder_.write("a.csg", csg)});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("too large for CGAL"));
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(20));  // of the limit's 40
 }
 
 TEST_F(Validate, SaysThatNotAllWasCompared) {
