@@ -16,7 +16,7 @@
 namespace frontend {
 
 /// Large polyhedra that OpenSCAD's facets make have no more faces than this in all of a design:
-/// a sphere has $fn²/2. It takes about a second to build them, and 40 MB.
+/// a sphere has $fn²/2. So many spheres' are built in 0.2 s, frusta's in 4 s, and take 70 MB.
 constexpr uint64_t kMostFacets = 1 << 17;
 /// Those of so few faces are in proportion to the text of their nodes, and not counted.
 constexpr uint64_t kFewFacets = 16;
