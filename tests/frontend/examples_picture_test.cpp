@@ -95,7 +95,8 @@ TEST_P(ExamplePictureTest, EqualsTheOracle) {
   EXPECT_LE(wrong.paper * 20, paper.hits);
 }
 
-/// Designs with polyhedra, which neither OpenGL nor the exact rays know yet.
+/// Designs with polyhedra, which OpenGL does not draw yet. cpu_stress_test judges the CPU's
+/// pictures.
 const std::set<std::string> kWithPolyhedra{"bracket", "dodecahedron", "nut_trap"};
 
 std::vector<fs::path> examples() {

@@ -172,10 +172,11 @@ TEST_P(FacetedExample, IsOpenScadsSolid) {
   expect_openscads_solid(name, contents(SCADRAY_EXAMPLES_DIR "/" + name + ".csg"));
 }
 
-// OpenSCAD meshes these within 5 minutes; cs100 and cc100, and all larger ones, it does not.
+// OpenSCAD meshes these in up to 20 s of processor time. The knob takes it minutes, cs100, cc100
+// and all larger ones more.
 INSTANTIATE_TEST_SUITE_P(, FacetedExample,
                          testing::Values("nut_trap", "bracket", "dodecahedron", "three_spheres",
-                                         "r9", "pulley", "flange", "knob"),
+                                         "r9", "pulley", "flange"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

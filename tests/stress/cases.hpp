@@ -67,7 +67,7 @@ std::vector<Family> singular_families();
 std::vector<Family> tree_families();
 std::vector<Family> polyhedron_families();
 Family tolerance_family();
-Family design_family();
+std::vector<Family> design_families();
 
 // --- Cameras ---
 

@@ -19,14 +19,19 @@ Scene import_design_file(const std::filesystem::path& file) {
   return frontend::import_design(frontend::parse(text.view(), file.filename().string())).scene;
 }
 
-Family design_family() {
-  Family family{"openscad_designs", {}, true};
-  for (const char* name : {"turned_plate", "nested_frames", "mirrored_halves", "chain_of_frames",
-                           "sleeves", "scaled_frames", "pegs", "sockets"}) {
+std::vector<Family> design_families() {
+  const auto add = [](Family& family, const char* name) {
     const auto file = std::filesystem::path(SCADRAY_STRESS_DESIGNS) / (std::string(name) + ".scad");
     family.cases.push_back({name, [file] { return import_design_file(file); }});
+  };
+  Family round{"openscad_designs", {}, true};
+  for (const char* name : {"turned_plate", "nested_frames", "mirrored_halves", "chain_of_frames",
+                           "sleeves", "scaled_frames", "pegs", "sockets"}) {
+    add(round, name);
   }
-  return family;
+  Family cubes{"openscad_cubes", {}, true, true};
+  for (const char* name : {"turned_cubes", "thirds_of_cubes", "chain_of_cubes"}) add(cubes, name);
+  return {round, cubes};
 }
 
 }  // namespace stress

@@ -11,7 +11,8 @@ const std::vector<Family>& families() {
                                             singular_families(),
                                             tree_families(),
                                             polyhedron_families(),
-                                            {tolerance_family(), design_family()}}) {
+                                            {tolerance_family()},
+                                            design_families()}) {
       result.insert(result.end(), some.begin(), some.end());
     }
     return result;
