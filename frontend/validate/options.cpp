@@ -15,7 +15,7 @@ namespace {
 namespace po = boost::program_options;
 using frontend::RendererKind;
 
-// A sphere of 200 fragments has 20,002 facets, and takes CGAL minutes alone.
+// A sphere of 200 fragments has 20,002 facets, and takes CGAL a minute alone.
 constexpr int kMostFragments = 200;
 constexpr uint64_t kMostSamples = 1'000'000'000;
 constexpr uint64_t kMostViews = 100;  // their pictures are held in memory
