@@ -34,11 +34,15 @@ class Run {
     // As the picture is drawn: floats and products of three cannot hold every size.
     const int exponent = frontend::scale_exponent(design);
     const csgcore::Scene scene = exponent == 0 ? design : frontend::scaled(design, exponent);
-    const Result result =
+    Result result =
         validate(scene, options_.settings, [this](const std::string& stage, double fraction) {
           progress_.update(stage.c_str(), fraction);
         });
     progress_.clear();
+    if (exponent != 0) {
+      result.notes.push_back("the design was scaled by 2^" + std::to_string(exponent) +
+                             ": its volume and all coordinates are so, too");
+    }
     if (!options_.report.empty()) write_report(result, exponent);
     if (!options_.quiet && options_.report != "-") std::fputs(table_of(result).c_str(), stdout);
     return result.agrees() ? ExitCode::kDone : ExitCode::kDisagreement;
