@@ -33,7 +33,7 @@ void main() {
   if (!is_seen(ray, hit, seen)) discard;
   vec3 point = ray.origin + seen.t * ray.direction;
   // Paper §3.2, step 4: a complement's normal is turned round.
-  vec3 normal = normal_at(ray, seen.primitive, seen.t);
+  vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
   if (seen.complement) normal = -normal;
   vec3 color = base_color(seen.primitive, seen.complement && !u_eye_inside);
   o_color = vec4(shade(color, point, normal, ray.direction), 1.0);

@@ -10,22 +10,23 @@ uniform bool u_eye_inside;      // rays start in the solid: what is seen is the 
 struct Hit {
   float t;
   uint primitive;
+  int face;  // see Segment
   bool complement;
   float speed;  // see crossing_speed; 0 until asked for
 };
 
-const Hit NO_HIT = Hit(INFINITY, 0u, false, 0.0);
+const Hit NO_HIT = Hit(INFINITY, 0u, 0, false, 0.0);
 
 Hit start_of(Segment segment, Literal literal) {
-  return Hit(segment.start, literal.primitive, literal.complement, 0.0);
+  return Hit(segment.start, literal.primitive, segment.start_face, literal.complement, 0.0);
 }
 Hit end_of(Segment segment, Literal literal) {
-  return Hit(segment.end, literal.primitive, literal.complement, 0.0);
+  return Hit(segment.end, literal.primitive, segment.end_face, literal.complement, 0.0);
 }
 
 // How fast the ray crosses the face, along its normal: what is t long is so many times t thick.
 float crossing_speed(Ray ray, Hit hit) {
-  float speed = abs(dot(normal_at(ray, hit.primitive, hit.t), ray.direction));
+  float speed = abs(dot(normal_at(ray, hit.primitive, hit.t, hit.face), ray.direction));
   return max(speed, GRAZING_COSINE);
 }
 Hit with_speed(Ray ray, Hit hit) {
@@ -120,7 +121,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
 
 #if PATH == PATH_SHORT_LIST
 // Few primitives: each is intersected once, and the segments are kept.
-vec2 kept[SHORT_LIST];  // start and end
+Segment kept[SHORT_LIST];
 #endif
 
 // Any function: the short-circuit list is evaluated at t, and with it the next t at which one of
@@ -132,7 +133,7 @@ struct Evaluation {
 
 Segment segment_of(Ray ray, uint index, uint primitive) {
 #if PATH == PATH_SHORT_LIST
-  return Segment(kept[index].x, kept[index].y);
+  return kept[index];
 #else
   return intersect(ray, primitive);
 #endif
@@ -159,8 +160,7 @@ Evaluation evaluate(Ray ray, float t) {
 Hit first_hit(Ray ray, float enter, float leave) {
 #if PATH == PATH_SHORT_LIST
   for (uint i = 0u; i < v_list.y; ++i) {
-    Segment segment = intersect(ray, fetch_literal(v_list.x + i).primitive);
-    kept[i] = vec2(segment.start, segment.end);
+    kept[i] = intersect(ray, fetch_literal(v_list.x + i).primitive);
   }
 #endif
   // One loop with one evaluation in it: a software driver runs every loop's body at least once.

@@ -5,6 +5,9 @@ const float INFINITY = uintBitsToFloat(0x7F800000u);
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;     // per primitive: colour, colour as a cut face, id
 uniform usamplerBuffer u_literals;     // primitive and complement bit, if_inside, if_outside
+#if HAS_POLYHEDRON
+uniform samplerBuffer u_polyhedra;     // see polyhedron_texels.hpp
+#endif
 
 struct Ray {
   vec3 origin, direction;
@@ -13,6 +16,7 @@ struct Ray {
 // Where the ray is inside a primitive: start ≤ t < end. Empty: start = +∞, end = −∞.
 struct Segment {
   float start, end;
+  int start_face, end_face;  // texels of u_polyhedra; 0: on a sphere or frustum
 };
 
 struct Literal {
@@ -21,7 +25,7 @@ struct Literal {
   uint if_inside, if_outside;
 };
 
-const Segment NO_SEGMENT = Segment(INFINITY, -INFINITY);
+const Segment NO_SEGMENT = Segment(INFINITY, -INFINITY, 0, 0);
 
 Ray pixel_ray() {
   vec2 ndc = (2.0 * (gl_FragCoord.xy + u_displacement) - u_viewport) / u_viewport;
@@ -64,7 +68,8 @@ struct CanonicalRay {
   vec3 origin, direction;
   float base_t;
   float radius_mid, radius_slope;
-  bool is_sphere;
+  bool is_sphere;  // the primitive, or what encloses a polyhedron
+  int faces;       // texel of u_polyhedra
   mat3 world_to_canonical;
 };
 
@@ -83,6 +88,13 @@ CanonicalRay canonical_ray(Ray ray, uint primitive) {
   result.radius_mid = row_x.w;
   result.radius_slope = row_y.w;
   result.is_sphere = row_z.w == SHAPE_SPHERE;
+  result.faces = int(center.w);
+#if HAS_POLYHEDRON
+  // Flat solids are steep in canonical space: there, what passes closest is another point.
+  float nearest = -dot(result.origin, result.direction) / dot(result.direction, result.direction);
+  result.origin += nearest * result.direction;
+  result.base_t += nearest;
+#endif
   return result;
 }
 
@@ -95,7 +107,7 @@ Segment intersect_sphere(CanonicalRay ray) {
   if (!(inside > 0.0)) return NO_SEGMENT;
   float half_chord = sqrt(inside / length2);
   float middle = ray.base_t + nearest;
-  return Segment(middle - half_chord, middle + half_chord);
+  return Segment(middle - half_chord, middle + half_chord, 0, 0);
 }
 
 // The slab |z| ≤ 1 cut with the wall x² + y² ≤ (mid + slope·z)², on the nappe with a radius ≥ 0.
@@ -145,10 +157,10 @@ Segment intersect_frustum(CanonicalRay ray) {
   float end = min(slab_end - base, wall_end);
   if (!(start < end)) return NO_SEGMENT;
   float offset = ray.base_t + base;
-  return Segment(offset + start, offset + end);
+  return Segment(offset + start, offset + end, 0, 0);
 }
 
-Segment intersect(CanonicalRay ray) {
+Segment intersect_quadric(CanonicalRay ray) {
 #if HAS_SPHERE && HAS_FRUSTUM
   if (ray.is_sphere) return intersect_sphere(ray);
   return intersect_frustum(ray);
@@ -159,11 +171,64 @@ Segment intersect(CanonicalRay ray) {
 #endif
 }
 
-Segment intersect(Ray ray, uint primitive) { return intersect(canonical_ray(ray, primitive)); }
+#if HAS_POLYHEDRON
+
+// Cuts the segment of what encloses a polyhedron by its faces (csgcore/polyhedron.hpp). A face is
+// noted though rounding may put it behind the enclosure's own end.
+Segment cut_by_faces(CanonicalRay ray, Segment segment) {
+  float enters = -INFINITY;
+  float leaves = INFINITY;
+  int last = ray.faces + int(texelFetch(u_polyhedra, ray.faces).x);
+  for (int i = ray.faces + 1; i <= last && segment.start < segment.end; ++i) {
+    vec4 entry = texelFetch(u_polyhedra, i);
+    float height = dot(entry.xyz, ray.origin);
+    float growth = dot(entry.xyz, ray.direction);
+    if (entry.w > 0.0) {
+      // A branch: what holds at both ends holds between them.
+      float limit = texelFetch(u_polyhedra, ++i).x;
+      float reach = height + max(segment.start * growth, segment.end * growth);
+      if (reach <= limit) i += int(entry.w);
+    } else {
+      float room = 1.0 - height;
+      float at = room / growth;
+      if (growth < 0.0 && at > enters) {
+        enters = at;
+        segment.start = max(segment.start, at);
+        segment.start_face = i;
+      } else if (growth > 0.0 && at < leaves) {
+        leaves = at;
+        segment.end = min(segment.end, at);
+        segment.end_face = i;
+      } else if (growth == 0.0 && room < 0.0) {
+        segment.start = INFINITY;
+      }
+    }
+  }
+  return segment;
+}
+
+Segment intersect(Ray ray, uint primitive) {
+  CanonicalRay canonical = canonical_ray(ray, primitive);
+  // Cut before it becomes relative to the focus, where a small polyhedron's faces are close together.
+  float base_t = canonical.base_t;
+  canonical.base_t = 0.0;
+  Segment segment = cut_by_faces(canonical, intersect_quadric(canonical));
+  if (!(segment.start < segment.end)) return NO_SEGMENT;
+  segment.start += base_t;
+  segment.end += base_t;
+  return segment;
+}
+
+#else
+
+Segment intersect(Ray ray, uint primitive) { return intersect_quadric(canonical_ray(ray, primitive)); }
+
+#endif
 
 // The primitive's own outward unit normal, in world space, where the ray crosses its surface at t.
 // Of a frustum's faces the point lies on the one that it is nearer to: no segment need carry which.
-vec3 normal_at(Ray ray, uint primitive, float t) {
+// Of a polyhedron's it is `face` (see Segment).
+vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
   vec3 gradient = q;
@@ -172,6 +237,9 @@ vec3 normal_at(Ray ray, uint primitive, float t) {
     bool on_cap = abs(abs(q.z) - 1.0) < abs(length(q.xy) - radius);
     gradient = on_cap ? vec3(0.0, 0.0, q.z) : vec3(q.xy, -canonical.radius_slope * radius);
   }
+#if HAS_POLYHEDRON
+  if (face > 0) gradient = texelFetch(u_polyhedra, face).xyz;
+#endif
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);
   // At a cone's very apex there is none: it faces the viewer.

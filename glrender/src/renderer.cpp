@@ -205,7 +205,9 @@ class Renderer::Impl {
 
   InstanceSorter sorter(const Pass& pass) {
     const bool boxes = pass.settings.subject == Subject::kCells;
-    return {pass.frame, solid_, pass.overlap, pass.eye_inside, boxes, streams_};
+    return {pass.frame,   solid_,          short_list(buffers_.has_polyhedron()),
+            pass.overlap, pass.eye_inside, boxes,
+            streams_};
   }
 
   void traverse(const Pass& pass) {

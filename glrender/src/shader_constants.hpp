@@ -17,29 +17,32 @@ enum class Path : int {
   kBoth,       // §3.3.4 case 1
   kMinus,      // cases 2 and 3
   kNeither,    // case 4
-  kShortList,  // any function of up to kShortList primitives
+  kShortList,  // any function of up to short_list() primitives
   kList,       // any function
   kBoxes,      // the cells themselves
 };
 constexpr int kPaths = 8;
 
-/// Up to so many primitives a fragment keeps all segments: the default K.
-constexpr uint32_t kShortList = 8;
+/// Up to so many primitives a fragment keeps all segments: the default K. Those of polyhedra, which
+/// take a hundred rounds of a loop each (see kMostRounds), it rather keeps than finds again.
+constexpr uint32_t short_list(bool has_polyhedron) { return has_polyhedron ? 32 : 8; }
 
 /// Of a cell with more primitives, those beyond are not asked whether they share the face that is
 /// hit: the shaders keep one bit for each. In longer unions nobody is asked.
 constexpr uint32_t kSharedFaces = 32;
 
-/// A cell with more primitives is refused: Mesa's software renderer ends a shader's loop silently
-/// after 65,535 rounds, each at least one literal, and a pixel may need two evaluations.
-constexpr uint32_t kLongestList = 30000;
+/// A cell whose function takes more rounds is refused: Mesa's software renderer ends all of a
+/// shader's loops silently after 65,535 rounds of them together, each at least one literal, and a
+/// pixel may need two evaluations.
+constexpr uint64_t kMostRounds = 30000;
 
 constexpr unsigned kLocationBoxMin = 0;
 constexpr unsigned kLocationBoxMax = 1;
 constexpr unsigned kLocationList = 2;
 
-/// Texels of the primitive buffer: centre; three rows of world_to_canonical, with radius_mid,
-/// radius_slope and the shape beside them.
+/// Texels of the primitive buffer: centre, with the first texel of a polyhedron's faces beside it;
+/// three rows of world_to_canonical, with radius_mid, radius_slope and the shape (of a polyhedron
+/// the enclosure) beside them.
 constexpr int kPrimitiveTexels = 4;
 constexpr float kShapeSphere = 0;
 constexpr float kShapeFrustum = 1;
@@ -57,7 +60,6 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"PATH_MINUS", double(Path::kMinus), true},
     ShaderConstant{"PATH_NEITHER", double(Path::kNeither), true},
     ShaderConstant{"PATH_SHORT_LIST", double(Path::kShortList), true},
-    ShaderConstant{"SHORT_LIST", kShortList, true},
     ShaderConstant{"SHARED_FACES", kSharedFaces, true},
     ShaderConstant{"PATH_LIST", double(Path::kList), true},
     ShaderConstant{"PATH_BOXES", double(Path::kBoxes), true},

@@ -30,12 +30,14 @@ std::string prologue(const ProgramKey& key) {
   }
   source += "#define LIST_TRUE " + std::to_string(csgcore::kListTrue) + "u\n";
   source += "#define LIST_FALSE " + std::to_string(csgcore::kListFalse) + "u\n";
+  define(source, "SHORT_LIST", static_cast<int>(short_list(key.has_polyhedron)));
   define(source, "PATH", static_cast<int>(key.path));
   define(source, "SHADING", static_cast<int>(key.shading));
   define(source, "PERSPECTIVE", key.perspective);
   define(source, "MEASURED", key.measured);
   define(source, "HAS_SPHERE", key.has_sphere);
   define(source, "HAS_FRUSTUM", key.has_frustum);
+  define(source, "HAS_POLYHEDRON", key.has_polyhedron);
   define(source, "CONSERVATIVE_DEPTH", key.conservative_depth);
   define(source, "CLIP_ZERO_TO_ONE", key.clip_zero_to_one);
   define(source, "BEHIND", key.behind);

@@ -18,6 +18,7 @@ struct ProgramKey {
   bool measured = false;
   bool has_sphere = true;
   bool has_frustum = true;
+  bool has_polyhedron = false;
   bool conservative_depth = false;
   bool clip_zero_to_one = false;
   bool behind = false;  // Renderer::draw_behind

@@ -59,10 +59,16 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid) : solid_(&solid) {
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
     surfaces.push_back({primitive.color ? pack_rgba8(*primitive.color) : 0u,
                         primitive.color ? 1u : 0u, primitive.id, 0u});
-    (primitive.shape == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
+    (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
+    faces_.first_of(primitive.polyhedron.get());
   }
   surfaces_.upload(GL_RGBA32UI, surfaces.data(), surfaces.size() * sizeof surfaces[0],
                    sizeof surfaces[0], "primitives", kFewerPrimitives);
+  if (has_polyhedron()) {
+    polyhedra_.upload(GL_RGBA32F, faces_.texels().data(),
+                      faces_.texels().size() * sizeof(PolyhedronTexels::Texel),
+                      sizeof(PolyhedronTexels::Texel), "faces of polyhedra", "use a smaller $fn");
+  }
 }
 
 void SolidBuffers::place(const Frame& frame) {
@@ -71,9 +77,10 @@ void SolidBuffers::place(const Frame& frame) {
   texels.reserve(solid_->primitives().size() * kPrimitiveTexels * 4);
   for (const CanonicalPrimitive& primitive : solid_->primitives()) {
     const glm::vec3 center = frame.relative(primitive.center);
-    texels.insert(texels.end(), {center.x, center.y, center.z, 0.0f});
+    texels.insert(texels.end(), {center.x, center.y, center.z,
+                                 static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
     const double beside[] = {primitive.radius_mid, primitive.radius_slope,
-                             primitive.shape == Shape::kSphere ? kShapeSphere : kShapeFrustum};
+                             primitive.enclosure == Shape::kSphere ? kShapeSphere : kShapeFrustum};
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
         texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));
@@ -101,9 +108,11 @@ void SolidBuffers::bind(GLuint program) const {
   primitives_.bind(0);
   surfaces_.bind(1);
   literals_.bind(2);
+  if (has_polyhedron()) polyhedra_.bind(3);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);
   glUniform1i(glGetUniformLocation(program, "u_literals"), 2);
+  if (has_polyhedron()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
 }
 
 }  // namespace glrender

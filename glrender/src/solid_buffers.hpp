@@ -7,6 +7,7 @@
 #include "csgcore/solid.hpp"
 #include "frame.hpp"
 #include "gl_object.hpp"
+#include "polyhedron_texels.hpp"
 
 namespace glrender {
 
@@ -27,7 +28,7 @@ class TextureBuffer {
 class SolidBuffers {
  public:
   /// Texture units 0 up to this one (exclusive) are bind's.
-  static constexpr int kTextureUnits = 3;
+  static constexpr int kTextureUnits = 4;
 
   explicit SolidBuffers(const csgcore::Solid& solid);
 
@@ -38,12 +39,15 @@ class SolidBuffers {
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program) const;
 
+  /// Also those that enclose polyhedra.
   bool has_sphere() const { return has_sphere_; }
   bool has_frustum() const { return has_frustum_; }
+  bool has_polyhedron() const { return !faces_.empty(); }
 
  private:
   const csgcore::Solid* solid_;
-  TextureBuffer primitives_, surfaces_, literals_;
+  PolyhedronTexels faces_;
+  TextureBuffer primitives_, surfaces_, literals_, polyhedra_;
   std::optional<Vec3> placed_at_;
   bool has_sphere_ = false;
   bool has_frustum_ = false;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "csgcore/polyhedron.hpp"
 #include "glrender/context.hpp"
 
 namespace glrender {
@@ -51,6 +52,18 @@ bool InstanceSorter::surrounds_eye(const Box& box) const {
   return true;
 }
 
+/// Those that the shaders take for one evaluation of the function, about.
+uint64_t InstanceSorter::rounds(std::span<const Literal> literals) const {
+  /// Of a polyhedron with thousands of faces; it grows little with them.
+  constexpr size_t kOfManyFaces = 256;
+  uint64_t sum = literals.size();
+  for (const Literal& literal : literals) {
+    const csgcore::Polyhedron* polyhedron = solid_.primitives()[literal.primitive].polyhedron.get();
+    if (polyhedron) sum += std::min(polyhedron->entries().size(), kOfManyFaces);
+  }
+  return sum;
+}
+
 void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uint32_t count) {
   const glm::vec3 low = frame_.relative(box.min);
   const glm::vec3 high = frame_.relative(box.max);
@@ -64,7 +77,8 @@ void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uin
 void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
                          uint64_t first_literal) {
   if (!is_drawn(leaf)) return;
-  if (leaf.literal_count > kLongestList && leaf.kind != LeafKind::kUnion) {
+  if (leaf.literal_count > short_list_ && leaf.kind != LeafKind::kUnion &&
+      rounds(literals) > kMostRounds) {
     throw GlError(std::to_string(leaf.literal_count) +
                   " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
                   "(leave out the repeated ones)");
@@ -95,7 +109,7 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
         complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);
     push(path, leaf.box, first_literal, 2);
   } else {
-    const Path path = leaf.literal_count <= kShortList ? Path::kShortList : Path::kList;
+    const Path path = leaf.literal_count <= short_list_ ? Path::kShortList : Path::kList;
     push(path, leaf.box, first_literal, leaf.literal_count);
   }
 }

@@ -31,26 +31,30 @@ struct InstanceStreams {
 class InstanceSorter {
  public:
   /// `eye_inside`: what is drawn is the solid's complement, to which only the general path applies.
-  InstanceSorter(const Frame& frame, const csgcore::Solid& solid, double overlap, bool eye_inside,
-                 bool boxes, InstanceStreams& streams)
+  /// `short_list`: the longest list for Path::kShortList.
+  InstanceSorter(const Frame& frame, const csgcore::Solid& solid, uint32_t short_list,
+                 double overlap, bool eye_inside, bool boxes, InstanceStreams& streams)
       : frame_(frame),
         solid_(solid),
+        short_list_(short_list),
         overlap_(overlap),
         eye_inside_(eye_inside),
         boxes_(boxes),
         streams_(streams) {}
 
   /// `literals` is the leaf's function, whose place on the GPU starts at `first_literal`. Throws
-  /// GlError for a cell of more than kLongestList primitives.
+  /// GlError for a cell of more than kMostRounds.
   void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals,
            uint64_t first_literal);
 
  private:
   void push(Path path, const csgcore::Box& box, uint64_t first_literal, uint32_t count);
+  uint64_t rounds(std::span<const csgcore::Literal> literals) const;
   bool surrounds_eye(const csgcore::Box& box) const;
 
   const Frame& frame_;
   const csgcore::Solid& solid_;
+  uint32_t short_list_;
   double overlap_;
   bool eye_inside_;
   bool boxes_;
