@@ -24,7 +24,11 @@ glrender::HeadlessContext& context() {
 
 View view_from(const Scene& scene, Projection projection, double around_deg, double above_deg,
                double distance) {
-  const csgcore::Box box = csgcore::reference_box(scene);
+  return view_from(csgcore::reference_box(scene), projection, around_deg, above_deg, distance);
+}
+
+View view_from(const csgcore::Box& box, Projection projection, double around_deg, double above_deg,
+               double distance) {
   const double size = box.diagonal();
   const double around = around_deg * std::numbers::pi / 180;
   const double above = above_deg * std::numbers::pi / 180;

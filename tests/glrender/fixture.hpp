@@ -21,6 +21,10 @@ glrender::HeadlessContext& context();
 csgcore::View view_from(const csgcore::Scene& scene, csgcore::Projection projection,
                         double around_deg, double above_deg, double distance = 3);
 
+/// The same for a model with that box.
+csgcore::View view_from(const csgcore::Box& box, csgcore::Projection projection, double around_deg,
+                        double above_deg, double distance = 3);
+
 /// A scene's model, subdivided and loaded, ready to be drawn: by default with all channels, on
 /// black.
 struct LoadedScene {

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
+#include "polyhedron_texels.hpp"
 #include "shader_program.hpp"
 
 namespace {
@@ -22,7 +25,7 @@ TEST(ShaderTest, EveryVariantCompiles) {
   HeadlessContext context;
   int compiled = 0;
   for (int path = 0; path < kPaths; ++path) {
-    for (int bits = 0; bits < 128; ++bits) {
+    for (int bits = 0; bits < 256; ++bits) {
       ProgramKey key;
       key.path = static_cast<Path>(path);
       key.shading = bits & 1 ? Shading::kPhong : Shading::kOpenScad;
@@ -32,12 +35,15 @@ TEST(ShaderTest, EveryVariantCompiles) {
       key.has_frustum = bits & 16;
       key.behind = bits & 32;
       key.conservative_depth = key.clip_zero_to_one = bits & 64;
+      key.has_polyhedron = bits & 128;
       if (!key.has_sphere && !key.has_frustum) continue;
+      // Their faces have to do with neither.
+      if (key.has_polyhedron && (key.shading == Shading::kPhong || key.measured)) continue;
       ASSERT_NO_THROW(compile_program(key)) << path << " " << bits;
       ++compiled;
     }
   }
-  EXPECT_EQ(compiled, kPaths * 96);
+  EXPECT_EQ(compiled, kPaths * (96 + 24));
 }
 
 TEST(ShaderTest, CacheCompilesOnce) {
@@ -49,6 +55,53 @@ TEST(ShaderTest, CacheCompilesOnce) {
   EXPECT_EQ(cache.size(), 1u);
   key.perspective = false;
   EXPECT_NE(cache.get(key), first);
+}
+
+TEST(PolyhedronTexelsTest, HoldEveryFaceOnce) {
+  PolyhedronTexels all;
+  EXPECT_TRUE(all.empty());
+  EXPECT_EQ(all.first_of(nullptr), 0u);
+  const auto ball = csgcore::Polyhedron::sphere(2, 20);
+  const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
+  EXPECT_EQ(all.first_of(ball.get()), 1u);
+  const uint32_t first_of_box = all.first_of(box.get());
+  const size_t size = all.texels().size();
+  EXPECT_EQ(all.first_of(ball.get()), 1u);
+  EXPECT_EQ(all.first_of(box.get()), first_of_box);
+  EXPECT_EQ(all.texels().size(), size);
+  EXPECT_EQ(all.texels()[0][0], 0);
+  for (const auto& [polyhedron, first] : {std::pair(ball, 1u), std::pair(box, first_of_box)}) {
+    // By the texels alone, every entry that csgcore lists, and every place that its branches end
+    // at.
+    uint32_t texel = first + 1;
+    std::vector<std::pair<uint32_t, uint32_t>> branches;  // the texel after, the entry after
+    const auto& entries = polyhedron->entries();
+    for (uint32_t i = 0; i < entries.size(); ++i) {
+      for (const auto& [texel_after, entry_after] : branches) {
+        EXPECT_EQ(texel == texel_after, i == entry_after);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(all.texels()[texel][axis], float(entries[i].normal[axis]));
+      }
+      const float skip = all.texels()[texel][3];
+      EXPECT_EQ(skip > 0, entries[i].skip > 0);
+      if (skip > 0) {
+        ++texel;
+        EXPECT_LT(all.texels()[texel][0], entries[i].limit);
+        EXPECT_GT(all.texels()[texel][0], entries[i].limit - 1e-5);
+        branches.emplace_back(texel + 1 + uint32_t(skip), i + 1 + entries[i].skip);
+      }
+      ++texel;
+    }
+    EXPECT_EQ(float(texel - first - 1), all.texels()[first][0]);
+  }
+  EXPECT_EQ(first_of_box + 1 + 6, size);
+}
+
+TEST(PolyhedronTexelsTest, RefuseMoreThanFloatsCanCount) {
+  const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
+  EXPECT_NO_THROW(PolyhedronTexels(9).first_of(box.get()));
+  EXPECT_THROW(PolyhedronTexels(7).first_of(box.get()), GlError);
 }
 
 TEST(GlObjectTest, MovesOwnership) {
