@@ -79,17 +79,10 @@ Pictures pictures_by_cpu(const Model& model, const std::vector<View>& views) {
   return pictures;
 }
 
-bool has_polyhedra(const Scene& scene) {
-  return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const auto& primitive) {
-    return primitive.shape == csgcore::Shape::kPolyhedron;
-  });
-}
-
-/// Nothing if the settings, or the machine, have the CPU draw, and of polyhedra, which OpenGL does
-/// not draw yet.
+/// Nothing if the settings, or the machine, have the CPU draw.
 std::optional<Pictures> pictures_by_gl(const Scene& scene, const std::vector<View>& views,
                                        frontend::RendererKind renderer) {
-  if (renderer == frontend::RendererKind::kCpu || has_polyhedra(scene)) return std::nullopt;
+  if (renderer == frontend::RendererKind::kCpu) return std::nullopt;
   frontend::RenderSettings settings;
   settings.renderer = renderer;
   settings.measured_channels = true;

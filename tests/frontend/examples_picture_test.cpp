@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -95,15 +94,10 @@ TEST_P(ExamplePictureTest, EqualsTheOracle) {
   EXPECT_LE(wrong.paper * 20, paper.hits);
 }
 
-/// Designs with polyhedra, which OpenGL does not draw yet. cpu_stress_test judges the CPU's
-/// pictures.
-const std::set<std::string> kWithPolyhedra{"bracket", "dodecahedron", "nut_trap"};
-
 std::vector<fs::path> examples() {
   std::vector<fs::path> files{fs::path(SCADRAY_EXAMPLES_DIR) / "cs10000.scad"};
   for (const auto& entry : fs::directory_iterator(SCADRAY_EXAMPLES_DIR)) {
-    if (entry.path().extension() != ".csg") continue;
-    if (!kWithPolyhedra.contains(entry.path().stem())) files.push_back(entry.path());
+    if (entry.path().extension() == ".csg") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;

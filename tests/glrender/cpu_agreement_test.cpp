@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(, CpuAgreementTest,
                                          Case{"knob", Projection::kPerspective},
                                          Case{"flange", Projection::kOrthographic},
                                          Case{"cs100", Projection::kPerspective},
+                                         Case{"nut_trap", Projection::kPerspective},
+                                         Case{"bracket", Projection::kOrthographic},
                                          Case{"t1022", Projection::kOrthographic}),
                          [](const auto& instance) { return instance.param.example; });
 

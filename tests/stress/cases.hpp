@@ -49,8 +49,6 @@ struct Family {
   std::vector<Case> cases;
   /// Faces coincide all over: GL's bar is speckle (design.md §3).
   bool is_coincident = false;
-  /// GL does not draw them yet.
-  bool has_polyhedra = false;
 };
 
 /// What GoogleTest prints of a family.

@@ -90,7 +90,6 @@ Family coincident_cubes() {
             [] {
               return (cube(8) * brick({-9, -1, -4}, {2, 9, 4})).scene();
             }}},
-          true,
           true};
 }
 
@@ -142,7 +141,6 @@ Family prisms() {
             [] {
               return (prism(0, 6, 5, 8) - rod(0, 6, 5 * std::cos(std::numbers::pi / 8))).scene();
             }}},
-          true,
           true};
 }
 
@@ -196,9 +194,7 @@ Family thin_polyhedra() {
             close_up(1e-5)},
            {"shell_of_1e-4", [=] { return shell(1e-4); }},
            {"shell_of_1e-7", [=] { return shell(1e-7); }},
-           {"tolerances", tolerances}},
-          false,
-          true};
+           {"tolerances", tolerances}}};
 }
 
 // --- Scales and maps ---
@@ -209,7 +205,7 @@ Part block() {
 }
 
 Family scaled_polyhedra() {
-  Family family{"scaled_polyhedra", {}, false, true};
+  Family family{"scaled_polyhedra", {}};
   const auto add = [&](const char* name, const Mat3& map, const Vec3& at = Vec3{0.0}) {
     family.cases.push_back({name, [=] { return block().under({map, at}).scene(); }});
   };
@@ -260,7 +256,7 @@ std::vector<Camera> cameras_off_edges(const Scene& scene, PictureSize size) {
 }
 
 Family facets() {
-  Family family{"facets", {}, false, true};
+  Family family{"facets", {}};
   const auto add = [&](const char* name, const std::function<Part()>& make,
                        bool only_full_run = false) {
     family.cases.push_back(
@@ -317,7 +313,6 @@ Family eyes_in_polyhedra() {
           {{"cube", [] { return cube(10).scene(); }, eyes_in_faces},
            {"pocket", [=] { return pocket().scene(); }, eyes_in_faces},
            {"steps", [=] { return steps().scene(); }, eyes_in_faces}},
-          true,
           true};
 }
 

@@ -185,7 +185,7 @@ std::vector<Camera> lattice_cameras(const Scene& scene, PictureSize size) {
 constexpr uint32_t kSeedsInSample = 8;
 
 Family lattice_family(const char* name, bool with_polyhedra) {
-  Family family{name, {}, true, with_polyhedra};
+  Family family{name, {}, true};
   for (uint32_t seed = 1; seed <= 100; ++seed) {
     family.cases.push_back({"seed_" + std::to_string(seed),
                             [=] { return lattice_tree(seed, with_polyhedra); }, lattice_cameras,
@@ -197,7 +197,7 @@ Family lattice_family(const char* name, bool with_polyhedra) {
 /// (Other trees than random_trees_test's.)
 Family random_polyhedra_family() {
   constexpr uint32_t kFirstSeed = 1000001;
-  Family family{"random_polyhedra", {}, false, true};
+  Family family{"random_polyhedra", {}};
   for (uint32_t i = 0; i < 60; ++i) {
     family.cases.push_back({"seed_" + std::to_string(kFirstSeed + i),
                             [=] { return random_scene(kFirstSeed + i, false); }, default_cameras,
