@@ -94,6 +94,9 @@ double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell&
 
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
   CanonicalPrimitive result = canonicalize_shape(primitive);
+  const Mat3& map = result.world_to_canonical;
+  result.canonical_stretch =
+      std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
   result.inversion_error = inversion_error(result);
   result.canonical_error =
       (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);

@@ -146,16 +146,20 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
   }
   LaneMask found = 0;
   LaneMask several = 0;
+  bool any_apart = false;
+  double next_nearest_t = kInfinity;
   for (uint32_t index = 0; index < trace.list->count(); ++index) {
     if (segments.is_missed(index)) continue;
-    const double nearest_t = trace.nearest_t[index];
-    if (segments.is_unknown(index) && (lanes_from(walk.t, nearest_t) & lanes) == 0) {
-      // At least so far away.
-      for (int c = 0; c < kChunks; ++c) {
-        const WideV ahead = hn::Sub(hn::Set(d, nearest_t), walk.t.chunk[c]);
-        gap.chunk[c] = hn::Min(gap.chunk[c], ahead);
+    if (segments.is_unknown(index)) {
+      const double nearest_t = trace.nearest_t[index];
+      if ((lanes_from(walk.t, nearest_t) & lanes) == 0) {
+        next_nearest_t = std::min(next_nearest_t, nearest_t);
+        continue;
       }
-      continue;
+      if (segments.are_apart(index, walk.t, lanes)) {
+        any_apart = true;
+        continue;
+      }
     }
     const PacketSegments& segment = segments.compute(index);
     LaneMask at_start = 0;
@@ -180,6 +184,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     fill_lanes(own, index, hits.index);
     for (int c = 0; c < kChunks; ++c) {
       const WideM shown = mask_of(own, c);
+      if (hn::AllFalse(d, shown)) continue;
       const Lanes3<Wide> normal =
           outward_normal(frame, rays, trace, index, walk.t.chunk[c], on_cap, c);
       result.normal[c] = if_then_else(shown, normal, result.normal[c]);
@@ -189,8 +194,15 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
   for (int c = 0; c < kChunks; ++c) {
     const Lanes3<Wide> direction = load3(d, rays.direction, first_lane(c));
     const WideV facing = hn::Abs(dot(d, result.normal[c], direction));
-    const WideV thickness = hn::Mul(gap.chunk[c], facing);
+    const WideV ahead = hn::Sub(hn::Set(d, next_nearest_t), walk.t.chunk[c]);
+    const WideV thickness = hn::Mul(hn::Min(gap.chunk[c], ahead), facing);
     together |= bits_of(hn::Le(thickness, hn::Set(d, subject.thinnest_piece)), c);
+    if (any_apart) {
+      // The cosine at which kApart is the thinnest piece.
+      const WideV cosine2 =
+          hn::Mul(hn::Mul(facing, facing), hn::Load(d, rays.inverse_length2 + first_lane(c)));
+      together |= bits_of(hn::Le(cosine2, hn::Set(d, 1 / (kApart * kApart))), c);
+    }
     store3(d, result.normal[c], hits.normal, first_lane(c));
     result.facing.chunk[c] = facing;
   }
@@ -252,7 +264,7 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   std::fill_n(start, kPacketRays, frame.first_t);
   std::fill_n(leave, kPacketRays, kEndless);
   workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
-  ListSegments segments(frame, rays, list, workspace);
+  ListSegments segments(frame, rays, list, subject, workspace);
   Walk walk = walk_from(start, lanes);
   if (list.earliest_t > frame.first_t) {
     const bool value = walk_to_first_crossing(list, segments, walk);
@@ -275,7 +287,7 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
                            const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
                            PacketWorkspace& workspace, PacketHits& hits) {
   const Wide d;
-  ListSegments segments(frame, rays, list, workspace);
+  ListSegments segments(frame, rays, list, subject, workspace);
   Walk walk = walk_from(range.enter, lanes);
   hits.eye_inside = eye_inside & known;
   if ((lanes & ~known) != 0) hits.eye_inside |= value_of(list, segments, walk) & ~known;

@@ -87,6 +87,7 @@ struct PacketWorkspace {
   std::vector<PacketSegments> segments;  // by index in the list
   enum State : uint8_t { kUnknown, kComputed, kMissed };
   std::vector<uint8_t> states;        // of the segments
+  std::vector<LaneMask> apart;        // by index in the list: lanes that stand away from it
   std::vector<LaneMask> standing;     // of an evaluation, by a literal's number
   std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
   uint64_t rays = 0;                  // traced along their whole length

@@ -16,23 +16,34 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
+/// A ray that stands so many thinnest pieces away from a primitive is told to be outside by its
+/// place alone: far more than what is rounded there. No crossing of that primitive can be together
+/// with one where the ray stands, unless the ray runs along that face: the resolver's business.
+constexpr double kApart = 0x1p14;
+
 /// The segments of a list's primitives, computed where first needed.
 class ListSegments {
   using State = PacketWorkspace::State;
 
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
-               PacketWorkspace& workspace)
-      : frame_(frame), rays_(rays), list_(list), workspace_(workspace) {
+               const TraceSubject& subject, PacketWorkspace& workspace)
+      : frame_(frame),
+        rays_(rays),
+        list_(list),
+        apart_(kApart * subject.thinnest_piece),
+        workspace_(workspace) {
     const uint32_t count = list.list->count();
     if (workspace.standing.size() < count + CellList::kFirst) {
       workspace.segments.resize(count);
       workspace.states.resize(count);
+      workspace.apart.resize(count);
       workspace.standing.resize(count + CellList::kFirst, 0);
     }
     for (uint32_t i = 0; i < count; ++i) {
       const bool missed = list.is_missed && list.is_missed[i];
       workspace.states[i] = missed ? State::kMissed : State::kUnknown;
+      workspace.apart[i] = 0;
       // Of a large scene, they come from far away.
       if (!missed) prefetch_rays_part(primitive(i));
     }
@@ -53,6 +64,23 @@ class ListSegments {
     }
     return segments;
   }
+  /// Whether all of `lanes`, which stand at t, are kApart from the primitive. Of a ball it takes as
+  /// long to tell as to intersect it: nobody knows.
+  HWY_INLINE bool are_apart(uint32_t index, const PacketV& t, LaneMask lanes) {
+    if (primitive(index).ball_radius > 0) return false;
+    LaneMask& known = workspace_.apart[index];
+    if ((lanes & ~known) != 0) {
+      known |= lanes_apart(primitive(index), frame_.pivot, rays_, t, apart_);
+      any_apart_ = true;
+    }
+    return (lanes & ~known) == 0;
+  }
+  /// The lanes have gone on.
+  HWY_INLINE void forget_apart(LaneMask lanes) {
+    if (!any_apart_) return;
+    for (uint32_t i = 0; i < list_.list->count(); ++i) workspace_.apart[i] &= ~lanes;
+  }
+
   /// For who reads them all: what is missed has segments too.
   void compute_all() {
     for (uint32_t i = 0; i < list_.list->count(); ++i) {
@@ -75,6 +103,8 @@ class ListSegments {
   const FrameRays& frame_;
   const RayPacket& rays_;
   const TraceList& list_;
+  const double apart_;
+  bool any_apart_ = false;
   PacketWorkspace& workspace_;
 };
 
@@ -85,7 +115,7 @@ struct Walk {
   LaneMask moved = 0;  // lanes that no longer stand where they began, but at a crossing
 };
 
-/// The list's value at t, and how far it surely keeps it.
+/// The list's value at t, and how far it surely keeps that before.
 struct Evaluation {
   LaneMask value = 0;
   PacketV next_t;
@@ -99,16 +129,32 @@ HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
   return result;
 }
 
+/// Lowers `next_t` of `lanes` to what lies ahead of them.
+HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const PacketV& t,
+                        PacketV& next_t) {
+  for (int c = 0; c < kChunks; ++c) {
+    const WideM stops = hn::And(mask_of(lanes, c), hn::Lt(t.chunk[c], ahead[c]));
+    const WideV sooner = hn::Min(next_t.chunk[c], ahead[c]);
+    next_t.chunk[c] = hn::IfThenElse(stops, sooner, next_t.chunk[c]);
+  }
+}
+
 /// Short-circuit evaluation of all lanes at once: those that stand at the literal whose turn it is
 /// are tested and jump. Only literals that decide are visited; what no lane can have reached at its
-/// t is not intersected.
+/// t is not intersected. `before`: the lanes' value up to here; how far another one lasts is not
+/// found. A literal one of whose jumps ends with the value before cannot change that by jumping, so
+/// that nobody needs to know where.
 HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const Walk& walk,
-                         Evaluation& result) {
+                         LaneMask before, Evaluation& result) {
   const Wide d;
   const CellList& list = *trace.list;
   LaneMask* const standing = segments.standing();
   standing[CellList::kFalse] = standing[CellList::kTrue] = 0;
   standing[list.root] = walk.live;
+  const LaneMask other[] = {before, ~before};  // whose value before is not false, true
+  const auto changing = [&](uint32_t number) {
+    return number < CellList::kFirst ? other[number] : kAllLanes;
+  };
   for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
   for (uint32_t index = list.count(); index-- > 0;) {
     const LaneMask active = standing[index + CellList::kFirst];
@@ -119,31 +165,37 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
       outer |= active;
       continue;
     }
-    const double nearest_t = trace.nearest_t[index];
-    if (segments.is_unknown(index) && (lanes_from(walk.t, nearest_t) & active) == 0) {
-      // Outside as yet, until there at the earliest.
-      for (int c = 0; c < kChunks; ++c) {
-        WideV& next_t = result.next_t.chunk[c];
-        const WideV sooner = hn::Min(next_t, hn::Set(d, nearest_t));
-        next_t = hn::IfThenElse(mask_of(active, c), sooner, next_t);
+    const LaneMask may_enter = active & changing(list.if_inside[index]);
+    WideV ahead[kChunks];
+    if (segments.is_unknown(index)) {
+      const double nearest_t = trace.nearest_t[index];
+      if ((lanes_from(walk.t, nearest_t) & active) == 0) {
+        // Outside as yet, until there at the earliest.
+        for (int c = 0; c < kChunks; ++c) ahead[c] = hn::Set(d, nearest_t);
+        if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
+        outer |= active;
+        continue;
       }
-      outer |= active;
-      continue;
+      if (may_enter == 0 && segments.are_apart(index, walk.t, active)) {
+        outer |= active;
+        continue;
+      }
     }
     const PacketSegments& segment = segments.compute(index);
+    const LaneMask may_leave = active & changing(list.if_outside[index]);
     LaneMask inside = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV start = hn::Load(d, segment.start + first_lane(c));
       const WideV end = hn::Load(d, segment.end + first_lane(c));
       const WideV t = walk.t.chunk[c];
+      ahead[c] = start;
       WideV& next_t = result.next_t.chunk[c];
-      const WideM before_start = hn::Lt(t, start);
-      const WideM before_end = hn::Lt(t, end);
-      const WideV sooner = hn::Min(next_t, hn::IfThenElse(before_start, start, end));
-      const WideM counts = hn::And(mask_of(active, c), hn::Or(before_start, before_end));
-      next_t = hn::IfThenElse(counts, sooner, next_t);
-      inside |= bits_of(hn::AndNot(before_start, before_end), c);
+      const WideM is_inside = hn::AndNot(hn::Lt(t, start), hn::Lt(t, end));
+      const WideM leaves = hn::And(mask_of(may_leave, c), is_inside);
+      next_t = hn::IfThenElse(leaves, hn::Min(next_t, end), next_t);
+      inside |= bits_of(is_inside, c);
     }
+    if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
     standing[list.if_inside[index]] |= active & inside;
     outer |= active & ~inside;
   }
@@ -182,7 +234,7 @@ HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segment
   LaneMask changed = 0;
   Evaluation evaluation;
   while (walk.live != 0) {
-    evaluate(trace, segments, walk, evaluation);
+    evaluate(trace, segments, walk, before, evaluation);
     changed |= walk.live & (before ^ evaluation.value);
     walk.live &= ~changed;
     LaneMask goes_on = 0;
@@ -195,6 +247,7 @@ HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segment
     }
     walk.live &= goes_on;
     walk.moved |= goes_on;
+    segments.forget_apart(goes_on);
   }
   return changed;
 }
@@ -202,7 +255,7 @@ HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segment
 /// The value of all lanes where they stand.
 HWY_INLINE LaneMask value_of(const TraceList& trace, ListSegments& segments, const Walk& walk) {
   Evaluation evaluation;
-  evaluate(trace, segments, walk, evaluation);
+  evaluate(trace, segments, walk, 0, evaluation);
   return evaluation.value;
 }
 

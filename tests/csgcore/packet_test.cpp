@@ -8,6 +8,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
@@ -327,6 +328,53 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
       oracle.expect_normal(point, lane_of(hits.normal, lane), oracle.error_bound(lanes[lane]));
     }
   });
+}
+
+/// Rays, 4e-5 from the first to the last, straight down onto a plate with a pocket whose wall
+/// stands `aside` of them. Returns how many intersections they took.
+uint64_t trace_beside_a_pocket(double aside, double& hit_z) {
+  const CanonicalPrimitive primitives[] = {
+      canonicalize(make_frustum(-1, 1, 10, 10)),
+      canonicalize(make_frustum(0, 5, 1, 1, {Mat3{1.0}, {0, 1 + aside, 0}}))};
+  const Literal literals[] = {{0, 0, 1, kListFalse}, {1, 1, kListFalse, kListTrue}};
+  CellList cells;
+  assign(cells, literals);
+  View view;
+  view.projection = Projection::kOrthographic;
+  view.eye = {0, 0, 20};
+  view.forward = {0, 0, -1};
+  view.right = {1, 0, 0};
+  view.up = {0, 1, 0};
+  view.half_height = 5e-4;
+  view.width_px = view.height_px = 100;
+  const FrameRays frame = frame_rays(view, primitives[0].bounds);
+  RayPacket rays;
+  make_block_rays(frame, 48, 48, rays);
+  const double nearest_t[] = {-20, -20};
+  TraceList list;
+  list.primitives = primitives;
+  list.list = &cells;
+  list.nearest_t = nearest_t;
+  list.earliest_t = -20;
+  TraceSubject subject;
+  subject.thinnest_piece = 1e-9;
+  PacketWorkspace workspace;
+  PacketHits hits;
+  trace_packet(frame, rays, kAllLanes, list, subject, workspace, hits);
+  EXPECT_EQ(hits.hits, kAllLanes);
+  hit_z = view.eye.z - (frame.base_s + hits.t[0]);
+  return workspace.intersections;
+}
+
+TEST(Hits, DoNotIntersectWhatTheyLieBeside) {
+  double z = 0;
+  EXPECT_EQ(trace_beside_a_pocket(0.1, z), kPacketRays);
+  EXPECT_NEAR(z, 1, 1e-12);
+  // Nearly on its wall, and within it.
+  EXPECT_EQ(trace_beside_a_pocket(3e-5, z), 2 * kPacketRays);
+  EXPECT_NEAR(z, 1, 1e-12);
+  EXPECT_EQ(trace_beside_a_pocket(-0.1, z), 2 * kPacketRays);
+  EXPECT_NEAR(z, 0, 1e-12);
 }
 
 // --- Instruction sets ---

@@ -23,6 +23,8 @@ struct alignas(64) CanonicalPrimitive {
   Vec3 center{0.0};  // world position of the canonical origin
   /// Radius in world space of what is a true ball there, else 0.
   double ball_radius = 0;
+  /// Upper bound of how much longer than in world space a distance is in canonical space.
+  double canonical_stretch = 1;
   Mat3 world_to_canonical{1.0};
   Mat3 canonical_to_world{1.0};
   Box bounds;  // tight, in world space
