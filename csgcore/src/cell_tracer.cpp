@@ -13,7 +13,8 @@ namespace {
 
 /// Pixels a side that one task traces, and of which rays that a cell cannot decide are collected.
 constexpr uint32_t kTaskSide_px = 32;
-constexpr uint32_t kTileBlocks = (kTileSide_px / kPacketSide_px) * (kTileSide_px / kPacketSide_px);
+constexpr uint32_t kTileBlocks = kTileSide_px / kPacketHeight_px;
+static_assert(kTileSide_px == kPacketWidth_px);
 
 template <typename Visit>
 void for_each_lane(LaneMask lanes, Visit&& visit) {
@@ -42,9 +43,7 @@ class LaneVisitor final : public TileVisitor {
   template <typename Visit>
   void for_each_wanted(const Tile& tile, Visit&& visit) {
     for_each_block(tile, [&](PacketBlock block) {
-      const uint32_t row = (block.y - whole_.y) / kPacketSide_px;
-      const uint32_t column = (block.x - whole_.x) / kPacketSide_px;
-      block.lanes &= lanes_[row * (kTileSide_px / kPacketSide_px) + column];
+      block.lanes &= lanes_[(block.y - whole_.y) / kPacketHeight_px];
       if (block.lanes != 0) visit(block);
     });
   }
@@ -248,10 +247,7 @@ void CellTracer::trace_picture() {
 void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
   LaneMask undecided[kTileBlocks] = {};
   for_each_block(tile, [&](const PacketBlock& block) {
-    const uint32_t row = (block.y - tile.y) / kPacketSide_px;
-    const uint32_t column = (block.x - tile.x) / kPacketSide_px;
-    undecided[row * (kTileSide_px / kPacketSide_px) + column] =
-        Traversal(*this, block, workspace).trace();
+    undecided[(block.y - tile.y) / kPacketHeight_px] = Traversal(*this, block, workspace).trace();
   });
   const bool all_decided =
       std::all_of(std::begin(undecided), std::end(undecided), [](LaneMask m) { return m == 0; });

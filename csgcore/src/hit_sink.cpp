@@ -22,8 +22,8 @@ template <typename Visit>
 void for_each_pixel(const PacketBlock& block, uint32_t width_px, Visit&& visit) {
   for (LaneMask left = block.lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
-    const size_t row = block.y + lane / kPacketSide_px;
-    visit(lane, row * width_px + block.x + lane % kPacketSide_px);
+    const size_t row = block.y + lane / kPacketWidth_px;
+    visit(lane, row * width_px + block.x + lane % kPacketWidth_px);
   }
 }
 

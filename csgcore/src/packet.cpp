@@ -88,17 +88,13 @@ void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket
 
 void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
   const Wide d;
-  int64_t column_of[kLanes];
-  for (size_t lane = 0; lane < kLanes; ++lane) column_of[lane] = lane % kPacketSide_px;
-  const auto columns = hn::SetTableIndices(d, column_of);
-  const WideM in_first_row = hn::FirstN(d, kPacketSide_px);
+  static_assert(kLanes <= kPacketWidth_px);
   PacketV u, v;
   for (int c = 0; c < kChunks; ++c) {
-    const size_t column = first_lane(c) % kPacketSide_px;
-    const double* const first = frame.u_of_column.data() + x + column;
-    const double* const row = frame.v_of_row.data() + y + first_lane(c) / kPacketSide_px;
-    u.chunk[c] = hn::TableLookupLanes(hn::LoadU(d, first), columns);
-    v.chunk[c] = hn::IfThenElse(in_first_row, hn::Set(d, row[0]), hn::Set(d, row[1]));
+    const size_t column = first_lane(c) % kPacketWidth_px;
+    const size_t row = first_lane(c) / kPacketWidth_px;
+    u.chunk[c] = hn::LoadU(d, frame.u_of_column.data() + x + column);
+    v.chunk[c] = hn::Set(d, frame.v_of_row[y + row]);
   }
   write_rays(frame, u, v, rays);
 }

@@ -16,12 +16,14 @@
 namespace csgcore {
 
 /// Rays in a packet, on every machine: nothing that bears results depends on the vectors' width.
-constexpr uint32_t kPacketRays = 16;
-/// Where a packet is a block of pixels, its side. Lane = 4·row + column.
-constexpr uint32_t kPacketSide_px = 4;
+constexpr uint32_t kPacketRays = 32;
+/// Where a packet is a block of pixels, its sides. Lane = 8·row + column.
+constexpr uint32_t kPacketWidth_px = 8;
+constexpr uint32_t kPacketHeight_px = 4;
+static_assert(kPacketWidth_px * kPacketHeight_px == kPacketRays);
 
 using LaneMask = uint32_t;  // bit i: lane i
-constexpr LaneMask kAllLanes = (1u << kPacketRays) - 1;
+constexpr LaneMask kAllLanes = 0xFFFFFFFFu;
 
 /// The rays of one view, re-based near the model (NUMERICS.md, "Rays"): x(τ) = pivot + o + τ·d with
 /// d the direction of pixel_ray, s = base_s + τ, and o small where the model is, however far away
@@ -43,7 +45,7 @@ struct FrameRays {
   }
   /// Of the pixels' centres, and of kBeyond_px beyond the picture: packets are filled, and read in
   /// whole vectors.
-  static constexpr uint32_t kBeyond_px = 2 * kPacketSide_px;
+  static constexpr uint32_t kBeyond_px = 2 * kPacketWidth_px;
   std::vector<double> u_of_column, v_of_row;
 };
 FrameRays frame_rays(const View& view, const Box& solid_bounds);

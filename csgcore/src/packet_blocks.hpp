@@ -7,10 +7,10 @@ namespace csgcore {
 
 /// Lanes of a block that lie within so many pixels.
 inline LaneMask lanes_within(uint32_t width, uint32_t height) {
-  if (width >= kPacketSide_px && height >= kPacketSide_px) return kAllLanes;
+  if (width >= kPacketWidth_px && height >= kPacketHeight_px) return kAllLanes;
   LaneMask lanes = 0;
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    const bool within = lane % kPacketSide_px < width && lane / kPacketSide_px < height;
+    const bool within = lane % kPacketWidth_px < width && lane / kPacketWidth_px < height;
     lanes |= LaneMask{within} << lane;
   }
   return lanes;
@@ -19,8 +19,8 @@ inline LaneMask lanes_within(uint32_t width, uint32_t height) {
 /// Calls back with each PacketBlock of the tile, row by row.
 template <typename Visit>
 void for_each_block(const Tile& tile, Visit&& visit) {
-  for (uint32_t y = 0; y < tile.height; y += kPacketSide_px) {
-    for (uint32_t x = 0; x < tile.width; x += kPacketSide_px) {
+  for (uint32_t y = 0; y < tile.height; y += kPacketHeight_px) {
+    for (uint32_t x = 0; x < tile.width; x += kPacketWidth_px) {
       const LaneMask lanes = lanes_within(tile.width - x, tile.height - y);
       visit(PacketBlock{tile.x + x, tile.y + y, lanes});
     }

@@ -92,8 +92,7 @@ HWY_INLINE bool is_open(const Extent& extent, const Box& tile) {
 uint64_t find_misses(const ScreenShape* shapes, const Extent* screen, const uint32_t* primitives,
                      uint64_t open, const FrameRays& frame, const Box& tile) {
   // Of a tile of one packet, the rays themselves tell as soon.
-  constexpr double kSmallestTile_px = 4;
-  if (tile.max.x - tile.min.x < kSmallestTile_px && tile.max.y - tile.min.y < kSmallestTile_px) {
+  if (tile.max.x - tile.min.x < kPacketWidth_px && tile.max.y - tile.min.y < kPacketHeight_px) {
     return 0;
   }
   const bool is_perspective = frame.view.projection == Projection::kPerspective;

@@ -61,21 +61,14 @@ void TileList::assign(std::span<const CanonicalPrimitive> primitives,
   tile_ = tile;
   nearest_.resize(count);
   for (auto& is_missed : is_missed_) is_missed.resize(count);
-  const double middle_x = tile.x + kPacketSide_px - 0.5;
-  const double middle_y = tile.y + kPacketSide_px - 0.5;
+  const double middle_y = tile.y + kPacketHeight_px - 0.5;
   double earliest = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < count; ++i) {
     const Extent& extent = screen[list.primitive[i] & kPrimitiveBits];
     nearest_[i] = nearest_t(extent);
     earliest = std::min(earliest, nearest_[i]);
-    const bool right_only = extent.center[0] - extent.half[0] > middle_x;
-    const bool left_only = extent.center[0] + extent.half[0] < middle_x;
-    const bool lower_only = extent.center[1] - extent.half[1] > middle_y;
-    const bool upper_only = extent.center[1] + extent.half[1] < middle_y;
-    is_missed_[0][i] = right_only | lower_only;
-    is_missed_[1][i] = left_only | lower_only;
-    is_missed_[2][i] = right_only | upper_only;
-    is_missed_[3][i] = left_only | upper_only;
+    is_missed_[0][i] = extent.center[1] - extent.half[1] > middle_y;
+    is_missed_[1][i] = extent.center[1] + extent.half[1] < middle_y;
   }
   trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
 }
@@ -83,7 +76,7 @@ void TileList::assign(std::span<const CanonicalPrimitive> primitives,
 TraceList TileList::trace_list(const PacketBlock& block) const {
   TraceList trace = trace_;
   if (std::max(tile_.width, tile_.height) <= kTileSide_px) {
-    trace.is_missed = is_missed_[(block.y > tile_.y ? 2 : 0) + (block.x > tile_.x ? 1 : 0)].data();
+    trace.is_missed = is_missed_[block.y > tile_.y ? 1 : 0].data();
   }
   return trace;
 }
@@ -220,8 +213,9 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   const CellList* list = &given;
   Level& own = workspace.level(level);
   const uint32_t side = std::max(tile.width, tile.height);
+  const bool is_packet = tile.width <= kPacketWidth_px && tile.height <= kPacketHeight_px;
   const auto is_short = [&] {
-    return side <= kPacketSide_px || (side <= kTileSide_px && list->count() <= kTileList) ||
+    return is_packet || (side <= kTileSide_px && list->count() <= kTileList) ||
            (side <= kShortListSide_px && list->count() <= kShortList);
   };
   const auto simplify_list = [&](bool is_new) {
@@ -246,8 +240,8 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
     return;
   }
   Tile below = tile, above = tile;
-  const bool across = tile.width >= tile.height;
-  const uint32_t unit = side > kTileSide_px ? kTileSide_px : kPacketSide_px;
+  const bool across = tile.width > std::max(tile.height, kPacketWidth_px);
+  const uint32_t unit = side > kTileSide_px ? kTileSide_px : kPacketHeight_px;
   const auto half = [unit](uint32_t size) { return (size / 2 + unit - 1) / unit * unit; };
   if (across) {
     below.width = half(tile.width);

@@ -12,7 +12,7 @@
 
 namespace csgcore {
 
-/// A tile of so few pixels a side is traced by four packets.
+/// A tile of so few pixels a side is traced by two packets, one above the other.
 constexpr uint32_t kTileSide_px = 8;
 
 /// A list with what tracing needs to know of it.
@@ -22,11 +22,11 @@ class TileList {
               const Tile& tile, const CellList& list);
   /// For rays of any pixels of the tile.
   const TraceList& trace_list() const { return trace_; }
-  /// For the block, which is one of a tile of four.
+  /// For the block, which is one of a tile of two.
   TraceList trace_list(const PacketBlock& block) const;
 
  private:
-  static constexpr size_t kBlocks = 4;
+  static constexpr size_t kBlocks = 2;
   Tile tile_;
   std::vector<double> nearest_;
   std::vector<uint8_t> is_missed_[kBlocks];

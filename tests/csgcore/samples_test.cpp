@@ -89,7 +89,7 @@ class SampleOracle {
   void add(const PacketLaterals& laterals, uint32_t count, Vec3& sum) {
     RayPacket rays;
     make_rays(list_.frame(), laterals, rays);
-    const PacketHits hits = list_.trace(rays, (LaneMask{1} << count) - 1);
+    const PacketHits hits = list_.trace(rays, kAllLanes >> (kPacketRays - count));
     PacketColors colors;
     shade_packet(shade_, list_.frame(), rays, list_.list(), hits, colors);
     for (uint32_t lane = 0; lane < count; ++lane) {
