@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "screen_extents.hpp"
 
@@ -131,16 +132,20 @@ void TileSimplifier::decide_within(const CellList& list, double from_t, double t
 void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restrictor,
                                      const Cover& cover) {
   decide_within(list, cover.from_t, cover.to_t);
-  restrictor.restrict(list, decisions_, probe_);
-  survivors_.clear();
-  for (const uint32_t entry : probe_.primitives()) survivors_.push_back(entry & kPrimitiveBits);
-  std::sort(survivors_.begin(), survivors_.end());
+  const auto count = static_cast<long>(list.count());
+  indices_.primitive.resize(list.count());
+  std::iota(indices_.primitive.begin(), indices_.primitive.end(), 0u);
+  indices_.if_inside.assign(list.if_inside.begin(), list.if_inside.begin() + count);
+  indices_.if_outside.assign(list.if_outside.begin(), list.if_outside.begin() + count);
+  indices_.root = list.root;
+  restrictor.restrict(indices_, decisions_, probe_);
+  decides_.assign(list.count(), 0);
+  for (const uint32_t index : probe_.primitives()) decides_[index] = 1;
   const Fate fate = probe_.root == CellList::kTrue ? Fate::kInside : Fate::kCancelled;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
-    if (dropped_[i] == Decision::kOutside ||
-        !lies_within(screen_[primitive], cover.from_t, cover.to_t) ||
-        std::binary_search(survivors_.begin(), survivors_.end(), primitive)) {
+    if (dropped_[i] == Decision::kOutside || decides_[i] ||
+        !lies_within(screen_[primitive], cover.from_t, cover.to_t)) {
       continue;
     }
     dropped_[i] = Decision::kOutside;

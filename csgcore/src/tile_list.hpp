@@ -112,8 +112,9 @@ class TileSimplifier {
   std::vector<Decision> decisions_;  // while a question is asked
   std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
   std::vector<uint8_t> marked_;
-  std::vector<uint32_t> survivors_;  // sorted
+  CellList indices_;  // the list, with its indices for primitives
   CellList probe_;
+  std::vector<uint8_t> decides_;
   std::vector<uint32_t> noted_;
 };
 
