@@ -104,7 +104,7 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) {
   for (const uint32_t i : indices) {
     if (screen_[i].inside2 >= 0) continue;
     shapes_[i] = screen_shape(primitives_[i], frame_);
-    narrow_extent(shapes_[i], frame_, options_, screen_[i]);
+    narrow_extent(primitives_[i], shapes_[i], frame_, options_, screen_[i]);
   }
 }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
+#include "csgcore/polyhedron.hpp"
 #include "simd.hpp"
 
 #define HWY_DISABLED_TARGETS \
@@ -159,6 +161,11 @@ uint64_t find_misses(const ScreenShape* shapes, const Extent* screen, const uint
 
 namespace {
 
+/// Polyhedra of so few vertices fill what encloses them badly, others well.
+constexpr size_t kFewVertices = 64;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// A disc, or a ball, as the screen sees it: its centre and the two (three) vectors that span it,
 /// along right or up (`across`) and along the view axis.
 struct Span {
@@ -179,6 +186,17 @@ Span span_of(const ScreenShape& shape, int axis, int end) {
     const double used = i < 2 ? radius : is_sphere ? 1 : 0;
     span.across[i] = used * shape.across[i][lane];
     span.depth[i] = used * shape.forward[i];
+  }
+  return span;
+}
+
+/// A point of canonical space is a disc of no size.
+Span point_span(const ScreenShape& shape, int axis, const Vec3& point) {
+  const int lane = 2 * axis;
+  Span span{shape.offset[lane], shape.offset_forward, {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    span.center += point[i] * shape.across[i][lane];
+    span.center_depth += point[i] * shape.forward[i];
   }
   return span;
 }
@@ -215,23 +233,36 @@ bool perspective_limits(const Span& s, double slack, Limits& limits) {
 
 }  // namespace
 
-void narrow_extent(const ScreenShape& shape, const FrameRays& frame, const ScreenOptions& options,
-                   Extent& screen) {
+void narrow_extent(const CanonicalPrimitive& primitive, const ScreenShape& shape,
+                   const FrameRays& frame, const ScreenOptions& options, Extent& screen) {
   const View& view = frame.view;
   const bool is_perspective = view.projection == Projection::kPerspective;
-  Limits limits[2];
+  Limits limits[2] = {{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
+  const auto widen = [&](int axis, const Span& span) {
+    Limits own;
+    if (!is_perspective) {
+      const double reach = std::sqrt(dot3(span.across, span.across)) + shape.slack;
+      own = {span.center - reach, span.center + reach};
+    } else if (!perspective_limits(span, shape.slack, own)) {
+      return false;
+    }
+    limits[axis].low = std::min(limits[axis].low, own.low);
+    limits[axis].high = std::max(limits[axis].high, own.high);
+    return true;
+  };
+  const Polyhedron* polyhedron = primitive.polyhedron.get();
+  const bool has_few_vertices = polyhedron && polyhedron->vertices().size() <= kFewVertices;
   for (const int axis : {0, 1}) {
-    for (const int end : {0, 1}) {
-      const Span span = span_of(shape, axis, end);
-      Limits own;
-      if (!is_perspective) {
-        const double reach = std::sqrt(dot3(span.across, span.across)) + shape.slack;
-        own = {span.center - reach, span.center + reach};
-      } else if (!perspective_limits(span, shape.slack, own)) {
-        return;
+    if (has_few_vertices) {
+      for (const Vec3& vertex : polyhedron->vertices()) {
+        const Polyhedron::Canonical& canonical = polyhedron->canonical();
+        const Vec3 point = (vertex - canonical.center) / canonical.scale;
+        if (!widen(axis, point_span(shape, axis, point))) return;
       }
-      limits[axis].low = end == 0 ? own.low : std::min(limits[axis].low, own.low);
-      limits[axis].high = end == 0 ? own.high : std::max(limits[axis].high, own.high);
+    } else {
+      for (const int end : {0, 1}) {
+        if (!widen(axis, span_of(shape, axis, end))) return;
+      }
     }
   }
   const double px_per_unit = 0.5 * view.height_px / view.half_height;

@@ -11,7 +11,8 @@ namespace csgcore {
 ///
 /// The plane through the eye and the screen's line u = c has the normal right − c·forward (right
 /// alone in orthographic views, where it passes the eye at the distance c). In canonical space that
-/// is linear in c, and a shape's support there takes one square root.
+/// is linear in c, and a shape's support there takes one square root. A polyhedron's is that of the
+/// quadric that encloses it.
 struct alignas(64) ScreenShape {
   double across[3][4];  // Mᵀ · right, twice, and Mᵀ · up, twice; M is canonical_to_world
   double offset[4];     // of the centre from the eye, along right, twice, and up, twice
@@ -22,9 +23,10 @@ struct alignas(64) ScreenShape {
 };
 ScreenShape screen_shape(const CanonicalPrimitive& primitive, const FrameRays& frame);
 
-/// Narrows an extent found from the primitive's box to the shape itself.
-void narrow_extent(const ScreenShape& shape, const FrameRays& frame, const ScreenOptions& options,
-                   Extent& screen);
+/// Narrows an extent found from the primitive's box to the shape itself, or to what encloses a
+/// polyhedron of many vertices.
+void narrow_extent(const CanonicalPrimitive& primitive, const ScreenShape& shape,
+                   const FrameRays& frame, const ScreenOptions& options, Extent& screen);
 
 /// Of up to 64 primitives (indices, the top bit ignored), those whose bit is set in `open`: the
 /// bits of those that no ray through the tile (a box in screen space; its z does not count) meets,
