@@ -29,7 +29,7 @@ std::vector<Family> design_families() {
                            "sleeves", "scaled_frames", "pegs", "sockets"}) {
     add(round, name);
   }
-  Family cubes{"openscad_cubes", {}, true, true};
+  Family cubes{"openscad_cubes", {}, true};
   for (const char* name : {"turned_cubes", "thirds_of_cubes", "chain_of_cubes"}) add(cubes, name);
   return {round, cubes};
 }
