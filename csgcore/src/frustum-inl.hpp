@@ -89,6 +89,10 @@ HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& di
           wall.end_on_cap};
 }
 
+/// Where q of a cone's quadratic is less, the ray passes the apex as far as doubles tell, and a
+/// quotient of it might overflow.
+constexpr double kLeastQ = 1e-290;
+
 /// In canonical space, the cone's wall, x² + y² ≤ (mid + slope·z)², on the nappe where that radius
 /// is ≥ 0; within the slab.
 template <class D>
@@ -132,10 +136,10 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto quotient = hn::Div(one, hn::Mul(a, q));
   auto root_a = hn::Mul(q, hn::Mul(q, quotient));
   auto root_c = hn::Mul(c, hn::Mul(a, quotient));
-  const auto q_is_zero = hn::Eq(q, zero);
+  const auto q_is_zero = hn::Lt(hn::Abs(q), hn::Set(d, kLeastQ));
   const auto is_special = hn::Or(a_is_zero, q_is_zero);
   if (!hn::AllFalse(d, is_special)) {
-    // q = 0: through the apex, both at 0. a = 0: one root is at infinity, on the side that q points
+    // No q: through the apex, both at 0. a = 0: one root is at infinity, on the side that q points
     // to. Neither a nor h: the ray keeps its distance from the wall.
     const auto keeps = hn::And(a_is_zero, hn::Eq(h, zero));
     const auto c_over_q = hn::IfThenElseZero(hn::Not(q_is_zero), hn::Div(c, q));

@@ -15,27 +15,37 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace polyhedron_rays {
 
-/// The part of a segment within a face's half-space, height + t·growth ≤ 1, in the lanes where an
-/// end lies beyond it.
+/// What of rays lies within the faces that were looked at, in canonical space, and the faces that
+/// cut it there.
 template <class D>
-HWY_INLINE Segment<D> cut(D d, const Segment<D>& segment, hn::Vec<D> height, hn::Vec<D> growth,
-                          hn::Mask<D> beyond) {
+struct FacedSegment {
+  hn::Vec<D> start, end;
+  Lanes3<D> start_normal, end_normal;
+};
+
+/// Cuts by a face's half-space, height + t·growth ≤ 1, in the lanes where an end lies beyond it.
+template <class D>
+HWY_INLINE void cut(D d, const Lanes3<D>& normal, hn::Vec<D> height, hn::Vec<D> growth,
+                    hn::Mask<D> beyond, FacedSegment<D>& segment) {
   const auto zero = hn::Zero(d);
   const auto at = hn::Div(hn::Sub(hn::Set(d, 1.0), height), growth);
-  const auto enters = hn::And(beyond, hn::Lt(growth, zero));
-  const auto leaves = hn::And(beyond, hn::Gt(growth, zero));
   // A ray along the face is beyond it for ever.
   const auto never = hn::And(beyond, hn::Eq(growth, zero));
-  auto start = hn::IfThenElse(enters, hn::Max(segment.start, at), segment.start);
-  start = hn::IfThenElse(never, hn::Set(d, kInfinity), start);
-  const auto end = hn::IfThenElse(leaves, hn::Min(segment.end, at), segment.end);
-  return {start, end, segment.start_on_cap, segment.end_on_cap};
+  segment.start = hn::IfThenElse(never, hn::Set(d, kInfinity), segment.start);
+  const auto later = hn::And(hn::Lt(growth, zero), hn::Gt(at, segment.start));
+  const auto enters = hn::And(beyond, later);
+  segment.start = hn::IfThenElse(enters, at, segment.start);
+  segment.start_normal = if_then_else(enters, normal, segment.start_normal);
+  const auto sooner = hn::And(hn::Gt(growth, zero), hn::Lt(at, segment.end));
+  const auto leaves = hn::And(beyond, sooner);
+  segment.end = hn::IfThenElse(leaves, at, segment.end);
+  segment.end_normal = if_then_else(leaves, normal, segment.end_normal);
 }
 
 /// `center`: relative to the rays' pivot.
 template <class D>
-HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                              const Rays<D>& rays) {
+HWY_INLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primitive,
+                                         const Vec3& center, const Rays<D>& rays) {
   const Mat3& map = primitive.world_to_canonical;
   Lanes3<D> o = transformed(d, map, rays.origin - broadcast(d, center));
   const Lanes3<D> direction = transformed(d, map, rays.direction);
@@ -43,10 +53,13 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
   const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
   const auto base = hn::Neg(hn::Mul(dot(d, o, direction), inverse_length2));
   o = o + scaled(direction, base);
-  Segment<D> segment =
+  const Segment<D> enclosed =
       primitive.enclosure == Shape::kSphere
           ? segment_about(d, hn::Zero(d), hn::Sub(hn::Set(d, 1.0), dot(d, o, o)), inverse_length2)
           : frustum_rays::canonical_segment(d, primitive, o, direction);
+  // What encloses the solid lies beyond it: some face cuts each end.
+  const Lanes3<D> none = broadcast(d, Vec3(0, 0, 1));
+  FacedSegment<D> segment{enclosed.start, enclosed.end, none, none};
   auto live = hn::Lt(segment.start, segment.end);
   const std::vector<Polyhedron::Entry>& entries = primitive.polyhedron->entries();
   for (size_t i = 0; i < entries.size() && !hn::AllFalse(d, live); ++i) {
@@ -61,54 +74,31 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
     if (hn::AllFalse(d, beyond)) {
       i += entry.skip;
     } else if (entry.skip == 0) {
-      segment = cut(d, segment, height, growth, beyond);
+      cut(d, normal, height, growth, beyond, segment);
       live = hn::Lt(segment.start, segment.end);
     }
   }
-  const auto start = hn::Add(base, segment.start);
-  const auto end = hn::Add(base, segment.end);
-  return segment_if(d, hn::Lt(start, end), start, end, no_lanes(d), hn::Not(no_lanes(d)));
+  segment.start = hn::Add(base, segment.start);
+  segment.end = hn::Add(base, segment.end);
+  return segment;
 }
 
-/// The factor by which the enclosing quadric grows until the point lies on it.
 template <class D>
-HWY_INLINE hn::Vec<D> gauge(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& p) {
-  if (primitive.enclosure == Shape::kSphere) return hn::Sqrt(dot(d, p, p));
-  const auto lateral = hn::Sqrt(hn::Add(hn::Mul(p.x, p.x), hn::Mul(p.y, p.y)));
-  const auto wall = hn::Sub(lateral, hn::Mul(hn::Set(d, primitive.radius_slope), p.z));
-  return hn::Max(hn::Abs(p.z), hn::Mul(wall, hn::Set(d, 1 / primitive.radius_mid)));
+HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                              const Rays<D>& rays) {
+  const FacedSegment<D> faced = faced_segment(d, primitive, center, rays);
+  return segment_if(d, hn::Lt(faced.start, faced.end), faced.start, faced.end, no_lanes(d),
+                    hn::Not(no_lanes(d)));
 }
 
-/// Outward and unit, at the point that lies at τ = t: as Polyhedron::face_towards, but that on an
-/// edge a ray enters by a face towards it, and leaves by one away from it.
+/// Outward and unit, where the ray enters or leaves: of the face that cuts it there.
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> leaves) {
-  const Mat3& map = primitive.world_to_canonical;
-  const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
-  Lanes3<D> point = transformed(d, map, offset);
-  point = scaled(point, hn::Div(hn::Set(d, 1.0), gauge(d, primitive, point)));
-  const Lanes3<D> direction = transformed(d, map, rays.direction);
-  const auto zero = hn::Zero(d);
-  auto furthest = hn::Set(d, -kInfinity);
-  Lanes3<D> result = broadcast(d, Vec3(0, 0, 1));
-  const std::vector<Polyhedron::Entry>& entries = primitive.polyhedron->entries();
-  for (size_t i = 0; i < entries.size(); ++i) {
-    const Polyhedron::Entry& entry = entries[i];
-    const Lanes3<D> normal = broadcast(d, entry.normal);
-    const auto reach = dot(d, normal, point);
-    if (entry.skip > 0) {
-      if (hn::AllFalse(d, hn::Gt(reach, hn::Set(d, entry.limit)))) i += entry.skip;
-    } else {
-      const auto growth = dot(d, normal, direction);
-      const auto faces =
-          hn::Or(hn::And(leaves, hn::Gt(growth, zero)), hn::AndNot(leaves, hn::Lt(growth, zero)));
-      const auto is_further = hn::And(faces, hn::Gt(reach, furthest));
-      furthest = hn::IfThenElse(is_further, reach, furthest);
-      result = if_then_else(is_further, normal, result);
-    }
-  }
-  return normalized(d, transformed_back(d, map, result));
+                            const Rays<D>& rays, hn::Mask<D> leaves) {
+  const FacedSegment<D> faced = faced_segment(d, primitive, center, rays);
+  return normalized(d,
+                    transformed_back(d, primitive.world_to_canonical,
+                                     if_then_else(leaves, faced.end_normal, faced.start_normal)));
 }
 
 }  // namespace polyhedron_rays

@@ -44,7 +44,7 @@ HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const V
     case Shape::kPolyhedron:
       break;
   }
-  return polyhedron_rays::normal(d, primitive, center, rays, t, on_cap);
+  return polyhedron_rays::normal(d, primitive, center, rays, on_cap);
 }
 
 /// The lanes that stand, at t, further away from the primitive (of a polyhedron: from what encloses
