@@ -3,12 +3,14 @@
 // to what was measured.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <map>
 #include <memory>
 
 #include "csgcore/subdivision.hpp"
 #include "glrender/fixture.hpp"
 #include "glrender/renderer.hpp"
+#include "random_scenes.hpp"
 #include "suite.hpp"
 #include "support/full_run.hpp"
 
@@ -97,5 +99,33 @@ TEST_P(GlStressTest, IsMeasuredAgainstTheOracle) {
 
 INSTANTIATE_TEST_SUITE_P(, GlStressTest, testing::ValuesIn(stress::families()),
                          [](const auto& instance) { return instance.param.name; });
+
+/// The trees of random_trees_test. Half of them have faces that coincide but for the rounding of
+/// their maps: closer than floats tell, so that another face than the decider's may show.
+TEST(GlRandomTrees, AreMeasuredAgainstTheOracle) {
+  constexpr double kMostWrong = 1e-3;
+  constexpr stress::PictureSize kPicture{32, 32};
+  const uint32_t trees = test_support::full_run() ? 10'000 : 100;
+  const stress::Method method = gl_method(8);
+  stress::Tally sum;
+  for (uint32_t seed = 1; seed <= trees; ++seed) {
+    const csgcore::Scene scene = stress::random_scene(seed, false);
+    const csgcore::View view = stress::random_view(scene, kPicture, seed);
+    const Solid solid(csgcore::canonical_primitives(scene), scene.model);
+    stress::Oracle oracle(scene, view);
+    sum.add(stress::judge(oracle, method.prepare(scene, solid)(view), stress::kFloatTolerance));
+  }
+  const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::printf(
+      "%u trees, %llu rays, %llu hits; wrong %llu: hit %llu, primitive %llu, position %llu, "
+      "normal %llu; undecided %llu\n",
+      trees, number(sum.pixels), number(sum.hits), number(sum.wrong_pixels()),
+      number(sum.wrong[int(stress::Verdict::kWrongHit)]),
+      number(sum.wrong[int(stress::Verdict::kWrongPrimitive)]),
+      number(sum.wrong[int(stress::Verdict::kWrongPosition)]),
+      number(sum.wrong[int(stress::Verdict::kWrongNormal)]), number(sum.undecided));
+  EXPECT_GT(sum.hits, sum.pixels / 10);
+  EXPECT_LE(double(sum.wrong_pixels()), kMostWrong * double(sum.hits));
+}
 
 }  // namespace
