@@ -1,12 +1,12 @@
 #include "csgcore/polyhedron.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 

@@ -1,10 +1,11 @@
 // The CPU tracer on thousands of random trees against the exact ray oracle. The full run has 10,000
-// trees of 1,024 rays each.
+// trees of 1,024 rays each; as a fuzzer, SCADRAY_TEST_TREES says how many.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "cpu_methods.hpp"
 #include "disagreement.hpp"
@@ -30,7 +31,12 @@ constexpr stress::PictureSize kPicture{32, 32};
 constexpr uint32_t kParts = 10;          // so that they run side by side
 constexpr double kMostUndecided = 1e-5;  // of the rays; a sample of fewer may have one
 
-uint32_t trees_of_a_part() { return test_support::full_run() ? 1000 : 60; }
+uint32_t trees_of_a_part() {
+  if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
+    return uint32_t(std::strtoul(trees, nullptr, 10)) / kParts;
+  }
+  return test_support::full_run() ? 1000 : 60;
+}
 
 Hits picture_by(const Method& method, const Scene& scene, const View& view) {
   const Solid solid(csgcore::canonical_primitives(scene), scene.model);
