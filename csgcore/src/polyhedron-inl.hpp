@@ -45,7 +45,7 @@ HWY_INLINE void cut(D d, const Lanes3<D>& normal, hn::Vec<D> height, hn::Vec<D> 
 /// `center`: relative to the rays' pivot.
 template <class D>
 HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primitive,
-                                         const Vec3& center, const Rays<D>& rays) {
+                                           const Vec3& center, const Rays<D>& rays) {
   const Mat3& map = primitive.world_to_canonical;
   Lanes3<D> o = transformed(d, map, rays.origin - broadcast(d, center));
   const Lanes3<D> direction = transformed(d, map, rays.direction);
