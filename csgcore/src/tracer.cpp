@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <unordered_map>
 
 #include "cell_tracer.hpp"
 #include "edge_samples.hpp"
@@ -196,6 +197,18 @@ void trace_frame(const Solid& solid, const Subdivision* subdivision, const View&
 }
 
 }  // namespace
+
+Hits hits_of(const Image& image, const Scene& scene) {
+  std::unordered_map<uint32_t, uint32_t> primitive_of;
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) primitive_of[scene.primitives[i].id] = i;
+  primitive_of[kNoPrimitive] = Hits::kMiss;
+  Hits hits{image.width_px, image.height_px, {}, {}, {}, {}};
+  hits.s.assign(image.z.begin(), image.z.end());
+  for (const glm::vec3& p : image.position) hits.position.emplace_back(p);
+  for (const glm::vec3& n : image.normal) hits.normal.emplace_back(n);
+  for (const uint32_t id : image.id) hits.primitive.push_back(primitive_of.at(id));
+  return hits;
+}
 
 double thinnest_piece(const Box& solid_bounds) { return kThinnestPiece * solid_bounds.diagonal(); }
 

@@ -31,13 +31,7 @@ csgcore::Scene faceted(const csgcore::Scene& scene, int fragments) {
     if (primitive.shape == Shape::kPolyhedron) continue;
     auto& polyhedron = shared[{primitive.shape, primitive.r_bottom, primitive.r_top,
                                primitive.z_min, primitive.z_max}];
-    if (!polyhedron) {
-      polyhedron =
-          primitive.shape == Shape::kSphere
-              ? csgcore::Polyhedron::sphere(primitive.r_bottom, fragments)
-              : csgcore::Polyhedron::frustum(primitive.z_min, primitive.z_max, primitive.r_bottom,
-                                             primitive.r_top, fragments);
-    }
+    if (!polyhedron) polyhedron = csgcore::Polyhedron::faceted(primitive, fragments);
     Primitive replacement = csgcore::make_polyhedron(polyhedron, primitive.local_to_world);
     replacement.color = primitive.color;
     replacement.id = primitive.id;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_map>
 
 namespace validation {
 
@@ -11,18 +10,6 @@ using csgcore::Vec3;
 
 Seen seen_at(const Hits& hits, std::size_t pixel) {
   return {hits.primitive[pixel], hits.s[pixel], hits.position[pixel], hits.normal[pixel]};
-}
-
-Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene) {
-  std::unordered_map<uint32_t, uint32_t> primitive_of;
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) primitive_of[scene.primitives[i].id] = i;
-  primitive_of[csgcore::kNoPrimitive] = Hits::kMiss;
-  Hits hits{image.width_px, image.height_px, {}, {}, {}, {}};
-  hits.s.assign(image.z.begin(), image.z.end());
-  for (const glm::vec3& p : image.position) hits.position.emplace_back(p);
-  for (const glm::vec3& n : image.normal) hits.normal.emplace_back(n);
-  for (const uint32_t id : image.id) hits.primitive.push_back(primitive_of.at(id));
-  return hits;
 }
 
 Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }

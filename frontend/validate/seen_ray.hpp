@@ -23,9 +23,6 @@ struct Seen {
 
 Seen seen_at(const csgcore::Hits& hits, std::size_t pixel);
 
-/// An Image with measured channels as Hits; ids are taken back to the primitives that have them.
-csgcore::Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene);
-
 struct SeenRay {
   csgcore::Ray ray;
   csgcore::Projection projection;

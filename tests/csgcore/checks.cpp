@@ -67,10 +67,7 @@ Primitive random_primitive(std::mt19937& random) {
 Primitive faceted(const Primitive& primitive, int fragments) {
   Primitive result = primitive;
   result.shape = Shape::kPolyhedron;
-  result.polyhedron = primitive.shape == Shape::kSphere
-                          ? Polyhedron::sphere(primitive.r_bottom, fragments)
-                          : Polyhedron::frustum(primitive.z_min, primitive.z_max,
-                                                primitive.r_bottom, primitive.r_top, fragments);
+  result.polyhedron = Polyhedron::faceted(primitive, fragments);
   return result;
 }
 
@@ -140,20 +137,6 @@ bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) 
   return evaluate(subdivision.literals_of(leaf), [&](uint32_t primitive) {
     return contains(subdivision.solid().primitives()[primitive], point);
   });
-}
-
-Scene scene_of(Op op, std::vector<Primitive> primitives) {
-  Scene scene;
-  CsgTreeBuilder builder;
-  builder.open(op);
-  for (uint32_t i = 0; i < primitives.size(); ++i) {
-    primitives[i].id = i;
-    builder.primitive(i);
-  }
-  builder.close();
-  scene.primitives = std::move(primitives);
-  scene.model = builder.finish();
-  return scene;
 }
 
 View view_of(const Box& box, const Vec3& direction, double distance) {

@@ -8,6 +8,7 @@
 #include "csgcore/half_space.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/subdivision.hpp"
+#include "support/models.hpp"
 
 namespace csgcore::checks {
 
@@ -39,7 +40,7 @@ bool holds(const Scene& scene, const Vec3& point_world);
 /// The value of a leaf's function at a point.
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point_world);
 
-Scene scene_of(Op op, std::vector<Primitive> primitives);
+using test_support::scene_of;
 
 /// A view of the box from outside, along `direction` (unit).
 View view_of(const Box& box, const Vec3& direction, double distance);

@@ -8,6 +8,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "support/models.hpp"
 
 namespace frontend {
 namespace {
@@ -18,35 +19,20 @@ using csgcore::Projection;
 
 /// A ball of the given size, less a smaller one on its side that faces the camera.
 csgcore::Scene bitten_ball(double size) {
-  csgcore::Scene scene;
-  scene.primitives.push_back(csgcore::make_sphere(size));
   csgcore::Affine aside;
   aside.translation = {0, 0, size};
-  scene.primitives.push_back(csgcore::make_sphere(0.5 * size, aside));
-  csgcore::CsgTreeBuilder builder;
-  builder.open(Op::kDifference);
-  builder.primitive(0);
-  builder.primitive(1);
-  builder.close();
-  scene.model = builder.finish();
-  return scene;
+  return test_support::scene_of(
+      Op::kDifference, {csgcore::make_sphere(size), csgcore::make_sphere(0.5 * size, aside)});
 }
 
 /// A cube with vertices of the given size, less a corner whose size is in the matrix.
 csgcore::Scene bitten_cube(double size) {
   using csgcore::Vec3;
-  csgcore::Scene scene;
-  scene.primitives.push_back(
-      csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(-size), Vec3(size)})));
-  scene.primitives.push_back(csgcore::make_polyhedron(
-      csgcore::Polyhedron::box({Vec3(0.0), Vec3(2.0)}), {csgcore::Mat3(size), Vec3(0.5 * size)}));
-  csgcore::CsgTreeBuilder builder;
-  builder.open(Op::kDifference);
-  builder.primitive(0);
-  builder.primitive(1);
-  builder.close();
-  scene.model = builder.finish();
-  return scene;
+  return test_support::scene_of(
+      Op::kDifference,
+      {csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(-size), Vec3(size)})),
+       csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(0.0), Vec3(2.0)}),
+                                {csgcore::Mat3(size), Vec3(0.5 * size)})});
 }
 
 Image draw(const csgcore::Scene& scene, double size, Projection projection, RendererKind renderer) {

@@ -29,22 +29,9 @@ using gl_test::expect_right;
 using gl_test::leaves_of;
 using gl_test::LoadedScene;
 using gl_test::view_from;
+using test_support::scene_of;
 
 Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
-
-Scene combine(Op op, std::vector<Primitive> primitives) {
-  Scene scene;
-  scene.primitives = std::move(primitives);
-  CsgTreeBuilder tree;
-  tree.open(op);
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
-    scene.primitives[i].id = i;
-    tree.primitive(i);
-  }
-  tree.close();
-  scene.model = tree.finish();
-  return scene;
-}
 
 /// Leaf size and projection: every test of the suite runs over all of them.
 class PictureTest : public testing::TestWithParam<std::tuple<uint32_t, Projection>> {
@@ -71,27 +58,27 @@ INSTANTIATE_TEST_SUITE_P(, PictureTest,
                          });
 
 TEST_P(PictureTest, SinglePrimitives) {
-  expect_right_around(combine(Op::kUnion, {make_sphere(3)}));
-  expect_right_around(combine(Op::kUnion, {make_frustum(0, 5, 2, 2)}));
-  expect_right_around(combine(Op::kUnion, {make_frustum(-1, 5, 3, 0)}));
-  expect_right_around(combine(Op::kUnion, {make_frustum(-1, 5, 0, 3)}));
-  expect_right_around(combine(Op::kUnion, {make_frustum(-1, 5, 1, 3)}));
+  expect_right_around(scene_of(Op::kUnion, {make_sphere(3)}));
+  expect_right_around(scene_of(Op::kUnion, {make_frustum(0, 5, 2, 2)}));
+  expect_right_around(scene_of(Op::kUnion, {make_frustum(-1, 5, 3, 0)}));
+  expect_right_around(scene_of(Op::kUnion, {make_frustum(-1, 5, 0, 3)}));
+  expect_right_around(scene_of(Op::kUnion, {make_frustum(-1, 5, 1, 3)}));
   const Mat3 sheared_mirror{Vec3{-1, 0.3, 0}, Vec3{0.5, 2, 0.1}, Vec3{0, 0.7, 1}};
-  expect_right_around(combine(Op::kUnion, {make_frustum(-1, 5, 1, 3, {sheared_mirror, Vec3{7}})}));
-  expect_right_around(combine(Op::kUnion, {make_sphere(2, {sheared_mirror, Vec3{7, 8, 9}})}));
+  expect_right_around(scene_of(Op::kUnion, {make_frustum(-1, 5, 1, 3, {sheared_mirror, Vec3{7}})}));
+  expect_right_around(scene_of(Op::kUnion, {make_sphere(2, {sheared_mirror, Vec3{7, 8, 9}})}));
 }
 
 TEST_P(PictureTest, PairsOfEveryKind) {
   const Primitive ball = make_sphere(3);
   const Primitive rod = make_frustum(-5, 5, 1, 1.5, at(1, 0.5, 0));
-  expect_right_around(combine(Op::kUnion, {ball, rod}));
-  expect_right_around(combine(Op::kIntersection, {ball, rod}));
-  expect_right_around(combine(Op::kDifference, {ball, rod}));
-  expect_right_around(combine(Op::kDifference, {rod, ball}));
+  expect_right_around(scene_of(Op::kUnion, {ball, rod}));
+  expect_right_around(scene_of(Op::kIntersection, {ball, rod}));
+  expect_right_around(scene_of(Op::kDifference, {ball, rod}));
+  expect_right_around(scene_of(Op::kDifference, {rod, ball}));
   // Two complements: a block with two holes, its walls far away.
   expect_right_around(
-      combine(Op::kDifference, {make_frustum(-4, 4, 9, 9), make_sphere(2, at(3, 0, 3)),
-                                make_frustum(-9, 9, 1, 1, at(2, 1, 0))}));
+      scene_of(Op::kDifference, {make_frustum(-4, 4, 9, 9), make_sphere(2, at(3, 0, 3)),
+                                 make_frustum(-9, 9, 1, 1, at(2, 1, 0))}));
 }
 
 TEST_P(PictureTest, RandomTrees) {
@@ -111,7 +98,7 @@ TEST_P(PictureTest, CylinderMinusMany) {
 }
 
 TEST_P(PictureTest, EyeInsideTheModelACellAndACut) {
-  const Scene scene = combine(
+  const Scene scene = scene_of(
       Op::kDifference, {make_frustum(-5, 5, 6, 6), make_sphere(3, at(2, 0, 0)),
                         make_frustum(-9, 9, 1, 1, at(-3, 0, 0)), make_sphere(1, at(0, 4, 0))});
   View view = view_from(scene, projection(), 30, 20);
@@ -156,8 +143,8 @@ TEST_P(PictureTest, MoreThanKSurfacesThroughOnePointAndCoincidentOnes) {
                       Vec3{-std::sin(angle), 0, std::cos(angle)}};
     primitives.push_back(make_frustum(0, 9, 1, 1, {turned, Vec3{0}}));
   }
-  expect_right_around(combine(Op::kDifference, primitives));
-  const Scene equal = combine(Op::kIntersection, std::vector<Primitive>(12, make_sphere(4)));
+  expect_right_around(scene_of(Op::kDifference, primitives));
+  const Scene equal = scene_of(Op::kIntersection, std::vector<Primitive>(12, make_sphere(4)));
   const View view = view_from(equal, projection(), 25, 35);
   const auto result =
       gl_test::compare(draw(equal, view, options()), csgcore::reference_render(equal, view), 8);
@@ -166,13 +153,13 @@ TEST_P(PictureTest, MoreThanKSurfacesThroughOnePointAndCoincidentOnes) {
 }
 
 TEST_P(PictureTest, EmptyAndInvisible) {
-  const Scene nothing = combine(Op::kIntersection, {make_sphere(1), make_sphere(1, at(5, 0, 0))});
+  const Scene nothing = scene_of(Op::kIntersection, {make_sphere(1), make_sphere(1, at(5, 0, 0))});
   View view;
   view.projection = projection();
   view.eye = {0, 0, 20};
   view.half_height = 0.5;
   for (const float z : draw(nothing, view, options()).z) ASSERT_TRUE(std::isinf(z));
-  const Scene behind = combine(Op::kUnion, {make_sphere(1, at(0, 0, 50))});
+  const Scene behind = scene_of(Op::kUnion, {make_sphere(1, at(0, 0, 50))});
   const Image image = draw(behind, view, options());
   const bool any =
       std::any_of(image.z.begin(), image.z.end(), [](float z) { return std::isfinite(z); });
@@ -203,10 +190,10 @@ std::vector<SharedTop> shared_tops() {
   tree.close();
   tree.primitive(2);
   inlay.model = tree.finish();
-  return {{"union", combine(Op::kUnion, {wide, narrow}), 0, 2.9},
-          {"union, the other way round", combine(Op::kUnion, {narrow, wide}), 0, 2.9},
-          {"intersection", combine(Op::kIntersection, {wide, narrow}), 0, 2.9},
-          {"cut that only touches", combine(Op::kDifference, {wide, above}), 0, 4.9},
+  return {{"union", scene_of(Op::kUnion, {wide, narrow}), 0, 2.9},
+          {"union, the other way round", scene_of(Op::kUnion, {narrow, wide}), 0, 2.9},
+          {"intersection", scene_of(Op::kIntersection, {wide, narrow}), 0, 2.9},
+          {"cut that only touches", scene_of(Op::kDifference, {wide, above}), 0, 4.9},
           {"inlay", inlay, 2, 2.9}};
 }
 
@@ -284,13 +271,13 @@ TEST_F(ColorTest, OpenScadShading) {
   // A face towards the eye: n = (0, 0, 1), rgb · (0.2 + 1/√3) (openscad.md §4).
   const double light = 0.2 + 1 / std::sqrt(3.0);
   const auto lit = [&](int channel) { return std::min(255.0, channel * light); };
-  const Scene plain = combine(Op::kUnion, {make_frustum(0, 1, 5, 5)});
+  const Scene plain = scene_of(Op::kUnion, {make_frustum(0, 1, 5, 5)});
   const auto front = middle(draw_with(plain, from_above(), glrender::Shading::kOpenScad));
   EXPECT_NEAR(front[0], lit(0xf9), 1);
   EXPECT_NEAR(front[1], lit(0xd7), 1);
   EXPECT_NEAR(front[2], lit(0x2c), 1);
   // A cut face has the scheme's back colour, or the cutting object's own.
-  Scene cut = combine(Op::kDifference, {make_frustum(0, 5, 5, 5), make_frustum(2, 9, 2, 2)});
+  Scene cut = scene_of(Op::kDifference, {make_frustum(0, 5, 5, 5), make_frustum(2, 9, 2, 2)});
   const auto back = middle(draw_with(cut, from_above(), glrender::Shading::kOpenScad));
   EXPECT_NEAR(back[0], lit(0x9d), 1);
   cut.primitives[1].color = csgcore::Color{0, 0, 1, 1};
@@ -302,7 +289,7 @@ TEST_F(ColorTest, OpenScadShading) {
 }
 
 TEST_F(ColorTest, PhongShading) {
-  const Scene ball = combine(Op::kUnion, {make_sphere(5)});
+  const Scene ball = scene_of(Op::kUnion, {make_sphere(5)});
   const View view = from_above();
   const Image image = draw_with(ball, view, glrender::Shading::kPhong);
   const csgcore::PhongLight light = csgcore::phong_light(view, csgcore::reference_box(ball));
@@ -364,7 +351,7 @@ TEST(RendererTest, AnotherAngleNeedsNoSubdivision) {
 }
 
 TEST(RendererTest, DrawsWhatLiesBehindAFront) {
-  const Scene scene = combine(Op::kUnion, {make_sphere(5), make_sphere(5, at(3, 0, 0))});
+  const Scene scene = scene_of(Op::kUnion, {make_sphere(5), make_sphere(5, at(3, 0, 0))});
   View view;
   view.projection = Projection::kOrthographic;
   view.eye = {0, 0, 50};
@@ -383,13 +370,13 @@ TEST(RendererTest, DrawsWhatLiesBehindAFront) {
 }
 
 TEST(RendererTest, RefusesWhatAShaderCannotEvaluate) {
-  const Scene scene = combine(Op::kIntersection, std::vector<Primitive>(40000, make_sphere(1)));
+  const Scene scene = scene_of(Op::kIntersection, std::vector<Primitive>(40000, make_sphere(1)));
   const View view = view_from(scene, Projection::kPerspective, 0, 0);
   EXPECT_THROW(draw(scene, view, leaves_of(8)), glrender::GlError);
 }
 
 TEST(RendererTest, RefusesPicturesThatTheDriverCannotMake) {
-  const Scene scene = combine(Op::kUnion, {make_sphere(1)});
+  const Scene scene = scene_of(Op::kUnion, {make_sphere(1)});
   View view = view_from(scene, Projection::kPerspective, 0, 0);
   view.width_px = 1'000'000;
   EXPECT_THROW(draw(scene, view, leaves_of(8)), glrender::GlError);

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "agreement.hpp"
+#include "support/models.hpp"
 
 namespace {
 
 using csgcore::Affine;
 using csgcore::Box;
-using csgcore::CsgTreeBuilder;
 using csgcore::Image;
 using csgcore::make_frustum;
 using csgcore::make_polyhedron;
@@ -84,17 +84,7 @@ struct NamedScene {
 void PrintTo(const NamedScene& one, std::ostream* out) { *out << one.name; }
 
 NamedScene combine(std::string name, Op op, std::vector<Primitive> primitives) {
-  Scene scene;
-  scene.primitives = std::move(primitives);
-  CsgTreeBuilder tree;
-  tree.open(op);
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
-    scene.primitives[i].id = i;
-    tree.primitive(i);
-  }
-  tree.close();
-  scene.model = tree.finish();
-  return {std::move(name), std::move(scene)};
+  return {std::move(name), test_support::scene_of(op, std::move(primitives))};
 }
 
 Primitive mapped(Primitive primitive, const Affine& map) {

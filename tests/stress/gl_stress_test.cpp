@@ -36,7 +36,7 @@ stress::Method gl_method(uint32_t leaf_primitives) {
               glrender::FrameSettings settings;
               settings.measured_channels = true;
               glrender::FrameStats stats;
-              return stress::hits_of(drawn->renderer.draw(view, settings, stats), scene);
+              return csgcore::hits_of(drawn->renderer.draw(view, settings, stats), scene);
             };
           }};
 }

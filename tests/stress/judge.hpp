@@ -89,7 +89,4 @@ class Oracle {
 /// `picture` must be of the oracle's scene and view.
 Tally judge(Oracle& oracle, const csgcore::Hits& picture, const Tolerance& tolerance);
 
-/// An Image with measured channels as Hits; ids are taken back to the primitives that have them.
-csgcore::Hits hits_of(const csgcore::Image& image, const csgcore::Scene& scene);
-
 }  // namespace stress

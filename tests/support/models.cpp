@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace test_support {
 namespace {
@@ -82,6 +83,20 @@ Scene cylinder_minus_cones(uint32_t n, uint32_t seed) {
     return csgcore::make_frustum(-2 * height / 3, height / 3, 0, radius,
                                  {frame_along(axis), point.position});
   });
+}
+
+Scene scene_of(Op op, std::vector<csgcore::Primitive> primitives) {
+  Scene scene;
+  csgcore::CsgTreeBuilder builder;
+  builder.open(op);
+  for (uint32_t i = 0; i < primitives.size(); ++i) {
+    primitives[i].id = i;
+    builder.primitive(i);
+  }
+  builder.close();
+  scene.primitives = std::move(primitives);
+  scene.model = builder.finish();
+  return scene;
 }
 
 Affine random_affine(std::mt19937& random) {

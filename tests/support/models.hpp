@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "csgcore/scene.hpp"
 
@@ -19,6 +20,9 @@ csgcore::Scene cylinder_minus_cones(uint32_t n, uint32_t seed = 1);
 /// A random tree of `primitives` spheres, cylinders and cones under random affine maps (sheared,
 /// mirrored, unevenly scaled), within about [-10, 10]³.
 csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);
+
+/// One operation over the primitives, whose ids are their indices.
+csgcore::Scene scene_of(csgcore::Op op, std::vector<csgcore::Primitive> primitives);
 
 /// A random affine map of moderate condition.
 csgcore::Affine random_affine(std::mt19937& random);

@@ -71,6 +71,10 @@ struct Hits {
   std::vector<uint32_t> primitive;  // index into Solid::primitives(); kMiss at a miss
 };
 
+/// What an image with measured channels shows, in floats. Primitives are found by their ids: those
+/// of the scene that was drawn.
+Hits hits_of(const Image& image, const Scene& scene);
+
 /// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
 /// along the normal, in world units (design.md §3; NUMERICS.md).
 double thinnest_piece(const Box& solid_bounds);
