@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <stop_token>
-#include <thread>
 
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
@@ -221,17 +219,14 @@ class Validation {
     if (left_s <= least_s) return too_large();
     facets_ = faceted(scene_, settings_.fragments);
     const Clock::time_point start = Clock::now();
-    // CGAL says nothing while it works.
-    const std::jthread watch([this, deadline](const std::stop_token& done) {
-      while (!done.stop_requested()) {
-        const auto left = std::chrono::ceil<std::chrono::seconds>(deadline - Clock::now());
-        progress_("CGAL, at most " + std::to_string(left.count()) + " s more", -1);
-        std::this_thread::sleep_for(kWatchInterval);
-      }
-    });
+    const auto keep_waiting = [this, deadline] {
+      const auto left = std::chrono::ceil<std::chrono::seconds>(deadline - Clock::now());
+      progress_("CGAL, at most " + std::to_string(left.count()) + " s more", -1);
+      return true;
+    };
     auto truth =
         std::make_unique<const NefTruth>(facets_, box_.diagonal(), csgcore::thinnest_piece(box_),
-                                         oracle::NefLimits{deadline, nullptr});
+                                         oracle::NefLimits{deadline, keep_waiting});
     if (truth->status() == oracle::NefStatus::kBuilt) {
       result_.cgal_s = std::chrono::duration<double>(Clock::now() - start).count();
       return truth;
@@ -344,8 +339,6 @@ class Validation {
     verdict.details["point"] = json_of(point);
     return verdict;
   }
-
-  static constexpr std::chrono::milliseconds kWatchInterval{100};
 
   const Settings& settings_;
   const Progress& progress_;

@@ -18,8 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long a cancellation may go unnoticed.
-constexpr std::chrono::milliseconds kLookInterval{50};
+constexpr std::chrono::milliseconds kLongestWait{50};
 
 bool write_all(int out, std::string_view text) {
   while (!text.empty()) {
@@ -50,10 +49,10 @@ bool write_all(int out, std::string_view text) {
 NefStatus read_all(int in, const NefLimits& limits, std::string& text) {
   char buffer[1 << 16];
   for (;;) {
-    if (limits.cancelled != nullptr && *limits.cancelled) return NefStatus::kCancelled;
+    if (!limits.keep_waiting()) return NefStatus::kCancelled;
     const Clock::time_point now = Clock::now();
     if (now >= limits.deadline) return NefStatus::kDeadline;
-    const auto wait = std::min<Clock::duration>(limits.deadline - now, kLookInterval);
+    const auto wait = std::min<Clock::duration>(limits.deadline - now, kLongestWait);
     pollfd watched{in, POLLIN, 0};
     const auto wait_ms = std::chrono::ceil<std::chrono::milliseconds>(wait).count();
     if (poll(&watched, 1, static_cast<int>(wait_ms)) <= 0) continue;

@@ -9,9 +9,9 @@
 
 #include <gmpxx.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -43,7 +43,8 @@ ConvexPolyhedron faceted(const csgcore::Primitive& primitive, int fragments);
 /// How long a solid may take to build.
 struct NefLimits {
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
-  const std::atomic<bool>* cancelled = nullptr;  // set from another thread or a signal handler
+  /// Asked at least every 50 ms, by the thread that builds; false cancels.
+  std::function<bool()> keep_waiting = [] { return true; };
 };
 
 enum class NefStatus : uint8_t {
@@ -85,9 +86,9 @@ struct NefBuild {
 /// The regularised solid: the closure of its interior. Any number of threads may ask.
 class NefSolid {
  public:
-  /// Works in a child process, which is killed at the deadline or within 50 ms of a cancellation:
-  /// CGAL cannot be interrupted otherwise. The tree indexes into `polyhedra`. Throws
-  /// std::system_error where no process can be had.
+  /// Works in a child process, which is killed at the deadline or at a cancellation: CGAL cannot be
+  /// interrupted otherwise. The tree indexes into `polyhedra`. Throws std::system_error where no
+  /// process can be had.
   static NefBuild build(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra,
                         const NefLimits& limits = {});
   /// Of a scene's model, its smooth primitives with so many fragments; the polyhedra go by the
