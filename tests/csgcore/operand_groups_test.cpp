@@ -166,7 +166,7 @@ TEST_P(GroupsOf, RandomTreeOwnEachIndexOnce) {
 TEST_P(GroupsOf, RandomTreeShowTheSame) {
   const Scene scene = random_scene(GetParam());
   const Solid solid(canonical_primitives(scene), scene.model);
-  for (const auto& [name, view] : checks::trace_views(kSpace, 72, 56)) {
+  for (const auto& [name, view] : checks::trace_views(kSpace, 48, 36)) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view, {}),
                                   checks::WholeList(solid, view).picture()));
