@@ -27,6 +27,27 @@ void for_each_pixel(const PacketBlock& block, uint32_t width_px, Visit&& visit) 
   }
 }
 
+constexpr LaneMask kRowLanes = (LaneMask{1} << kPacketWidth_px) - 1;
+
+/// Writes the pixels of a block to a picture of this width.
+void copy_pixels(const PacketPixels& pixels, const PacketBlock& block, uint32_t width_px,
+                 std::vector<Rgb8>& picture) {
+  for (uint32_t y = 0; y < kPacketHeight_px; ++y) {
+    const uint32_t first = y * kPacketWidth_px;
+    const LaneMask row = block.lanes >> first & kRowLanes;
+    if (row == 0) continue;
+    const Rgb8* from = pixels.rgb + first;
+    Rgb8* to = &picture[size_t{block.y + y} * width_px + block.x];
+    if (row == kRowLanes) {
+      std::copy_n(from, kPacketWidth_px, to);
+      continue;
+    }
+    for (uint32_t x = 0; x < kPacketWidth_px; ++x) {
+      if (row >> x & 1) to[x] = from[x];
+    }
+  }
+}
+
 /// Calls back with the first pixel's place in each row of the tile.
 template <typename Visit>
 void for_each_row(const Tile& tile, uint32_t width_px, Visit&& visit) {
@@ -84,10 +105,14 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
 }
 
 void ImageSink::clear(const Tile& tile) {
+  Rgb8* const top = &image_.rgb[size_t{tile.y} * image_.width_px + tile.x];
+  std::fill_n(top, tile.width, background_);
+  for (uint32_t y = 1; y < tile.height; ++y) {  // many bytes at a time
+    std::copy_n(top, tile.width, top + size_t{y} * image_.width_px);
+  }
+  if (!measured_) return;
   for_each_row(tile, image_.width_px, [&](size_t first) {
     const auto at = [first](auto& channel) { return channel.begin() + static_cast<long>(first); };
-    std::fill_n(at(image_.rgb), tile.width, background_);
-    if (!measured_) return;
     std::fill_n(at(image_.z), tile.width, std::numeric_limits<float>::infinity());
     std::fill_n(at(image_.normal), tile.width, glm::vec3{0.0f});
     std::fill_n(at(image_.position), tile.width, glm::vec3{0.0f});
@@ -101,11 +126,7 @@ void ImageSink::store(const PacketBlock& block, const RayPacket& rays, const Tra
   if (hits.hits != 0) shade_packet(shade_, frame_, rays, list, hits, colors);
   PacketPixels pixels;
   round_colors(colors, hits.hits, background_, pixels);
-  for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
-    const auto rgb = static_cast<uint32_t>(pixels.rgb[lane]);
-    image_.rgb[pixel] = {static_cast<uint8_t>(rgb), static_cast<uint8_t>(rgb >> 8),
-                         static_cast<uint8_t>(rgb >> 16)};
-  });
+  copy_pixels(pixels, block, image_.width_px, image_.rgb);
   if (measured_) store_channels(block, rays, list, hits);
 }
 

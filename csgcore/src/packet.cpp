@@ -424,16 +424,16 @@ void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others
                   PacketPixels& pixels) {
   const Wide d;
   const hn::Rebind<int32_t, Wide> integers;
+  const hn::Rebind<uint8_t, Wide> bytes;
   for (int c = 0; c < kChunks; ++c) {
     const auto channel = [&](size_t i) {
       const WideV value = hn::Load(d, colors.rgb[i] + first_lane(c));
       const WideV other = hn::Set(d, others[i]);
       const WideV chosen = hn::IfThenElse(mask_of(lanes, c), value, other);
-      return hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5)));
+      return hn::DemoteTo(bytes, hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5))));
     };
-    const auto green_blue = hn::Add(channel(1), hn::ShiftLeft<8>(channel(2)));
-    const auto rgb = hn::Add(channel(0), hn::ShiftLeft<8>(green_blue));
-    hn::StoreU(rgb, integers, pixels.rgb + first_lane(c));
+    hn::StoreInterleaved3(channel(0), channel(1), channel(2), bytes,
+                          pixels.rgb[first_lane(c)].data());
   }
 }
 

@@ -186,9 +186,8 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
                   const TraceList& list, const PacketHits& hits, PacketColors& colors);
 
 using Rgb8 = std::array<uint8_t, 3>;
-/// Red + 256·green + 65536·blue.
-struct alignas(64) PacketPixels {
-  int32_t rgb[kPacketRays];
+struct PacketPixels {
+  Rgb8 rgb[kPacketRays];
 };
 /// The colours of `lanes`, rounded; that of the others is given.
 void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
