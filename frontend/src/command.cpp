@@ -17,6 +17,7 @@
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
+#include "make_rule.hpp"
 
 namespace frontend {
 namespace {
@@ -42,6 +43,11 @@ std::string renderer_line(const RenderStats& stats) {
   return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
 }
 
+Bytes bytes_of(const std::string& text) {
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
 /// One run that draws.
 class Run {
  public:
@@ -65,7 +71,9 @@ class Run {
  private:
   void check_outputs() const {
     for (const Output& output : options_.outputs) check_output(output.path);
-    if (!options_.stats_path.empty()) check_output(options_.stats_path);
+    for (const std::string& path : {options_.stats_path, options_.rule_path}) {
+      if (!path.empty()) check_output(path);
+    }
   }
 
   /// A line on stderr, unless -q.
@@ -78,6 +86,7 @@ class Run {
   DesignFile read() {
     DesignFileOptions reading;
     reading.openscad_arguments = options_.openscad_arguments;
+    reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) {
         progress_.clear();
@@ -96,6 +105,7 @@ class Run {
     stats_.export_ms = file.export_ms;
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.tree.nodes.size();
+    files_ = file.files;
     progress_.update("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file.tree, options_.import);
@@ -150,17 +160,25 @@ class Run {
     stats_.encode_ms = ms_since(start);
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
     if (!options_.stats_path.empty()) {
-      const std::string json = to_json(stats_);
-      const auto* first = reinterpret_cast<const std::byte*>(json.data());
-      outputs.push_back({options_.stats_path, Bytes(first, first + json.size())});
+      outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
     }
+    if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
     return outputs;
+  }
+
+  std::string rule() const {
+    std::vector<std::string> targets;
+    for (const Output& output : options_.outputs) {
+      targets.push_back(output.path == "-" ? "<stdout>" : output.path);
+    }
+    return make_rule(targets, files_);
   }
 
   const Options& options_;
   const Renderer& renderer_;
   Clock::time_point start_ = Clock::now();
   RunStats stats_;
+  std::vector<std::string> files_;  // that the design was read from
   ProgressLine progress_;
 };
 

@@ -31,9 +31,14 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   const bool is_exported = has_suffix(path, ".scad");
   if (is_exported) {
     const Clock::time_point export_start = Clock::now();
-    text = export_with_openscad(path, options.openscad_arguments, options.message,
-                                [&options] { options.progress("openscad"); });
+    OpenScadExport result =
+        export_with_openscad(path, options.openscad_arguments, options.wants_files, options.message,
+                             [&options] { options.progress("openscad"); });
+    text = std::move(result.csg);
+    design.files = std::move(result.files);
     design.export_ms = ms_since(export_start);
+  } else if (options.wants_files && path != "-") {
+    design.files = {path};
   }
   design.file_bytes = text.view().size();
   options.progress("parsing");

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +19,7 @@
 
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "make_rule.hpp"
 
 extern char** environ;
 
@@ -65,10 +67,31 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
+/// A file without a name, in memory.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
+    if (file_ < 0) throw cannot_run("a file in memory", errno);
+  }
+  ~MemoryFile() { close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  int descriptor() const { return file_; }
+  /// For a child that it is handed on to.
+  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+  /// Once.
+  FileText text() const { return read_descriptor(file_, "a file in memory"); }
+
+ private:
+  int file_;
+};
+
 /// A running program in a process group of its own, killed if it is not waited for.
 class Child {
  public:
-  Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err);
+  /// `kept`: a file that the program gets, too; null: none.
+  Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err,
+        const MemoryFile* kept);
   ~Child() {
     if (pid_ <= 0) return;
     kill(-pid_, SIGKILL);
@@ -91,7 +114,8 @@ class Child {
   pid_t pid_ = 0;
 };
 
-Child::Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
+Child::Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err,
+             const MemoryFile* kept) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));  // execve's signature; not written to
@@ -103,6 +127,8 @@ Child::Child(const std::vector<std::string>& command, const Pipe& out, const Pip
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&files, out.write_end(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&files, err.write_end(), STDERR_FILENO);
+  // Onto itself: it stays open.
+  if (kept) posix_spawn_file_actions_adddup2(&files, kept->descriptor(), kept->descriptor());
 
   // An interruption must find the child's group registered once it runs, so none may come between.
   sigset_t all, before, defaults;
@@ -225,17 +251,22 @@ std::string read_both(const Pipe& out, const Pipe& err, const std::string& scad_
 
 }  // namespace
 
-FileText export_with_openscad(const std::string& scad_path,
-                              const std::vector<std::string>& arguments,
-                              const std::function<void(const std::string&)>& message,
-                              const std::function<void()>& waiting) {
+OpenScadExport export_with_openscad(const std::string& scad_path,
+                                    const std::vector<std::string>& arguments, bool wants_files,
+                                    const std::function<void(const std::string&)>& message,
+                                    const std::function<void()>& waiting) {
   std::vector<std::string> command = {program_name(), "-o", "-", "--export-format=csg"};
+  std::optional<MemoryFile> rule;
+  if (wants_files) {
+    rule.emplace();
+    command.insert(command.end(), {"-d", rule->path()});
+  }
   command.insert(command.end(), arguments.begin(), arguments.end());
   command.push_back("--");  // a name may begin with a dash
   command.push_back(scad_path);
 
   Pipe out, err;
-  Child child(command, out, err);
+  Child child(command, out, err, rule ? &*rule : nullptr);
   out.close_write_end();
   err.close_write_end();
   Messages messages(message);
@@ -251,9 +282,18 @@ FileText export_with_openscad(const std::string& scad_path,
   if (csg.empty()) {
     throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
   }
+  OpenScadExport result;
+  if (rule) {
+    result.files = prerequisites_of(rule->text().view());
+    if (result.files.empty()) {
+      throw Error(scad_path, {}, "openscad does not say which files it reads",
+                  "leave out -d, or check $OPENSCAD");
+    }
+  }
   auto bytes = std::make_unique_for_overwrite<char[]>(csg.size());
   std::memcpy(bytes.get(), csg.data(), csg.size());
-  return FileText(std::move(bytes), csg.size());
+  result.csg = FileText(std::move(bytes), csg.size());
+  return result;
 }
 
 }  // namespace frontend

@@ -44,6 +44,8 @@ constexpr Row kOpenScadOptions[] = {
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad"},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
+    {"d,d", Takes::kText, "DEPS",
+     "write a rule for make: the pictures, and all files that the design reads"},
     {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses"},
     {"hardwarnings", Takes::kNothing, "", "a .scad's first warning stops it"},
     {"check-parameters", Takes::kText, "BOOL",
@@ -59,7 +61,6 @@ constexpr Row kOpenScadOptions[] = {
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"animate", Takes::kCount, "N", "accepted, without effect"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
-    {"d,d", Takes::kText, "DEPS", "accepted, without effect"},
     {"s,s", Takes::kText, "OUT", "the same as -o"},
     {"x,x", Takes::kText, "OUT", "the same as -o"},
 };

@@ -323,9 +323,10 @@ void read_outputs(const Arguments& arguments, Options& options) {
     }
   });
   if (arguments.has("stats")) options.stats_path = arguments.text("stats");
+  if (arguments.has("d")) options.rule_path = arguments.text("d");
   const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(),
                                        [](const Output& output) { return output.path == "-"; });
-  if (to_stdout + (options.stats_path == "-" ? 1 : 0) > 1) {
+  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
   if (options.outputs.size() > kMaxOutputs) {
@@ -347,7 +348,7 @@ void read_openscad_arguments(const Arguments& arguments, Options& options) {
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
-  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "animate", "debug", "d"};
+  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "animate", "debug"};
   constexpr const char* kForScad[] = {
       "D", "p", "P", "m", "hardwarnings", "check-parameters", "check-parameter-ranges"};
   const auto given = [&arguments](std::span<const char* const> names) {

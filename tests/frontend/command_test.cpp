@@ -338,6 +338,8 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   expect_failure({"-o", png_, folder_ / "surface.csg"}, "surface.csg:2:3: error: ");
   expect_failure({"-o", png_, "-o", folder_ / "none/y.png", file_}, "none/y.png: error: ");
   expect_failure({"-o", png_, "--stats", folder_ / "none/s.json", file_}, "none/s.json");
+  expect_failure({"-o", png_, "-d", folder_ / "none/x.d", file_}, "none/x.d");
+  expect_failure({"-o", png_, "-d", "-", "--stats=-", file_}, "standard output");
   expect_failure({"-o", png_, "--camera=0,0,0,0,0,0,0", file_}, "distance");
   EXPECT_EQ(drawings_, 0) << "what can be seen beforehand is";
   renderer_ = [](const auto&, const auto&, const auto&, auto&) -> Image {
@@ -385,6 +387,45 @@ TEST_F(Command, ExportsAScad) {
   EXPECT_EQ(folder_.read("arguments"), "-o - --export-format=csg -D x=1 -- " + scad + "\n");
   EXPECT_GT(nlohmann::json::parse(outcome.out)["times_ms"]["export"], 0);
   EXPECT_EQ(run({"-q", "-o", png_, scad}).err, "");
+}
+
+TEST_F(Command, ARuleForMake) {
+  const std::string rule = folder_ / "x.d";
+  EXPECT_EQ(run({"-o", png_, "-d", rule, file_}).code, ExitCode::kDone);
+  EXPECT_EQ(folder_.read("x.d"), png_ + ": \\\n\t" + file_ + "\n");
+  const Environment openscad(
+      "OPENSCAD",
+      folder_.script("openscad",
+                     "while [ \"$1\" != -d ]; do shift; done\n"
+                     "printf '<stdout>: \\\\\n\t/lib/b\\ c.scad \\\\\n\t$#.scad\n' >$2\n"
+                     "echo 'sphere(r = 1);'"));
+  const std::string scad = folder_.write("a.scad", "sphere(1);");
+  EXPECT_EQ(run({"-o", png_, "-o", folder_ / "x y.exr", "-d", rule, scad}).err, "");
+  EXPECT_EQ(folder_.read("x.d"),
+            png_ + " " + folder_ / "x\\ y.exr" + ": \\\n\t/lib/b\\ c.scad \\\n\t$$\\#.scad\n");
+  const Outcome to_stdout = run({"-o", "-", "--export-format=png", "-d", rule, scad});
+  EXPECT_THAT(folder_.read("x.d"), StartsWith("<stdout>: "));
+  EXPECT_EQ(run({"-o", png_, "-d", "-", file_}).out, png_ + ": \\\n\t" + file_ + "\n");
+}
+
+// The rule is one that make follows.
+TEST_F(Command, MakeDrawsAgainWhatItReads) {
+  if (std::system("(command -v openscad && command -v make) >/dev/null") != 0)
+    GTEST_SKIP() << "no openscad or make";
+  folder_.write("a part.scad", "module part() sphere(1);");
+  const std::string scad = folder_.write("a.scad", "use <a part.scad>\npart();");
+  EXPECT_EQ(run({"-o", png_, "-d", folder_ / "x.d", scad}).err, "");
+  folder_.write("makefile", png_ + ":\n\techo drawn again\n-include x.d\n");
+  const auto make = [this] {
+    const std::string command =
+        "make -s -C '" + folder_.path() + "' " + png_ + " >" + folder_ / "said";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return folder_.read("said");
+  };
+  EXPECT_THAT(make(), testing::Not(HasSubstr("drawn again")));
+  const auto before = std::filesystem::last_write_time(png_) - std::chrono::hours(1);
+  std::filesystem::last_write_time(png_, before);
+  EXPECT_EQ(make(), "drawn again\n");
 }
 
 TEST_F(Command, PlacesInAnExportedCsgAreNotShownAsPlacesInTheScad) {

@@ -23,22 +23,24 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
+using testing::UnorderedElementsAre;
 
 struct Result {
   std::string csg;
-  std::vector<std::string> messages;
+  std::vector<std::string> messages, files;
   std::string error;
   int waits = 0;
 };
 
-Result run_export(const std::string& path, const std::vector<std::string>& arguments = {}) {
+Result run_export(const std::string& path, const std::vector<std::string>& arguments = {},
+                  bool wants_files = false) {
   Result result;
   try {
-    result.csg =
-        export_with_openscad(
-            path, arguments, [&](const std::string& line) { result.messages.push_back(line); },
-            [&] { ++result.waits; })
-            .view();
+    OpenScadExport exported = export_with_openscad(
+        path, arguments, wants_files,
+        [&](const std::string& line) { result.messages.push_back(line); }, [&] { ++result.waits; });
+    result.csg = exported.csg.view();
+    result.files = std::move(exported.files);
   } catch (const Error& error) {
     result.error = error.what();
   }
@@ -60,6 +62,12 @@ TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.csg,
             "<-o>\n<->\n<--export-format=csg>\n<-D>\n<s=\"$(x) ;`y` 'z'\">\n<-->\n<dir/a.scad>\n");
+}
+
+TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo x"));
+  EXPECT_THAT(run_export("dir/a.scad", {}, true).error,
+              StartsWith("dir/a.scad: error: openscad does not say which files it reads ("));
 }
 
 TEST_F(FakeOpenScad, ItsMessagesAreShownLineByLine) {
@@ -169,6 +177,18 @@ TEST_F(InstalledOpenScad, Exports) {
   EXPECT_EQ(result.error, "");
   EXPECT_THAT(result.csg, HasSubstr("sphere($fn = 9, $fa = 12, $fs = 2, r = 3);"));
   EXPECT_THAT(result.messages, ElementsAre("ECHO: 3"));
+}
+
+TEST_F(InstalledOpenScad, SaysWhatItReads) {
+  const std::string used = folder_.write("the used.scad", "module used() sphere(2);");
+  const std::string included = folder_.write("#1$.scad", "use <the used.scad>\n");
+  const std::string mesh = folder_ / "missing.stl";
+  const std::string path =
+      folder_.write("a design.scad", "include <#1$.scad>\nused(); import(\"missing.stl\");");
+  const Result result = run_export(path, {}, true);
+  EXPECT_EQ(result.error, "");
+  EXPECT_THAT(result.files, UnorderedElementsAre(used, included, mesh, path));
+  EXPECT_THAT(run_export(path).files, IsEmpty());
 }
 
 TEST_F(InstalledOpenScad, PassesParameterSets) {

@@ -292,12 +292,11 @@ TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
 }
 
 TEST(Options, WhatHasNoEffectIsSaidOnce) {
-  const Options options =
-      parse_drawing({"--render=cgal", "--preview=throwntogether", "--csglimit=10", "--animate", "3",
-                     "--debug=all", "-d", "deps"});
+  const Options options = parse_drawing({"--render=cgal", "--preview=throwntogether",
+                                         "--csglimit=10", "--animate", "3", "--debug=all"});
   EXPECT_THAT(options.warnings,
               ElementsAre("without effect in this version: --render, --preview, --csglimit, "
-                          "--animate, --debug, -d"));
+                          "--animate, --debug"));
   EXPECT_THAT(drawing_error({"--csglimit=x"}), HasSubstr("csglimit"));
 }
 

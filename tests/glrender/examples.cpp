@@ -13,7 +13,7 @@ frontend::ImportedDesign read_design(const std::filesystem::path& file) {
   const auto ignore_message = [](const std::string&) {};
   const frontend::FileText text =
       file.extension() == ".scad"
-          ? frontend::export_with_openscad(file.string(), {}, ignore_message, [] {})
+          ? frontend::export_with_openscad(file.string(), {}, false, ignore_message, [] {}).csg
           : frontend::read_file(file.string());
   return frontend::import_design(frontend::parse(text.view(), file.filename().string()));
 }

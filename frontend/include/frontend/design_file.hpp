@@ -14,13 +14,15 @@ struct DesignFile {
   std::string name;            // as messages show it
   std::size_t file_bytes = 0;  // of the .csg text that was parsed
   SyntaxTree tree;
-  double export_ms = 0;  // openscad, for a .scad
+  std::vector<std::string> files;  // that it was read from, the design last; if wanted
+  double export_ms = 0;            // openscad, for a .scad
   double read_ms = 0;
   double parse_ms = 0;
 };
 
 struct DesignFileOptions {
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  bool wants_files = false;
   /// Given each line that openscad says.
   std::function<void(const std::string& line)> message;
   /// Called with what is done, a .scad's export many times.

@@ -9,14 +9,19 @@
 
 namespace frontend {
 
+struct OpenScadExport {
+  FileText csg;
+  std::vector<std::string> files;  // that the design reads, as openscad names them; if wanted
+};
+
 /// Runs `openscad` (the program that $OPENSCAD names, or else the one on PATH) on a .scad file and
 /// returns the .csg that it writes. `arguments` are handed on as they are. Each line that it says
 /// is given to `message` as it comes. `waiting` is called about ten times a second. Throws Error
 /// where openscad is missing, fails, reports an error (it may exit 0 all the same), or writes
 /// nothing.
-FileText export_with_openscad(const std::string& scad_path,
-                              const std::vector<std::string>& arguments,
-                              const std::function<void(const std::string&)>& message,
-                              const std::function<void()>& waiting);
+OpenScadExport export_with_openscad(const std::string& scad_path,
+                                    const std::vector<std::string>& arguments, bool wants_files,
+                                    const std::function<void(const std::string&)>& message,
+                                    const std::function<void()>& waiting);
 
 }  // namespace frontend

@@ -27,6 +27,7 @@ struct Options {
   std::string input;            // "-": a .csg from standard input
   std::vector<Output> outputs;  // kDraw: at least one, at most one of them "-"
   std::string stats_path;       // empty: none; "-": standard output
+  std::string rule_path;        // for make: what the outputs are made of; empty: none
   CameraOptions camera;
   bool axes = false;
   ImportOptions import;
