@@ -3,7 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include "elapsed.hpp"
@@ -48,6 +51,23 @@ Bytes bytes_of(const std::string& text) {
   return {first, first + text.size()};
 }
 
+/// OpenSCAD's name of a frame's file: five digits before the suffix.
+std::string frame_path(const std::string& path, uint32_t frame) {
+  const std::filesystem::path whole(path);
+  std::string digits = std::to_string(frame);
+  digits.insert(0, 5 - std::min<std::size_t>(digits.size(), 5), '0');
+  return (whole.parent_path() / (whole.stem().string() + digits + whole.extension().string()))
+      .string();
+}
+
+/// $t of a frame, to the last bit.
+std::string time_assignment(uint32_t frame, uint32_t frames) {
+  std::array<char, 32> digits;
+  const double t = static_cast<double>(frame) / frames;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), t).ptr;
+  return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
 /// One run that draws.
 class Run {
  public:
@@ -59,21 +79,49 @@ class Run {
   void execute() {
     check_outputs();
     for (const std::string& warning : options_.warnings) say("warning: " + warning);
-    const ImportedDesign design = import();
-    const Camera camera = choose_camera(options_.camera, design.view_box);
-    const csgcore::View view = make_view(camera, options_.camera);
-    Image image = draw(design.scene, view);
-    const std::vector<PendingOutput> outputs = encode(image, view, camera);
+    std::vector<PendingOutput> outputs;
+    draw_frame(outputs);
+    for (frame_ = 1; frame_ < options_.frames; ++frame_) {
+      start_ = Clock::now();
+      draw_frame(outputs);
+    }
+    if (!options_.stats_path.empty()) {
+      outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
+    }
+    if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
     progress_.clear();
     write_outputs(outputs);
   }
 
  private:
+  void draw_frame(std::vector<PendingOutput>& outputs) {
+    if (frame_ == 0 || is_exported_) design_ = import();
+    const Camera camera = choose_camera(options_.camera, design_.view_box);
+    const csgcore::View view = make_view(camera, options_.camera);
+    Image image = draw(design_.scene, view);
+    encode(image, view, camera, outputs);
+  }
+
+  /// The output's file for a frame.
+  std::string path_of(const Output& output, uint32_t frame) const {
+    return options_.frames == 0 ? output.path : frame_path(output.path, frame);
+  }
+
   void check_outputs() const {
-    for (const Output& output : options_.outputs) check_output(output.path);
+    for (const Output& output : options_.outputs) {
+      for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
+        check_output(path_of(output, frame));
+      }
+    }
     for (const std::string& path : {options_.stats_path, options_.rule_path}) {
       if (!path.empty()) check_output(path);
     }
+  }
+
+  void show_progress(const std::string& stage, double fraction) {
+    const std::string frame =
+        "frame " + std::to_string(frame_ + 1) + " of " + std::to_string(options_.frames) + ", ";
+    progress_.update(((options_.frames == 0 ? "" : frame) + stage).c_str(), fraction);
   }
 
   /// A line on stderr, unless -q.
@@ -86,6 +134,10 @@ class Run {
   DesignFile read() {
     DesignFileOptions reading;
     reading.openscad_arguments = options_.openscad_arguments;
+    if (options_.frames > 0) {
+      reading.openscad_arguments.insert(reading.openscad_arguments.end(),
+                                        {"-D", time_assignment(frame_, options_.frames)});
+    }
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) {
@@ -93,7 +145,7 @@ class Run {
         std::fprintf(stderr, "%s\n", line.c_str());
       }
     };
-    reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    reading.progress = [this](const char* stage) { show_progress(stage, -1); };
     return read_design(options_.input, reading);
   }
 
@@ -105,8 +157,9 @@ class Run {
     stats_.export_ms = file.export_ms;
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.tree.nodes.size();
+    is_exported_ = file.is_exported;
     files_ = file.files;
-    progress_.update("importing", -1);
+    show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file.tree, options_.import);
     stats_.import_ms = ms_since(import_start);
@@ -126,7 +179,7 @@ class Run {
     settings.measured_channels = shows_channel || options_.axes || writes_exr();
     settings.all_stats = !options_.stats_path.empty();
     settings.progress = [this](const char* stage, double fraction) {
-      progress_.update(stage, fraction);
+      show_progress(stage, fraction);
     };
     const Clock::time_point start = Clock::now();
     Image image;
@@ -145,40 +198,40 @@ class Run {
     return image;
   }
 
-  std::vector<PendingOutput> encode(Image& image, const csgcore::View& view, const Camera& camera) {
-    progress_.update("encoding", -1);
+  void encode(Image& image, const csgcore::View& view, const Camera& camera,
+              std::vector<PendingOutput>& outputs) {
+    show_progress("encoding", -1);
     const Clock::time_point start = Clock::now();
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
     if (options_.axes) draw_axes(image, view, camera, scheme.axes);
-    std::vector<PendingOutput> outputs;
     for (const Output& output : options_.outputs) {
-      outputs.push_back({output.path, encode_picture(image, output.format)});
+      outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
     }
     stats_.width_px = image.width_px;
     stats_.height_px = image.height_px;
     stats_.encode_ms = ms_since(start);
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
-    if (!options_.stats_path.empty()) {
-      outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
-    }
-    if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
-    return outputs;
   }
 
   std::string rule() const {
     std::vector<std::string> targets;
-    for (const Output& output : options_.outputs) {
-      targets.push_back(output.path == "-" ? "<stdout>" : output.path);
+    for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
+      for (const Output& output : options_.outputs) {
+        targets.push_back(output.path == "-" ? "<stdout>" : path_of(output, frame));
+      }
     }
     return make_rule(targets, files_);
   }
 
   const Options& options_;
   const Renderer& renderer_;
-  Clock::time_point start_ = Clock::now();
-  RunStats stats_;
+  Clock::time_point start_ = Clock::now();  // of the frame
+  uint32_t frame_ = 0;
+  ImportedDesign design_;
+  bool is_exported_ = false;        // anew for every frame
   std::vector<std::string> files_;  // that the design was read from
+  RunStats stats_;                  // of the frame
   ProgressLine progress_;
 };
 

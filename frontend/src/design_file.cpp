@@ -28,8 +28,8 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   const Clock::time_point start = Clock::now();
   FileText text = read_file(path);  // a .scad, too, to see that it can be read
   design.read_ms = ms_since(start);
-  const bool is_exported = has_suffix(path, ".scad");
-  if (is_exported) {
+  design.is_exported = has_suffix(path, ".scad");
+  if (design.is_exported) {
     const Clock::time_point export_start = Clock::now();
     OpenScadExport result =
         export_with_openscad(path, options.openscad_arguments, options.wants_files, options.message,
@@ -44,7 +44,7 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   options.progress("parsing");
   const Clock::time_point parse_start = Clock::now();
   // Places in an exported design are not those of the .scad, and must not look as if they were.
-  design.tree = parse(text.view(), is_exported ? design.name + " (its .csg)" : design.name);
+  design.tree = parse(text.view(), design.is_exported ? design.name + " (its .csg)" : design.name);
   design.parse_ms = ms_since(parse_start);
   return design;
 }

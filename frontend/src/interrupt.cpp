@@ -14,7 +14,7 @@ namespace {
 
 // A handler may run on any thread, between any two instructions: it may only look at lock-free
 // atomics, and call what POSIX lists as async-signal-safe.
-constexpr std::size_t kSlots = kMaxOutputs + 2;  // the pictures, statistics, rule
+constexpr std::size_t kSlots = kMaxPictures + 2;  // the pictures, statistics, rule
 std::array<std::atomic<const char*>, kSlots> files_to_remove;
 std::atomic<pid_t> child_group{0};
 static_assert(std::atomic<const char*>::is_always_lock_free);

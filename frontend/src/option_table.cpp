@@ -41,6 +41,8 @@ constexpr Row kOpenScadOptions[] = {
     {"projection", Takes::kText, "P", "(o)rtho or (p)erspective, the default"},
     {"colorscheme", Takes::kText, "NAME", nullptr},  // its help lists the schemes
     {"view", Takes::kText, "WHAT", "axes; also accepted: crosshairs, edges, scales, wireframe"},
+    {"animate", Takes::kText, "N",
+     "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad"},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
@@ -59,7 +61,6 @@ constexpr Row kOpenScadOptions[] = {
     {"render", Takes::kOptionalText, "HOW", "accepted, without effect: every picture is exact"},
     {"preview", Takes::kOptionalText, "HOW", "accepted, without effect"},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
-    {"animate", Takes::kCount, "N", "accepted, without effect"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
     {"s,s", Takes::kText, "OUT", "the same as -o"},
     {"x,x", Takes::kText, "OUT", "the same as -o"},

@@ -408,6 +408,55 @@ TEST_F(Command, ARuleForMake) {
   EXPECT_EQ(run({"-o", png_, "-d", "-", file_}).out, png_ + ": \\\n\t" + file_ + "\n");
 }
 
+/// An openscad that says what $t it is given, and draws a ball of that size.
+constexpr const char* kAnimated =
+    "while [ \"$1\" != -- ]; do case \"$1\" in '$t='*) t=${1#*=};; -d) d=$2;; esac; shift; done\n"
+    "echo \"ECHO: $t\" >&2; [ -z \"$d\" ] || printf 'x: \\\\\n\t%s\n' \"$2\" >\"$d\"\n"
+    "if [ $t = $BROKEN_AT ]; then exit 1; fi; echo \"sphere(r = 1$t);\"";
+
+TEST_F(Command, AnAnimation) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad", kAnimated));
+  const Environment not_broken("BROKEN_AT", "never");
+  const std::string scad = folder_.write("a.scad", "sphere(1 + $t);");
+  const Outcome outcome = run({"-o", folder_ / "x.y.png", "-o", folder_ / "z.exr", "--animate", "3",
+                               "-d", folder_ / "x.d", "--stats", folder_ / "s.json", scad});
+  EXPECT_EQ(outcome.err, "ECHO: 0\nECHO: 0.3333333333333333\nECHO: 0.6666666666666666\n");
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_EQ(drawings_, 3);
+  EXPECT_EQ(scene_.primitives[0].r_bottom, 10.6666666666666666);
+  std::string targets;
+  for (const char* number : {"00000", "00001", "00002"}) {
+    const std::string png = std::string("x.y") + number + ".png",
+                      exr = "z" + std::string(number) + ".exr";
+    EXPECT_EQ(decode(folder_.read(png)).width, 512u);
+    EXPECT_TRUE(folder_.has(exr));
+    targets += (targets.empty() ? "" : " ") + folder_ / png + " " + folder_ / exr;
+  }
+  EXPECT_FALSE(folder_.has("x.y.png"));
+  EXPECT_EQ(folder_.read("x.d"), targets + ": \\\n\t" + scad + "\n");
+  EXPECT_GT(nlohmann::json::parse(folder_.read("s.json"))["times_ms"]["export"], 0);
+}
+
+TEST_F(Command, AnAnimationOfACsgShowsTheSameAgainAndAgain) {
+  EXPECT_EQ(run({"-o", png_, "--animate=2", file_}).err, "");
+  EXPECT_EQ(folder_.read("x00000.png"), folder_.read("x00001.png"));
+}
+
+TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad", kAnimated));
+  const Environment broken("BROKEN_AT", "0.5");
+  const std::string scad = folder_.write("a.scad", "sphere(1 + $t);");
+  const auto names = folder_.names();
+  const Outcome outcome = run({"-o", png_, "--animate=2", scad});
+  EXPECT_EQ(outcome.code, ExitCode::kFailure);
+  EXPECT_EQ(drawings_, 1);
+  EXPECT_EQ(folder_.names(), names);
+  // What can be seen beforehand is.
+  std::filesystem::create_directory(folder_ / "x00001.png");
+  EXPECT_THAT(run({"-o", png_, "--animate=2", scad}).err, HasSubstr("x00001.png: error: "));
+  EXPECT_EQ(drawings_, 1);
+}
+
 // The rule is one that make follows.
 TEST_F(Command, MakeDrawsAgainWhatItReads) {
   if (std::system("(command -v openscad && command -v make) >/dev/null") != 0)

@@ -93,10 +93,26 @@ TEST(Options, OutputsThatCannotBe) {
   EXPECT_THAT(error_of({"-o", "-", "--stats=-", "--export-format=png", "a"}),
               HasSubstr("standard output"));
   Words many;
-  for (std::size_t i = 0; i <= kMaxOutputs; ++i) many.insert(many.end(), {"-o", "x.png"});
+  for (std::size_t i = 0; i <= kMaxPictures; ++i) many.insert(many.end(), {"-o", "x.png"});
   many.push_back("a");
   EXPECT_THAT(error_of(many), HasSubstr("-o"));
   EXPECT_THAT(error_of({"a.csg"}), HasSubstr("no live window"));
+}
+
+TEST(Options, Animation) {
+  EXPECT_EQ(parse_drawing({}).frames, 0u);
+  const Options options = parse_drawing({"--animate", "10"});
+  EXPECT_EQ(options.frames, 10u);
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_EQ(parse_drawing({"--animate=0"}).frames, 0u);
+  for (const char* value : {"-1", "x", "1.5", "100000"}) {
+    EXPECT_THAT(drawing_error({"--animate", value}), HasSubstr("--animate=")) << value;
+  }
+  EXPECT_EQ(parse_options({"-o", "x.png", "-o", "y.png", "--animate=2048", "a"}).frames, 2048u);
+  EXPECT_THAT(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
+              HasSubstr("more than 4096 pictures"));
+  EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
+              HasSubstr("standard output"));
 }
 
 TEST(Options, File) {
@@ -292,11 +308,11 @@ TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
 }
 
 TEST(Options, WhatHasNoEffectIsSaidOnce) {
-  const Options options = parse_drawing({"--render=cgal", "--preview=throwntogether",
-                                         "--csglimit=10", "--animate", "3", "--debug=all"});
+  const Options options =
+      parse_drawing({"--render=cgal", "--preview=throwntogether", "--csglimit=10", "--debug=all"});
   EXPECT_THAT(options.warnings,
               ElementsAre("without effect in this version: --render, --preview, --csglimit, "
-                          "--animate, --debug"));
+                          "--debug"));
   EXPECT_THAT(drawing_error({"--csglimit=x"}), HasSubstr("csglimit"));
 }
 

@@ -14,6 +14,7 @@ struct DesignFile {
   std::string name;            // as messages show it
   std::size_t file_bytes = 0;  // of the .csg text that was parsed
   SyntaxTree tree;
+  bool is_exported = false;        // from a .scad
   std::vector<std::string> files;  // that it was read from, the design last; if wanted
   double export_ms = 0;            // openscad, for a .scad
   double read_ms = 0;

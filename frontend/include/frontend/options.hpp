@@ -34,13 +34,14 @@ struct Options {
   RenderSettings render;
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
   std::vector<std::string> warnings;            // what is ignored, without the word "warning"
+  uint32_t frames = 0;  // of an animation, each in files of its own; 0: a single picture
   bool quiet = false;
   bool info = false;
 };
 
-/// A run that writes more files than this is refused: each needs a slot for the clean-up at an
+/// A run that writes more pictures than this is refused: each needs a slot for the clean-up at an
 /// interruption (see interrupt.hpp).
-constexpr std::size_t kMaxOutputs = 16;
+constexpr std::size_t kMaxPictures = 4096;
 
 /// Larger pictures than this a side are refused; it is the largest texture and viewport side that
 /// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
