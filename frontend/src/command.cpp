@@ -158,7 +158,9 @@ class Run {
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.tree.nodes.size();
     is_exported_ = file.is_exported;
-    files_ = file.files;
+    for (const std::string& name : file.files) {
+      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    }
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file.tree, options_.import);
@@ -230,7 +232,7 @@ class Run {
   uint32_t frame_ = 0;
   ImportedDesign design_;
   bool is_exported_ = false;        // anew for every frame
-  std::vector<std::string> files_;  // that the design was read from
+  std::vector<std::string> files_;  // that the design was read from, for any frame
   RunStats stats_;                  // of the frame
   ProgressLine progress_;
 };

@@ -411,7 +411,7 @@ TEST_F(Command, ARuleForMake) {
 /// An openscad that says what $t it is given, and draws a ball of that size.
 constexpr const char* kAnimated =
     "while [ \"$1\" != -- ]; do case \"$1\" in '$t='*) t=${1#*=};; -d) d=$2;; esac; shift; done\n"
-    "echo \"ECHO: $t\" >&2; [ -z \"$d\" ] || printf 'x: \\\\\n\t%s\n' \"$2\" >\"$d\"\n"
+    "echo \"ECHO: $t\" >&2; [ -z \"$d\" ] || printf 'x: \\\\\n\t%s\n\t%s\n' $t.stl \"$2\" >\"$d\"\n"
     "if [ $t = $BROKEN_AT ]; then exit 1; fi; echo \"sphere(r = 1$t);\"";
 
 TEST_F(Command, AnAnimation) {
@@ -433,7 +433,9 @@ TEST_F(Command, AnAnimation) {
     targets += (targets.empty() ? "" : " ") + folder_ / png + " " + folder_ / exr;
   }
   EXPECT_FALSE(folder_.has("x.y.png"));
-  EXPECT_EQ(folder_.read("x.d"), targets + ": \\\n\t" + scad + "\n");
+  EXPECT_EQ(folder_.read("x.d"),
+            targets + ": \\\n\t0.stl \\\n\t" + scad +
+                " \\\n\t0.3333333333333333.stl \\\n\t0.6666666666666666.stl\n");
   EXPECT_GT(nlohmann::json::parse(folder_.read("s.json"))["times_ms"]["export"], 0);
 }
 

@@ -15,8 +15,8 @@ struct ChildOutput {
 };
 
 /// Runs `work` in a copy of this process. An exception or a crash of it is kFailed. The copy has no
-/// threads but the caller's: work must not need others, nor locks that others may hold. One such is
-/// that of the memory in a sanitizer's build (up to GCC 13), so other threads had better be idle.
+/// threads but the caller's: work must not need others, nor locks that others may hold. A
+/// sanitizer's allocator has one (up to GCC 13), so other threads had better be idle.
 ChildOutput run_in_child(const std::function<void(std::ostream&)>& work, const NefLimits& limits);
 
 }  // namespace oracle
