@@ -46,11 +46,6 @@ std::string renderer_line(const RenderStats& stats) {
   return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
 }
 
-Bytes bytes_of(const std::string& text) {
-  const auto* first = reinterpret_cast<const std::byte*>(text.data());
-  return {first, first + text.size()};
-}
-
 /// OpenSCAD's name of a frame's file: five digits before the suffix.
 std::string frame_path(const std::string& path, uint32_t frame) {
   const std::filesystem::path whole(path);
@@ -107,21 +102,29 @@ class Run {
     return options_.frames == 0 ? output.path : frame_path(output.path, frame);
   }
 
-  void check_outputs() const {
-    for (const Output& output : options_.outputs) {
-      for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
-        check_output(path_of(output, frame));
-      }
+  /// The files of all pictures.
+  std::vector<std::string> picture_paths() const {
+    std::vector<std::string> paths;
+    for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
+      for (const Output& output : options_.outputs) paths.push_back(path_of(output, frame));
     }
+    return paths;
+  }
+
+  void check_outputs() const {
+    for (const std::string& path : picture_paths()) check_output(path);
     for (const std::string& path : {options_.stats_path, options_.rule_path}) {
       if (!path.empty()) check_output(path);
     }
   }
 
   void show_progress(const std::string& stage, double fraction) {
-    const std::string frame =
-        "frame " + std::to_string(frame_ + 1) + " of " + std::to_string(options_.frames) + ", ";
-    progress_.update(((options_.frames == 0 ? "" : frame) + stage).c_str(), fraction);
+    std::string text;
+    if (options_.frames > 0) {
+      text =
+          "frame " + std::to_string(frame_ + 1) + " of " + std::to_string(options_.frames) + ", ";
+    }
+    progress_.update((text + stage).c_str(), fraction);
   }
 
   /// A line on stderr, unless -q.
@@ -217,12 +220,8 @@ class Run {
   }
 
   std::string rule() const {
-    std::vector<std::string> targets;
-    for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
-      for (const Output& output : options_.outputs) {
-        targets.push_back(output.path == "-" ? "<stdout>" : path_of(output, frame));
-      }
-    }
+    std::vector<std::string> targets = picture_paths();
+    std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
     return make_rule(targets, files_);
   }
 

@@ -216,6 +216,11 @@ void check_output(const std::string& path) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) throw cannot_write(path, errno);
 }
 
+std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
 void write_outputs(std::span<const PendingOutput> outputs) {
   std::deque<TemporaryFile> files;  // its elements do not move
   for (const PendingOutput& output : outputs) {

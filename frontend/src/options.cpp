@@ -310,16 +310,6 @@ Output make_output(const std::string& path, std::optional<PictureFormat> given) 
   return {path, *format};
 }
 
-void read_frames(const Arguments& arguments, Options& options) {
-  constexpr uint32_t kMost = 99999;  // of five digits
-  options.frames = arguments.number<uint32_t>("animate", 0, kMost, 0, "give a number of frames");
-  const bool to_stdout = std::any_of(options.outputs.begin(), options.outputs.end(),
-                                     [](const Output& output) { return output.path == "-"; });
-  if (options.frames > 0 && to_stdout) {
-    fail("--animate does not go to standard output", "give -o a file's name");
-  }
-}
-
 void read_outputs(const Arguments& arguments, Options& options) {
   std::optional<PictureFormat> given;
   if (arguments.has("export-format")) {
@@ -339,7 +329,12 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
-  read_frames(arguments, options);
+  constexpr uint32_t kMostFrames = 99999;  // of five digits
+  options.frames =
+      arguments.number<uint32_t>("animate", 0, kMostFrames, 0, "give a number of frames");
+  if (options.frames > 0 && to_stdout > 0) {
+    fail("--animate does not go to standard output", "give -o a file's name");
+  }
   if (options.outputs.size() * std::max(options.frames, 1u) > kMaxPictures) {
     fail("more than " + std::to_string(kMaxPictures) + " pictures", "give fewer -o or frames");
   }

@@ -75,8 +75,7 @@ class Run {
 
   void write_report(const Result& result, int exponent) {
     const std::string json = report_of(result, name_, options_.settings, exponent);
-    const auto* first = reinterpret_cast<const std::byte*>(json.data());
-    const frontend::PendingOutput output{options_.report, {first, first + json.size()}};
+    const frontend::PendingOutput output{options_.report, frontend::bytes_of(json)};
     frontend::write_outputs({&output, 1});
   }
 

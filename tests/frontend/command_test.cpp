@@ -403,7 +403,7 @@ TEST_F(Command, ARuleForMake) {
   EXPECT_EQ(run({"-o", png_, "-o", folder_ / "x y.exr", "-d", rule, scad}).err, "");
   EXPECT_EQ(folder_.read("x.d"),
             png_ + " " + folder_ / "x\\ y.exr" + ": \\\n\t/lib/b\\ c.scad \\\n\t$$\\#.scad\n");
-  const Outcome to_stdout = run({"-o", "-", "--export-format=png", "-d", rule, scad});
+  EXPECT_EQ(run({"-o", "-", "--export-format=png", "-d", rule, scad}).code, ExitCode::kDone);
   EXPECT_THAT(folder_.read("x.d"), StartsWith("<stdout>: "));
   EXPECT_EQ(run({"-o", png_, "-d", "-", file_}).out, png_ + ": \\\n\t" + file_ + "\n");
 }

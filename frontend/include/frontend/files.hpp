@@ -39,6 +39,9 @@ struct PendingOutput {
   std::vector<std::byte> bytes;
 };
 
+/// A text, to be written as it is.
+std::vector<std::byte> bytes_of(std::string_view text);
+
 /// Throws Error if `path` can be seen not to be writable, before any work is spent on it.
 void check_output(const std::string& path);
 
