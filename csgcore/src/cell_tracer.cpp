@@ -245,6 +245,7 @@ void CellTracer::trace_picture() {
 }
 
 void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
+  if (subject_.is_cancelled()) return;
   LaneMask undecided[kTileBlocks] = {};
   for_each_block(tile, [&](const PacketBlock& block) {
     undecided[(block.y - tile.y) / kPacketHeight_px] = Traversal(*this, block, workspace).trace();

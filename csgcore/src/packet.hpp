@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -82,6 +83,9 @@ struct TraceList {
 struct TraceSubject {
   double thinnest_piece = 0;
   Boundary boundary = Boundary::kFirst;
+  const std::atomic<bool>* cancelled = nullptr;
+
+  bool is_cancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
 };
 
 /// Working memory of one thread, for packets of one list after the other.

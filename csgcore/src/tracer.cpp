@@ -50,6 +50,7 @@ TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
   TraceSubject subject;
   subject.thinnest_piece = thinnest_piece(solid.bounds());
   subject.boundary = options.boundary;
+  subject.cancelled = options.cancelled;
   return subject;
 }
 
@@ -143,7 +144,7 @@ class Frame {
   void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
     ImageSink sink(rays_, settings, solid_.bounds(), image);
     trace(subdivision, sink);
-    if (options_.samples > 1) sample_edges(sink, image);
+    if (options_.samples > 1 && !subject_.is_cancelled()) sample_edges(sink, image);
   }
 
   /// Counts what was skipped, if wanted.

@@ -28,83 +28,92 @@ void add(const TraceStats& frame, RenderStats& stats) {
   stats.render_ms += frame.cull_ms + frame.trace_ms;
 }
 
+bool uses_cells(const RenderSettings& settings) {
+  return settings.technique == Technique::kCells || settings.show == Show::kCells;
+}
+
+csgcore::TraceOptions trace_options(const RenderSettings& settings, Boundary boundary) {
+  csgcore::TraceOptions options;
+  options.threads = settings.threads;
+  options.boundary = boundary;
+  options.cancelled = settings.cancelled;
+  return options;
+}
+
 class CpuRenderer final : public SolidRenderer {
  public:
-  CpuRenderer(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats)
-      : view_(view), settings_(settings), stats_(stats) {
-    stats_.renderer = "cpu";
-    stats_.technique = uses_cells() ? "cells" : "tiles";
-  }
-
-  Image draw_model(const Solid& solid, const FrameSettings& frame) override {
-    if (settings_.show == Show::kCells) return draw_cells(solid, frame);
-    csgcore::TraceOptions options = trace_options(Boundary::kFirst);
-    options.samples = samples_of(settings_);
-    options.count_skipped = settings_.all_stats;
+  Image draw_model(const Solid& solid, const FrameSettings& frame,
+                   const PictureRequest& request) override {
+    note_renderer(request);
+    if (request.settings.show == Show::kCells) return draw_cells(solid, frame, request);
+    csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
+    options.samples = samples_of(request.settings);
+    options.count_skipped = request.settings.all_stats;
     TraceStats frame_stats;
     Image image;
-    if (uses_cells()) {
-      const Subdivision subdivision = subdivide_model(solid, view_, settings_, stats_);
-      csgcore::draw(subdivision, view_, frame, options, image, frame_stats);
+    if (uses_cells(request.settings)) {
+      csgcore::draw(subdivide_model(solid, request), request.view, frame, options, image,
+                    frame_stats);
     } else {
-      csgcore::draw(solid, view_, frame, options, image, frame_stats);
+      csgcore::draw(solid, request.view, frame, options, image, frame_stats);
     }
-    add(frame_stats, stats_);
-    stats_.trace.primitives = frame_stats.primitives;
-    stats_.trace.intersected = frame_stats.intersected;
-    stats_.trace.skipped = frame_stats.skipped;
+    RenderStats& stats = request.stats;
+    add(frame_stats, stats);
+    stats.trace.primitives = frame_stats.primitives;
+    stats.trace.intersected = frame_stats.intersected;
+    stats.trace.skipped = frame_stats.skipped;
     return image;
   }
 
-  Sides draw_sides(const Solid& solid, const FrameSettings& frame) override {
-    if (!uses_cells()) return trace_sides(solid, frame);
-    return trace_sides(Subdivision(solid, subdivision_options(view_, settings_)), frame);
+  Sides draw_sides(const Solid& solid, const FrameSettings& frame,
+                   const PictureRequest& request) override {
+    if (!uses_cells(request.settings)) return trace_sides(solid, frame, request);
+    return trace_sides(subdivisions_.of(solid, request).subdivision, frame, request);
   }
+
+  void forget() override { subdivisions_.forget(); }
 
  private:
-  bool uses_cells() const {
-    return settings_.technique == Technique::kCells || settings_.show == Show::kCells;
+  static void note_renderer(const PictureRequest& request) {
+    request.stats.renderer = "cpu";
+    request.stats.technique = uses_cells(request.settings) ? "cells" : "tiles";
   }
 
-  csgcore::TraceOptions trace_options(Boundary boundary) const {
-    csgcore::TraceOptions options;
-    options.threads = settings_.threads;
-    options.boundary = boundary;
-    return options;
+  const Subdivision& subdivide_model(const Solid& solid, const PictureRequest& request) {
+    const Subdivision& subdivision = subdivisions_.of(solid, request).subdivision;
+    count_cells(subdivision, request.stats);
+    return subdivision;
   }
 
-  Image draw_cells(const Solid& solid, const FrameSettings& frame) {
-    const Subdivision subdivision = subdivide_model(solid, view_, settings_, stats_);
+  Image draw_cells(const Solid& solid, const FrameSettings& frame, const PictureRequest& request) {
+    const Subdivision& subdivision = subdivide_model(solid, request);
     const Clock::time_point start = Clock::now();
-    Image image = cells_picture(subdivision, view_, frame, color_of(settings_.scheme.axes));
-    stats_.render_ms += ms_since(start);
+    Image image =
+        cells_picture(subdivision, request.view, frame, color_of(request.settings.scheme.axes));
+    request.stats.render_ms += ms_since(start);
     return image;
   }
 
   template <typename Traced>
-  Sides trace_sides(const Traced& traced, const FrameSettings& frame) {
+  static Sides trace_sides(const Traced& traced, const FrameSettings& frame,
+                           const PictureRequest& request) {
+    const auto trace_side = [&](Boundary boundary, Image& side) {
+      TraceStats frame_stats;
+      csgcore::draw(traced, request.view, frame, trace_options(request.settings, boundary), side,
+                    frame_stats);
+      add(frame_stats, request.stats);
+    };
     Sides sides;
-    TraceStats frame_stats;
-    csgcore::draw(traced, view_, frame, trace_options(Boundary::kFirst), sides.front, frame_stats);
-    add(frame_stats, stats_);
-    frame_stats = {};
-    csgcore::draw(traced, view_, frame, trace_options(Boundary::kBehind), sides.behind,
-                  frame_stats);
-    add(frame_stats, stats_);
+    trace_side(Boundary::kFirst, sides.front);
+    trace_side(Boundary::kBehind, sides.behind);
     return sides;
   }
 
-  const csgcore::View& view_;
-  const RenderSettings& settings_;
-  RenderStats& stats_;
+  SceneSubdivisions subdivisions_;
 };
 
 }  // namespace
 
-std::unique_ptr<SolidRenderer> make_cpu_renderer(const csgcore::View& view,
-                                                 const RenderSettings& settings,
-                                                 RenderStats& stats) {
-  return std::make_unique<CpuRenderer>(view, settings, stats);
-}
+std::unique_ptr<SolidRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }
 
 }  // namespace frontend

@@ -1,4 +1,5 @@
 // The drawing by OpenGL.
+#include <map>
 #include <utility>
 
 #include "elapsed.hpp"
@@ -26,92 +27,106 @@ auto translate_errors(Function function) {
 
 class GlRenderer final : public SolidRenderer {
  public:
-  GlRenderer(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats)
-      : view_(view), settings_(settings), stats_(stats) {
-    const std::string& name = context_.renderer_name();
-    if (settings.renderer == RendererKind::kAuto && is_software(name)) {
-      throw GlFailure("OpenGL runs in software here: " + name);
+  explicit GlRenderer(bool takes_software) {
+    if (!takes_software && is_software(context_.renderer_name())) {
+      throw GlFailure("OpenGL runs in software here: " + context_.renderer_name());
     }
-    stats_.renderer = "gl: " + name;
-    stats_.technique = "cells";
   }
 
-  Image draw_model(const Solid& solid, const csgcore::FrameSettings& frame) override {
+  Image draw_model(const Solid& solid, const csgcore::FrameSettings& frame,
+                   const PictureRequest& request) override {
     return translate_errors([&] {
-      const Subdivision subdivision = subdivide_model(solid, view_, settings_, stats_);
-      glrender::Renderer renderer(context_, solid);
-      renderer.load(subdivision);
-      glrender::FrameSettings gl_frame = frame_settings(frame);
-      gl_frame.samples = samples_of(settings_);
-      if (settings_.show == Show::kCells) gl_frame.subject = glrender::Subject::kCells;
-      Image image = count([&](auto& stats) { return renderer.draw(view_, gl_frame, stats); });
-      if (settings_.all_stats) measure(renderer, gl_frame);
+      request.stats.renderer = "gl: " + context_.renderer_name();
+      request.stats.technique = "cells";
+      glrender::Renderer& renderer = load(solid, request);
+      count_cells(subdivisions_.of(solid, request).subdivision, request.stats);
+      glrender::FrameSettings gl_frame = frame_settings(frame, request.settings);
+      gl_frame.samples = samples_of(request.settings);
+      if (request.settings.show == Show::kCells) gl_frame.subject = glrender::Subject::kCells;
+      Image image =
+          count([&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
+      if (request.settings.all_stats) {
+        measure(renderer, gl_frame, request);
+        loaded_.erase(&solid);  // measuring leaves nothing loaded
+      }
       return image;
     });
   }
 
-  Sides draw_sides(const Solid& solid, const csgcore::FrameSettings& frame) override {
+  Sides draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
+                   const PictureRequest& request) override {
     return translate_errors([&] {
-      const Subdivision subdivision(solid, subdivision_options(view_, settings_));
-      glrender::Renderer renderer(context_, solid);
-      renderer.load(subdivision);
-      const glrender::FrameSettings gl_frame = frame_settings(frame);
+      glrender::Renderer& renderer = load(solid, request);
+      const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings);
       Sides sides;
-      sides.front = count([&](auto& stats) { return renderer.draw(view_, gl_frame, stats); });
+      sides.front =
+          count([&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
       sides.behind =
-          count([&](auto& stats) { return renderer.draw_behind(view_, gl_frame, stats); });
+          count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
+                request);
       return sides;
     });
   }
 
+  void forget() override {
+    loaded_.clear();
+    subdivisions_.forget();
+  }
+
  private:
-  glrender::FrameSettings frame_settings(const csgcore::FrameSettings& frame) const {
+  /// With its cells, as the view needs them.
+  glrender::Renderer& load(const Solid& solid, const PictureRequest& request) {
+    const auto [subdivision, changed] = subdivisions_.of(solid, request);
+    const auto [found, is_new] = loaded_.try_emplace(&solid, context_, solid);
+    if (is_new || changed) found->second.load(subdivision);
+    return found->second;
+  }
+
+  static glrender::FrameSettings frame_settings(const csgcore::FrameSettings& frame,
+                                                const RenderSettings& settings) {
     glrender::FrameSettings result;
     static_cast<csgcore::FrameSettings&>(result) = frame;
-    result.edge = color_of(settings_.scheme.axes);
+    result.edge = color_of(settings.scheme.axes);
     return result;
   }
 
   template <typename Draw>
-  Image count(Draw draw) {
+  static Image count(Draw draw, const PictureRequest& request) {
     glrender::FrameStats frame;
     Image image = draw(frame);
-    stats_.draw_calls += frame.draw_calls;
-    stats_.cells_drawn += frame.cells_drawn;
-    stats_.traverse_ms += frame.traverse_ms;
-    stats_.render_ms += frame.draw_ms + frame.read_ms;
+    RenderStats& stats = request.stats;
+    stats.draw_calls += frame.draw_calls;
+    stats.cells_drawn += frame.cells_drawn;
+    stats.traverse_ms += frame.traverse_ms;
+    stats.render_ms += frame.draw_ms + frame.read_ms;
     return image;
   }
 
   /// Draws again, one sample a pixel: by now every shader is compiled.
-  void measure(glrender::Renderer& renderer, glrender::FrameSettings frame) {
+  static void measure(glrender::Renderer& renderer, glrender::FrameSettings frame,
+                      const PictureRequest& request) {
     const Clock::time_point start = Clock::now();
     frame.samples = 1;
-    glrender::FrameStats stats;
-    renderer.draw(view_, frame, stats);
-    stats_.paper_tr_ms = stats.traverse_ms + stats.draw_ms;
-    stats_.paper_ts_ms = renderer.traversal_ms(view_);
-    renderer.draw_while_subdividing(subdivision_options(view_, settings_), view_, frame, stats);
-    stats_.paper_sr_ms = stats.draw_ms;
-    stats_.measuring_ms = ms_since(start);
+    glrender::FrameStats drawn;
+    renderer.draw(request.view, frame, drawn);
+    RenderStats& stats = request.stats;
+    stats.paper_tr_ms = drawn.traverse_ms + drawn.draw_ms;
+    stats.paper_ts_ms = renderer.traversal_ms(request.view);
+    renderer.draw_while_subdividing(subdivision_options(request.view, request.settings),
+                                    request.view, frame, drawn);
+    stats.paper_sr_ms = drawn.draw_ms;
+    stats.measuring_ms = ms_since(start);
   }
 
-  const csgcore::View& view_;
-  const RenderSettings& settings_;
-  RenderStats& stats_;
   glrender::HeadlessContext context_;
+  SceneSubdivisions subdivisions_;
+  std::map<const Solid*, glrender::Renderer> loaded_;
 };
 
 }  // namespace
 
-std::unique_ptr<SolidRenderer> make_gl_renderer(const csgcore::View& view,
-                                                const RenderSettings& settings,
-                                                RenderStats& stats) {
-  const Clock::time_point start = Clock::now();
-  auto renderer =
-      translate_errors([&] { return std::make_unique<GlRenderer>(view, settings, stats); });
-  stats.context_ms = ms_since(start);
-  return renderer;
+std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software) {
+  return translate_errors([&] { return std::make_unique<GlRenderer>(takes_software); });
 }
 
 }  // namespace frontend

@@ -3,8 +3,7 @@
 
 namespace frontend {
 
-std::unique_ptr<SolidRenderer> make_gl_renderer(const csgcore::View&, const RenderSettings&,
-                                                RenderStats&) {
+std::unique_ptr<SolidRenderer> make_gl_renderer(bool) {
   throw GlFailure("this scadray was built without OpenGL", "give --renderer=cpu");
 }
 

@@ -10,21 +10,6 @@ namespace {
 using csgcore::LeafKind;
 using csgcore::Subdivision;
 
-void count_cells(const Subdivision& subdivision, RenderStats& stats) {
-  const csgcore::LeafCensus leaves = csgcore::census(subdivision);
-  const auto of = [&](LeafKind kind) { return leaves.by_kind[static_cast<size_t>(kind)]; };
-  stats.cells = subdivision.nodes().size();
-  stats.leaves = leaves.leaves();
-  stats.leaves_empty = of(LeafKind::kEmpty);
-  stats.leaves_union = of(LeafKind::kUnion);
-  stats.leaves_pair = of(LeafKind::kPair);
-  stats.leaves_general = of(LeafKind::kGeneral);
-  stats.leaves_full = of(LeafKind::kFull);
-  stats.leaves_dropped = of(LeafKind::kDropped);
-  stats.leaf_primitives = leaves.literals;
-  stats.bytes = subdivision.bytes();
-}
-
 /// Reports the share of the scene's volume that is subdivided.
 class SubdivisionProgress {
  public:
@@ -49,6 +34,12 @@ class SubdivisionProgress {
   double done_ = 0;
 };
 
+/// Whether the same leaves come of both, but for those that another view needs.
+bool is_same_rule(const csgcore::SubdivisionOptions& a, const csgcore::SubdivisionOptions& b) {
+  return a.leaf_primitives == b.leaf_primitives && a.threshold_px == b.threshold_px &&
+         a.stop_at_unions == b.stop_at_unions && a.split == b.split;
+}
+
 }  // namespace
 
 csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
@@ -66,15 +57,37 @@ csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
   return options;
 }
 
-Subdivision subdivide_model(const csgcore::Solid& solid, const csgcore::View& view,
-                            const RenderSettings& settings, RenderStats& stats) {
-  SubdivisionProgress progress(solid, settings);
+SceneSubdivisions::Found SceneSubdivisions::of(const csgcore::Solid& solid,
+                                               const PictureRequest& request) {
   const Clock::time_point start = Clock::now();
-  Subdivision subdivision(solid, subdivision_options(view, settings), progress.sink());
-  stats.subdivide_ms = ms_since(start);
-  count_cells(subdivision, stats);
-  if (settings.progress) settings.progress("drawing", 0.0);
-  return subdivision;
+  const csgcore::SubdivisionOptions options = subdivision_options(request.view, request.settings);
+  const auto found = subdivisions_.find(&solid);
+  if (found != subdivisions_.end() && is_same_rule(found->second.options(), options)) {
+    const bool refined = found->second.refine(request.view);
+    request.stats.subdivide_ms += ms_since(start);
+    return {found->second, refined};
+  }
+  SubdivisionProgress progress(solid, request.settings);
+  const auto [made, is_new] =
+      subdivisions_.insert_or_assign(&solid, Subdivision(solid, options, progress.sink()));
+  request.stats.subdivide_ms += ms_since(start);
+  if (request.settings.progress) request.settings.progress("drawing", 0.0);
+  return {made->second, true};
+}
+
+void count_cells(const Subdivision& subdivision, RenderStats& stats) {
+  const csgcore::LeafCensus leaves = csgcore::census(subdivision);
+  const auto of = [&](LeafKind kind) { return leaves.by_kind[static_cast<size_t>(kind)]; };
+  stats.cells = subdivision.nodes().size();
+  stats.leaves = leaves.leaves();
+  stats.leaves_empty = of(LeafKind::kEmpty);
+  stats.leaves_union = of(LeafKind::kUnion);
+  stats.leaves_pair = of(LeafKind::kPair);
+  stats.leaves_general = of(LeafKind::kGeneral);
+  stats.leaves_full = of(LeafKind::kFull);
+  stats.leaves_dropped = of(LeafKind::kDropped);
+  stats.leaf_primitives = leaves.literals;
+  stats.bytes = subdivision.bytes();
 }
 
 }  // namespace frontend

@@ -1,16 +1,36 @@
-// The kd-tree of a solid by the command's settings, timed and counted.
+// The kd-trees of a scene's solids by the command's settings, timed and counted.
 #pragma once
+
+#include <map>
 
 #include "csgcore/subdivision.hpp"
 #include "frontend/render.hpp"
+#include "solid_renderer.hpp"
 
 namespace frontend {
 
 csgcore::SubdivisionOptions subdivision_options(const csgcore::View& view,
                                                 const RenderSettings& settings);
 
-/// Subdivides the model, reports progress, and fills the stats' subdivision.
-csgcore::Subdivision subdivide_model(const csgcore::Solid& solid, const csgcore::View& view,
-                                     const RenderSettings& settings, RenderStats& stats);
+/// Keeps a kd-tree for each solid that it is asked for.
+class SceneSubdivisions {
+ public:
+  /// Subdivides the solid, or finds what was made of it by the same settings; with a threshold,
+  /// divided further where the view needs it (paper §2.3). Reports progress. `changed`: it is not
+  /// as it was at the last call.
+  struct Found {
+    const csgcore::Subdivision& subdivision;
+    bool changed;
+  };
+  Found of(const csgcore::Solid& solid, const PictureRequest& request);
+
+  void forget() { subdivisions_.clear(); }
+
+ private:
+  std::map<const csgcore::Solid*, csgcore::Subdivision> subdivisions_;
+};
+
+/// Fills the statistics of the model's cells.
+void count_cells(const csgcore::Subdivision& subdivision, RenderStats& stats);
 
 }  // namespace frontend

@@ -1,5 +1,5 @@
-// What a renderer does for render(): pictures of single solids. What the renderers share (colours,
-// translucent parts, scale, the choice between them) is render.cpp's.
+// What a renderer does for SceneRenderer: pictures of single solids. What the renderers share
+// (colours, translucent parts, scale, the choice between them) is scene_renderer.cpp's.
 #pragma once
 
 #include <memory>
@@ -32,14 +32,24 @@ inline uint32_t samples_of(const RenderSettings& settings) {
   return settings.show == Show::kSurface ? settings.samples : 1;
 }
 
-/// Draws one solid after another. What it was made with must outlive it.
+/// One picture: from where, and how. `stats` is added to, but for `primitives`, `prepare_ms`,
+/// `context_ms` and `reason`.
+struct PictureRequest {
+  const csgcore::View& view;
+  const RenderSettings& settings;
+  RenderStats& stats;
+};
+
+/// Draws one solid after another, and keeps what it makes of each (a kd-tree, what OpenGL holds)
+/// for further pictures of it. The solids must live until forget().
 class SolidRenderer {
  public:
   virtual ~SolidRenderer() = default;
 
   /// What settings.show asks for of the model: the surface, or the cells.
   virtual csgcore::Image draw_model(const csgcore::Solid& solid,
-                                    const csgcore::FrameSettings& frame) = 0;
+                                    const csgcore::FrameSettings& frame,
+                                    const PictureRequest& request) = 0;
 
   struct Sides {
     csgcore::Image front;   // where each ray enters the solid
@@ -47,17 +57,17 @@ class SolidRenderer {
   };
   /// One ray a pixel: at the edge of a layer that is blended later, a colour mixed with the
   /// background's would show as a seam.
-  virtual Sides draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame) = 0;
+  virtual Sides draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
+                           const PictureRequest& request) = 0;
+
+  /// All solids that were drawn.
+  virtual void forget() = 0;
 };
 
-/// Fills `stats`, but for `primitives`, `prepare_ms` and `reason`.
-std::unique_ptr<SolidRenderer> make_cpu_renderer(const csgcore::View& view,
-                                                 const RenderSettings& settings,
-                                                 RenderStats& stats);
+std::unique_ptr<SolidRenderer> make_cpu_renderer();
 
-/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; with kAuto also if OpenGL runs
-/// in software.
-std::unique_ptr<SolidRenderer> make_gl_renderer(const csgcore::View& view,
-                                                const RenderSettings& settings, RenderStats& stats);
+/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; without `takes_software` also
+/// if OpenGL runs in software.
+std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software);
 
 }  // namespace frontend

@@ -9,6 +9,7 @@
 //   pays for many frames of a dense model.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct TraceOptions {
   Boundary boundary = Boundary::kFirst;
   /// Find out why primitives were skipped (TraceStats::skipped); costs a little.
   bool count_skipped = false;
+  /// The frame ends early once this is true: what it leaves undrawn is undefined. May be null.
+  const std::atomic<bool>* cancelled = nullptr;
 };
 
 /// Primitives of the solid that were never intersected with any ray, by the reason.

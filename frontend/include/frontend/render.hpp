@@ -1,6 +1,7 @@
 // Scene and camera → Image: the seam between the command line and the renderers.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -52,6 +53,8 @@ struct RenderSettings {
   /// Fill also those RenderStats that cost something: T_S, T_R and S_R, for which OpenGL draws
   /// again, and why primitives were skipped.
   bool all_stats = false;
+  /// The CPU's pictures end early, whatever they show, once this is true; may be null.
+  const std::atomic<bool>* cancelled = nullptr;
   /// Called with what is done in [0, 1] while long work goes on; may be empty.
   std::function<void(const char* stage, double fraction)> progress;
 };
