@@ -223,14 +223,14 @@ CellTracer::CellTracer(const Subdivision& subdivision, const FrameRays& frame,
 
 CellTracer::~CellTracer() = default;
 
-void CellTracer::trace_picture() {
-  const uint32_t columns = (frame_.view.width_px + kTaskSide_px - 1) / kTaskSide_px;
-  const uint32_t rows = (frame_.view.height_px + kTaskSide_px - 1) / kTaskSide_px;
+void CellTracer::trace(const PixelArea& area) {
+  const uint32_t columns = (area.width + kTaskSide_px - 1) / kTaskSide_px;
+  const uint32_t rows = (area.height + kTaskSide_px - 1) / kTaskSide_px;
   tbb::parallel_for(uint32_t{0}, columns * rows, [&](uint32_t task) {
-    const uint32_t left = task % columns * kTaskSide_px;
-    const uint32_t top = task / columns * kTaskSide_px;
-    const uint32_t right = std::min(frame_.view.width_px, left + kTaskSide_px);
-    const uint32_t bottom = std::min(frame_.view.height_px, top + kTaskSide_px);
+    const uint32_t left = area.x + task % columns * kTaskSide_px;
+    const uint32_t top = area.y + task / columns * kTaskSide_px;
+    const uint32_t right = std::min(area.x + area.width, left + kTaskSide_px);
+    const uint32_t bottom = std::min(area.y + area.height, top + kTaskSide_px);
     Workspace workspace;
     for (uint32_t y = top; y < bottom; y += kTileSide_px) {
       for (uint32_t x = left; x < right; x += kTileSide_px) {

@@ -18,8 +18,8 @@ class CellTracer {
              HitSink& sink, Fates& fates);
   ~CellTracer();
 
-  /// All pixels, through their centres, in parallel.
-  void trace_picture();
+  /// The area's pixels, through their centres, in parallel.
+  void trace(const PixelArea& area);
 
   TileTracer::Counts counts() const;
 

@@ -5,6 +5,22 @@
 
 namespace csgcore {
 
+CsgTree subtract(const CsgTree& tree, uint32_t primitive) {
+  if (tree.empty()) return {};
+  CsgTree result = tree;
+  std::vector<CsgToken>& tokens = result.tokens_;
+  CsgToken root{false, Op::kDifference, 1};
+  const bool is_difference = !tokens.back().is_primitive && tokens.back().op == Op::kDifference;
+  if (is_difference) {
+    root = tokens.back();
+    tokens.pop_back();
+  }
+  ++root.value;
+  tokens.push_back({true, Op::kUnion, primitive});
+  tokens.push_back(root);
+  return result;
+}
+
 void CsgTreeBuilder::open(Op op) {
   frames_.push_back({op, static_cast<uint32_t>(tokens_.size()), 0, false, false});
 }

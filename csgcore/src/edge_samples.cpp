@@ -21,25 +21,29 @@ bool differs(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
 
 }  // namespace
 
-EdgeMap::EdgeMap(const Image& image)
-    : width_(image.width_px), block_columns_((image.width_px + kBlockSide_px - 1) / kBlockSide_px) {
-  const uint32_t block_rows = (image.height_px + kBlockSide_px - 1) / kBlockSide_px;
-  edges_.assign(image.rgb.size(), 0);
+EdgeMap::EdgeMap(const Image& image, const PixelArea& area)
+    : area_(area), block_columns_((area.width + kBlockSide_px - 1) / kBlockSide_px) {
+  const uint32_t block_rows = (area.height + kBlockSide_px - 1) / kBlockSide_px;
+  edges_.assign(size_t{area.width} * area.height, 0);
   blocks_.assign(size_t{block_columns_} * block_rows, 0);
   const auto mark = [&](uint32_t x, uint32_t y) {
-    uint8_t& edge = edges_[size_t{y} * width_ + x];
+    x -= area_.x;
+    y -= area_.y;
+    if (x >= area_.width || y >= area_.height) return;  // wrapped around if above or to the left
+    uint8_t& edge = edges_[size_t{y} * area_.width + x];
     count_ += edge == 0;
     edge = 1;
     blocks_[size_t{y / kBlockSide_px} * block_columns_ + x / kBlockSide_px] = 1;
   };
-  for (uint32_t y = 0; y < image.height_px; ++y) {
-    const auto* row = image.rgb.data() + size_t{y} * width_;
-    for (uint32_t x = 0; x < width_; ++x) {
-      if (x + 1 < width_ && differs(row[x], row[x + 1])) {
+  const uint32_t right = area.x + area.width, bottom = area.y + area.height;
+  for (uint32_t y = area.y > 0 ? area.y - 1 : 0; y < bottom; ++y) {
+    const auto* row = image.rgb.data() + size_t{y} * image.width_px;
+    for (uint32_t x = area.x > 0 ? area.x - 1 : 0; x < right; ++x) {
+      if (x + 1 < image.width_px && differs(row[x], row[x + 1])) {
         mark(x, y);
         mark(x + 1, y);
       }
-      if (y + 1 < image.height_px && differs(row[x], row[x + width_])) {
+      if (y + 1 < image.height_px && differs(row[x], row[x + image.width_px])) {
         mark(x, y);
         mark(x, y + 1);
       }
@@ -48,14 +52,46 @@ EdgeMap::EdgeMap(const Image& image)
 }
 
 bool EdgeMap::any_in(const Tile& tile) const {
-  const uint32_t last_row = (tile.y + tile.height - 1) / kBlockSide_px;
-  const uint32_t first = tile.x / kBlockSide_px;
-  const uint32_t last = (tile.x + tile.width - 1) / kBlockSide_px;
-  for (uint32_t row = tile.y / kBlockSide_px; row <= last_row; ++row) {
+  const uint32_t left = tile.x - area_.x, top = tile.y - area_.y;
+  const uint32_t last_row = (top + tile.height - 1) / kBlockSide_px;
+  const uint32_t first = left / kBlockSide_px;
+  const uint32_t last = (left + tile.width - 1) / kBlockSide_px;
+  for (uint32_t row = top / kBlockSide_px; row <= last_row; ++row) {
     const uint8_t* blocks = blocks_.data() + size_t{row} * block_columns_;
     if (std::find(blocks + first, blocks + last + 1, uint8_t{1}) != blocks + last + 1) return true;
   }
   return false;
+}
+
+PixelArea grown(const PixelArea& area, uint32_t by_px, const View& view) {
+  const uint32_t left = area.x - std::min(area.x, by_px);
+  const uint32_t top = area.y - std::min(area.y, by_px);
+  const uint32_t right = std::min(view.width_px, area.x + area.width + by_px);
+  const uint32_t bottom = std::min(view.height_px, area.y + area.height + by_px);
+  return {left, top, right - left, bottom - top};
+}
+
+KeptColors::KeptColors(const Image& image, const PixelArea& area) : area_(area) {
+  colors_.reserve(size_t{area.width} * area.height);
+  for (uint32_t y = area.y; y < area.y + area.height; ++y) {
+    const Rgb8* const row = &image.rgb[size_t{y} * image.width_px + area.x];
+    colors_.insert(colors_.end(), row, row + area.width);
+  }
+}
+
+void KeptColors::restore_around(const PixelArea& replaced, Image& image) const {
+  const uint32_t before = replaced.x - area_.x;
+  const uint32_t after = area_.width - before - replaced.width;
+  for (uint32_t y = area_.y; y < area_.y + area_.height; ++y) {
+    const Rgb8* const from = &colors_[size_t{y - area_.y} * area_.width];
+    Rgb8* const to = &image.rgb[size_t{y} * image.width_px + area_.x];
+    if (y < replaced.y || y >= replaced.y + replaced.height) {
+      std::copy_n(from, area_.width, to);
+      continue;
+    }
+    std::copy_n(from, before, to);
+    std::copy_n(from + area_.width - after, after, to + area_.width - after);
+  }
 }
 
 /// Fills packets with the samples of one pixel after the other, whatever their number.

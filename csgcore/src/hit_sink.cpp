@@ -67,22 +67,31 @@ MemorySink::MemorySink(const FrameRays& frame, Hits& hits) : frame_(frame), hits
   hits.width_px = frame.view.width_px;
   hits.height_px = frame.view.height_px;
   const size_t pixels = size_t{hits.width_px} * hits.height_px;
-  hits.s.assign(pixels, std::numeric_limits<double>::infinity());
-  hits.position.assign(pixels, Vec3{0.0});
-  hits.normal.assign(pixels, Vec3{0.0});
-  hits.primitive.assign(pixels, Hits::kMiss);
+  hits.s.resize(pixels);
+  hits.position.resize(pixels);
+  hits.normal.resize(pixels);
+  hits.primitive.resize(pixels);
 }
 
-void MemorySink::clear(const Tile&) {}
+void MemorySink::clear(const Tile& tile) {
+  for_each_row(tile, hits_.width_px, [&](size_t first) {
+    const auto at = [first](auto& channel) { return channel.begin() + static_cast<long>(first); };
+    std::fill_n(at(hits_.s), tile.width, std::numeric_limits<double>::infinity());
+    std::fill_n(at(hits_.position), tile.width, Vec3{0.0});
+    std::fill_n(at(hits_.normal), tile.width, Vec3{0.0});
+    std::fill_n(at(hits_.primitive), tile.width, Hits::kMiss);
+  });
+}
 
 void MemorySink::store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
                        const PacketHits& hits) {
   for_each_pixel(block, hits_.width_px, [&](uint32_t lane, size_t pixel) {
-    if (!(hits.hits >> lane & 1)) return;
-    hits_.s[pixel] = frame_.base_s + hits.t[lane];
-    hits_.position[pixel] = position_of(frame_, rays, hits, lane);
-    hits_.normal[pixel] = lane_of(hits.normal, lane);
-    hits_.primitive[pixel] = list.list->primitive[hits.index[lane]] & kPrimitiveBits;
+    const bool hit = (hits.hits >> lane & 1) != 0;
+    hits_.s[pixel] = hit ? frame_.base_s + hits.t[lane] : std::numeric_limits<double>::infinity();
+    hits_.position[pixel] = hit ? position_of(frame_, rays, hits, lane) : Vec3{0.0};
+    hits_.normal[pixel] = hit ? lane_of(hits.normal, lane) : Vec3{0.0};
+    hits_.primitive[pixel] =
+        hit ? list.list->primitive[hits.index[lane]] & kPrimitiveBits : Hits::kMiss;
   });
 }
 

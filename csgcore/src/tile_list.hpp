@@ -12,10 +12,8 @@
 
 namespace csgcore {
 
-/// A rectangle of pixels.
-struct Tile {
-  uint32_t x = 0, y = 0, width = 0, height = 0;
-};
+/// What the screen is divided into.
+using Tile = PixelArea;
 
 /// Why a primitive was never intersected; the largest that any tile saw counts.
 enum class Fate : uint8_t {

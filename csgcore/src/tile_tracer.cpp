@@ -182,10 +182,6 @@ std::optional<bool> TileTracer::find_last_value() const {
   return at_eye.root == CellList::kFalse;
 }
 
-Tile TileTracer::whole_picture() const {
-  return {0, 0, frame_.view.width_px, frame_.view.height_px};
-}
-
 Box TileTracer::box_of(const Tile& tile) const {
   constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
   const double border = centers_only_ ? 0.0 : 0.5;

@@ -77,7 +77,6 @@ class TileTracer {
 
   /// All tiles of `area`, in parallel if that is more than a few.
   void visit(const Tile& area, TileVisitor& visitor);
-  Tile whole_picture() const;
 
   Counts counts() const;
   /// Adds to the fates what is known of the primitives' places on the screen.

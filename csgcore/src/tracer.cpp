@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <thread>
 #include <unordered_map>
@@ -108,21 +109,48 @@ class Frame {
       : solid_(solid),
         options_(options),
         stats_(stats),
+        area_(options.area.value_or(PixelArea{0, 0, view.width_px, view.height_px})),
         rays_(frame_rays(view, solid.bounds())),
         subject_(subject_of(solid, options)) {
     stats = {};
+    assert(area_.x + area_.width <= view.width_px && area_.y + area_.height <= view.height_px);
     if (options.count_skipped) fates_.resize(solid.primitives().size());
   }
 
   const FrameRays& rays() const { return rays_; }
 
   /// By a kd-tree, or by tiles without one.
-  void trace(const Subdivision* subdivision, HitSink& sink) {
+  void trace(const Subdivision* subdivision, HitSink& sink) { trace(subdivision, area_, sink); }
+
+  void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
+    ImageSink sink(rays_, settings, solid_.bounds(), image);
+    if (options_.samples <= 1 || area_.empty()) {
+      trace(subdivision, area_, sink);
+      return;
+    }
+    // The area's pixels may make edges of those beside them, and whether these are edges depends on
+    // those beyond: on the colours of their centres, which `image` holds no longer.
+    const PixelArea sampled = grown(area_, 1, rays_.view);
+    const PixelArea looked_at = grown(area_, 2, rays_.view);
+    const KeptColors kept(image, looked_at == sampled ? PixelArea{} : looked_at);
+    trace(subdivision, looked_at, sink);
+    if (!subject_.is_cancelled()) sample_edges(sampled, sink, image);
+    kept.restore_around(sampled, image);
+  }
+
+  /// Counts what was skipped, if wanted.
+  void finish() {
+    if (fates_.wanted()) count_fates(solid_, fates_, stats_);
+  }
+
+ private:
+  void trace(const Subdivision* subdivision, const PixelArea& area, HitSink& sink) {
+    if (area.empty()) return;
     with_threads(options_.threads, [&] {
       Stopwatch watch;
       if (subdivision) {
         CellTracer tracer(*subdivision, rays_, subject_, sink, fates_);
-        tracer.trace_picture();
+        tracer.trace(area);
         add(tracer.counts());
         stats_.tiles = 0;
         // What stands in some cell, and was not met there, lies behind what was.
@@ -133,7 +161,7 @@ class Frame {
         TileTracer tracer(solid_, rays_, subject_, true, fates_);
         stats_.cull_ms = watch.lap_ms();
         PixelVisitor visitor(rays_, sink);
-        tracer.visit(tracer.whole_picture(), visitor);
+        tracer.visit(area, visitor);
         add(tracer.counts());
         if (fates_.wanted()) tracer.note_screen_fates();
       }
@@ -141,26 +169,14 @@ class Frame {
     });
   }
 
-  void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
-    ImageSink sink(rays_, settings, solid_.bounds(), image);
-    trace(subdivision, sink);
-    if (options_.samples > 1 && !subject_.is_cancelled()) sample_edges(sink, image);
-  }
-
-  /// Counts what was skipped, if wanted.
-  void finish() {
-    if (fates_.wanted()) count_fates(solid_, fates_, stats_);
-  }
-
- private:
-  void sample_edges(const ImageSink& sink, Image& image) {
+  void sample_edges(const PixelArea& area, const ImageSink& sink, Image& image) {
     with_threads(options_.threads, [&] {
       Stopwatch watch;
-      const EdgeMap edges(image);
+      const EdgeMap edges(image, area);
       stats_.edge_pixels = edges.count();
       TileTracer tracer(solid_, rays_, subject_, false, fates_);
       EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
-      tracer.visit(tracer.whole_picture(), visitor);
+      tracer.visit(area, visitor);
       add(tracer.counts());
       stats_.trace_ms += watch.lap_ms();
     });
@@ -176,6 +192,7 @@ class Frame {
   const Solid& solid_;
   const TraceOptions& options_;
   TraceStats& stats_;
+  const PixelArea area_;
   const FrameRays rays_;
   const TraceSubject subject_;
   Fates fates_;

@@ -189,6 +189,30 @@ TEST(CsgTreeBuilder, RandomTreesKeepTheirMeaning) {
   EXPECT_GT(not_empty, 1500);
 }
 
+TEST(CsgTree, SubtractsOneMorePrimitive) {
+  EXPECT_TRUE(subtract(CsgTree{}, 9).empty());
+  EXPECT_EQ(text_of(subtract(build("0"), 9)), "0 9 -2");
+  EXPECT_EQ(text_of(subtract(build("01"), 9)), "0 1 +2 9 -2");
+  EXPECT_EQ(text_of(subtract(build("d01)"), 9)), "0 1 9 -3");
+  EXPECT_EQ(text_of(subtract(build("i0d12))"), 9)), "0 1 2 -2 *2 9 -2");
+}
+
+TEST(CsgTree, SubtractedPrimitivesHoldNowhere) {
+  std::mt19937 random(4);
+  for (int round = 0; round < 1000; ++round) {
+    const CsgTree tree = build(random_calls(random));
+    const uint32_t cut = static_cast<uint32_t>(random() % 12);  // one of its own, or not
+    const CsgTree less = subtract(tree, cut);
+    expect_normal_form(less);
+    for (int i = 0; i < 30; ++i) {
+      const uint32_t truth = static_cast<uint32_t>(random());
+      const auto inside = [&](uint32_t p) { return ((truth >> p) & 1) != 0; };
+      const bool before = evaluate_tree(tree.tokens(), inside);
+      ASSERT_EQ(evaluate_tree(less.tokens(), inside), before && !inside(cut));
+    }
+  }
+}
+
 TEST(ShortCircuitList, CompiledTreesKeepTheirMeaning) {
   std::mt19937 random(2);
   for (int round = 0; round < 3000; ++round) {

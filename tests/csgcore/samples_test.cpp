@@ -112,7 +112,7 @@ TEST_P(SamplesOf, EdgePixelsAreMeansAndOthersUntouched) {
   for (const auto& [name, view] : checks::trace_views(solid.bounds(), 51, 38)) {
     SCOPED_TRACE(name);
     const Image plain = draw_with(solid, view, settings, 1).image;
-    const EdgeMap map(plain);
+    const EdgeMap map(plain, {0, 0, view.width_px, view.height_px});
     SampleOracle oracle(solid, view, settings);
     for (const uint32_t samples : {2u, 5u, 16u, 37u}) {
       const Drawn drawn = draw_with(solid, view, settings, samples);

@@ -31,8 +31,12 @@ class CsgTree {
 
  private:
   friend class CsgTreeBuilder;
+  friend CsgTree subtract(const CsgTree& tree, uint32_t primitive);
   std::vector<CsgToken> tokens_;
 };
+
+/// The tree minus one more primitive: a section plane, for one. Nothing minus something is empty.
+CsgTree subtract(const CsgTree& tree, uint32_t primitive);
 
 /// Builds a tree from the outside in, without recursion:
 ///   builder.open(Op::kDifference); builder.primitive(0); builder.primitive(1); builder.close();

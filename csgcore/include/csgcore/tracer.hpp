@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csgcore/frame_settings.hpp"
@@ -34,7 +35,14 @@ struct TraceOptions {
   /// The measured channels are always those of the pixel's centre.
   uint32_t samples = 1;
   Boundary boundary = Boundary::kFirst;
-  /// Find out why primitives were skipped (TraceStats::skipped); costs a little.
+  /// Trace these pixels only, which lie within the view; none: all. `image` or `hits` come from the
+  /// same view, settings, samples and boundary, and keep all other pixels: the picture is the whole
+  /// one, bit for bit, if the solid has since changed nowhere else (scene_edit.hpp, changed_area).
+  /// With more than one sample the pixels beside the area are looked at too, which it may have made
+  /// edges of, or no longer edges.
+  std::optional<PixelArea> area;
+  /// Find out why primitives were skipped (TraceStats::skipped); costs a little. Of an area that is
+  /// not the whole picture, what only others show is counted as cancelled.
   bool count_skipped = false;
   /// The frame ends early once this is true: what it leaves undrawn is undefined. May be null.
   const std::atomic<bool>* cancelled = nullptr;

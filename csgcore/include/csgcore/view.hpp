@@ -28,6 +28,13 @@ struct View {
   uint32_t height_px = 512;
 };
 
+/// A rectangle of a picture's pixels: x to the right, y downwards from the top left corner.
+struct PixelArea {
+  uint32_t x = 0, y = 0, width = 0, height = 0;
+  bool empty() const { return width == 0 || height == 0; }
+  bool operator==(const PixelArea&) const = default;
+};
+
 /// origin + s·direction, in world space.
 struct Ray {
   Vec3 origin;
