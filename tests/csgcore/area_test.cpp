@@ -154,12 +154,15 @@ INSTANTIATE_TEST_SUITE_P(Tracer, AreaOf,
                          testing::Values("Empty", "Flush", "Cones", "Crowd", "Random40"),
                          [](const auto& name) { return std::string(name.param); });
 
-/// A ball that shrinks by less than a pixel: pixels beside the area are edges no longer.
+/// A ball that shrinks, and beside it a wire between the pixels' centres: seen where its pixels are
+/// edges, which they are next to the larger ball only.
 TEST(Area, PixelsBesideItAreEdgesOrNot) {
   const auto solid_with = [](double radius) {
-    const Scene scene = checks::scene_of(
-        Op::kUnion, {make_sphere(2, checks::moved({-3, -3, 0})), make_sphere(radius),
-                     make_sphere(2, checks::moved({3, 3, 0}))});
+    const Affine upright{Mat3{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {-1.36, 0, 0}};
+    const Scene scene =
+        checks::scene_of(Op::kUnion, {make_sphere(2, checks::moved({-3, -3, 0})),
+                                      make_frustum(-1, 1, 0.02, 0.02, upright), make_sphere(radius),
+                                      make_sphere(2, checks::moved({3, 3, 0}))});
     return Solid(canonical_primitives(scene), scene.model);
   };
   View view;
@@ -175,7 +178,7 @@ TEST(Area, PixelsBesideItAreEdgesOrNot) {
   Image image, expected;
   Method{before, nullptr}.draw(view, options, image);
   Method{after, nullptr}.draw(view, options, expected);
-  // The ball of 6 pixels in radius, and not one pixel more.
+  // The larger ball, of 6 pixels in radius, and not one pixel more.
   options.area = PixelArea{24, 24, 12, 12};
   Method{after, nullptr}.draw(view, options, image);
   EXPECT_TRUE(same_bits(image, expected));
