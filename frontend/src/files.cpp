@@ -1,10 +1,12 @@
 #include "frontend/files.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <deque>
@@ -12,34 +14,15 @@
 #include <optional>
 #include <random>
 
+#include "descriptor.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/stop.hpp"
 
 namespace frontend {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Closes a descriptor that it owns; standard input and output are not owned.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  /// False if the system reports only now that something could not be written.
-  bool close_now() {
-    const int result = close(number_);
-    number_ = -1;
-    return result == 0;
-  }
-
- private:
-  int number_;
-};
 
 Error cannot_read(const std::string& name, int error_number) {
   return Error(name, {}, std::string("cannot be read: ") + std::strerror(error_number),
@@ -168,21 +151,35 @@ void write_directly(const PendingOutput& output) {
   write_all(file.number(), output.bytes, output.path);
 }
 
+/// Waits until there is something to read, or the end. For what may take for ever: a pipe, a
+/// terminal. Throws Stopped.
+void wait_for_input(int descriptor, const StopEvent& stop) {
+  std::array<pollfd, 2> waits = {pollfd{descriptor, POLLIN, 0},
+                                 pollfd{stop.descriptor(), POLLIN, 0}};
+  while (poll(waits.data(), waits.size(), -1) < 0 && errno == EINTR) {
+  }
+  if (waits[1].revents != 0) throw Stopped{};
+}
+
 }  // namespace
 
-FileText read_descriptor(int descriptor, const std::string& name) {
+FileText read_descriptor(int descriptor, const std::string& name, const std::stop_token& stop) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) throw cannot_read(name, errno);
   if (S_ISDIR(status.st_mode)) {
     throw Error(name, {}, "is a folder", "give a .csg or .scad file");
   }
+  std::optional<StopEvent> stop_event;
+  if (stop.stop_possible() && !S_ISREG(status.st_mode)) stop_event.emplace(stop);
   Room room;
   // One byte more than the file has, so that the end shows without growing.
   const std::size_t expected =
       S_ISREG(status.st_mode) && status.st_size > 0 ? static_cast<std::size_t>(status.st_size) : 0;
   room.grow(std::max(std::min(expected, kMaxInputBytes) + 1, kFirstRoom));
   while (true) {
+    throw_if_stopped(stop);
     if (room.size == room.capacity) room.grow(room.capacity * 2);
+    if (stop_event) wait_for_input(descriptor, *stop_event);
     const ssize_t count = read(descriptor, room.bytes.get() + room.size, room.capacity - room.size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw cannot_read(name, errno);
@@ -195,11 +192,13 @@ FileText read_descriptor(int descriptor, const std::string& name) {
   return FileText(std::move(room.bytes), room.size);
 }
 
-FileText read_file(const std::string& path) {
-  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input");
-  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+FileText read_file(const std::string& path, const std::stop_token& stop) {
+  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input", stop);
+  // What is to be stopped must not wait for a named pipe's writer here; it does so when it reads.
+  const int waits = stop.stop_possible() ? O_NONBLOCK : 0;
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | waits));
   if (file.number() < 0) throw cannot_read(path, errno);
-  return read_descriptor(file.number(), path);
+  return read_descriptor(file.number(), path, stop);
 }
 
 void check_output(const std::string& path) {

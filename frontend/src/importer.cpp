@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frames.hpp"
+#include "frontend/stop.hpp"
 #include "healing.hpp"
 #include "import_arguments.hpp"
 #include "import_polyhedra.hpp"
@@ -127,11 +128,12 @@ class Collector {
     primitive_of.assign(tree.nodes.size(), kNone);
   }
 
-  void collect() {
+  void collect(const std::stop_token& stop) {
     reserve();
     contexts_.push_back({kNone, 0, std::nullopt, false});
     uint32_t skipped_until = 0;
     for (uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+      throw_if_stopped(stop);
       const SyntaxNode& node = tree_.nodes[i];
       const uint32_t id = primitive_nodes;
       if (is_primitive_node(node.kind)) ++primitive_nodes;
@@ -426,10 +428,11 @@ Box union_of(std::span<const Box> boxes) {
 
 }  // namespace
 
-ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options) {
+ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
+                             const std::stop_token& stop) {
   const NodeRange selected = selected_nodes(tree);
   Collector collected(tree, selected, options);
-  collected.collect();
+  collected.collect(stop);
   if (!collected.left_out.empty() && !options.skip_unsupported) throw_unsupported(tree, collected);
 
   ImportedDesign design;
@@ -439,7 +442,9 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
 
   const std::vector<Box>& boxes = collected.boxes;
   merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
+  throw_if_stopped(stop);
   facet(tree, collected, design.warnings);
+  throw_if_stopped(stop);
   const Marks marks = marks_of(tree, selected, collected);
   Emitter emitter(tree, collected.primitive_of, marks);
   design.scene.model = emitter.model(selected);

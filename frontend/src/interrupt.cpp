@@ -1,5 +1,6 @@
 #include "frontend/interrupt.hpp"
 
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -20,8 +21,15 @@ std::atomic<pid_t> child_group{0};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 
+/// For a child that another thread is just starting, in ms: long, and yet an end.
+constexpr int kMostWaits = 2000;
+
 void on_interrupt(int) {
-  const pid_t group = child_group.load();
+  pid_t group = child_group.load();
+  for (int waits = 0; group == kStartingChild && waits < kMostWaits; ++waits) {
+    poll(nullptr, 0, 1);
+    group = child_group.load();
+  }
   if (group > 0) kill(-group, SIGKILL);
   for (std::atomic<const char*>& slot : files_to_remove) {
     if (const char* path = slot.exchange(nullptr)) unlink(path);

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,9 +17,12 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "descriptor.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/stop.hpp"
 #include "make_rule.hpp"
 
 extern char** environ;
@@ -100,13 +104,25 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  /// Returns when it has ended, or `stop` is to be read from. Without one (-1) wait() does.
+  void wait_for_end(int stop) const {
+    if (stop < 0) return;
+    // glibc 2.36 declares pidfd_open() for C only.
+    const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
+    if (child.number() < 0) return;  // a kernel before 5.3
+    std::array<pollfd, 2> waits = {pollfd{child.number(), POLLIN, 0}, pollfd{stop, POLLIN, 0}};
+    while (poll(waits.data(), waits.size(), -1) < 0 && errno == EINTR) {
+    }
+  }
+
   /// The exit code; 128 and the signal's number where one ended it.
   int wait() {
-    int status = 0;
-    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    siginfo_t info{};
+    while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
     }
-    set_child_group(0);
-    pid_ = 0;
+    set_child_group(0);  // while the number cannot be another's yet
+    int status = 0;
+    waitpid(std::exchange(pid_, 0), &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
@@ -146,9 +162,10 @@ Child::Child(const std::vector<std::string>& command, const Pipe& out, const Pip
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setsigmask(&attributes, &before);
 
+  set_child_group(kStartingChild);
   const int failed =
       posix_spawnp(&pid_, arguments[0], &files, &attributes, arguments.data(), environ);
-  if (failed == 0) set_child_group(pid_);
+  set_child_group(failed == 0 ? pid_ : 0);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
@@ -216,12 +233,14 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
   return Error(file, location, text.substr(0, file_at), kTodo);
 }
 
-/// Reads both pipes to their ends, so that neither fills up while we wait for the other.
+/// Reads both pipes to their ends, so that neither fills up while we wait for the other. Throws
+/// Stopped when `stop` is to be read from (-1: never).
 std::string read_both(const Pipe& out, const Pipe& err, const std::string& scad_path,
-                      Messages& messages, const std::function<void()>& waiting) {
+                      Messages& messages, const std::function<void()>& waiting, int stop) {
   std::string csg;
-  std::array<pollfd, 2> waits = {pollfd{out.read_end(), POLLIN, 0},
-                                 pollfd{err.read_end(), POLLIN, 0}};
+  std::array<pollfd, 3> waits = {pollfd{out.read_end(), POLLIN, 0},
+                                 pollfd{err.read_end(), POLLIN, 0},
+                                 pollfd{stop, POLLIN, 0}};  // poll passes over -1
   std::array<char, 65536> buffer;
   while (waits[0].fd >= 0 || waits[1].fd >= 0) {
     const int ready = poll(waits.data(), waits.size(), kWait_ms);
@@ -230,12 +249,13 @@ std::string read_both(const Pipe& out, const Pipe& err, const std::string& scad_
       waiting();
       continue;
     }
-    for (std::size_t i = 0; i < waits.size(); ++i) {
+    if (waits[2].revents != 0) throw Stopped{};
+    for (std::size_t i = 0; i < 2; ++i) {
       if (waits[i].fd < 0 || waits[i].revents == 0) continue;
       const ssize_t count = read(waits[i].fd, buffer.data(), buffer.size());
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) {
-        waits[i].fd = -1;  // poll passes over it
+        waits[i].fd = -1;
       } else if (i == 0) {
         csg.append(buffer.data(), static_cast<std::size_t>(count));
       } else {
@@ -254,7 +274,12 @@ std::string read_both(const Pipe& out, const Pipe& err, const std::string& scad_
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,
-                                    const std::function<void()>& waiting) {
+                                    const std::function<void()>& waiting,
+                                    const std::stop_token& stop) {
+  std::optional<StopEvent> stop_event;
+  if (stop.stop_possible()) stop_event.emplace(stop);
+  const int stop_descriptor = stop_event ? stop_event->descriptor() : -1;
+  throw_if_stopped(stop);
   std::vector<std::string> command = {program_name(), "-o", "-", "--export-format=csg"};
   std::optional<MemoryFile> rule;
   if (wants_files) {
@@ -270,7 +295,9 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   out.close_write_end();
   err.close_write_end();
   Messages messages(message);
-  const std::string csg = read_both(out, err, scad_path, messages, waiting);
+  const std::string csg = read_both(out, err, scad_path, messages, waiting, stop_descriptor);
+  child.wait_for_end(stop_descriptor);
+  throw_if_stopped(stop);
   messages.finish();
   const int exit_code = child.wait();
 
@@ -283,13 +310,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
     throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
   }
   OpenScadExport result;
-  if (rule) {
-    result.files = prerequisites_of(rule->text().view());
-    if (result.files.empty()) {
-      throw Error(scad_path, {}, "openscad does not say which files it reads",
-                  "leave out -d, or check $OPENSCAD");
-    }
-  }
+  if (rule) result.files = prerequisites_of(rule->text().view());
   auto bytes = std::make_unique_for_overwrite<char[]>(csg.size());
   std::memcpy(bytes.get(), csg.data(), csg.size());
   result.csg = FileText(std::move(bytes), csg.size());

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "frontend/stop.hpp"
 #include "lexer.hpp"
 #include "name_table.hpp"
 
@@ -84,7 +85,7 @@ bool constant(std::string_view word, Value& value) {
 class Parser {
  public:
   Parser(std::string_view text, std::string file_name);
-  SyntaxTree run();
+  SyntaxTree run(const std::stop_token& stop);
 
  private:
   uint8_t modifiers();
@@ -126,8 +127,9 @@ Parser::Parser(std::string_view text, std::string file_name) : lexer_(text, tree
   tree_.values.reserve(text.size() / kBytesPerValue);
 }
 
-SyntaxTree Parser::run() {
+SyntaxTree Parser::run(const std::stop_token& stop) {
   for (;;) {
+    throw_if_stopped(stop);
     const uint8_t found = modifiers();
     if (lexer_.at_word()) {
       node(found);
@@ -370,12 +372,12 @@ void Parser::fail_word(const char* start, std::string_view word) const {
 
 }  // namespace
 
-SyntaxTree parse(std::string_view text, std::string file_name) {
+SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop) {
   if (text.size() > kMaxTextBytes) {
     throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
                 "at most " + std::to_string(kMaxTextBytes) + " can be read; split the design");
   }
-  return Parser(text, std::move(file_name)).run();
+  return Parser(text, std::move(file_name)).run(stop);
 }
 
 }  // namespace frontend

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <thread>
 
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
 #include "temporary_folder.hpp"
@@ -66,8 +67,18 @@ TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
 
 TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", "echo x"));
-  EXPECT_THAT(run_export("dir/a.scad", {}, true).error,
-              StartsWith("dir/a.scad: error: openscad does not say which files it reads ("));
+  const std::string path = folder_.write("a.scad", "");
+  DesignFileOptions options;
+  options.wants_files = true;
+  options.message = [](const std::string&) {};
+  options.progress = [](const char*) {};
+  try {
+    read_design(path, options);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(),
+                StartsWith(path + ": error: openscad does not say which files it reads ("));
+  }
 }
 
 TEST_F(FakeOpenScad, ItsMessagesAreShownLineByLine) {

@@ -3,12 +3,24 @@
 
 #include <cstddef>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "frontend/files.hpp"
 #include "frontend/syntax_tree.hpp"
 
 namespace frontend {
+
+/// What is parsed.
+struct DesignText {
+  FileText csg;
+  std::string name;                // for the parser's messages
+  bool is_exported = false;        // from a .scad
+  std::vector<std::string> files;  // that it was read from, the design last; if wanted, and known
+  double export_ms = 0;            // openscad, for a .scad
+  double read_ms = 0;
+};
 
 struct DesignFile {
   std::string name;            // as messages show it
@@ -31,7 +43,12 @@ struct DesignFileOptions {
 };
 
 /// `path` is a .csg; a .scad, which the installed openscad exports; or "-", a .csg from standard
-/// input. Throws Error.
+/// input. Throws Error, also where openscad does not say which files it reads and they are wanted.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
+
+/// The same without parsing it. What openscad does not say is left out of `files`. Throws Error,
+/// and Stopped (stop.hpp) where `stop` asks for it.
+DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
+                            const std::stop_token& stop = {});
 
 }  // namespace frontend

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +25,11 @@ class FileText {
 };
 
 /// Reads a file, or standard input for "-". Throws Error where that is missing, a folder, cannot be
-/// read, or is larger than kMaxInputBytes.
-FileText read_file(const std::string& path);
+/// read, or is larger than kMaxInputBytes; Stopped (stop.hpp) where `stop` asks for it.
+FileText read_file(const std::string& path, const std::stop_token& stop = {});
 
 /// Reads an open descriptor to its end; `name` is for messages.
-FileText read_descriptor(int descriptor, const std::string& name);
+FileText read_descriptor(int descriptor, const std::string& name, const std::stop_token& stop = {});
 
 /// Locations and offsets in a syntax tree are 32 bits wide.
 constexpr std::size_t kMaxInputBytes = 0xFFFFFFFFu;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -44,7 +45,9 @@ struct ImportedDesign {
 
 /// Throws Error for a node that cannot be drawn (it names the first with its place, and says how
 /// many there are) and for arguments of the wrong type. A round primitive whose facets would take
-/// too much memory stays smooth, with one warning for all.
-ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {});
+/// too much memory stays smooth, with one warning for all. Throws Stopped (stop.hpp) where `stop`
+/// asks for it.
+ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {},
+                             const std::stop_token& stop = {});
 
 }  // namespace frontend

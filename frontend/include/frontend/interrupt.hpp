@@ -28,4 +28,8 @@ class RemoveOnInterrupt {
 /// The process group that an interruption kills; 0: none. Only one child runs at a time.
 void set_child_group(pid_t group);
 
+/// A group that is about to be known: an interruption waits for it. The thread that says so blocks
+/// all signals until it has said which it is.
+constexpr pid_t kStartingChild = -1;
+
 }  // namespace frontend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,12 @@ struct OpenScadExport {
 /// returns the .csg that it writes. `arguments` are handed on as they are. Each line that it says
 /// is given to `message` as it comes. `waiting` is called about ten times a second. Throws Error
 /// where openscad is missing, fails, reports an error (it may exit 0 all the same), or writes
-/// nothing.
+/// nothing; and, at once, Stopped (stop.hpp) where `stop` asks for it. openscad and all that it
+/// started is gone in each case.
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,
-                                    const std::function<void()>& waiting);
+                                    const std::function<void()>& waiting,
+                                    const std::stop_token& stop = {});
 
 }  // namespace frontend

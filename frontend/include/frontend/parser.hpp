@@ -1,6 +1,7 @@
 // Text → syntax tree.
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -10,7 +11,8 @@ namespace frontend {
 
 /// Parses a .csg file (openscad.md §1: every version's spelling, and what a person may write by
 /// hand). Time and memory are in proportion to the text; nesting may be arbitrarily deep.
-/// `file_name` is used in messages only. Throws Error.
-SyntaxTree parse(std::string_view text, std::string file_name);
+/// `file_name` is used in messages only. Throws Error, and Stopped (stop.hpp) where `stop` asks for
+/// it.
+SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop = {});
 
 }  // namespace frontend
