@@ -10,17 +10,15 @@
 #include "frontend/parser.hpp"
 
 namespace frontend {
-namespace {
 
-/// `suffix` in lower case.
-bool has_suffix(const std::string& path, std::string_view suffix) {
-  if (path.size() < suffix.size()) return false;
-  return std::equal(
-      suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
-      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
+bool is_scad(const std::string& path) {
+  constexpr std::string_view kSuffix = ".scad";
+  return path.size() >= kSuffix.size() &&
+         std::equal(kSuffix.begin(), kSuffix.end(), path.end() - kSuffix.size(),
+                    [](char wanted, char c) {
+                      return wanted == std::tolower(static_cast<unsigned char>(c));
+                    });
 }
-
-}  // namespace
 
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop) {
@@ -29,7 +27,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
   text.csg = read_file(path, stop);  // a .scad, too, to see that it can be read
   text.read_ms = ms_since(start);
   text.name = path == "-" ? "standard input" : path;
-  text.is_exported = has_suffix(path, ".scad");
+  text.is_exported = is_scad(path);
   if (text.is_exported) {
     // Places in an exported design are not those of the .scad, and must not look as if they were.
     text.name += " (its .csg)";

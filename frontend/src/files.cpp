@@ -181,7 +181,7 @@ FileText read_descriptor(int descriptor, const std::string& name, const std::sto
     if (room.size == room.capacity) room.grow(room.capacity * 2);
     if (stop_event) wait_for_input(descriptor, *stop_event);
     const ssize_t count = read(descriptor, room.bytes.get() + room.size, room.capacity - room.size);
-    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && (errno == EINTR || (errno == EAGAIN && stop_event))) continue;
     if (count < 0) throw cannot_read(name, errno);
     if (count == 0) break;
     room.size += static_cast<std::size_t>(count);

@@ -42,6 +42,9 @@ struct DesignFileOptions {
   std::function<void(const char* stage)> progress;
 };
 
+/// By its name: whether openscad has to export it.
+bool is_scad(const std::string& path);
+
 /// `path` is a .csg; a .scad, which the installed openscad exports; or "-", a .csg from standard
 /// input. Throws Error, also where openscad does not say which files it reads and they are wanted.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);

@@ -42,7 +42,7 @@ struct DesignVersion {
 struct FollowOptions {
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
   ImportOptions import;
-  /// Look at the files from time to time, even where the system tells of every change. Without it
+  /// Look at the files from time to time only, as if the system could not watch them. Without it
   /// that is done for files that are missing, for file systems that other machines may write to,
   /// and where the system cannot watch them.
   bool polls = false;

@@ -1,0 +1,31 @@
+// One reading of a design, from its file to what can be drawn.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "frontend/design_follower.hpp"
+#include "frontend/files.hpp"
+
+namespace frontend {
+
+/// The last version that could be read; all null or empty before there is one.
+struct GoodVersion {
+  std::shared_ptr<const FileText> csg;
+  std::shared_ptr<const ImportedDesign> design;
+  std::size_t nodes = 0;
+};
+
+struct DesignReading {
+  /// Without its number and the time; `files` are those that it says it has read, none after an
+  /// error.
+  DesignVersion version;
+  GoodVersion good;  // it, or after an error the one before
+};
+
+/// Every failure is version.error; throws Stopped (stop.hpp) alone.
+DesignReading read_anew(const std::string& path, const FollowOptions& options,
+                        const GoodVersion& before, const std::stop_token& stop);
+
+}  // namespace frontend
