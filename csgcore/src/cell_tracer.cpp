@@ -245,7 +245,7 @@ void CellTracer::trace(const PixelArea& area) {
 }
 
 void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
-  if (subject_.is_cancelled()) return;
+  if (subject_.stop.stop_requested()) return;
   LaneMask undecided[kTileBlocks] = {};
   for_each_block(tile, [&](const PacketBlock& block) {
     undecided[(block.y - tile.y) / kPacketHeight_px] = Traversal(*this, block, workspace).trace();

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "cell_list.hpp"
@@ -83,9 +83,7 @@ struct TraceList {
 struct TraceSubject {
   double thinnest_piece = 0;
   Boundary boundary = Boundary::kFirst;
-  const std::atomic<bool>* cancelled = nullptr;
-
-  bool is_cancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
+  std::stop_token stop;
 };
 
 /// Working memory of one thread, for packets of one list after the other.

@@ -205,7 +205,7 @@ void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
 /// Recursion halves the tile each time.
 void TileTracer::divide(const Tile& tile, const CellList& given, const CellList* uncut,
                         size_t level, Workspace& workspace, TileVisitor& visitor) {
-  if (subject_.is_cancelled() || !visitor.wants(tile)) return;
+  if (subject_.stop.stop_requested() || !visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
   const uint32_t side = std::max(tile.width, tile.height);

@@ -51,7 +51,7 @@ TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
   TraceSubject subject;
   subject.thinnest_piece = thinnest_piece(solid.bounds());
   subject.boundary = options.boundary;
-  subject.cancelled = options.cancelled;
+  subject.stop = options.stop;
   return subject;
 }
 
@@ -134,7 +134,7 @@ class Frame {
     const PixelArea looked_at = grown(area_, 2, rays_.view);
     const KeptColors kept(image, looked_at == sampled ? PixelArea{} : looked_at);
     trace(subdivision, looked_at, sink);
-    if (!subject_.is_cancelled()) sample_edges(sampled, sink, image);
+    if (!subject_.stop.stop_requested()) sample_edges(sampled, sink, image);
     kept.restore_around(sampled, image);
   }
 

@@ -243,7 +243,8 @@ void print_info() {
 
 void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
   if (!arguments.empty() && arguments[0] == "validate") {
-    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()});
+    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
+                   "build scadray with SCADRAY_ORACLE=ON where CGAL is installed (libcgal-dev)");
   }
   const Options options = parse_options(arguments);
   switch (options.action) {
@@ -256,6 +257,11 @@ void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
     case Action::kInfo:
       print_info();
       break;
+    case Action::kOpenWindow:
+      run_subcommand("window", arguments,
+                     "give -o FILE.png to draw without a window; or build scadray with "
+                     "SCADRAY_WINDOW=ON where GLFW and Dear ImGui are installed (libglfw3-dev, "
+                     "libimgui-dev)");
     case Action::kDraw:
       Run(options, renderer).execute();
       break;

@@ -36,7 +36,7 @@ csgcore::TraceOptions trace_options(const RenderSettings& settings, Boundary bou
   csgcore::TraceOptions options;
   options.threads = settings.threads;
   options.boundary = boundary;
-  options.cancelled = settings.cancelled;
+  options.stop = settings.stop;
   return options;
 }
 

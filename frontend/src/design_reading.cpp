@@ -36,7 +36,6 @@ void read_into(DesignReading& reading, const std::string& path, const FollowOpti
   DesignText text = read_design_text(path, file_options, stop);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;
-  version.csg_bytes = text.csg.view().size();
   version.unchanged = reading.good.design && reading.good.csg->view() == text.csg.view();
   if (!version.unchanged) {
     reading.good = import_text(text.name, std::make_shared<const FileText>(std::move(text.csg)),
@@ -44,6 +43,7 @@ void read_into(DesignReading& reading, const std::string& path, const FollowOpti
   }
   version.files = std::move(text.files);
   version.design = reading.good.design;
+  version.csg = reading.good.csg;
   version.nodes = reading.good.nodes;
   for (const Warning& warning : version.design->warnings) {
     version.messages.push_back(warning.text);

@@ -428,6 +428,13 @@ Box union_of(std::span<const Box> boxes) {
 
 }  // namespace
 
+Location place_of_primitive(const SyntaxTree& tree, uint32_t id) {
+  for (const SyntaxNode& node : tree.nodes) {
+    if (is_primitive_node(node.kind) && id-- == 0) return node.location;
+  }
+  return {};
+}
+
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
                              const std::stop_token& stop) {
   const NodeRange selected = selected_nodes(tree);

@@ -296,8 +296,9 @@ void read_view(const Arguments& arguments, Options& options) {
   }
 }
 
-Output make_output(const std::string& path, std::optional<PictureFormat> given) {
-  if (given) return {path, *given};
+}  // namespace
+
+PictureFormat picture_format(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   const std::size_t slash = path.rfind('/');
   const bool has_suffix = dot != std::string::npos && (slash == std::string::npos || dot > slash);
@@ -307,7 +308,13 @@ Output make_output(const std::string& path, std::optional<PictureFormat> given) 
     throw Error(path, {}, "is no picture that this version can write",
                 "end it in .png or .exr, or give --export-format=png or exr");
   }
-  return {path, *format};
+  return *format;
+}
+
+namespace {
+
+Output make_output(const std::string& path, std::optional<PictureFormat> given) {
+  return {path, given ? *given : picture_format(path)};
 }
 
 void read_outputs(const Arguments& arguments, Options& options) {
@@ -411,15 +418,14 @@ Options parse_options(const std::vector<std::string>& words) {
   options.quiet = arguments.has("quiet");
   options.info = arguments.has("info");
   options.import.skip_unsupported = arguments.has("skip-unsupported");
+  options.has_image_size = arguments.has("imgsize");
   read_image_size(arguments, options.camera);
   read_camera(arguments, options.camera);
   read_facets(arguments, options.import);
   read_render(arguments, options.render);
   read_view(arguments, options);
   read_outputs(arguments, options);
-  if (options.outputs.empty()) {
-    fail("this version has no live window", "give -o FILE.png or -o FILE.exr");
-  }
+  if (options.outputs.empty()) options.action = Action::kOpenWindow;
   read_openscad_arguments(arguments, options);
   warn_of_what_is_ignored(arguments, options);
   return options;

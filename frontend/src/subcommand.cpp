@@ -10,7 +10,8 @@
 
 namespace frontend {
 
-void run_subcommand(const std::string& name, const std::vector<std::string>& arguments) {
+void run_subcommand(const std::string& name, const std::vector<std::string>& arguments,
+                    const std::string& todo) {
   // Not the name by which this program was called: a link to it may lie elsewhere.
   std::error_code unknown;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -22,8 +23,7 @@ void run_subcommand(const std::string& name, const std::vector<std::string>& arg
   words.push_back(nullptr);
   execv(program.c_str(), words.data());
   if (errno == ENOENT) {
-    throw Error("", {}, "this scadray has no `" + name + "`: " + program + " is not there",
-                "build scadray with SCADRAY_ORACLE=ON where CGAL is installed (libcgal-dev)");
+    throw Error("", {}, "this scadray has no `" + name + "`: " + program + " is not there", todo);
   }
   throw Error(program, {}, std::string("cannot be run: ") + std::strerror(errno),
               "check its permissions");

@@ -9,9 +9,9 @@
 //   pays for many frames of a dense model.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "csgcore/frame_settings.hpp"
@@ -44,8 +44,8 @@ struct TraceOptions {
   /// Find out why primitives were skipped (TraceStats::skipped); costs a little. Of an area that is
   /// not the whole picture, what only others show is counted as cancelled.
   bool count_skipped = false;
-  /// The frame ends early once this is true: what it leaves undrawn is undefined. May be null.
-  const std::atomic<bool>* cancelled = nullptr;
+  /// Where it asks for it, the frame ends early: what is left undrawn is undefined.
+  std::stop_token stop;
 };
 
 /// Primitives of the solid that were never intersected with any ray, by the reason.

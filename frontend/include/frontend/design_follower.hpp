@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 
 namespace frontend {
@@ -29,7 +30,7 @@ struct DesignVersion {
   /// Its .csg is byte for byte that of the last version that could be read; `design` is that one's
   /// pointer. The messages may be others.
   bool unchanged = false;
-  std::size_t csg_bytes = 0;
+  std::shared_ptr<const FileText> csg;  // that `design` was made of
   std::size_t nodes = 0;  // of the .csg; those of the last version where it is unchanged
   double export_ms = 0;   // openscad, for a .scad
   double read_ms = 0;

@@ -43,6 +43,10 @@ struct ImportedDesign {
   std::vector<Warning> warnings;
 };
 
+/// Where the primitive node stands whose index in file order is `id` (Primitive::id), which must be
+/// below ImportedDesign::primitive_nodes.
+Location place_of_primitive(const SyntaxTree& tree, uint32_t id);
+
 /// Throws Error for a node that cannot be drawn (it names the first with its place, and says how
 /// many there are) and for arguments of the wrong type. A round primitive whose facets would take
 /// too much memory stays smooth, with one warning for all. Throws Stopped (stop.hpp) where `stop`

@@ -19,7 +19,7 @@ struct Output {
 };
 
 /// What the command is to do.
-enum class Action : uint8_t { kDraw, kHelp, kVersion, kInfo };
+enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kVersion, kInfo };
 
 /// The whole command line, checked: every value is in its documented range.
 struct Options {
@@ -29,6 +29,7 @@ struct Options {
   std::string stats_path;       // empty: none; "-": standard output
   std::string rule_path;        // for make: what the outputs are made of; empty: none
   CameraOptions camera;
+  bool has_image_size = false;  // the command line says it
   bool axes = false;
   ImportOptions import;
   RenderSettings render;
@@ -46,6 +47,9 @@ constexpr std::size_t kMaxPictures = 4096;
 /// Larger pictures than this a side are refused; it is the largest texture and viewport side that
 /// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
 constexpr uint32_t kMaxPictureSide_px = 16384;
+
+/// By the path's suffix. Throws Error for any other.
+PictureFormat picture_format(const std::string& path);
 
 /// Throws Error for anything that is wrong with the arguments (without the program's name).
 Options parse_options(const std::vector<std::string>& arguments);

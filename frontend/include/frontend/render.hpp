@@ -1,9 +1,9 @@
 // Scene and camera → Image: the seam between the command line and the renderers.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <stop_token>
 #include <string>
 
 #include "csgcore/frame_settings.hpp"
@@ -53,8 +53,8 @@ struct RenderSettings {
   /// Fill also those RenderStats that cost something: T_S, T_R and S_R, for which OpenGL draws
   /// again, and why primitives were skipped.
   bool all_stats = false;
-  /// The CPU's pictures end early, whatever they show, once this is true; may be null.
-  const std::atomic<bool>* cancelled = nullptr;
+  /// Where it asks for it, the CPU's pictures end early, whatever they show by then.
+  std::stop_token stop;
   /// Called with what is done in [0, 1] while long work goes on; may be empty.
   std::function<void(const char* stage, double fraction)> progress;
 };

@@ -1,0 +1,330 @@
+#include "application.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/picture_file.hpp"
+#include "projection.hpp"
+
+namespace window {
+namespace {
+
+constexpr Size kDefaultSize{1024, 768};
+
+/// Of the display's time for a frame, what a picture's drawing may take; the rest is the window's.
+constexpr double kDrawingShare = 0.6;
+
+/// ImGui answers an event in the next frame, and lays a new panel out in the one after that.
+constexpr int kFramesAfterEvent = 3;
+
+/// How much further, in the design's size, a plane is looked at to see how its axis runs.
+constexpr double kSectionStep = 0.01;
+/// Axes that run less than this over that step are seen from their end.
+constexpr double kLeastAxis_px = 0.25;
+
+std::string file_name(const std::string& path) {
+  return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
+}
+
+std::string default_picture(const std::string& input) {
+  if (input == "-") return "picture.png";
+  return std::filesystem::path(input).replace_extension(".png").string();
+}
+
+frontend::FollowOptions follow_options(const frontend::Options& options) {
+  frontend::FollowOptions result;
+  result.openscad_arguments = options.openscad_arguments;
+  result.import = options.import;
+  result.import.skip_unsupported = true;  // and listed among the messages
+  return result;
+}
+
+Size window_size(const frontend::Options& options) {
+  if (!options.has_image_size) return kDefaultSize;
+  return {options.camera.width_px, options.camera.height_px};
+}
+
+bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
+  const auto look = [](const frontend::RenderSettings& s) {
+    return std::tuple(std::string_view(s.scheme.name), s.shading, s.show, s.samples);
+  };
+  const auto camera = [](const Navigation& n) {
+    const frontend::Camera& c = n.camera();
+    return std::tuple(n.projection(), c.target.x, c.target.y, c.target.z, c.rotation_deg.x,
+                      c.rotation_deg.y, c.rotation_deg.z, c.distance);
+  };
+  return a.design == b.design && a.section == b.section && a.size == b.size &&
+         a.overlays == b.overlays && look(a.settings) == look(b.settings) &&
+         camera(a.navigation) == camera(b.navigation);
+}
+
+}  // namespace
+
+Application::Application(const frontend::Options& options)
+    : options_(options),
+      state_(options),
+      window_(file_name(options.input) + " - scadray", window_size(options), *this),
+      panels_([this](Command command) { run_command(command); },
+              [this](const std::string& path) { save_picture(path); }),
+      report_(options.stats_path),
+      painter_(kDrawingShare * 1000 / window_.frames_per_second(), GlfwWindow::wake),
+      follower_(options.input, follow_options(options), GlfwWindow::wake),
+      has_camera_(options.camera.camera && !options.camera.view_all) {
+  state_.picture_path = default_picture(options.input);
+}
+
+void Application::run() {
+  frames_due_ = kFramesAfterEvent;
+  while (!window_.is_closing()) {
+    if (frames_due_ > 0) {
+      window_.poll();
+    } else {
+      window_.wait();
+    }
+    if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
+    order_picture();
+    if (frames_due_ == 0 || window_.size().width_px == 0) {
+      frames_due_ = 0;
+      continue;
+    }
+    wait_for_display();
+    draw_frame();
+    --frames_due_;
+  }
+}
+
+/// Where the driver does not wait for the display, as a software renderer does not.
+void Application::wait_for_display() {
+  const auto frame = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1 / window_.frames_per_second()));
+  std::this_thread::sleep_until(last_frame_ + frame);
+  last_frame_ = Clock::now();
+}
+
+void Application::draw_frame() {
+  const Size size = window_.size();
+  screen_.draw(size);
+  window_.begin_frame();
+  const double scale = window_.pixels_per_unit();
+  csgcore::View view = state_.navigation.view(size);
+  view.width_px = static_cast<uint32_t>(std::lround(size.width_px / scale));
+  view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
+  panels_.draw(state_, view);
+  window_.end_frame();
+  if (std::exchange(has_new_picture_, false)) report_picture();
+}
+
+bool Application::take_news() {
+  bool any = false;
+  const bool was_reading = state_.is_reading;
+  state_.is_reading = follower_.state() == frontend::DesignFollower::State::kReading;
+  any |= was_reading != state_.is_reading;
+  if (auto version = follower_.take()) {
+    take_version(std::move(*version));
+    any = true;
+  }
+  if (auto painting = painter_.take_painting()) {
+    take_painting(std::move(*painting));
+    any = true;
+  }
+  while (const auto finding = painter_.take_finding()) {
+    take_finding(*finding);
+    any = true;
+  }
+  return any;
+}
+
+void Application::take_version(frontend::DesignVersion version) {
+  state_.notice.clear();
+  if (version.design) {
+    if (state_.design != version.design) state_.points.clear();
+    state_.design = version.design;
+    csg_ = version.csg;
+    if (!has_camera_ && !state_.bounds().empty()) {
+      frontend::CameraOptions camera = options_.camera;
+      state_.navigation = Navigation(frontend::choose_camera(camera, state_.bounds()),
+                                     state_.navigation.projection());
+      has_camera_ = true;
+    }
+  }
+  const bool leaves_picture = !version.design || version.unchanged;
+  state_.version = std::move(version);
+  show_title();
+  // The picture stands: what there is to say of the version is said with the next frame.
+  if (leaves_picture) has_new_picture_ = true;
+}
+
+void Application::show_title() {
+  const bool is_broken = state_.version && !state_.version->error.empty();
+  window_.set_title(file_name(options_.input) + (is_broken ? " - error" : "") + " - scadray");
+}
+
+void Application::take_painting(Painting painting) {
+  if (!painting.error.empty()) {
+    state_.painting = std::move(painting);
+    has_new_picture_ = true;
+    return;
+  }
+  if (painting.order.is_moving) {
+    motion_.count(Clock::now());
+    state_.frames_per_second = motion_.frames_per_second();
+  }
+  screen_.load(painting.image);
+  if (painting.is_final && saving_ != 0 && painting.order.number == saving_) {
+    write_picture(painting);
+  }
+  painting.image = {};
+  has_new_picture_ |= painting.is_final;
+  state_.painting = std::move(painting);
+}
+
+/// With the picture on the screen.
+void Application::report_picture() {
+  double save_to_screen_ms = -1;
+  if (state_.version && state_.version->number != reported_version_) {
+    reported_version_ = state_.version->number;
+    save_to_screen_ms =
+        std::chrono::duration<double, std::milli>(Clock::now() - state_.version->noticed).count();
+  }
+  report_.write(state_, save_to_screen_ms);
+}
+
+PaintOrder Application::wanted_picture() const {
+  PaintOrder order;
+  order.design = state_.design;
+  order.section = state_.section.is_on ? state_.section : SectionPlane{};
+  order.navigation = state_.navigation;
+  order.size = window_.size();
+  order.settings = state_.look;
+  order.overlays = state_.overlays;
+  order.is_moving = is_moving_;
+  return order;
+}
+
+void Application::order_picture() {
+  PaintOrder order = wanted_picture();
+  is_moving_ = false;
+  if (!order.design || order.size.width_px == 0) return;
+  order.settings.measured_channels = save_path_.ends_with(".exr");
+  const bool is_to_be_saved = !save_path_.empty() && saving_ == 0;
+  if (shows_the_same(order, ordered_) && !is_to_be_saved) return;
+  order.number = ordered_.number + 1;
+  if (!save_path_.empty()) saving_ = order.number;
+  ordered_ = order;
+  painter_.order(std::move(order));
+}
+
+void Application::save_picture(const std::string& path) {
+  save_path_ = path;
+  saving_ = 0;
+}
+
+void Application::write_picture(const Painting& painting) {
+  const std::string path = std::exchange(save_path_, {});
+  saving_ = 0;
+  try {
+    const frontend::PendingOutput output{
+        path, frontend::encode_picture(painting.image, frontend::picture_format(path))};
+    frontend::write_outputs({&output, 1});
+    state_.notice = "saved " + path;
+  } catch (const frontend::Error& error) {
+    state_.notice = error.what();
+  }
+}
+
+void Application::run_command(Command command) {
+  state_.notice.clear();
+  if (state_.apply(command)) return;
+  if (command == Command::kReload) follower_.reload();
+  if (command == Command::kQuit) window_.close();
+}
+
+void Application::key(int key, uint8_t modifiers) {
+  if (const CommandRow* row = find_command(key, modifiers)) run_command(row->command);
+}
+
+void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy_px) {
+  const Size size = window_.size();
+  const bool with_shift = (modifiers & kShift) != 0;
+  is_moving_ = true;
+  if (button == Button::kLeft && (modifiers & kControl) && state_.section.is_on) {
+    drag_section(dx_px, dy_px);
+  } else if (button == Button::kLeft) {
+    state_.navigation.turn(dx_px, dy_px, with_shift);
+  } else if (button == Button::kMiddle || with_shift) {
+    state_.navigation.move_along(dy_px, size);
+  } else {
+    state_.navigation.pan(dx_px, dy_px, size);
+  }
+}
+
+/// So far that the plane follows the mouse along its axis, as that is seen.
+void Application::drag_section(double dx_px, double dy_px) {
+  const csgcore::Box bounds = state_.bounds();
+  if (bounds.empty()) return;
+  SectionPlane& section = state_.section;
+  const csgcore::View view = state_.navigation.view(window_.size());
+  csgcore::Vec3 on_plane = bounds.center();
+  on_plane[section.axis] = section.position;
+  csgcore::Vec3 further = on_plane;
+  const double step = bounds.diagonal() * kSectionStep;
+  further[section.axis] += step;
+  const auto from = project(view, on_plane), to = project(view, further);
+  if (!from || !to) return;
+  const double x = to->x_px - from->x_px, y = to->y_px - from->y_px;
+  const double length_px = std::hypot(x, y);
+  // Seen along its axis a plane does not move on the screen: then a drag downwards moves it on.
+  const double moved_px = length_px >= kLeastAxis_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
+  const double position = section.position + step * moved_px / std::max(length_px, kLeastAxis_px);
+  section.position = std::clamp(position, bounds.min[section.axis], bounds.max[section.axis]);
+}
+
+void Application::wheel(double notches, double x_px, double y_px) {
+  is_moving_ = true;
+  state_.navigation.zoom(notches, x_px, y_px, window_.size());
+}
+
+void Application::click(double x_px, double y_px) { probe(x_px, y_px, false); }
+
+void Application::double_click(double x_px, double y_px) {
+  state_.points.clear();
+  probe(x_px, y_px, true);
+}
+
+void Application::probe(double x_px, double y_px, bool centers) {
+  if (!state_.design) return;
+  Probe probe;
+  probe.number = ++probes_;
+  probe.order = wanted_picture();
+  probe.x_px = x_px;
+  probe.y_px = y_px;
+  probe.csg = csg_;
+  if (centers) centering_ = probe.number;
+  painter_.probe(std::move(probe));
+}
+
+void Application::take_finding(const Finding& finding) {
+  // Of a design that is there no more.
+  if (finding.probe.order.design != state_.design) return;
+  if (finding.probe.number == centering_) {
+    if (finding.is_hit) state_.navigation.look_at(finding.position);
+    state_.points.clear();  // the first of two clicks measured
+    return;
+  }
+  if (!finding.is_hit) {
+    state_.points.clear();
+  } else {
+    if (state_.points.size() == 2) state_.points.clear();
+    state_.points.push_back({finding.position, finding.normal, finding.line});
+  }
+  has_new_picture_ = true;
+}
+
+}  // namespace window

@@ -1,0 +1,87 @@
+#include "commands.hpp"
+
+#define GLFW_INCLUDE_NONE  // OpenGL is epoxy's
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+namespace window {
+namespace {
+
+// OpenSCAD's keys (openscad.md §6) where it has them.
+constexpr CommandRow kRows[] = {
+    {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
+    {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},
+    {Command::kQuit, Menu::kFile, "Quit", "Ctrl+Q", GLFW_KEY_Q, kControl, true},
+
+    {Command::kViewAll, Menu::kView, "View all", "Ctrl+Shift+V", GLFW_KEY_V, kControl | kShift,
+     false},
+    {Command::kCenter, Menu::kView, "Centre", "Ctrl+Shift+0", GLFW_KEY_0, kControl | kShift, false},
+    {Command::kZoomIn, Menu::kView, "Zoom in", "Ctrl+]", GLFW_KEY_RIGHT_BRACKET, kControl, false},
+    {Command::kZoomOut, Menu::kView, "Zoom out", "Ctrl+[", GLFW_KEY_LEFT_BRACKET, kControl, false},
+    {Command::kDiagonal, Menu::kView, "Diagonal", "Ctrl+0", GLFW_KEY_0, kControl, true},
+    {Command::kTop, Menu::kView, "Top", "Ctrl+4", GLFW_KEY_4, kControl, false},
+    {Command::kBottom, Menu::kView, "Bottom", "Ctrl+5", GLFW_KEY_5, kControl, false},
+    {Command::kLeft, Menu::kView, "Left", "Ctrl+6", GLFW_KEY_6, kControl, false},
+    {Command::kRight, Menu::kView, "Right", "Ctrl+7", GLFW_KEY_7, kControl, false},
+    {Command::kFront, Menu::kView, "Front", "Ctrl+8", GLFW_KEY_8, kControl, false},
+    {Command::kBack, Menu::kView, "Back", "Ctrl+9", GLFW_KEY_9, kControl, false},
+    {Command::kPerspective, Menu::kView, "Perspective", "P", GLFW_KEY_P, kNone, true},
+    {Command::kOrthographic, Menu::kView, "Orthographic", "O", GLFW_KEY_O, kNone, false},
+
+    {Command::kAxes, Menu::kShow, "Axes", "Ctrl+2", GLFW_KEY_2, kControl, false},
+    {Command::kCrosshairs, Menu::kShow, "Crosshairs", "Ctrl+3", GLFW_KEY_3, kControl, false},
+    {Command::kScales, Menu::kShow, "Scale marks", "", 0, kNone, false},
+    {Command::kEdges, Menu::kShow, "Edges", "Ctrl+1", GLFW_KEY_1, kControl, false},
+    {Command::kSurface, Menu::kShow, "Surface", "1", GLFW_KEY_1, kNone, true},
+    {Command::kCells, Menu::kShow, "Cells", "2", GLFW_KEY_2, kNone, false},
+    {Command::kDepth, Menu::kShow, "Depth", "3", GLFW_KEY_3, kNone, false},
+    {Command::kNormals, Menu::kShow, "Normals", "4", GLFW_KEY_4, kNone, false},
+    {Command::kId, Menu::kShow, "Primitives", "5", GLFW_KEY_5, kNone, false},
+    {Command::kOpenScadShading, Menu::kShow, "OpenSCAD's shading", "", 0, kNone, true},
+    {Command::kPhongShading, Menu::kShow, "Phong's shading", "", 0, kNone, false},
+    {Command::kStatus, Menu::kShow, "Status line", "", 0, kNone, true},
+    {Command::kMessages, Menu::kShow, "Messages", "M", GLFW_KEY_M, kNone, false},
+
+    {Command::kSection, Menu::kSection, "Section plane", "C", GLFW_KEY_C, kNone, false},
+    {Command::kSectionX, Menu::kSection, "Across x", "X", GLFW_KEY_X, kNone, true},
+    {Command::kSectionY, Menu::kSection, "Across y", "Y", GLFW_KEY_Y, kNone, false},
+    {Command::kSectionZ, Menu::kSection, "Across z", "Z", GLFW_KEY_Z, kNone, false},
+    {Command::kSectionFlip, Menu::kSection, "Other side", "F", GLFW_KEY_F, kNone, false},
+
+    {Command::kForgetPoints, Menu::kView, "Forget measured points", "Esc", GLFW_KEY_ESCAPE, kNone,
+     true},
+    {Command::kHelp, Menu::kHelp, "Mouse and keys", "F1", GLFW_KEY_F1, kNone, false},
+};
+
+/// Further keys, as in OpenSCAD.
+constexpr struct {
+  int key;
+  uint8_t modifiers;
+  Command command;
+} kFurtherKeys[] = {
+    {GLFW_KEY_F4, kNone, Command::kReload},        {GLFW_KEY_F6, kNone, Command::kReload},
+    {GLFW_KEY_W, kControl, Command::kQuit},        {GLFW_KEY_EQUAL, kControl, Command::kZoomIn},
+    {GLFW_KEY_MINUS, kControl, Command::kZoomOut},
+};
+
+const CommandRow* row_of(Command command) {
+  return std::find_if(std::begin(kRows), std::end(kRows),
+                      [&](const CommandRow& row) { return row.command == command; });
+}
+
+}  // namespace
+
+std::span<const CommandRow> command_rows() { return kRows; }
+
+const CommandRow* find_command(int key, uint8_t modifiers) {
+  for (const CommandRow& row : kRows) {
+    if (row.key == key && row.modifiers == modifiers) return &row;
+  }
+  for (const auto& further : kFurtherKeys) {
+    if (further.key == key && further.modifiers == modifiers) return row_of(further.command);
+  }
+  return nullptr;
+}
+
+}  // namespace window

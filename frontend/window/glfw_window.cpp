@@ -1,0 +1,270 @@
+#include "glfw_window.hpp"
+
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE  // OpenGL is epoxy's
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "commands.hpp"
+#include "frontend/error.hpp"
+
+namespace window {
+namespace {
+
+/// A press and a release so near to each other are a click, in units of the screen.
+constexpr double kClickReach = 3;
+/// Two clicks within this time are a double click.
+constexpr double kDoubleClick_s = 0.4;
+constexpr double kUnknownRate = 60;  // frames/s where the display does not tell
+constexpr float kFontSize = 15;      // units
+constexpr Size kLeastSize{160, 120};
+
+/// With letters beyond ASCII, as file names have them; where it is missing, ImGui's own font
+/// serves.
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+std::string last_error;  // GLFW's
+
+uint8_t modifiers_of(int glfw_modifiers) {
+  return static_cast<uint8_t>(((glfw_modifiers & GLFW_MOD_CONTROL) ? kControl : 0) |
+                              ((glfw_modifiers & GLFW_MOD_SHIFT) ? kShift : 0));
+}
+
+[[noreturn]] void fail(const std::string& what, const std::string& todo) {
+  throw frontend::Error("", {}, what + (last_error.empty() ? "" : ": " + last_error), todo);
+}
+
+/// GLFW itself, as long as there is a window.
+class Library {
+ public:
+  Library() {
+    glfwSetErrorCallback([](int, const char* text) { last_error = text; });
+    if (!glfwInit()) {
+      fail("no window can be opened", "set DISPLAY; or draw without a window: scadray -o FILE.png");
+    }
+  }
+  ~Library() { glfwTerminate(); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+};
+
+}  // namespace
+
+struct GlfwWindow::Impl {
+  Impl(const std::string& title, Size size, WindowEvents& window_events);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void open(const std::string& title, Size size);
+  void set_up_imgui();
+  void on_button(int button, int action, int glfw_modifiers);
+  void on_cursor(double x, double y);
+  double pixels_per_unit() const;
+  bool is_over_panel() const { return ImGui::GetIO().WantCaptureMouse; }
+
+  static Impl& of(GLFWwindow* window) {
+    return *static_cast<Impl*>(glfwGetWindowUserPointer(window));
+  }
+
+  WindowEvents& events;
+  Library library;
+  GLFWwindow* window = nullptr;
+  bool is_active = true;
+
+  // Of the mouse, in units of the screen.
+  int pressed = -1;  // the button that drags
+  uint8_t modifiers = 0;
+  double press_x = 0, press_y = 0;
+  double last_x = 0, last_y = 0;
+  bool has_moved = false;
+  double last_click_s = -1e9;
+};
+
+GlfwWindow::Impl::Impl(const std::string& title, Size size, WindowEvents& window_events)
+    : events(window_events) {
+  open(title, size);
+  set_up_imgui();
+}
+
+void GlfwWindow::Impl::open(const std::string& title, Size size) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "scadray");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "scadray");
+  window = glfwCreateWindow(static_cast<int>(size.width_px), static_cast<int>(size.height_px),
+                            title.c_str(), nullptr, nullptr);
+  if (!window) {
+    fail("no window with OpenGL 3.3 can be opened",
+         "install a driver, with: apt-get install libgl1-mesa-dri; or draw without a window: "
+         "scadray -o FILE.png");
+  }
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  glfwSetWindowSizeLimits(window, kLeastSize.width_px, kLeastSize.height_px, GLFW_DONT_CARE,
+                          GLFW_DONT_CARE);
+  glfwSetWindowUserPointer(window, this);
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    of(w).on_button(button, action, mods);
+  });
+  glfwSetCursorPosCallback(window,
+                           [](GLFWwindow* w, double x, double y) { of(w).on_cursor(x, y); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double notches) {
+    Impl& impl = of(w);
+    impl.is_active = true;
+    if (impl.is_over_panel()) return;
+    const double scale = impl.pixels_per_unit();
+    impl.events.wheel(notches, impl.last_x * scale, impl.last_y * scale);
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    Impl& impl = of(w);
+    impl.is_active = true;
+    if (action != GLFW_RELEASE && !ImGui::GetIO().WantTextInput) {
+      impl.events.key(key, modifiers_of(mods));
+    }
+  });
+  const auto activity = [](GLFWwindow* w) { of(w).is_active = true; };
+  glfwSetWindowRefreshCallback(window, activity);
+  glfwSetWindowCloseCallback(window, activity);
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).is_active = true; });
+  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).is_active = true; });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w).is_active = true; });
+}
+
+void GlfwWindow::Impl::set_up_imgui() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // nothing to remember
+  io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
+  float scale = 1, scale_y = 1;
+  glfwGetWindowContentScale(window, &scale, &scale_y);
+  std::error_code missing;
+  if (std::filesystem::exists(kFont, missing)) {
+    io.Fonts->AddFontFromFileTTF(kFont, std::round(kFontSize * scale), nullptr,
+                                 io.Fonts->GetGlyphRangesCyrillic());
+  } else {
+    ImFontConfig own;
+    own.SizePixels = std::round(13 * scale);
+    io.Fonts->AddFontDefault(&own);
+  }
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  ImGui::GetStyle().WindowRounding = 4;
+  // Ours stand already, and are called by ImGui's.
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
+    fail("Dear ImGui does not start on this OpenGL", "draw without a window: scadray -o FILE.png");
+  }
+}
+
+GlfwWindow::Impl::~Impl() {
+  if (ImGui::GetCurrentContext()) {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  if (window) glfwDestroyWindow(window);
+}
+
+double GlfwWindow::Impl::pixels_per_unit() const {
+  int width = 0, height = 0, pixels_x = 0, pixels_y = 0;
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &pixels_x, &pixels_y);
+  return width > 0 ? static_cast<double>(pixels_x) / width : 1;
+}
+
+void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
+  is_active = true;
+  if (action == GLFW_PRESS) {
+    if (pressed >= 0 || is_over_panel() || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    pressed = button;
+    modifiers = modifiers_of(glfw_modifiers);
+    has_moved = false;
+    glfwGetCursorPos(window, &last_x, &last_y);
+    press_x = last_x;
+    press_y = last_y;
+    return;
+  }
+  if (button != pressed) return;
+  pressed = -1;
+  if (has_moved || button != GLFW_MOUSE_BUTTON_LEFT) return;
+  const double now = glfwGetTime();
+  const double scale = pixels_per_unit();
+  const bool is_second = now - last_click_s < kDoubleClick_s;
+  last_click_s = is_second ? -1e9 : now;
+  if (is_second) {
+    events.double_click(last_x * scale, last_y * scale);
+  } else {
+    events.click(last_x * scale, last_y * scale);
+  }
+}
+
+void GlfwWindow::Impl::on_cursor(double x, double y) {
+  is_active = true;
+  const double dx = x - last_x, dy = y - last_y;
+  if (pressed >= 0 && !has_moved && std::hypot(x - press_x, y - press_y) < kClickReach) return;
+  last_x = x;
+  last_y = y;
+  if (pressed < 0) return;
+  has_moved = true;
+  constexpr WindowEvents::Button kButtons[] = {
+      WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
+  const double scale = pixels_per_unit();
+  events.drag(kButtons[pressed], modifiers, dx * scale, dy * scale);
+}
+
+GlfwWindow::GlfwWindow(const std::string& title, Size size, WindowEvents& events)
+    : impl_(std::make_unique<Impl>(title, size, events)) {}
+GlfwWindow::~GlfwWindow() = default;
+
+bool GlfwWindow::is_closing() const { return glfwWindowShouldClose(impl_->window); }
+void GlfwWindow::close() { glfwSetWindowShouldClose(impl_->window, GLFW_TRUE); }
+
+Size GlfwWindow::size() const {
+  if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return {};
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(impl_->window, &width, &height);
+  return {static_cast<uint32_t>(std::max(width, 0)), static_cast<uint32_t>(std::max(height, 0))};
+}
+
+double GlfwWindow::pixels_per_unit() const { return impl_->pixels_per_unit(); }
+
+double GlfwWindow::frames_per_second() const {
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  return mode && mode->refreshRate > 0 ? mode->refreshRate : kUnknownRate;
+}
+
+void GlfwWindow::set_title(const std::string& title) {
+  glfwSetWindowTitle(impl_->window, title.c_str());
+}
+
+void GlfwWindow::wait() { glfwWaitEvents(); }
+void GlfwWindow::wait(double timeout_s) { glfwWaitEventsTimeout(timeout_s); }
+void GlfwWindow::poll() { glfwPollEvents(); }
+void GlfwWindow::wake() { glfwPostEmptyEvent(); }
+bool GlfwWindow::take_activity() { return std::exchange(impl_->is_active, false); }
+
+void GlfwWindow::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void GlfwWindow::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(impl_->window);
+}
+
+}  // namespace window

@@ -1,0 +1,54 @@
+// The camera under the mouse and the keys, as OpenSCAD's window moves it (openscad.md §6).
+#pragma once
+
+#include <cstdint>
+
+#include "frontend/camera.hpp"
+
+namespace window {
+
+enum class StandardView : uint8_t { kTop, kBottom, kLeft, kRight, kFront, kBack, kDiagonal };
+
+/// Of the picture, in pixels.
+struct Size {
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  bool operator==(const Size&) const = default;
+};
+
+/// A camera and its projection. Movements of the mouse are in pixels of the picture, x to the right
+/// and y downwards; a place in the picture counts from its upper left corner.
+class Navigation {
+ public:
+  Navigation(const frontend::Camera& camera, csgcore::Projection projection)
+      : camera_(camera), projection_(projection) {}
+
+  const frontend::Camera& camera() const { return camera_; }
+  csgcore::Projection projection() const { return projection_; }
+  csgcore::View view(Size size) const;
+
+  /// Left drag. `about_y`: with shift.
+  void turn(double dx_px, double dy_px, bool about_y);
+  /// Right drag.
+  void pan(double dx_px, double dy_px, Size size);
+  /// Middle drag, and right drag with shift: forward and back.
+  void move_along(double dy_px, Size size);
+  /// The wheel: what lies under the cursor, at the target's depth, stays there. notches > 0:
+  /// nearer.
+  void zoom(double notches, double x_px, double y_px, Size size);
+  /// At the picture's middle.
+  void zoom(double notches) { scale_distance(notches); }
+  void look_from(StandardView standard_view);
+  void look_at(const csgcore::Vec3& target) { camera_.target = target; }
+  /// The whole box, from where the camera looks now. An empty box changes nothing.
+  void view_all(const csgcore::Box& box);
+  void set_projection(csgcore::Projection projection) { projection_ = projection; }
+
+ private:
+  double scale_distance(double notches);
+
+  frontend::Camera camera_;
+  csgcore::Projection projection_;
+};
+
+}  // namespace window

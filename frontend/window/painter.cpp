@@ -1,0 +1,229 @@
+#include "painter.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "elapsed.hpp"
+#include "frontend/axes_overlay.hpp"
+#include "frontend/channel_picture.hpp"
+#include "frontend/parser.hpp"
+
+namespace window {
+namespace {
+
+using frontend::Clock;
+using frontend::ms_since;
+using frontend::Show;
+
+/// A moving picture is refined once no other was ordered for this long: longer than between two
+/// events of a mouse that moves.
+constexpr std::chrono::milliseconds kRest{80};
+
+/// Of a primitive's text, what is shown.
+constexpr std::size_t kLongestLine = 80;
+
+/// No coarser than one in so many pixels a side: below, nothing could be recognised.
+constexpr double kLeastShare = 1.0 / 6;
+/// Shares this near to 1 are drawn whole: a little late is better than blurred.
+constexpr double kWholeShare = 0.85;
+
+/// "line 12: sphere(…)" of a primitive. The text was parsed before, so that it can be.
+std::string line_of(std::string_view csg, uint32_t id) {
+  const uint32_t line = frontend::place_of_primitive(frontend::parse(csg, ""), id).line;
+  std::size_t start = 0;
+  for (uint32_t i = 1; i < line; ++i) start = csg.find('\n', start) + 1;
+  start = csg.find_first_not_of(" \t", start);
+  return "line " + std::to_string(line) + ": " +
+         std::string(
+             csg.substr(start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
+}
+
+bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCells; }
+
+}  // namespace
+
+Painter::Painter(double frame_ms, std::function<void()> on_news)
+    : frame_ms_(frame_ms), on_news_(std::move(on_news)), thread_([this] { run(); }) {}
+
+Painter::~Painter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+    outdated_.request_stop();
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void Painter::order(PaintOrder order) {
+  {
+    const std::lock_guard lock(mutex_);
+    ordered_ = std::move(order);
+    outdated_.request_stop();
+  }
+  wake_.notify_all();
+}
+
+void Painter::probe(Probe probe) {
+  {
+    const std::lock_guard lock(mutex_);
+    probes_.push_back(std::move(probe));
+  }
+  wake_.notify_all();
+}
+
+std::optional<Painting> Painter::take_painting() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(painted_, std::nullopt);
+}
+
+std::optional<Finding> Painter::take_finding() {
+  const std::lock_guard lock(mutex_);
+  if (findings_.empty()) return std::nullopt;
+  Finding finding = std::move(findings_.front());
+  findings_.erase(findings_.begin());
+  return finding;
+}
+
+/// Waits for work. Whether the coarse picture is to be refined: there is none.
+bool Painter::waits_for_refinement(std::unique_lock<std::mutex>& lock) {
+  const auto has_work = [this] { return is_stopping_ || ordered_ || !probes_.empty(); };
+  if (!coarse_) {
+    wake_.wait(lock, has_work);
+    return false;
+  }
+  return !wake_.wait_for(lock, kRest, has_work);
+}
+
+void Painter::run() {
+  std::unique_lock lock(mutex_);
+  while (!is_stopping_) {
+    if (waits_for_refinement(lock)) {
+      const PaintOrder order = *std::exchange(coarse_, std::nullopt);
+      const std::stop_token stop = (outdated_ = {}).get_token();
+      lock.unlock();
+      refine(order, stop);
+    } else if (ordered_ && !is_stopping_) {
+      PaintOrder order = *std::exchange(ordered_, std::nullopt);
+      coarse_.reset();
+      const std::stop_token stop = (outdated_ = {}).get_token();
+      lock.unlock();
+      paint(std::move(order), stop);
+    } else if (!probes_.empty() && !is_stopping_) {
+      const Probe probe = std::move(probes_.front());
+      probes_.erase(probes_.begin());
+      lock.unlock();
+      Finding finding = find(probe);
+      {
+        const std::lock_guard again(mutex_);
+        findings_.push_back(std::move(finding));
+      }
+      on_news_();
+    } else {
+      continue;
+    }
+    lock.lock();
+  }
+}
+
+/// Of the picture's sides, so that it takes no longer than a frame.
+double Painter::affordable_share(const PaintOrder& order) const {
+  if (!order.is_moving) return 1;
+  const double whole_ms = ms_per_pixel_ * order.size.width_px * order.size.height_px;
+  const double share = whole_ms > 0 ? std::sqrt(frame_ms_ / whole_ms) : 1;
+  return share >= kWholeShare ? 1 : std::max(share, kLeastShare);
+}
+
+void Painter::paint(PaintOrder order, const std::stop_token& stop) {
+  const double share = affordable_share(order);
+  const auto side = [share](uint32_t px) {
+    return std::max(1u, static_cast<uint32_t>(std::lround(share * px)));
+  };
+  const Size size{side(order.size.width_px), side(order.size.height_px)};
+  const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
+  // Of what moves, every picture is shown, however many follow.
+  Painting painting = paint_at(order, size, samples, order.is_moving ? std::stop_token() : stop);
+  if (!order.is_moving && stop.stop_requested()) return;
+  painting.is_final = size == order.size && samples == order.settings.samples;
+  if (!painting.is_final && painting.error.empty()) coarse_ = std::move(order);
+  publish(std::move(painting));
+}
+
+void Painter::refine(const PaintOrder& order, const std::stop_token& stop) {
+  Painting painting = paint_at(order, order.size, order.settings.samples, stop);
+  if (stop.stop_requested()) return;
+  painting.is_final = true;
+  publish(std::move(painting));
+}
+
+void Painter::load(const PaintOrder& order) {
+  if (loaded_ == order.design && loaded_section_ == order.section) return;
+  loaded_.reset();
+  csgcore::Box bounds;
+  if (order.section.is_on) bounds = order.design->view_box;
+  loaded_scene_ = cut_open(order.design->scene, order.section, bounds);
+  renderer_.load(loaded_scene_);
+  loaded_ = order.design;
+  loaded_section_ = order.section;
+}
+
+Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
+                           const std::stop_token& stop) {
+  Painting painting;
+  painting.order = order;
+  frontend::RenderSettings settings = order.settings;
+  settings.samples = samples;
+  settings.stop = stop;
+  settings.measured_channels = is_channel(settings.show) || order.overlays.axes;
+  const Clock::time_point start = Clock::now();
+  try {
+    load(order);
+    const Clock::time_point loaded = Clock::now();
+    const csgcore::View view = order.navigation.view(size);
+    painting.image = renderer_.draw(view, settings, painting.stats);
+    frontend::show_channel(painting.image, settings.show, settings.scheme.background);
+    if (order.overlays.axes) {
+      frontend::draw_axes(painting.image, view, order.navigation.camera(), settings.scheme.axes);
+    }
+    if (samples == 1) ms_per_pixel_ = ms_since(loaded) / (size.width_px * size.height_px);
+  } catch (const std::bad_alloc&) {
+    painting.error = "error: out of memory (make the window or the design smaller)";
+  } catch (const std::exception& error) {
+    painting.error = error.what();
+  }
+  painting.draw_ms = ms_since(start);
+  return painting;
+}
+
+Finding Painter::find(const Probe& probe) {
+  Finding finding;
+  finding.probe = probe;
+  try {
+    load(probe.order);
+    const csgcore::Hits hits =
+        renderer_.pick(probe.order.navigation.view(probe.order.size), probe.x_px, probe.y_px);
+    if (hits.primitive[0] == csgcore::Hits::kMiss) return finding;
+    finding.is_hit = true;
+    finding.position = hits.position[0];
+    finding.normal = hits.normal[0];
+    finding.id = loaded_scene_.primitives[hits.primitive[0]].id;
+    finding.line =
+        finding.id == kSectionId ? "section plane" : line_of(probe.csg->view(), finding.id);
+  } catch (const std::exception&) {
+    // Then there is no picture either, and its error is shown.
+  }
+  return finding;
+}
+
+void Painter::publish(Painting painting) {
+  {
+    const std::lock_guard lock(mutex_);
+    painted_ = std::move(painting);
+  }
+  on_news_();
+}
+
+}  // namespace window

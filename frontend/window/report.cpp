@@ -1,0 +1,84 @@
+#include "report.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "frontend/error.hpp"
+
+namespace window {
+namespace {
+
+using nlohmann::json;
+
+json array_of(const csgcore::Vec3& v) { return {v.x, v.y, v.z}; }
+
+json camera_of(const Navigation& navigation) {
+  const frontend::Camera& camera = navigation.camera();
+  return {{"target", array_of(camera.target)},
+          {"rotation_deg", array_of(camera.rotation_deg)},
+          {"distance", camera.distance},
+          {"orthographic", navigation.projection() == csgcore::Projection::kOrthographic}};
+}
+
+json points_of(const State& state) {
+  json points = json::array();
+  for (const MeasuredPoint& point : state.points) {
+    points.push_back({{"position", array_of(point.position)}, {"primitive", point.primitive}});
+  }
+  return points;
+}
+
+json times_of(const State& state) {
+  json times = json::object();
+  if (const auto& painting = state.painting) {
+    times["draw"] = painting->stats.traverse_ms + painting->stats.render_ms;
+    times["prepare"] = painting->stats.prepare_ms;
+    times["subdivide"] = painting->stats.subdivide_ms;
+  }
+  if (const auto& version = state.version) {
+    times["export"] = version->export_ms;
+    times["read"] = version->read_ms;
+    times["parse"] = version->parse_ms;
+    times["import"] = version->import_ms;
+  }
+  return times;
+}
+
+}  // namespace
+
+Report::Report(const std::string& path) {
+  if (path.empty()) return;
+  file_.reset(path == "-" ? stdout : std::fopen(path.c_str(), "we"));
+  if (!file_) {
+    throw frontend::Error(path, {}, std::string("cannot be written: ") + std::strerror(errno),
+                          "give --stats another file");
+  }
+}
+
+void Report::write(const State& state, double save_to_screen_ms) {
+  if (!file_) return;
+  json line = {{"version", state.version ? state.version->number : 0},
+               {"error", state.version ? state.version->error : ""},
+               {"messages", state.version ? state.version->messages : std::vector<std::string>{}},
+               {"unchanged", state.version && state.version->unchanged},
+               {"primitives", state.design ? state.design->scene.primitives.size() : 0},
+               {"camera", camera_of(state.navigation)},
+               {"section_on", state.section.is_on},
+               {"section_position", state.section.position},
+               {"points", points_of(state)},
+               {"frames_per_second", state.frames_per_second},
+               {"times_ms", times_of(state)},
+               {"status", status_line(state)}};
+  if (const auto& painting = state.painting) {
+    line["renderer"] = painting->stats.renderer;
+    line["width_px"] = painting->order.size.width_px;
+    line["height_px"] = painting->order.size.height_px;
+  }
+  if (save_to_screen_ms >= 0) line["save_to_screen_ms"] = save_to_screen_ms;
+  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+  std::fputs(text.c_str(), file_.get());
+  std::fflush(file_.get());
+}
+
+}  // namespace window

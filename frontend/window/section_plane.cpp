@@ -1,0 +1,42 @@
+#include "section_plane.hpp"
+
+#include <algorithm>
+
+#include "csgcore/polyhedron.hpp"
+
+namespace window {
+namespace {
+
+using csgcore::Box;
+
+/// How far beyond the scene the block reaches that is cut off, in the scene's own size: the plane
+/// is its only face that comes near the scene.
+constexpr double kMargin = 1;
+
+/// Empty where the plane leaves the whole scene.
+Box cut_off_block(const SectionPlane& plane, const Box& bounds) {
+  const csgcore::Vec3 margin(kMargin * bounds.diagonal());
+  Box block{bounds.min - margin, bounds.max + margin};
+  double& side = plane.is_flipped ? block.max[plane.axis] : block.min[plane.axis];
+  side = std::clamp(plane.position, block.min[plane.axis], block.max[plane.axis]);
+  return block;
+}
+
+}  // namespace
+
+csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane, const Box& bounds) {
+  csgcore::Scene result = scene;
+  if (!plane.is_on || bounds.empty()) return result;
+  const Box block = cut_off_block(plane, bounds);
+  if (!(block.min[plane.axis] < block.max[plane.axis])) return result;
+  csgcore::Primitive cut = csgcore::make_polyhedron(csgcore::Polyhedron::box(block));
+  cut.id = kSectionId;
+  const auto index = static_cast<uint32_t>(result.primitives.size());
+  result.primitives.push_back(std::move(cut));
+  for (csgcore::CsgTree* tree : {&result.model, &result.background, &result.highlight}) {
+    *tree = csgcore::subtract(*tree, index);
+  }
+  return result;
+}
+
+}  // namespace window

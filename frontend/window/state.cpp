@@ -1,0 +1,220 @@
+#include "state.hpp"
+
+#include <cstdio>
+
+namespace window {
+namespace {
+
+using csgcore::Projection;
+using frontend::Shading;
+using frontend::Show;
+
+std::optional<StandardView> standard_view(Command command) {
+  switch (command) {
+    case Command::kTop:
+      return StandardView::kTop;
+    case Command::kBottom:
+      return StandardView::kBottom;
+    case Command::kLeft:
+      return StandardView::kLeft;
+    case Command::kRight:
+      return StandardView::kRight;
+    case Command::kFront:
+      return StandardView::kFront;
+    case Command::kBack:
+      return StandardView::kBack;
+    case Command::kDiagonal:
+      return StandardView::kDiagonal;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<Show> shown_by(Command command) {
+  switch (command) {
+    case Command::kSurface:
+      return Show::kSurface;
+    case Command::kCells:
+      return Show::kCells;
+    case Command::kDepth:
+      return Show::kDepth;
+    case Command::kNormals:
+      return Show::kNormals;
+    case Command::kId:
+      return Show::kId;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<uint8_t> section_axis(Command command) {
+  switch (command) {
+    case Command::kSectionX:
+      return 0;
+    case Command::kSectionY:
+      return 1;
+    case Command::kSectionZ:
+      return 2;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The switch that a command turns; null: none.
+template <typename AnyState>
+auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) {
+  switch (command) {
+    case Command::kAxes:
+      return &state.overlays.axes;
+    case Command::kCrosshairs:
+      return &state.overlays.crosshairs;
+    case Command::kScales:
+      return &state.overlays.scales;
+    case Command::kEdges:
+      return &state.overlays.edges;
+    case Command::kMessages:
+      return &state.shows_messages;
+    case Command::kStatus:
+      return &state.shows_status;
+    case Command::kHelp:
+      return &state.shows_help;
+    default:
+      return nullptr;
+  }
+}
+
+constexpr double kKeyZoom = 1;  // notches of the wheel
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+}  // namespace
+
+State::State(const frontend::Options& options)
+    : navigation(options.camera.camera.value_or(frontend::Camera{}), options.camera.projection),
+      look(options.render),
+      name(options.input) {}
+
+csgcore::Box State::bounds() const { return design ? design->view_box : csgcore::Box{}; }
+
+void State::set_section_axis(uint8_t axis) {
+  const csgcore::Box box = bounds();
+  section.is_on = true;
+  section.axis = axis;
+  section.position = box.empty() ? 0 : box.center()[axis];
+}
+
+bool State::apply(Command command) {
+  if (const auto view = standard_view(command)) {
+    navigation.look_from(*view);
+  } else if (const auto show = shown_by(command)) {
+    look.show = *show;
+  } else if (const auto axis = section_axis(command)) {
+    set_section_axis(*axis);
+  } else if (bool* const turned = switch_of(*this, command)) {
+    *turned = !*turned;
+  } else {
+    switch (command) {
+      case Command::kViewAll:
+        navigation.view_all(bounds());
+        break;
+      case Command::kCenter:
+        navigation.look_at(csgcore::Vec3(0.0));
+        break;
+      case Command::kZoomIn:
+        navigation.zoom(kKeyZoom);
+        break;
+      case Command::kZoomOut:
+        navigation.zoom(-kKeyZoom);
+        break;
+      case Command::kPerspective:
+        navigation.set_projection(Projection::kPerspective);
+        break;
+      case Command::kOrthographic:
+        navigation.set_projection(Projection::kOrthographic);
+        break;
+      case Command::kOpenScadShading:
+        look.shading = Shading::kOpenScad;
+        break;
+      case Command::kPhongShading:
+        look.shading = Shading::kPhong;
+        break;
+      case Command::kSection:
+        if (section.is_on) {
+          section.is_on = false;
+        } else {
+          set_section_axis(section.axis);
+        }
+        break;
+      case Command::kSectionFlip:
+        section.is_flipped = !section.is_flipped;
+        break;
+      case Command::kForgetPoints:
+        points.clear();
+        shows_help = false;
+        break;
+      case Command::kSavePicture:
+        asks_for_path = true;
+        break;
+      default:
+        return false;
+    }
+  }
+  return true;
+}
+
+bool State::is_checked(Command command) const {
+  if (const auto show = shown_by(command)) return look.show == *show;
+  if (const auto axis = section_axis(command)) return section.is_on && section.axis == *axis;
+  if (const bool* const turned = switch_of(*this, command)) return *turned;
+  switch (command) {
+    case Command::kPerspective:
+      return navigation.projection() == Projection::kPerspective;
+    case Command::kOrthographic:
+      return navigation.projection() == Projection::kOrthographic;
+    case Command::kOpenScadShading:
+      return look.shading == Shading::kOpenScad;
+    case Command::kPhongShading:
+      return look.shading == Shading::kPhong;
+    case Command::kSection:
+      return section.is_on;
+    case Command::kSectionFlip:
+      return section.is_flipped;
+    default:
+      return false;
+  }
+}
+
+std::string status_line(const State& state) {
+  if (!state.version) return "reading " + state.name;
+  std::string line;
+  const auto part = [&line](const std::string& words) {
+    line += (line.empty() ? "" : "  |  ") + words;
+  };
+  const frontend::DesignVersion& version = *state.version;
+  if (state.design) part(std::to_string(state.design->scene.primitives.size()) + " primitives");
+  std::string times;
+  if (version.export_ms > 0) times += "openscad " + text("%.0f, ", version.export_ms);
+  times +=
+      "parse " + text("%.1f", version.parse_ms) + ", import " + text("%.1f", version.import_ms);
+  if (state.painting) {
+    const frontend::RenderStats& stats = state.painting->stats;
+    if (stats.prepare_ms > 0) times += ", prepare " + text("%.1f", stats.prepare_ms);
+    if (stats.subdivide_ms > 0) times += ", subdivide " + text("%.1f", stats.subdivide_ms);
+    times += ", draw " + text("%.1f ms", stats.traverse_ms + stats.render_ms);
+  }
+  part(times);
+  if (state.frames_per_second > 0) part(text("%.0f frames/s", state.frames_per_second));
+  if (state.painting) {
+    part(state.painting->stats.renderer);
+    part(std::to_string(state.painting->order.size.width_px) + " x " +
+         std::to_string(state.painting->order.size.height_px));
+  }
+  if (state.is_reading) part("reading");
+  return line;
+}
+
+}  // namespace window
