@@ -105,6 +105,7 @@ void State::set_section_axis(uint8_t axis) {
   section.is_on = true;
   section.axis = axis;
   section.position = box.empty() ? 0 : box.center()[axis];
+  section.is_flipped = navigation.view({1, 1}).forward[axis] > 0;
 }
 
 bool State::apply(Command command) {

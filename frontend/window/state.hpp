@@ -53,7 +53,7 @@ struct State {
   bool is_checked(Command command) const;
   /// Of the design; empty without one.
   csgcore::Box bounds() const;
-  /// Turns the section on, across the middle where it was never used.
+  /// Turns the section on, across the middle of the design: what is on the eye's side is cut off.
   void set_section_axis(uint8_t axis);
 };
 
