@@ -1,6 +1,7 @@
 // A solid's list with its operands in groups: what is far from where one looks costs nothing.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,13 @@ class OperandGroups {
   OperandGroups() = default;
   /// `extents`: of the primitives, index for index.
   OperandGroups(const CsgTree& tree, Extents extents);
+
+  /// For the same tree, of whose primitives only `moved` have other extents: groups keep what they
+  /// hold, and grow where that reaches further. Null if the groups would have to hold others, or
+  /// have grown too often.
+  static std::shared_ptr<const OperandGroups> with_moved(
+      const std::shared_ptr<const OperandGroups>& earlier, const CsgTree& tree,
+      const Extents& extents, std::span<const uint32_t> moved);
 
   /// The whole tree's. Constant if nothing of it is left.
   const CellList& list() const { return list_; }
@@ -55,6 +63,7 @@ class OperandGroups {
   CellList list_;
   Extents extents_;
   uint32_t first_group_ = 0;
+  uint32_t moved_ = 0;                  // primitives that moved since the groups were made
   std::vector<Range> members_, owned_;  // by group
   std::vector<uint32_t> primitive_;     // and valid indices that vectors read past the last
   std::vector<uint32_t> if_inside_, if_outside_;

@@ -17,6 +17,9 @@ Box bounds_of(const CanonicalPrimitives& primitives, const CsgTree& tree) {
   return subtree_boxes(tree.tokens(), [&](uint32_t i) { return primitives[i].bounds; }).back();
 }
 
+/// With a larger share of primitives changed, all is made anew.
+constexpr double kMostMoved = 0.1;
+
 /// In parallel where there are many.
 template <typename Work>
 void for_each_part(size_t count, Work&& work) {
@@ -39,6 +42,29 @@ std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& sce
   return result;
 }
 
+std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene,
+                                                                const CanonicalPrimitives& earlier,
+                                                                const SceneEdit& edit) {
+  auto result = std::make_shared<CanonicalPrimitives>();
+  if (edit.keeps_indices()) {
+    *result = earlier;
+  } else {
+    const std::vector<uint32_t> later_indices = edit.later_indices();
+    result->resize(scene.primitives.size());
+    for (size_t i = 0; i < earlier.size(); ++i) {
+      if (later_indices[i] != SceneEdit::kGone) (*result)[later_indices[i]] = earlier[i];
+    }
+  }
+  for_each_part(edit.added.size(), [&](size_t i) {
+    (*result)[edit.added[i]] = canonicalize(scene.primitives[edit.added[i]]);
+  });
+  for (const uint32_t i : edit.recolored) (*result)[i].color = scene.primitives[i].color;
+  for (size_t i = 0; edit.has_other_ids && i < result->size(); ++i) {
+    (*result)[i].id = scene.primitives[i].id;
+  }
+  return result;
+}
+
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree)
     : primitives_(std::move(primitives)),
       list_(compile(tree)),
@@ -53,6 +79,29 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   Extents extents(primitives_->size());
   for_each_part(extents.size(), [&](size_t i) { extents[i] = extent_of((*primitives_)[i]); });
   groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
+}
+
+Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
+             const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit) {
+  const bool has_same_list = tree_edit == TreeEdit::kSame && !tree.empty();
+  if (!has_same_list || edit.added.size() > kMostMoved * edit.primitives_after) {
+    *this = Solid(std::move(primitives), tree);
+    return;
+  }
+  primitives_ = std::move(primitives);
+  list_ = earlier.list_;
+  cell_list_ = earlier.cell_list_;
+  if (edit.added.empty()) {
+    groups_ = earlier.groups_;
+    bounds_ = earlier.bounds_;
+    return;
+  }
+  bounds_ = bounds_of(*primitives_, tree);
+  const std::span<const Extent> extents_before = earlier.extents();
+  Extents extents(extents_before.begin(), extents_before.end());
+  for (const uint32_t i : edit.added) extents[i] = extent_of((*primitives_)[i]);
+  groups_ = OperandGroups::with_moved(earlier.groups_, tree, extents, edit.added);
+  if (!groups_) groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
 }
 
 std::span<const Extent> Solid::extents() const {

@@ -9,6 +9,7 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/extent.hpp"
 #include "csgcore/scene.hpp"
+#include "csgcore/scene_edit.hpp"
 #include "csgcore/short_circuit_list.hpp"
 
 namespace csgcore {
@@ -20,11 +21,23 @@ class OperandGroups;
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene);
 
+/// Those of the scene after an edit, from those before: only added primitives are computed. Bit for
+/// bit as if made anew.
+std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene,
+                                                                const CanonicalPrimitives& earlier,
+                                                                const SceneEdit& edit);
+
 /// One tree of a scene, immutable.
 class Solid {
  public:
   /// Every index in `tree` must be below primitives->size().
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
+
+  /// A tree of the scene after an edit, from that before. What holds is shared; drawn, it is bit
+  /// for bit as if made anew. `tree_edit` is the tree's own, SceneEdit::model, background or
+  /// highlight.
+  Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
+        const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit);
 
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
   /// Index for index those of `primitives()`; none if the tree is empty.
