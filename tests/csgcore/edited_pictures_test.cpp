@@ -161,6 +161,30 @@ TEST(EditedPictures, AreTheSameByEveryInstructionSet) {
   }
 }
 
+/// A ball among holes that mostly reach nothing of it, and are left out: the ball moves, and so do
+/// holes, into it and out of it.
+TEST(EditedPictures, GroupsFollowWhatBoundsThem) {
+  std::mt19937 random(4);
+  std::vector<Primitive> parts{make_sphere(3)};
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 place = checks::random_point(random, {Vec3(-8.0), Vec3(8.0)});
+    parts.push_back(make_sphere(checks::uniform(random, 0.5, 1), checks::moved(place)));
+  }
+  Scene scene = checks::scene_of(Op::kDifference, parts);
+  auto before = std::make_unique<Made>(scene);
+  uint32_t seed = 0;
+  Redrawn redrawn;
+  for (int save = 0; save < 24; ++save) {
+    const size_t moved = save % 8 == 7 ? 0 : 1 + random() % 200;
+    scene.primitives[moved].local_to_world.translation =
+        checks::random_point(random, {Vec3(-5.0), Vec3(5.0)});
+    const SceneEdit edit = compare(before->scene, scene);
+    auto after = std::make_unique<Made>(scene, *before, edit);
+    ASSERT_NO_FATAL_FAILURE(expect_same_pictures(*before, *after, edit, seed, redrawn));
+    before = std::move(after);
+  }
+}
+
 /// Of so many that operands stand in groups: the same spheres move again and again, out of their
 /// groups' boxes.
 TEST(EditedPictures, MovedOperandsOfGroupsAreDrawn) {
