@@ -1,4 +1,7 @@
 // The drawing by the CPU tracer, csgcore/tracer.hpp.
+#include <optional>
+#include <span>
+
 #include "cells_picture.hpp"
 #include "csgcore/tracer.hpp"
 #include "elapsed.hpp"
@@ -46,23 +49,18 @@ class CpuRenderer final : public SolidRenderer {
                    const PictureRequest& request) override {
     note_renderer(request);
     if (request.settings.show == Show::kCells) return draw_cells(solid, frame, request);
-    csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
-    options.samples = samples_of(request.settings);
-    options.count_skipped = request.settings.all_stats;
-    TraceStats frame_stats;
     Image image;
-    if (uses_cells(request.settings)) {
-      csgcore::draw(subdivide_model(solid, request), request.view, frame, options, image,
-                    frame_stats);
-    } else {
-      csgcore::draw(solid, request.view, frame, options, image, frame_stats);
-    }
-    RenderStats& stats = request.stats;
-    add(frame_stats, stats);
-    stats.trace.primitives = frame_stats.primitives;
-    stats.trace.intersected = frame_stats.intersected;
-    stats.trace.skipped = frame_stats.skipped;
+    draw_area(solid, frame, request, std::nullopt, image);
     return image;
+  }
+
+  bool draws_areas() const override { return true; }
+
+  void draw_model_areas(const Solid& solid, const FrameSettings& frame,
+                        const PictureRequest& request, std::span<const csgcore::PixelArea> areas,
+                        Image& image) override {
+    note_renderer(request);
+    for (const csgcore::PixelArea& area : areas) draw_area(solid, frame, request, area, image);
   }
 
   Sides draw_sides(const Solid& solid, const FrameSettings& frame,
@@ -77,6 +75,27 @@ class CpuRenderer final : public SolidRenderer {
   static void note_renderer(const PictureRequest& request) {
     request.stats.renderer = "cpu";
     request.stats.technique = uses_cells(request.settings) ? "cells" : "tiles";
+  }
+
+  /// Nothing: the whole picture.
+  void draw_area(const Solid& solid, const FrameSettings& frame, const PictureRequest& request,
+                 std::optional<csgcore::PixelArea> area, Image& image) {
+    csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
+    options.samples = samples_of(request.settings);
+    options.count_skipped = request.settings.all_stats;
+    options.area = area;
+    TraceStats frame_stats;
+    if (uses_cells(request.settings)) {
+      csgcore::draw(subdivide_model(solid, request), request.view, frame, options, image,
+                    frame_stats);
+    } else {
+      csgcore::draw(solid, request.view, frame, options, image, frame_stats);
+    }
+    RenderStats& stats = request.stats;
+    add(frame_stats, stats);
+    stats.trace.primitives = frame_stats.primitives;
+    stats.trace.intersected = frame_stats.intersected;
+    stats.trace.skipped = frame_stats.skipped;
   }
 
   const Subdivision& subdivide_model(const Solid& solid, const PictureRequest& request) {

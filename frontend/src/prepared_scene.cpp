@@ -1,13 +1,31 @@
 #include "prepared_scene.hpp"
 
+#include <utility>
+
+#include "csgcore/changed_areas.hpp"
+
 namespace frontend {
 
 using csgcore::Image;
 
-PreparedScene::PreparedScene(const csgcore::Scene& scene)
-    : primitives_(csgcore::canonical_primitives(scene)), model_(primitives_, scene.model) {
-  add_layer(scene.background, LayerKind::kBackground);
-  add_layer(scene.highlight, LayerKind::kHighlight);
+PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene)
+    : scene_(std::move(scene)),
+      primitives_(csgcore::canonical_primitives(*scene_)),
+      model_(primitives_, scene_->model) {
+  add_layers();
+}
+
+PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene,
+                             const PreparedScene& earlier, const csgcore::SceneEdit& edit)
+    : scene_(std::move(scene)),
+      primitives_(csgcore::canonical_primitives(*scene_, *earlier.primitives_, edit)),
+      model_(primitives_, scene_->model, earlier.model_, edit, edit.model) {
+  add_layers();
+}
+
+void PreparedScene::add_layers() {
+  add_layer(scene_->background, LayerKind::kBackground);
+  add_layer(scene_->highlight, LayerKind::kHighlight);
   if (layers_.empty()) return;
   scene_box_ = model_.bounds();
   for (const auto& layer : layers_) scene_box_.merge(layer->solid.bounds());
@@ -31,6 +49,7 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
   csgcore::FrameSettings frame = frame_settings(request.settings);
   Image image = renderer.draw_model(model_, frame, request);
+  request.stats.pixels_drawn += image.rgb.size();
   if (request.settings.show == Show::kCells) return image;
   for (const auto& layer : layers_) {
     frame.front = frame.back = layer_color(layer->kind);
@@ -40,6 +59,21 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
     blend_layer(sides.front, layer->opacity, scene_box_.diagonal(), image);
   }
   return image;
+}
+
+void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& request,
+                           const PreparedScene& earlier, const csgcore::SceneEdit& edit,
+                           Image& image) const {
+  const bool has_layers = !layers_.empty() || !earlier.layers_.empty();
+  if (has_layers || request.settings.show == Show::kCells || !renderer.draws_areas()) {
+    image = draw(renderer, request);
+    return;
+  }
+  const csgcore::FrameSettings frame = frame_settings(request.settings);
+  const std::vector<csgcore::PixelArea> areas =
+      changed_areas(earlier.model_, model_, edit, edit.model, request.view, frame);
+  renderer.draw_model_areas(model_, frame, request, areas, image);
+  request.stats.pixels_drawn += csgcore::count_pixels(areas);
 }
 
 }  // namespace frontend

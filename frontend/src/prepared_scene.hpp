@@ -5,21 +5,28 @@
 #include <vector>
 
 #include "csgcore/scene.hpp"
+#include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
 #include "solid_renderer.hpp"
 #include "translucent_layer.hpp"
 
 namespace frontend {
 
-/// Keeps nothing of the scene that it is made from.
 class PreparedScene {
  public:
-  explicit PreparedScene(const csgcore::Scene& scene);
+  explicit PreparedScene(std::shared_ptr<const csgcore::Scene> scene);
+  /// Of a scene that was edited: what holds of the earlier one is shared.
+  PreparedScene(std::shared_ptr<const csgcore::Scene> scene, const PreparedScene& earlier,
+                const csgcore::SceneEdit& edit);
 
   /// The model, and over it the translucent `%` and `#` parts.
   csgcore::Image draw(SolidRenderer& renderer, const PictureRequest& request) const;
+  /// The same where `image` is the earlier scene's picture by the same request: only what the edit
+  /// has changed is drawn, if the renderer can do that.
+  void redraw(SolidRenderer& renderer, const PictureRequest& request, const PreparedScene& earlier,
+              const csgcore::SceneEdit& edit, csgcore::Image& image) const;
 
-  size_t primitive_count() const { return primitives_->size(); }
+  const csgcore::Scene& scene() const { return *scene_; }
   const csgcore::Solid& model() const { return model_; }
 
  private:
@@ -32,9 +39,11 @@ class PreparedScene {
     LayerOpacity opacity;
   };
 
+  void add_layers();
   void add_layer(const csgcore::CsgTree& tree, LayerKind kind);
   csgcore::FrameSettings frame_settings(const RenderSettings& settings) const;
 
+  std::shared_ptr<const csgcore::Scene> scene_;
   std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;
   csgcore::Solid model_;
   std::vector<std::unique_ptr<Layer>> layers_;  // from the first that is drawn

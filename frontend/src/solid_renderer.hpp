@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "csgcore/solid.hpp"
 #include "frontend/error.hpp"
@@ -50,6 +51,13 @@ class SolidRenderer {
   virtual csgcore::Image draw_model(const csgcore::Solid& solid,
                                     const csgcore::FrameSettings& frame,
                                     const PictureRequest& request) = 0;
+
+  /// Whether draw_model_areas() can be asked for.
+  virtual bool draws_areas() const { return false; }
+  /// The surface of the model, within the areas alone: the rest of `image` stays.
+  virtual void draw_model_areas(const csgcore::Solid&, const csgcore::FrameSettings&,
+                                const PictureRequest&, std::span<const csgcore::PixelArea>,
+                                csgcore::Image&) {}
 
   struct Sides {
     csgcore::Image front;   // where each ray enters the solid

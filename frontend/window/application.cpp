@@ -52,16 +52,13 @@ Size window_size(const frontend::Options& options) {
 }
 
 bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
-  const auto look = [](const frontend::RenderSettings& s) {
-    return std::tuple(std::string_view(s.scheme.name), s.shading, s.show, s.samples);
-  };
   const auto camera = [](const Navigation& n) {
     const frontend::Camera& c = n.camera();
     return std::tuple(n.projection(), c.target.x, c.target.y, c.target.z, c.rotation_deg.x,
                       c.rotation_deg.y, c.rotation_deg.z, c.distance);
   };
   return a.design == b.design && a.section == b.section && a.size == b.size &&
-         a.overlays == b.overlays && look(a.settings) == look(b.settings) &&
+         a.overlays == b.overlays && frontend::draw_the_same(a.settings, b.settings) &&
          camera(a.navigation) == camera(b.navigation);
 }
 

@@ -162,10 +162,13 @@ void Painter::refine(const PaintOrder& order, const std::stop_token& stop) {
 void Painter::load(const PaintOrder& order) {
   if (loaded_ == order.design && loaded_section_ == order.section) return;
   loaded_.reset();
-  csgcore::Box bounds;
-  if (order.section.is_on) bounds = order.design->view_box;
-  loaded_scene_ = cut_open(order.design->scene, order.section, bounds);
-  renderer_.load(loaded_scene_);
+  ScenePointer scene(order.design, &order.design->scene);
+  if (order.section.is_on) {
+    scene = std::make_shared<const csgcore::Scene>(
+        cut_open(*scene, order.section, order.design->view_box));
+  }
+  renderer_.load(scene);
+  scene_ = std::move(scene);
   loaded_ = order.design;
   loaded_section_ = order.section;
 }
@@ -183,12 +186,15 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
     load(order);
     const Clock::time_point loaded = Clock::now();
     const csgcore::View view = order.navigation.view(size);
-    painting.image = renderer_.draw(view, settings, painting.stats);
+    painting.image = size == order.size ? renderer_.redraw(view, settings, painting.stats)
+                                        : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
     if (order.overlays.axes) {
       frontend::draw_axes(painting.image, view, order.navigation.camera(), settings.scheme.axes);
     }
-    if (samples == 1) ms_per_pixel_ = ms_since(loaded) / (size.width_px * size.height_px);
+    if (samples == 1 && painting.stats.pixels_drawn > 0) {
+      ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.pixels_drawn);
+    }
   } catch (const std::bad_alloc&) {
     painting.error = "error: out of memory (make the window or the design smaller)";
   } catch (const std::exception& error) {
@@ -209,7 +215,7 @@ Finding Painter::find(const Probe& probe) {
     finding.is_hit = true;
     finding.position = hits.position[0];
     finding.normal = hits.normal[0];
-    finding.id = loaded_scene_.primitives[hits.primitive[0]].id;
+    finding.id = scene_->primitives[hits.primitive[0]].id;
     finding.line =
         finding.id == kSectionId ? "section plane" : line_of(probe.csg->view(), finding.id);
   } catch (const std::exception&) {

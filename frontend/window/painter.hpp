@@ -81,6 +81,8 @@ class Painter {
   std::optional<Finding> take_finding();
 
  private:
+  using ScenePointer = std::shared_ptr<const csgcore::Scene>;
+
   void run();
   void paint(PaintOrder order, const std::stop_token& stop);
   void refine(const PaintOrder& order, const std::stop_token& stop);
@@ -108,7 +110,7 @@ class Painter {
   frontend::SceneRenderer renderer_;
   std::shared_ptr<const frontend::ImportedDesign> loaded_;
   SectionPlane loaded_section_;
-  csgcore::Scene loaded_scene_;
+  ScenePointer scene_;       // the loaded design's, cut open
   double ms_per_pixel_ = 0;  // of the last picture; 0: not known
   std::optional<PaintOrder> coarse_;
 

@@ -26,7 +26,7 @@ Box cut_off_block(const SectionPlane& plane, const Box& bounds) {
 
 csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane, const Box& bounds) {
   csgcore::Scene result = scene;
-  if (!plane.is_on || bounds.empty()) return result;
+  if (bounds.empty()) return result;
   const Box block = cut_off_block(plane, bounds);
   if (!(block.min[plane.axis] < block.max[plane.axis])) return result;
   csgcore::Primitive cut = csgcore::make_polyhedron(csgcore::Polyhedron::box(block));

@@ -17,8 +17,9 @@ struct SectionPlane {
   bool operator==(const SectionPlane&) const = default;
 };
 
-/// The scene without what the plane cuts off, of the model as of the `%` and `#` parts. `bounds`
-/// holds the whole scene. The cut is a primitive behind all others, whose id is kSectionId.
+/// The scene without what the plane, which is on, cuts off: of the model as of the `%` and `#`
+/// parts. `bounds` holds the whole scene. The cut is a primitive behind all others, whose id is
+/// kSectionId.
 csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane,
                         const csgcore::Box& bounds);
 

@@ -26,6 +26,7 @@ struct View {
   double half_height = 1;
   uint32_t width_px = 512;
   uint32_t height_px = 512;
+  bool operator==(const View&) const = default;
 };
 
 /// A rectangle of a picture's pixels: x to the right, y downwards from the top left corner.

@@ -31,6 +31,7 @@ constexpr uint32_t kMaxSamples = 64;
 /// 8-bit colours of a scheme (openscad.md §4).
 struct Rgb {
   uint8_t r, g, b;
+  bool operator==(const Rgb&) const = default;
 };
 struct ColorScheme {
   const char* name;
@@ -59,12 +60,18 @@ struct RenderSettings {
   std::function<void(const char* stage, double fraction)> progress;
 };
 
+/// Whether the same picture comes of both.
+bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
+
 /// What `--stats` reports of the drawing. Times in ms. What a renderer does not have stays 0.
 struct RenderStats {
   std::string renderer;   // "cpu", or "gl: " and GL_RENDERER
   std::string reason;     // why kAuto chose it; empty where it had no choice
   std::string technique;  // "cells" or "tiles"
   uint64_t primitives = 0;
+
+  uint64_t pixels_drawn = 0;        // fewer than the picture has where the last one could be kept
+  uint64_t primitives_changed = 0;  // since that one: removed, added and of another colour
 
   // The subdivision; nothing of it with tiles.
   uint64_t cells = 0;  // inner ones and leaves
