@@ -244,7 +244,8 @@ void print_info() {
 void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
   if (!arguments.empty() && arguments[0] == "validate") {
     run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
-                   "build scadray with SCADRAY_ORACLE=ON where CGAL is installed (libcgal-dev)");
+                   "install the package scadray-validate, or build scadray with SCADRAY_ORACLE=ON "
+                   "where CGAL is installed (libcgal-dev)");
   }
   const Options options = parse_options(arguments);
   switch (options.action) {

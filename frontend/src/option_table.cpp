@@ -1,58 +1,54 @@
 #include "option_table.hpp"
 
-#include <span>
-#include <string>
-#include <vector>
-
 #include "frontend/color_scheme.hpp"
+#include "option_words.hpp"
 
 namespace frontend {
 namespace {
 
 namespace po = boost::program_options;
 
-enum class Takes : uint8_t {
-  kNothing,
-  kText,
-  kTexts,         // may be given more than once
-  kOptionalText,  // may stand without a value, but takes the next word as one if there is one
-  kCount,
-};
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const ColorScheme& scheme : color_schemes()) names.emplace_back(scheme.name);
+  return names;
+}
 
-struct Row {
-  const char* names;  // "long,short"
-  Takes takes;
-  const char* value_name;
-  const char* help;
-};
+constexpr Completion kAnyScheme{Completion::Kind::kWord, scheme_names};
+constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
 
 // Where OpenSCAD has a long name of one letter for a short option, so have we.
-constexpr Row kOpenScadOptions[] = {
+constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
      "picture to write: .png or .exr; - is standard output, with --export-format; may be given "
-     "more than once"},
-    {"export-format", Takes::kText, "FORMAT", "png or exr, whatever OUT's suffix is"},
+     "more than once",
+     kAnyFile},
+    {"export-format", Takes::kText, "FORMAT", "png or exr, whatever OUT's suffix is",
+     kOneOf<kFormats>},
     {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
     {"camera", Takes::kText, "NUMBERS",
      "translation x,y,z, rotation x,y,z in degrees, distance; or eye x,y,z, centre x,y,z; default: "
      "--viewall --autocenter"},
     {"viewall", Takes::kNothing, "", "take the distance at which the whole design is seen"},
     {"autocenter", Takes::kNothing, "", "with --viewall: look at the design's centre"},
-    {"projection", Takes::kText, "P", "(o)rtho or (p)erspective, the default"},
-    {"colorscheme", Takes::kText, "NAME", nullptr},  // its help lists the schemes
-    {"view", Takes::kText, "WHAT", "axes; also accepted: crosshairs, edges, scales, wireframe"},
+    {"projection", Takes::kText, "P", "(o)rtho or (p)erspective, the default",
+     kOneOf<kProjections>},
+    {"colorscheme", Takes::kText, "NAME", "colour scheme:", kAnyScheme},
+    {"view", Takes::kText, "WHAT", "axes; also accepted: crosshairs, edges, scales, wireframe",
+     kViewList},
     {"animate", Takes::kText, "N",
      "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
-    {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad"},
+    {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
     {"d,d", Takes::kText, "DEPS",
-     "write a rule for make: the pictures, and all files that the design reads"},
-    {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses"},
+     "write a rule for make: the pictures, and all files that the design reads", kAnyFile},
+    {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses", kAnyCommand},
     {"hardwarnings", Takes::kNothing, "", "a .scad's first warning stops it"},
     {"check-parameters", Takes::kText, "BOOL",
-     "check the parameters of a .scad's modules and functions"},
-    {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters"},
+     "check the parameters of a .scad's modules and functions", kOneOf<kTruthValues>},
+    {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters",
+     kOneOf<kTruthValues>},
     {"quiet,q", Takes::kNothing, "", "errors only"},
     {"info", Takes::kNothing, "",
      "log the renderer that is chosen; without FILE: describe this program"},
@@ -62,16 +58,17 @@ constexpr Row kOpenScadOptions[] = {
     {"preview", Takes::kOptionalText, "HOW", "accepted, without effect"},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
-    {"s,s", Takes::kText, "OUT", "the same as -o"},
-    {"x,x", Takes::kText, "OUT", "the same as -o"},
+    {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
+    {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
 };
 
-constexpr Row kOwnOptions[] = {
+constexpr OptionRow kOwnOptions[] = {
     {"renderer", Takes::kText, "R",
-     "cpu, gl or auto, the default: OpenGL where there is a GPU, else the CPU"},
+     "cpu, gl or auto, the default: OpenGL where there is a GPU, else the CPU", kOneOf<kRenderers>},
     {"technique", Takes::kText, "T",
      "how the CPU finds what a ray may meet: tiles of the screen (default), or the cells of a "
-     "kd-tree (default with --leaf-primitives, --threshold and --show=cells)"},
+     "kd-tree (default with --leaf-primitives, --threshold and --show=cells)",
+     kOneOf<kTechniques>},
     {"samples", Takes::kText, "N",
      "antialiasing: rays per pixel where there is an edge, 1 to 64; default 1"},
     {"leaf-primitives", Takes::kText, "K",
@@ -80,25 +77,18 @@ constexpr Row kOwnOptions[] = {
      "cells that project below PX pixels are not subdivided; default 0: none"},
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
-     "is exactly round"},
-    {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface"},
-    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad"},
-    {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output"},
+     "is exactly round",
+     kOneOf<kFacets>},
+    {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
+     kOneOf<kShows>},
+    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad", kOneOf<kShadings>},
+    {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"skip-unsupported", Takes::kNothing, "", "draw what is supported and list the rest"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
 };
 
-std::string scheme_names() {
-  std::string names = "colour scheme: ";
-  for (const ColorScheme& scheme : color_schemes()) {
-    if (&scheme != color_schemes().data()) names += " | ";
-    names += scheme.name;
-  }
-  return names;
-}
-
 /// Owned by the table that it is added to.
-const po::value_semantic* value_of(const Row& row) {
+const po::value_semantic* value_of(const OptionRow& row) {
   switch (row.takes) {
     case Takes::kNothing:
       break;
@@ -114,21 +104,30 @@ const po::value_semantic* value_of(const Row& row) {
   return new po::untyped_value(true);
 }
 
-po::options_description table_of(const char* title, std::span<const Row> rows) {
-  po::options_description table(title);
-  for (const Row& row : rows) {
-    const std::string help = row.help ? row.help : scheme_names();
-    table.add_options()(row.names, value_of(row), help.c_str());
+}  // namespace
+
+std::span<const OptionRow> openscad_options() { return kOpenScadOptions; }
+
+std::span<const OptionRow> own_options() { return kOwnOptions; }
+
+std::string help_of(const OptionRow& row) {
+  std::string help = row.help;
+  if (!help.ends_with(':')) return help;
+  const char* before = " ";
+  for (const std::string& word : row.completion.words()) {
+    help += before + word;
+    before = " | ";
+  }
+  return help;
+}
+
+po::options_description table_of(const char* title, std::span<const OptionRow> rows,
+                                 unsigned columns) {
+  po::options_description table(title, columns);
+  for (const OptionRow& row : rows) {
+    table.add_options()(row.names, value_of(row), help_of(row).c_str());
   }
   return table;
 }
-
-}  // namespace
-
-po::options_description openscad_options() {
-  return table_of("OpenSCAD's options", kOpenScadOptions);
-}
-
-po::options_description own_options() { return table_of("scadray's own options", kOwnOptions); }
 
 }  // namespace frontend

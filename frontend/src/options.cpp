@@ -11,6 +11,7 @@
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "option_table.hpp"
+#include "option_words.hpp"
 
 namespace frontend {
 namespace {
@@ -18,6 +19,15 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr unsigned kMaxThreads = 1024;
+constexpr unsigned kHelpColumns = 80;
+
+po::options_description openscad_table() {
+  return table_of("OpenSCAD's options", openscad_options(), kHelpColumns);
+}
+
+po::options_description own_table() {
+  return table_of("scadray's own options", own_options(), kHelpColumns);
+}
 
 [[noreturn]] void fail(const std::string& what, const std::string& todo) {
   throw Error("", {}, what, todo);
@@ -55,12 +65,6 @@ std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
-}
-
-std::optional<PictureFormat> format_of(const std::string& name) {
-  if (name == "png") return PictureFormat::kPng;
-  if (name == "exr") return PictureFormat::kExr;
-  return std::nullopt;
 }
 
 /// The words of the command line, sorted by option; not checked further.
@@ -125,8 +129,8 @@ std::pair<std::string, std::string> Arguments::openscad_prefix(
 }
 
 Arguments::Arguments(const std::vector<std::string>& words) {
-  const po::options_description openscad = openscad_options();
-  const po::options_description own = own_options();
+  const po::options_description openscad = openscad_table();
+  const po::options_description own = own_table();
   po::options_description files;
   files.add_options()("file", po::value<std::vector<std::string>>());
   table_.add(openscad).add(own).add(files);
@@ -144,6 +148,27 @@ Arguments::Arguments(const std::vector<std::string>& words) {
   } catch (const po::error& error) {
     fail(error.what(), "see scadray --help");
   }
+}
+
+/// "a, b or c"
+template <typename Value, std::size_t kCount>
+std::string listed(const Word<Value> (&names)[kCount]) {
+  std::string list;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    list += i == 0 ? "" : (i + 1 < kCount ? ", " : " or ");
+    list += names[i].first;
+  }
+  return list;
+}
+
+/// The value that goes with the option's word, or `missing`.
+template <typename Value, std::size_t kCount>
+Value choice(const Arguments& arguments, const char* option, const Word<Value> (&names)[kCount],
+             Value missing) {
+  if (!arguments.has(option)) return missing;
+  const std::string& word = arguments.text(option);
+  if (const Value* value = find_word(names, word)) return *value;
+  bad_value(option, word, "give " + listed(names));
 }
 
 uint32_t picture_side(std::string_view text, const std::string& value) {
@@ -177,14 +202,7 @@ void read_camera(const Arguments& arguments, CameraOptions& camera) {
     }
     camera.camera = camera_from_numbers(numbers);
   }
-  if (arguments.has("projection")) {
-    const std::string& value = arguments.text("projection");
-    if (value == "o" || value == "ortho" || value == "orthogonal") {
-      camera.projection = csgcore::Projection::kOrthographic;
-    } else if (value != "p" && value != "perspective") {
-      bad_value("projection", value, "give o, ortho, p or perspective");
-    }
-  }
+  camera.projection = choice(arguments, "projection", kProjections, camera.projection);
 }
 
 void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
@@ -201,41 +219,6 @@ void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
   render.scheme = *scheme;
 }
 
-/// "a, b or c"
-template <typename Value, std::size_t kCount>
-std::string listed(const std::pair<const char*, Value> (&names)[kCount]) {
-  std::string list;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    list += i == 0 ? "" : (i + 1 < kCount ? ", " : " or ");
-    list += names[i].first;
-  }
-  return list;
-}
-
-/// The value that goes with the option's word, or `missing`.
-template <typename Value, std::size_t kCount>
-Value choice(const Arguments& arguments, const char* option,
-             const std::pair<const char*, Value> (&names)[kCount], Value missing) {
-  if (!arguments.has(option)) return missing;
-  const std::string& word = arguments.text(option);
-  for (const auto& [name, value] : names) {
-    if (word == name) return value;
-  }
-  bad_value(option, word, "give " + listed(names));
-}
-
-constexpr std::pair<const char*, Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
-                                                         {"phong", Shading::kPhong}};
-constexpr std::pair<const char*, Show> kShows[] = {{"surface", Show::kSurface},
-                                                   {"cells", Show::kCells},
-                                                   {"depth", Show::kDepth},
-                                                   {"normals", Show::kNormals},
-                                                   {"id", Show::kId}};
-constexpr std::pair<const char*, RendererKind> kRenderers[] = {
-    {"auto", RendererKind::kAuto}, {"gl", RendererKind::kGl}, {"cpu", RendererKind::kCpu}};
-constexpr std::pair<const char*, Technique> kTechniques[] = {{"cells", Technique::kCells},
-                                                             {"tiles", Technique::kTiles}};
-
 /// Who speaks of cells without --technique means them.
 Technique read_technique(const Arguments& arguments, const RenderSettings& render) {
   const bool wants_cells =
@@ -251,10 +234,8 @@ Technique read_technique(const Arguments& arguments, const RenderSettings& rende
 void read_facets(const Arguments& arguments, ImportOptions& import) {
   if (!arguments.has("facets")) return;
   const std::string& value = arguments.text("facets");
-  if (value == "all") {
-    import.facets = Facets::kAll;
-  } else if (value == "none") {
-    import.facets = Facets::kNone;
+  if (const Facets* facets = find_word(kFacets, value)) {
+    import.facets = *facets;
   } else if (const std::optional<uint32_t> fragments = parse_number<uint32_t>(value)) {
     import.few_fragments = *fragments;
   } else {
@@ -282,16 +263,15 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
 /// OpenSCAD says that it ignores a view it does not know, and goes on.
 void read_view(const Arguments& arguments, Options& options) {
   if (!arguments.has("view")) return;
-  constexpr std::string_view kWithoutEffect[] = {"crosshairs", "edges", "scales", "wireframe"};
   for (const std::string_view part : split_at_commas(arguments.text("view"))) {
     const std::string name(part);
-    if (part == "axes") {
-      options.axes = true;
-    } else if (std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), part) !=
-               std::end(kWithoutEffect)) {
+    const bool* has_effect = find_word(kViews, part);
+    if (!has_effect) {
+      options.warnings.push_back("--view=" + name + " is not known and ignored (give axes)");
+    } else if (!*has_effect) {
       options.warnings.push_back("--view=" + name + " has no effect in this version");
     } else {
-      options.warnings.push_back("--view=" + name + " is not known and ignored (give axes)");
+      options.axes = true;
     }
   }
 }
@@ -302,8 +282,8 @@ PictureFormat picture_format(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   const std::size_t slash = path.rfind('/');
   const bool has_suffix = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::optional<PictureFormat> format =
-      has_suffix ? format_of(lower_case(path.substr(dot + 1))) : std::nullopt;
+  const PictureFormat* format =
+      has_suffix ? find_word(kFormats, lower_case(path.substr(dot + 1))) : nullptr;
   if (!format) {
     throw Error(path, {}, "is no picture that this version can write",
                 "end it in .png or .exr, or give --export-format=png or exr");
@@ -313,15 +293,15 @@ PictureFormat picture_format(const std::string& path) {
 
 namespace {
 
-Output make_output(const std::string& path, std::optional<PictureFormat> given) {
+Output make_output(const std::string& path, const PictureFormat* given) {
   return {path, given ? *given : picture_format(path)};
 }
 
 void read_outputs(const Arguments& arguments, Options& options) {
-  std::optional<PictureFormat> given;
+  const PictureFormat* given = nullptr;
   if (arguments.has("export-format")) {
     const std::string& value = arguments.text("export-format");
-    given = format_of(lower_case(value));
+    given = find_word(kFormats, lower_case(value));
     if (!given) bad_value("export-format", value, "this version writes png and exr");
   }
   arguments.for_each([&](const std::string& option, const std::string& value) {
@@ -432,14 +412,13 @@ Options parse_options(const std::vector<std::string>& words) {
 }
 
 std::string help_text() {
-  constexpr unsigned kColumns = 100;
   po::options_description all(
       "Usage: scadray -o OUT [options] FILE\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
       ".csg from standard input. `validate` compares it with exact arithmetic instead",
-      kColumns);
-  all.add(openscad_options()).add(own_options());
+      kHelpColumns);
+  all.add(openscad_table()).add(own_table());
   std::ostringstream text;
   text << all;
   return text.str();

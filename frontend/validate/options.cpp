@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "frontend/error.hpp"
+#include "option_rows.hpp"
 #include "planted_error.hpp"
 
 namespace validation {
@@ -24,35 +25,7 @@ constexpr unsigned kMostThreads = 1024;
 
 po::options_description option_table() {
   constexpr unsigned kColumns = 100;
-  po::options_description table("Options", kColumns);
-  const auto text = [](const char* name) { return po::value<std::string>()->value_name(name); };
-  const auto texts = [](const char* name) {
-    return po::value<std::vector<std::string>>()->value_name(name);
-  };
-  auto add = table.add_options();
-  add("fn", text("N"), "fragments of the facets that CGAL is given, 3 to 200; default 8");
-  add("points", text("N"), "random points of each kind; default 10000");
-  add("rays", text("N"),
-      "random rays of each kind, and for the volume ten times as many; default 10000");
-  add("views", text("N"), "pictures of random views, 160 x 120 pixels; default 3");
-  add("seed", text("N"), "of the random numbers; default 1");
-  add("time-limit", text("SECONDS"),
-      "a design that CGAL's polyhedra take longer for is compared with exact rays alone; default "
-      "40");
-  add("renderer", text("R"),
-      "what is compared besides the CPU: cpu (nothing), gl, or auto, the default: OpenGL where "
-      "there is a GPU");
-  add("report", text("FILE"),
-      "all that was found, with coordinates, as JSON; - is standard output");
-  add("threads", text("N"), "worker threads; default: as many as there are processors");
-  add("skip-unsupported", "leave out what cannot be drawn, and list it");
-  add("D,D", texts("VAR=VALUE"), "a variable of the .scad");
-  add("p,p", text("FILE"), "customizer's parameter file, for a .scad");
-  add("P,P", text("SET"), "customizer's parameter set, for a .scad");
-  add("quiet,q", "no table: errors, the report and the exit status only");
-  add("version,v", "print the version");
-  add("help,h", "print this text");
-  return table;
+  return frontend::table_of("Options", option_rows(), kColumns);
 }
 
 class Arguments {

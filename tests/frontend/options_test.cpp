@@ -5,6 +5,7 @@
 
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "option_table.hpp"
 
 namespace frontend {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 using Words = std::vector<std::string>;
 
@@ -347,6 +349,24 @@ TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
   EXPECT_THAT(parse_drawing({"--rend=cgal"}).warnings, ElementsAre(HasSubstr("--render")));
   EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
   EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
+}
+
+TEST(Options, EveryWordThatTheShellsOfferIsUnderstood) {
+  std::size_t words = 0;
+  for (const auto rows : {openscad_options(), own_options()}) {
+    for (const OptionRow& row : rows) {
+      if (!row.completion.words) continue;
+      const std::string option = "--" + std::string(row.names);
+      for (const std::string& word : row.completion.words()) {
+        const Options options = parse_options({"-o", "x.png", "a.scad", option + "=" + word});
+        for (const std::string& warning : options.warnings) {
+          EXPECT_THAT(warning, Not(HasSubstr("not known"))) << option << "=" << word;
+        }
+        ++words;
+      }
+    }
+  }
+  EXPECT_GT(words, 30u);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// The options of `scadray validate`. Apart from what reads them, for frontend/packaging: no CGAL
+// here.
+#pragma once
+
+#include <span>
+
+#include "option_table.hpp"
+
+namespace validation {
+
+std::span<const frontend::OptionRow> option_rows();
+
+}  // namespace validation
