@@ -1,5 +1,6 @@
 #include "glrender/context.hpp"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -8,6 +9,18 @@
 
 namespace glrender {
 namespace {
+
+/// libepoxy loads these by name at the first call, and ends the program where it cannot: they are
+/// loaded before, for good.
+void load_libraries() {
+  const auto can_load = [](const char* name) { return dlopen(name, RTLD_LAZY) != nullptr; };
+  if (!can_load("libEGL.so.1")) {
+    throw GlError(std::string("EGL cannot be loaded: ") + dlerror() + " (install libegl1)");
+  }
+  if (!can_load("libOpenGL.so.0") && !can_load("libGL.so.1")) {
+    throw GlError(std::string("OpenGL cannot be loaded: ") + dlerror() + " (install libopengl0)");
+  }
+}
 
 /// Displays to try, hardware first. A device without a DRM node is Mesa's software rasteriser.
 std::vector<EGLDisplay> candidate_displays() {
@@ -87,11 +100,12 @@ struct HeadlessContext::Impl {
 };
 
 HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
+  load_libraries();
   for (const EGLDisplay display : candidate_displays()) {
     if (impl_->start(display)) return;
   }
   throw GlError(
-      "no OpenGL 3.3 context without a display can be had through EGL (install libegl1 and "
+      "no OpenGL 3.3 context without a display can be had through EGL (install "
       "libgl1-mesa-dri, or a graphics driver)");
 }
 

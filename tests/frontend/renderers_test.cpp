@@ -351,6 +351,21 @@ class Program : public testing::Test {
   std::string file_ = folder_.write("a.csg", kDesign);
 };
 
+/// An empty file in a library's place cannot be loaded, like one that is not there.
+TEST_F(Program, SaysWhichGraphicsLibraryIsMissing) {
+  const auto error_without = [this](const std::vector<std::string>& libraries) {
+    for (const std::string& name : libraries) folder_.write(name, "");
+    const std::string command = "LD_LIBRARY_PATH=" + (folder_ / "") + ' ' + SCADRAY_PROGRAM +
+                                " -o " + (folder_ / "x.png") + " --renderer=gl " + file_ + " 2>" +
+                                (folder_ / "errors");
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    for (const std::string& name : libraries) std::filesystem::remove(folder_ / name);
+    return folder_.read("errors");
+  };
+  EXPECT_THAT(error_without({"libEGL.so.1"}), HasSubstr("(install libegl1)"));
+  EXPECT_THAT(error_without({"libOpenGL.so.0", "libGL.so.1"}), HasSubstr("(install libopengl0)"));
+}
+
 TEST_F(Program, LoadsNoGraphicsForAPictureByTheCpu) {
   constexpr const char* kGraphics[] = {"libGL",    "libEGL",  "libgallium", "_dri.so", "libLLVM",
                                        "libimgui", "libglfw", "libX11",     "libCGAL", "libgmp"};
