@@ -1,0 +1,57 @@
+# `cpack` in the build folder makes three Debian packages (deb.cmake adds what only they have):
+#   scadray           the program and all that belongs to it
+#   scadray-validate  apart because it contains CGAL (GPL-3)
+#   libscadray-dev    static libraries, headers and the CMake package
+# The components, and so the packages, are named in the install commands; a command that names none
+# belongs to scadray.
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL scadray libscadray-dev)
+if(TARGET scadray-validate)
+  list(APPEND CPACK_COMPONENTS_ALL scadray-validate)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
+                                                GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+# The component is what the description is of.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
+# The project has no address; who gives a package to others sets theirs with -D.
+if(NOT CPACK_PACKAGE_CONTACT)
+  set(CPACK_PACKAGE_CONTACT "scadray contributors <scadray@localhost>")
+endif()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/deb.cmake")
+set(CPACK_SCADRAY_SOURCE_DIR "${PROJECT_SOURCE_DIR}")
+
+# deb_package(NAME SECTION DESCRIPTION [RECOMMENDS …] [DEPENDS …])
+function(deb_package name section description)
+  cmake_parse_arguments(ARG "" "" "RECOMMENDS;DEPENDS" ${ARGN})
+  list(JOIN ARG_RECOMMENDS ", " recommends)
+  list(JOIN ARG_DEPENDS ", " depends)
+  string(TOUPPER "${name}" key)
+  set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_RECOMMENDS "${recommends}" PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
+  set(CPACK_COMPONENT_${key}_DESCRIPTION "${description}" PARENT_SCOPE)
+endfunction()
+
+# libepoxy opens EGL and GL by name when OpenGL is first asked for, which shlibdeps cannot see; the
+# CPU draws where they are not there.
+deb_package(scadray graphics "exact ray-traced pictures of OpenSCAD designs
+Draws OpenSCAD's .csg and .scad files by ray tracing the solid itself: round
+primitives are exact surfaces, not meshes. Takes the command lines of openscad
+that write a picture, and needs neither a display nor a GPU."
+  RECOMMENDS openscad libegl1 libgl1-mesa-dri libopengl0)
+deb_package(scadray-validate graphics "compares what scadray draws with exact arithmetic
+Holds what scadray makes of a design against CGAL's Nef polyhedra and against
+rays in exact arithmetic. `scadray validate` runs it."
+  RECOMMENDS openscad DEPENDS "scadray (= ${PROJECT_VERSION})")
+deb_package(libscadray-dev libdevel "libraries that ray trace OpenSCAD designs
+Static libraries, headers and a CMake package: CSG trees, their subdivision and
+ray tracing, OpenGL rendering, and the import of OpenSCAD's .csg files."
+  DEPENDS libboost-program-options-dev libepoxy-dev libglm-dev libopenexr-dev libspng-dev libtbb-dev
+          nlohmann-json3-dev pkg-config)
+include(CPack)

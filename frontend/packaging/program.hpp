@@ -1,0 +1,42 @@
+// What the manual page and the completions of a program say of it, made from its option table.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "option_table.hpp"
+
+namespace packaging {
+
+struct OptionGroup {
+  const char* title;
+  std::span<const frontend::OptionRow> rows;
+};
+
+struct Program {
+  const char* name;
+  const char* subcommand;  // a first word that makes it run NAME-SUBCOMMAND; or ""
+  std::vector<OptionGroup> groups;
+};
+
+/// The program's name as a part of a shell function's.
+std::string function_of(const Program& program);
+
+/// The spellings of an option that a user is told: "-q" and "--quiet"; only "-o", although "--o" is
+/// understood, too.
+std::vector<std::string> spellings(const frontend::OptionRow& row);
+
+/// What the option does, in a few words: its help up to the first semicolon.
+std::string brief_of(const frontend::OptionRow& row);
+
+/// The text with a backslash before each of the characters.
+std::string escaped(const std::string& text, const char* characters);
+
+/// The options' part of each file, in its language.
+std::string manual_options(const Program& program);
+std::string bash_options(const Program& program);
+std::string zsh_options(const Program& program);
+std::string fish_options(const Program& program);
+
+}  // namespace packaging
