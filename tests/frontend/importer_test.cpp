@@ -10,6 +10,7 @@
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "frontend/parser.hpp"
+#include "frontend/stop.hpp"
 
 namespace frontend {
 namespace {
@@ -730,6 +731,14 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   EXPECT_DOUBLE_EQ(
       width("intersection() {" + small + "multmatrix([[1,0,0,20]]) {" + large + "} } " + small), 1);
   EXPECT_TRUE(import_text("").view_box.empty());
+}
+
+TEST(Importer, StopsWhenAsked) {
+  const SyntaxTree tree = parse("sphere(r = 1);", "x.csg");
+  std::stop_source stop;
+  EXPECT_EQ(import_design(tree, {}, stop.get_token()).primitive_nodes, 1u);
+  stop.request_stop();
+  EXPECT_THROW(import_design(tree, {}, stop.get_token()), Stopped);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/stop.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -171,6 +172,44 @@ TEST_F(FakeOpenScad, AnInterruptionKillsItAndWhatItStarted) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   EXPECT_FALSE(is_running());
+}
+
+/// `begun`: what the program writes as its last deed before it sleeps.
+void expect_stops(const TemporaryFolder& folder, const std::string& begun) {
+  std::stop_source stop;
+  std::thread stopper([&] {
+    while (!folder.has(begun)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    stop.request_stop();
+  });
+  EXPECT_THROW(export_with_openscad(
+                   "a.scad", {}, false, [](const std::string&) {}, [] {}, stop.get_token()),
+               Stopped);
+  stopper.join();
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left
+}
+
+TEST_F(FakeOpenScad, StopsWhenAsked) {
+  const std::string begun = folder_ / "begun";
+  const Environment openscad("OPENSCAD",
+                             folder_.script("openscad", ": >" + begun + "; sleep 1000"));
+  expect_stops(folder_, "begun");
+}
+
+TEST_F(FakeOpenScad, StopsWhenItHasClosedItsPipesAndRunsOn) {
+  const std::string begun = folder_ / "begun";
+  const Environment openscad(
+      "OPENSCAD", folder_.script("openscad", "exec >/dev/null 2>&1; : >" + begun + "; sleep 1000"));
+  expect_stops(folder_, "begun");
+}
+
+TEST_F(FakeOpenScad, IsNotStartedOnceStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  const Environment openscad("OPENSCAD", folder_.script("openscad", ": >" + (folder_ / "begun")));
+  EXPECT_THROW(export_with_openscad(
+                   "a.scad", {}, false, [](const std::string&) {}, [] {}, stop.get_token()),
+               Stopped);
+  EXPECT_FALSE(folder_.has("begun"));
 }
 
 /// The installed openscad; tests/run installs it.

@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+#include "frontend/stop.hpp"
+
 namespace frontend {
 namespace {
 
@@ -553,6 +555,13 @@ TEST(Sizes, NothingIsReadTwice) {
       }
     }
   }
+}
+
+TEST(Parser, StopsWhenAsked) {
+  std::stop_source stop;
+  EXPECT_EQ(parse("sphere(r = 1);", "x.csg", stop.get_token()).nodes.size(), 1u);
+  stop.request_stop();
+  EXPECT_THROW(parse("sphere(r = 1);", "x.csg", stop.get_token()), Stopped);
 }
 
 TEST(ErrorText, LeavesOutWhatIsNotKnown) {
