@@ -413,7 +413,8 @@ Options parse_options(const std::vector<std::string>& words) {
 
 std::string help_text() {
   po::options_description all(
-      "Usage: scadray -o OUT [options] FILE\n"
+      "Usage: scadray [options] FILE              (a window that follows every save)\n"
+      "       scadray -o OUT [options] FILE\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
       ".csg from standard input. `validate` compares it with exact arithmetic instead",

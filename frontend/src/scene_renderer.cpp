@@ -1,6 +1,7 @@
 // The drawing of a scene by one renderer or the other.
 #include "frontend/scene_renderer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -115,7 +116,8 @@ class SceneRenderer::Impl {
     const csgcore::View drawn = scaled_view(before.view);
     const csgcore::SceneEdit edit = csgcore::compare(before.scene->scene(), scene_->scene());
     with_renderer(settings, stats, [&] {
-      stats.primitives_changed = edit.removed.size() + edit.added.size() + edit.recolored.size();
+      stats.primitives_changed =
+          std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
       scene_->redraw(*renderer_, {drawn, settings, stats}, *before.scene, edit, before.image);
     });
     return std::move(before.image);

@@ -29,6 +29,12 @@ constexpr double kSectionStep = 0.01;
 /// Axes that run less than this over that step are seen from their end.
 constexpr double kLeastAxis_px = 0.25;
 
+/// A picture that was ordered is waited for so long before the window is drawn without it.
+constexpr std::chrono::milliseconds kShortPainting{50};
+
+/// Only a reading that takes longer is worth a word.
+constexpr std::chrono::milliseconds kShortReading{150};
+
 std::string file_name(const std::string& path) {
   return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
@@ -80,21 +86,40 @@ Application::Application(const frontend::Options& options)
 void Application::run() {
   frames_due_ = kFramesAfterEvent;
   while (!window_.is_closing()) {
-    if (frames_due_ > 0) {
-      window_.poll();
-    } else {
-      window_.wait();
-    }
+    wait_for_news();
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
     order_picture();
-    if (frames_due_ == 0 || window_.size().width_px == 0) {
-      frames_due_ = 0;
-      continue;
-    }
+    if (window_.size().width_px == 0) frames_due_ = 0;
+    if (frames_due_ == 0 || Clock::now() < awaited_until_) continue;
     wait_for_display();
     draw_frame();
     --frames_due_;
   }
+}
+
+void Application::wait_for_news() {
+  const auto seconds_until = [](Clock::time_point end) {
+    return std::chrono::duration<double>(end - Clock::now()).count();
+  };
+  if (const double rest = seconds_until(awaited_until_); rest > 0) {
+    window_.wait(rest);
+  } else if (frames_due_ > 0) {
+    window_.poll();
+  } else if (const double reading = seconds_until(reading_since_ + kShortReading);
+             is_reading_ && reading > 0) {
+    window_.wait(reading);
+  } else {
+    window_.wait();
+  }
+}
+
+/// Whether reading is to be shown, or no longer.
+bool Application::watch_reading() {
+  const bool was_reading =
+      std::exchange(is_reading_, follower_.state() == frontend::DesignFollower::State::kReading);
+  if (is_reading_ && !was_reading) reading_since_ = Clock::now();
+  const bool is_long = is_reading_ && Clock::now() - reading_since_ >= kShortReading;
+  return std::exchange(state_.is_reading, is_long) != is_long;
 }
 
 /// Where the driver does not wait for the display, as a software renderer does not.
@@ -119,15 +144,13 @@ void Application::draw_frame() {
 }
 
 bool Application::take_news() {
-  bool any = false;
-  const bool was_reading = state_.is_reading;
-  state_.is_reading = follower_.state() == frontend::DesignFollower::State::kReading;
-  any |= was_reading != state_.is_reading;
+  bool any = watch_reading();
   if (auto version = follower_.take()) {
     take_version(std::move(*version));
     any = true;
   }
   if (auto painting = painter_.take_painting()) {
+    awaited_until_ = {};
     take_painting(std::move(*painting));
     any = true;
   }
@@ -216,6 +239,7 @@ void Application::order_picture() {
   if (!save_path_.empty()) saving_ = order.number;
   ordered_ = order;
   painter_.order(std::move(order));
+  awaited_until_ = Clock::now() + kShortPainting;
 }
 
 void Application::save_picture(const std::string& path) {

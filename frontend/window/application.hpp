@@ -39,6 +39,8 @@ class Application final : private WindowEvents {
   void save_picture(const std::string& path);
   void drag_section(double dx_px, double dy_px);
 
+  void wait_for_news();
+  bool watch_reading();
   bool take_news();
   void take_version(frontend::DesignVersion version);
   void take_painting(Painting painting);
@@ -75,6 +77,9 @@ class Application final : private WindowEvents {
   bool has_new_picture_ = false;
   int frames_due_ = 0;  // ImGui's answer to an event takes more than one
   Clock::time_point last_frame_{};
+  Clock::time_point awaited_until_{};  // the picture that was ordered
+  bool is_reading_ = false;            // the design, since then
+  Clock::time_point reading_since_{};
 };
 
 }  // namespace window

@@ -72,6 +72,8 @@ void Report::write(const State& state, double save_to_screen_ms) {
                {"status", status_line(state)}};
   if (const auto& painting = state.painting) {
     line["renderer"] = painting->stats.renderer;
+    line["pixels_drawn"] = painting->stats.pixels_drawn;
+    line["primitives_changed"] = painting->stats.primitives_changed;
     line["width_px"] = painting->order.size.width_px;
     line["height_px"] = painting->order.size.height_px;
   }

@@ -71,7 +71,7 @@ struct RenderStats {
   uint64_t primitives = 0;
 
   uint64_t pixels_drawn = 0;        // fewer than the picture has where the last one could be kept
-  uint64_t primitives_changed = 0;  // since that one: removed, added and of another colour
+  uint64_t primitives_changed = 0;  // since that one, in shape or in colour
 
   // The subdivision; nothing of it with tiles.
   uint64_t cells = 0;  // inner ones and leaves
