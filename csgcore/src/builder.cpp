@@ -130,6 +130,15 @@ std::unique_ptr<Part> Builder::build(Cell cell, std::span<const Literal> literal
   return arena.execute([&] { return build_part(cell, list); });
 }
 
+std::unique_ptr<Part> Builder::replace(const Leaf& leaf, uint32_t depth, const CellList& list) {
+  Cell cell{leaf.box, depth};
+  cell.allowance = kLiteralsPerLiteral;
+  // What no division separated is divided again only where that now helps at once: else it would
+  // become hundreds of cells, and each of them again with the next edit.
+  if (leaf.kind == LeafKind::kFull) cell.stalled = kStalledDivisions - 1;
+  return finish_part(cell, list);
+}
+
 std::unique_ptr<Part> Builder::build_part(const Cell& cell, const CellList& list) {
   if (list.count() <= kTaskLiterals) return finish_part(cell, list);
   auto workspace = acquire();

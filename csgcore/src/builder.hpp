@@ -46,6 +46,10 @@ class Builder {
   /// say; the result does not depend on them.
   std::unique_ptr<Part> build(Cell cell, std::span<const Literal> literals);
 
+  /// What takes the place of a leaf at this depth whose function has become `list`, which is
+  /// restricted to it. In one chunk.
+  std::unique_ptr<Part> replace(const Leaf& leaf, uint32_t depth, const CellList& list);
+
  private:
   /// The lists of one level of the recursion, reused by all cells of that level.
   struct Level {

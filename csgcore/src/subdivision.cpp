@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "builder.hpp"
+#include "assembler.hpp"
 
 namespace csgcore {
 namespace {
@@ -15,54 +15,6 @@ namespace {
 constexpr double kOverlap = 0x1p-20;
 /// And at least some steps of a double this far from the origin, as a fraction of the coordinate.
 constexpr double kCoordinateRounding = 0x1p-50;
-
-/// Appends parts in the order in which one task alone would have produced them: a node before its
-/// two sides, the one below first.
-class Assembler {
- public:
-  explicit Assembler(Chunk& all) : all_(all) {}
-
-  /// Puts the part's root at `slot`, and the rest behind all nodes.
-  void place(const Part& part, uint32_t slot) {
-    if (part.split.axis == KdNode::kLeafAxis) {
-      append_chunk(part.chunk, slot);
-      return;
-    }
-    all_.nodes[slot] = {part.split.position, part.split.axis, 0, 0};
-    const uint32_t below = all_.nodes[slot].below = new_slot();
-    place(*part.below, below);
-    const uint32_t above = all_.nodes[slot].above = new_slot();
-    place(*part.above, above);
-  }
-
- private:
-  uint32_t new_slot() {
-    all_.nodes.push_back({});
-    return static_cast<uint32_t>(all_.nodes.size() - 1);
-  }
-
-  void append_chunk(const Chunk& chunk, uint32_t slot) {
-    // The chunk's node 0 goes to the slot, node 1 to the end.
-    const uint32_t node_base = static_cast<uint32_t>(all_.nodes.size()) - 1;
-    const uint32_t leaf_base = static_cast<uint32_t>(all_.leaves.size());
-    const uint64_t literal_base = all_.literals.size();
-    all_.nodes.resize(all_.nodes.size() + chunk.nodes.size() - 1);
-    for (size_t i = 0; i < chunk.nodes.size(); ++i) {
-      KdNode node = chunk.nodes[i];
-      const bool is_leaf = node.axis == KdNode::kLeafAxis;
-      node.below += is_leaf ? leaf_base : node_base;
-      node.above += is_leaf ? 0 : node_base;
-      all_.nodes[i == 0 ? slot : node_base + i] = node;
-    }
-    for (Leaf leaf : chunk.leaves) {
-      leaf.first_literal += literal_base;
-      all_.leaves.push_back(leaf);
-    }
-    all_.literals.insert(all_.literals.end(), chunk.literals.begin(), chunk.literals.end());
-  }
-
-  Chunk& all_;
-};
 
 }  // namespace
 
@@ -134,7 +86,7 @@ bool Subdivision::refine(const View& view) {
     if (leaf.kind != LeafKind::kDropped || projects_below(view, leaf.box, options_.threshold_px)) {
       continue;
     }
-    leaf.kind = LeafKind::kRefined;
+    leaf.kind = LeafKind::kReplaced;
     const auto own = std::span(all.literals).subspan(leaf.first_literal, leaf.literal_count);
     const auto part = builder.build(Cell{leaf.box, visit.depth}, own);
     assembler.place(*part, visit.node);
@@ -162,7 +114,7 @@ const Leaf* Subdivision::find(const Vec3& point) const {
 uint64_t LeafCensus::leaves() const {
   uint64_t sum = 0;
   for (size_t kind = 0; kind < kLeafKinds; ++kind) {
-    if (kind != static_cast<size_t>(LeafKind::kRefined)) sum += by_kind[kind];
+    if (kind != static_cast<size_t>(LeafKind::kReplaced)) sum += by_kind[kind];
   }
   return sum;
 }
@@ -171,7 +123,7 @@ LeafCensus census(const Subdivision& subdivision) {
   LeafCensus result;
   for (const Leaf& leaf : subdivision.leaves()) {
     ++result.by_kind[static_cast<size_t>(leaf.kind)];
-    if (leaf.kind != LeafKind::kRefined && leaf.kind != LeafKind::kEmpty) {
+    if (leaf.kind != LeafKind::kReplaced && leaf.kind != LeafKind::kEmpty) {
       result.literals += leaf.literal_count;
     }
   }

@@ -21,7 +21,7 @@ namespace {
 
 bool is_drawn(const Leaf& leaf) {
   return leaf.kind != LeafKind::kEmpty && leaf.kind != LeafKind::kDropped &&
-         leaf.kind != LeafKind::kRefined;
+         leaf.kind != LeafKind::kReplaced;
 }
 
 }  // namespace

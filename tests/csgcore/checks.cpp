@@ -188,7 +188,7 @@ void expect_kind(const Subdivision& subdivision, const Leaf& leaf) {
       EXPECT_FALSE(few);
       EXPECT_LT(projected_size_px(*options.view, leaf.box), options.threshold_px);
       break;
-    case LeafKind::kRefined:
+    case LeafKind::kReplaced:
       break;
   }
 }
@@ -206,7 +206,7 @@ void expect_correct(const Subdivision& subdivision, const Scene& scene, int poin
   size_t wrong = 0;
   for (const Leaf& leaf : subdivision.leaves()) {
     expect_kind(subdivision, leaf);
-    if (leaf.kind == LeafKind::kRefined) continue;
+    if (leaf.kind == LeafKind::kReplaced) continue;
     sum += volume(leaf.box);
     for (int i = 0; i < points_per_leaf; ++i) {
       const Vec3 point = random_point(random, leaf.box);
@@ -222,7 +222,7 @@ void expect_correct(const Subdivision& subdivision, const Scene& scene, int poin
     const Vec3 point = random_point(random, subdivision.root_box());
     const Leaf* leaf = subdivision.find(point);
     ASSERT_NE(leaf, nullptr);
-    ASSERT_NE(leaf->kind, LeafKind::kRefined);
+    ASSERT_NE(leaf->kind, LeafKind::kReplaced);
     for (int axis = 0; axis < 3; ++axis) {
       ASSERT_GE(point[axis], leaf->box.min[axis]);
       ASSERT_LE(point[axis], leaf->box.max[axis]);

@@ -8,6 +8,7 @@
 #include "csgcore/changed_areas.hpp"
 #include "csgcore/tracer.hpp"
 #include "edited_scenes.hpp"
+#include "made.hpp"
 #include "simd_levels.hpp"
 #include "support/full_run.hpp"
 #include "trace_scenes.hpp"
@@ -16,23 +17,8 @@
 namespace csgcore {
 namespace {
 
+using checks::Made;
 using checks::same_bits;
-
-/// One state of a design, and what was made of it from the state before.
-struct Made {
-  Scene scene;
-  std::shared_ptr<const CanonicalPrimitives> primitives;
-  Solid solid;
-
-  explicit Made(Scene anew)
-      : scene(std::move(anew)),
-        primitives(canonical_primitives(scene)),
-        solid(primitives, scene.model) {}
-  Made(Scene later, const Made& earlier, const SceneEdit& edit)
-      : scene(std::move(later)),
-        primitives(canonical_primitives(scene, *earlier.primitives, edit)),
-        solid(primitives, scene.model, earlier.solid, edit, edit.model) {}
-};
 
 bool same_bits(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
   return a.shape == b.shape && a.enclosure == b.enclosure && a.radius_mid == b.radius_mid &&

@@ -265,11 +265,11 @@ TEST(Subdivision, RefineFollowsTheView) {
     checks::expect_correct(subdivision, scene, 2);
     previous = near;
   }
-  EXPECT_GT(census(subdivision).by_kind[size_t(LeafKind::kRefined)], 0u);
+  EXPECT_GT(census(subdivision).by_kind[size_t(LeafKind::kReplaced)], 0u);
   // Leaves keep their indices.
   ASSERT_GT(subdivision.leaves().size(), before.size());
   for (size_t i = 0; i < before.size(); ++i) {
-    if (subdivision.leaves()[i].kind == LeafKind::kRefined) {
+    if (subdivision.leaves()[i].kind == LeafKind::kReplaced) {
       ASSERT_EQ(before[i].kind, LeafKind::kDropped);
     } else {
       ASSERT_EQ(tuple_of(subdivision.leaves()[i]), tuple_of(before[i]));

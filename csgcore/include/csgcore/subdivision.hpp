@@ -43,8 +43,8 @@ enum class LeafKind : uint8_t {
   kGeneral,  // up to K primitives, any function
   kFull,  // more than K that no sensible subdivision separates (they coincide, meet in a point, or
           // lie so close that dividing repeats more than it separates): evaluated in full
-  kDropped,  // case 4: below the threshold
-  kRefined,  // was dropped; the node that held it is subdivided by now (Subdivision::refine)
+  kDropped,   // case 4: below the threshold
+  kReplaced,  // no part of the tree any longer: others stand in its place (refine, update)
 };
 constexpr size_t kLeafKinds = 7;
 
@@ -81,6 +81,18 @@ using BatchSink = std::function<void(const LeafBatch&)>;
 /// How far beyond a cell its function is valid (Subdivision::overlap), for a solid of these bounds.
 double cell_overlap(const Box& solid_bounds);
 
+/// What Subdivision::update did.
+struct SubdivisionUpdate {
+  /// All was subdivided anew. Otherwise leaves and literals up to these indices are what they were,
+  /// but for leaves that are kReplaced now, and for the indices of primitives; the rest is new.
+  bool is_anew = false;
+  size_t first_new_leaf = 0;
+  size_t first_new_literal = 0;
+  uint64_t leaves_kept = 0;
+  uint64_t leaves_replaced = 0;
+  uint64_t leaves_made = 0;
+};
+
 /// The finished kd-tree. nodes[0] is the root; empty if the solid is.
 class Subdivision {
  public:
@@ -102,6 +114,15 @@ class Subdivision {
   /// in the new one. Returns whether anything changed. Leaves keep their indices.
   bool refine(const View& view);
 
+  /// Follows an edit: `solid` is of the scene after it, that of this subdivision of the same tree
+  /// before; both must live. `tree_edit` is that tree's (SceneEdit::model, background, highlight).
+  /// Leaves are kept whose cells lie wholly inside or wholly outside of every changed primitive's
+  /// old and new form alike; others are subdivided anew, each for itself. Where that is too little
+  /// to be worth it all is subdivided anew: where the root box changes, the cells that change hold
+  /// more than a third of the literals, more than half of what is stored has been replaced by and
+  /// by, or cells are dropped below a threshold.
+  SubdivisionUpdate update(const Solid& solid, const SceneEdit& edit, TreeEdit tree_edit);
+
   /// The leaf that holds the point (of several that share it, one); nullptr outside the root box.
   const Leaf* find(const Vec3& point) const;
 
@@ -117,13 +138,14 @@ class Subdivision {
   std::vector<KdNode> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<Literal> literals_;
+  uint64_t replaced_literals_ = 0;  // of leaves that update() has replaced
 };
 
 /// Leaf counts by kind.
 struct LeafCensus {
   uint64_t by_kind[kLeafKinds] = {};
   uint64_t literals = 0;
-  uint64_t leaves() const;  // all that the tree still has: kRefined is not counted
+  uint64_t leaves() const;  // all that the tree still has: kReplaced is not counted
 };
 LeafCensus census(const Subdivision& subdivision);
 
