@@ -69,6 +69,11 @@ class CpuRenderer final : public SolidRenderer {
     return trace_sides(subdivisions_.of(solid, request).subdivision, frame, request);
   }
 
+  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
+               csgcore::TreeEdit tree_edit) override {
+    subdivisions_.replace(before, after, edit, tree_edit);
+  }
+
   void forget() override { subdivisions_.forget(); }
 
  private:

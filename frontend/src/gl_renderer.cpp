@@ -68,6 +68,12 @@ class GlRenderer final : public SolidRenderer {
     });
   }
 
+  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
+               csgcore::TreeEdit tree_edit) override {
+    loaded_.clear();
+    subdivisions_.replace(before, after, edit, tree_edit);
+  }
+
   void forget() override {
     loaded_.clear();
     subdivisions_.forget();

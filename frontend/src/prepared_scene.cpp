@@ -49,7 +49,7 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
   csgcore::FrameSettings frame = frame_settings(request.settings);
   Image image = renderer.draw_model(model_, frame, request);
-  request.stats.pixels_drawn += image.rgb.size();
+  request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
   if (request.settings.show == Show::kCells) return image;
   for (const auto& layer : layers_) {
     frame.front = frame.back = layer_color(layer->kind);
@@ -73,7 +73,8 @@ void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& reques
   const std::vector<csgcore::PixelArea> areas =
       changed_areas(earlier.model_, model_, edit, edit.model, request.view, frame);
   renderer.draw_model_areas(model_, frame, request, areas, image);
-  request.stats.pixels_drawn += csgcore::count_pixels(areas);
+  request.stats.edit.pixels = image.rgb.size();
+  request.stats.edit.pixels_traced = csgcore::count_pixels(areas);
 }
 
 }  // namespace frontend

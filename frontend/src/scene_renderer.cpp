@@ -45,11 +45,15 @@ class SceneRenderer::Impl {
     const Clock::time_point start = Clock::now();
     const int exponent = scale_exponent(*scene);
     if (exponent != 0) scene = std::make_shared<const csgcore::Scene>(scaled(*scene, exponent));
-    std::shared_ptr<const PreparedScene> prepared = prepare(std::move(scene), exponent);
-    if (renderer_) renderer_->forget();
-    scene_ = std::move(prepared);
+    if (scene_ && exponent == exponent_) {
+      follow(std::move(scene), start);
+    } else {
+      auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
+      prepare_ms_ = ms_since(start);
+      if (renderer_) renderer_->forget();
+      scene_ = std::move(prepared);
+    }
     exponent_ = exponent;
-    prepare_ms_ = ms_since(start);
   }
 
   Image draw(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats) {
@@ -91,12 +95,12 @@ class SceneRenderer::Impl {
     Image image;
   };
 
-  std::shared_ptr<const PreparedScene> prepare(ScenePointer scene, int exponent) const {
-    if (!scene_ || exponent != exponent_) {
-      return std::make_shared<const PreparedScene>(std::move(scene));
-    }
+  void follow(ScenePointer scene, Clock::time_point start) {
     const csgcore::SceneEdit edit = csgcore::compare(scene_->scene(), *scene);
-    return std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
+    auto prepared = std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
+    prepare_ms_ = ms_since(start);
+    if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit, edit.model);
+    scene_ = std::move(prepared);
   }
 
   csgcore::View scaled_view(const csgcore::View& view) const {
@@ -116,7 +120,7 @@ class SceneRenderer::Impl {
     const csgcore::View drawn = scaled_view(before.view);
     const csgcore::SceneEdit edit = csgcore::compare(before.scene->scene(), scene_->scene());
     with_renderer(settings, stats, [&] {
-      stats.primitives_changed =
+      stats.edit.primitives_changed =
           std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
       scene_->redraw(*renderer_, {drawn, settings, stats}, *before.scene, edit, before.image);
     });
@@ -147,6 +151,7 @@ class SceneRenderer::Impl {
   void start_stats(RenderStats& stats) {
     stats = {};
     stats.primitives = scene_->scene().primitives.size();
+    stats.edit.primitives = stats.edit.primitives_changed = stats.primitives;
     stats.prepare_ms = std::exchange(prepare_ms_, 0.0);
   }
 

@@ -1,6 +1,7 @@
 #include "scene_subdivision.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "elapsed.hpp"
 
@@ -61,18 +62,39 @@ SceneSubdivisions::Found SceneSubdivisions::of(const csgcore::Solid& solid,
                                                const PictureRequest& request) {
   const Clock::time_point start = Clock::now();
   const csgcore::SubdivisionOptions options = subdivision_options(request.view, request.settings);
-  const auto found = subdivisions_.find(&solid);
-  if (found != subdivisions_.end() && is_same_rule(found->second.options(), options)) {
-    const bool refined = found->second.refine(request.view);
-    request.stats.subdivide_ms += ms_since(start);
-    return {found->second, refined};
+  const auto found = made_.find(&solid);
+  if (found != made_.end() && is_same_rule(found->second.subdivision.options(), options)) {
+    Made& made = found->second;
+    const bool was_updated = std::exchange(made.is_updated, false);
+    const bool was_refined = made.subdivision.refine(request.view);
+    request.stats.subdivide_ms += ms_since(start) + std::exchange(made.update_ms, 0.0);
+    if (was_updated) {
+      request.stats.edit.cells_kept += made.update.leaves_kept;
+      request.stats.edit.cells_made += made.update.leaves_made;
+    }
+    return {made.subdivision, was_updated || was_refined};
   }
   SubdivisionProgress progress(solid, request.settings);
-  const auto [made, is_new] =
-      subdivisions_.insert_or_assign(&solid, Subdivision(solid, options, progress.sink()));
+  const auto [made, is_new] = made_.insert_or_assign(
+      &solid, Made{Subdivision(solid, options, progress.sink()), {}, 0, false});
   request.stats.subdivide_ms += ms_since(start);
+  request.stats.edit.cells_made += made->second.subdivision.leaves().size();
   if (request.settings.progress) request.settings.progress("drawing", 0.0);
-  return {made->second, true};
+  return {made->second.subdivision, true};
+}
+
+void SceneSubdivisions::replace(const csgcore::Solid& before, const csgcore::Solid& after,
+                                const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit) {
+  const Clock::time_point start = Clock::now();
+  auto found = made_.extract(&before);
+  made_.clear();
+  if (found.empty()) return;
+  Made& made = found.mapped();
+  made.update = made.subdivision.update(after, edit, tree_edit);
+  made.update_ms += ms_since(start);
+  made.is_updated = true;
+  found.key() = &after;
+  made_.insert(std::move(found));
 }
 
 void count_cells(const Subdivision& subdivision, RenderStats& stats) {

@@ -24,10 +24,20 @@ class SceneSubdivisions {
   };
   Found of(const csgcore::Solid& solid, const PictureRequest& request);
 
-  void forget() { subdivisions_.clear(); }
+  /// What was made of `before` follows the edit of its tree to `after`; the rest is forgotten.
+  void replace(const csgcore::Solid& before, const csgcore::Solid& after,
+               const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit);
+
+  void forget() { made_.clear(); }
 
  private:
-  std::map<const csgcore::Solid*, csgcore::Subdivision> subdivisions_;
+  struct Made {
+    csgcore::Subdivision subdivision;
+    csgcore::SubdivisionUpdate update;  // that no picture has shown yet
+    double update_ms = 0;
+    bool is_updated = false;
+  };
+  std::map<const csgcore::Solid*, Made> made_;
 };
 
 /// Fills the statistics of the model's cells.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
 #include "frontend/error.hpp"
 #include "frontend/render.hpp"
@@ -68,6 +69,10 @@ class SolidRenderer {
   virtual Sides draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
                            const PictureRequest& request) = 0;
 
+  /// What was made of `before` follows the edit of its tree to `after`, before `before` ends; what
+  /// was made of other solids is forgotten.
+  virtual void replace(const csgcore::Solid& before, const csgcore::Solid& after,
+                       const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit) = 0;
   /// All solids that were drawn.
   virtual void forget() = 0;
 };

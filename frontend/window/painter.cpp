@@ -192,8 +192,8 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
     if (order.overlays.axes) {
       frontend::draw_axes(painting.image, view, order.navigation.camera(), settings.scheme.axes);
     }
-    if (samples == 1 && painting.stats.pixels_drawn > 0) {
-      ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.pixels_drawn);
+    if (samples == 1 && painting.stats.edit.pixels_traced > 0) {
+      ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.edit.pixels_traced);
     }
   } catch (const std::bad_alloc&) {
     painting.error = "error: out of memory (make the window or the design smaller)";

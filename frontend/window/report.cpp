@@ -21,6 +21,16 @@ json camera_of(const Navigation& navigation) {
           {"orthographic", navigation.projection() == csgcore::Projection::kOrthographic}};
 }
 
+json edit_of(const csgcore::EditStats& edit) {
+  return {{"primitives", edit.primitives},
+          {"primitives_changed", edit.primitives_changed},
+          {"cells_kept", edit.cells_kept},
+          {"cells_made", edit.cells_made},
+          {"pixels", edit.pixels},
+          {"pixels_traced", edit.pixels_traced},
+          {"bytes_uploaded", edit.bytes_uploaded}};
+}
+
 json points_of(const State& state) {
   json points = json::array();
   for (const MeasuredPoint& point : state.points) {
@@ -72,8 +82,7 @@ void Report::write(const State& state, double save_to_screen_ms) {
                {"status", status_line(state)}};
   if (const auto& painting = state.painting) {
     line["renderer"] = painting->stats.renderer;
-    line["pixels_drawn"] = painting->stats.pixels_drawn;
-    line["primitives_changed"] = painting->stats.primitives_changed;
+    line["edit"] = edit_of(painting->stats.edit);
     line["width_px"] = painting->order.size.width_px;
     line["height_px"] = painting->order.size.height_px;
   }

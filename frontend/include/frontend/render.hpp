@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <string>
 
+#include "csgcore/edit_stats.hpp"
 #include "csgcore/frame_settings.hpp"
 #include "csgcore/image.hpp"
 #include "csgcore/scene.hpp"
@@ -70,8 +71,8 @@ struct RenderStats {
   std::string technique;  // "cells" or "tiles"
   uint64_t primitives = 0;
 
-  uint64_t pixels_drawn = 0;        // fewer than the picture has where the last one could be kept
-  uint64_t primitives_changed = 0;  // since that one, in shape or in colour
+  /// What is new against the last picture; all of it where that could not be kept.
+  csgcore::EditStats edit;
 
   // The subdivision; nothing of it with tiles.
   uint64_t cells = 0;  // inner ones and leaves
