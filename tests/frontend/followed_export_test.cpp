@@ -136,13 +136,13 @@ TEST_F(FakeOpenScad, AThousandSavesInFastSuccession) {
   const std::size_t descriptors = open_descriptors();
   for (int i = 0; i < 1000; ++i) {
     const std::string text = i % 7 == 3 ? "// slow" : spheres(2 + i % 50);
+    const std::string starts = folder_.read("starts");
     if (i % 2 == 0) {
       folder_.write("a.scad", text);
     } else {
       fs::rename(folder_.write("new", text), path_);
     }
     if (i % 20 == 19) {  // so that one starts now and then
-      const std::string starts = folder_.read("starts");
       wait_until([&] { return folder_.read("starts") != starts; });
     }
   }
