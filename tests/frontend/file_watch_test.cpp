@@ -126,6 +126,21 @@ TEST(FileWatch, WhatWasReadBeforeItWasWatchedMayHaveChanged) {
   EXPECT_TRUE(later.settled_at());
 }
 
+TEST(FileWatch, NothingStaysWatchedInVain) {
+  const TemporaryFolder folder;
+  FileWatch watch(false, kNever);
+  const auto watches = [&watch] {
+    std::ifstream info("/proc/self/fdinfo/" + std::to_string(watch.descriptor()));
+    int count = 0;
+    for (std::string line; std::getline(info, line);) count += line.starts_with("inotify");
+    return count;
+  };
+  watch.set_files({folder.write("a", "x")});
+  EXPECT_GT(watches(), 1);
+  watch.set_files({});
+  EXPECT_EQ(watches(), 0);
+}
+
 TEST(FileWatch, PermissionsCount) {
   const TemporaryFolder folder;
   FileWatch watch(false, kNever);
