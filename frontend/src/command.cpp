@@ -10,12 +10,12 @@
 #include <new>
 
 #include "elapsed.hpp"
-#include "frontend/axes_overlay.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
+#include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
@@ -181,7 +181,7 @@ class Run {
   Image draw(const csgcore::Scene& scene, const csgcore::View& view) {
     RenderSettings settings = options_.render;
     const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
-    settings.measured_channels = shows_channel || options_.axes || writes_exr();
+    settings.measured_channels = shows_channel || options_.overlays.any() || writes_exr();
     settings.all_stats = !options_.stats_path.empty();
     settings.progress = [this](const char* stage, double fraction) {
       show_progress(stage, fraction);
@@ -209,7 +209,7 @@ class Run {
     const Clock::time_point start = Clock::now();
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
-    if (options_.axes) draw_axes(image, view, camera, scheme.axes);
+    draw_overlays(image, view, camera, options_.overlays, scheme);
     for (const Output& output : options_.outputs) {
       outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
     }

@@ -232,7 +232,8 @@ class Collector {
 
   void enter_color(const SyntaxNode& node) {
     const std::optional<Color> color = read_color(tree_, node, warnings);
-    if (!color || contexts_.back().color) return;  // the outermost valid one wins
+    if (!color || options_.rendered) return;
+    if (contexts_.back().color) return;  // the outermost valid one wins
     Context context = contexts_.back();
     context.end = node.subtree_end;
     context.color = color;
@@ -420,6 +421,13 @@ Marks marks_of(const SyntaxTree& tree, NodeRange selected, const Collector& coll
   return find_marks(tree, selected, leaves);
 }
 
+/// Nothing is overlaid: `#` parts become operands like others.
+void keep_solid_alone(Marks& marks) {
+  for (Mark& mark : marks.nodes) mark.highlighted = false;
+  marks.background.clear();
+  marks.highlight.clear();
+}
+
 Box union_of(std::span<const Box> boxes) {
   Box result;
   for (const Box& box : boxes) result.merge(box);
@@ -452,7 +460,8 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
   throw_if_stopped(stop);
   facet(tree, collected, design.warnings);
   throw_if_stopped(stop);
-  const Marks marks = marks_of(tree, selected, collected);
+  Marks marks = marks_of(tree, selected, collected);
+  if (options.rendered) keep_solid_alone(marks);
   Emitter emitter(tree, collected.primitive_of, marks);
   design.scene.model = emitter.model(selected);
   design.scene.background = emitter.parts(marks.background);

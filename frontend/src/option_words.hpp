@@ -24,12 +24,12 @@ constexpr Word<csgcore::Projection> kProjections[] = {
     {"orthogonal", csgcore::Projection::kOrthographic},
     {"p", csgcore::Projection::kPerspective},
     {"perspective", csgcore::Projection::kPerspective}};
-/// Each with whether it has an effect in this version.
-constexpr Word<bool> kViews[] = {{"axes", true},
-                                 {"crosshairs", false},
-                                 {"edges", false},
-                                 {"scales", false},
-                                 {"wireframe", false}};
+/// Each with what it draws; OpenSCAD's preview has no wireframe either.
+constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
+                                             {"crosshairs", &Overlays::crosshairs},
+                                             {"edges", &Overlays::edges},
+                                             {"scales", &Overlays::scales},
+                                             {"wireframe", nullptr}};
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
 constexpr Word<Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
                                        {"phong", Shading::kPhong}};

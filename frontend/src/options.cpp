@@ -51,11 +51,17 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
 std::vector<std::string_view> split_at_commas(std::string_view text) {
   std::vector<std::string_view> parts;
   while (true) {
     const std::size_t comma = text.find(',');
-    parts.push_back(text.substr(0, comma));
+    parts.push_back(trimmed(text.substr(0, comma)));
     if (comma == std::string_view::npos) return parts;
     text.remove_prefix(comma + 1);
   }
@@ -263,16 +269,21 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
 /// OpenSCAD says that it ignores a view it does not know, and goes on.
 void read_view(const Arguments& arguments, Options& options) {
   if (!arguments.has("view")) return;
-  for (const std::string_view part : split_at_commas(arguments.text("view"))) {
-    const std::string name(part);
-    const bool* has_effect = find_word(kViews, part);
-    if (!has_effect) {
-      options.warnings.push_back("--view=" + name + " is not known and ignored (give axes)");
-    } else if (!*has_effect) {
-      options.warnings.push_back("--view=" + name + " has no effect in this version");
+  for (const std::string_view name : split_at_commas(arguments.text("view"))) {
+    bool Overlays::*const* overlay = find_word(kViews, name);
+    if (overlay && *overlay) {
+      options.overlays.*(*overlay) = true;
+    } else if (overlay) {
+      options.warnings.push_back("--view=" + std::string(name) +
+                                 " has no effect, as in OpenSCAD's preview");
     } else {
-      options.axes = true;
+      options.warnings.push_back("--view=" + std::string(name) +
+                                 " is not known and ignored (give axes, crosshairs, edges or "
+                                 "scales)");
     }
+  }
+  if (options.overlays.scales && !options.overlays.axes) {
+    options.warnings.push_back("--view=scales has no effect without axes, as in OpenSCAD");
   }
 }
 
@@ -285,8 +296,10 @@ PictureFormat picture_format(const std::string& path) {
   const PictureFormat* format =
       has_suffix ? find_word(kFormats, lower_case(path.substr(dot + 1))) : nullptr;
   if (!format) {
-    throw Error(path, {}, "is no picture that this version can write",
-                "end it in .png or .exr, or give --export-format=png or exr");
+    throw Error(
+        path, {}, "is no picture",
+        "end it in .png or .exr, or give --export-format=png or exr; whatever else a design "
+        "is exported to, openscad writes");
   }
   return *format;
 }
@@ -302,7 +315,7 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (arguments.has("export-format")) {
     const std::string& value = arguments.text("export-format");
     given = find_word(kFormats, lower_case(value));
-    if (!given) bad_value("export-format", value, "this version writes png and exr");
+    if (!given) bad_value("export-format", value, "scadray writes png and exr; the rest openscad");
   }
   arguments.for_each([&](const std::string& option, const std::string& value) {
     if (option == "o" || option == "s" || option == "x") {
@@ -341,7 +354,7 @@ void read_openscad_arguments(const Arguments& arguments, Options& options) {
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
-  constexpr const char* kNeverUsed[] = {"render", "preview", "csglimit", "debug"};
+  constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
   constexpr const char* kForScad[] = {
       "D", "p", "P", "m", "hardwarnings", "check-parameters", "check-parameter-ranges"};
   const auto given = [&arguments](std::span<const char* const> names) {
@@ -355,6 +368,14 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   if (const std::string list = given(kNeverUsed); !list.empty()) {
     options.warnings.push_back("without effect in this version: " + list);
   }
+  if (arguments.has("preview")) {
+    if (const std::string& how = arguments.text("preview"); !how.empty()) {
+      options.warnings.push_back("--preview=" + how + " is drawn as --preview");
+    }
+    if (arguments.has("render")) {
+      options.warnings.push_back("--render has no effect with --preview, as in OpenSCAD");
+    }
+  }
   if (options.render.technique == Technique::kTiles) {
     constexpr const char* kForCells[] = {"leaf-primitives", "threshold"};
     if (const std::string list = given(kForCells); !list.empty()) {
@@ -364,8 +385,8 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   if (arguments.has("autocenter") && arguments.has("camera") && !arguments.has("viewall")) {
     options.warnings.push_back("--autocenter has no effect without --viewall, as in OpenSCAD");
   }
-  const bool is_scad = lower_case(options.input).ends_with(".scad");
-  if (const std::string list = given(kForScad); !list.empty() && !is_scad) {
+  const bool is_csg = options.input == "-" || lower_case(options.input).ends_with(".csg");
+  if (const std::string list = given(kForScad); !list.empty() && is_csg) {
     options.warnings.push_back("without effect on a .csg: " + list);
   }
 }
@@ -399,6 +420,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.info = arguments.has("info");
   options.import.skip_unsupported = arguments.has("skip-unsupported");
   options.has_image_size = arguments.has("imgsize");
+  options.import.rendered = arguments.has("render") && !arguments.has("preview");
   read_image_size(arguments, options.camera);
   read_camera(arguments, options.camera);
   read_facets(arguments, options.import);

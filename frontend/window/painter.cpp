@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "elapsed.hpp"
-#include "frontend/axes_overlay.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/parser.hpp"
 
@@ -180,7 +179,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
   frontend::RenderSettings settings = order.settings;
   settings.samples = samples;
   settings.stop = stop;
-  settings.measured_channels = is_channel(settings.show) || order.overlays.axes;
+  settings.measured_channels = is_channel(settings.show) || order.overlays.any();
   const Clock::time_point start = Clock::now();
   try {
     load(order);
@@ -189,9 +188,8 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
     painting.image = size == order.size ? renderer_.redraw(view, settings, painting.stats)
                                         : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
-    if (order.overlays.axes) {
-      frontend::draw_axes(painting.image, view, order.navigation.camera(), settings.scheme.axes);
-    }
+    frontend::draw_overlays(painting.image, view, order.navigation.camera(), order.overlays,
+                            settings.scheme);
     if (samples == 1 && painting.stats.edit.pixels_traced > 0) {
       ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.edit.pixels_traced);
     }

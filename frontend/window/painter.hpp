@@ -14,9 +14,9 @@
 #include "csgcore/image.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/overlays.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "navigation.hpp"
-#include "picture_overlays.hpp"
 #include "section_plane.hpp"
 
 namespace window {
@@ -29,7 +29,7 @@ struct PaintOrder {
   Navigation navigation{{}, csgcore::Projection::kPerspective};
   Size size;
   frontend::RenderSettings settings;
-  Overlays overlays;
+  frontend::Overlays overlays;
   /// Others follow at the display's rate: it may be coarse, and is refined once none does.
   bool is_moving = false;
 };

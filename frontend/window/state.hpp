@@ -8,9 +8,9 @@
 #include "commands.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/options.hpp"
+#include "frontend/overlays.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
-#include "picture_overlays.hpp"
 #include "section_plane.hpp"
 
 namespace window {
@@ -28,7 +28,7 @@ struct State {
   // The user's.
   Navigation navigation;
   frontend::RenderSettings look;
-  Overlays overlays;
+  frontend::Overlays overlays;
   SectionPlane section;
   std::vector<MeasuredPoint> points;  // at most two
   bool shows_messages = true;

@@ -303,8 +303,8 @@ TEST_F(Command, SaysThatTilesHadNoEffect) {
 }
 
 TEST_F(Command, QuietShowsErrorsOnly) {
-  const std::vector<std::string> loud = {"-o", png_, "--render=x", "--view=edges", file_};
-  EXPECT_THAT(run(loud).err, AllOf(HasSubstr("--render"), HasSubstr("edges")));
+  const std::vector<std::string> loud = {"-o", png_, "--csglimit=9", "--view=scales", file_};
+  EXPECT_THAT(run(loud).err, AllOf(HasSubstr("--csglimit"), HasSubstr("scales")));
   std::vector<std::string> quiet = loud;
   quiet.push_back("-q");
   EXPECT_EQ(run(quiet).err, "");
@@ -387,6 +387,20 @@ TEST_F(Command, ExportsAScad) {
   EXPECT_EQ(folder_.read("arguments"), "-o - --export-format=csg -D x=1 -- " + scad + "\n");
   EXPECT_GT(nlohmann::json::parse(outcome.out)["times_ms"]["export"], 0);
   EXPECT_EQ(run({"-q", "-o", png_, scad}).err, "");
+}
+
+TEST_F(Command, AFileOfAnotherNameMayBeEither) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
+  const std::string scad = folder_.write("scad-x7Qf", "module ball() sphere(1); ball();");
+  const Outcome exported = run({"-o", png_, "--stats=-", scad});
+  EXPECT_EQ(exported.code, ExitCode::kDone) << exported.err;
+  EXPECT_GT(nlohmann::json::parse(exported.out)["times_ms"]["export"], 0);
+  const Outcome parsed = run({"-o", png_, "--stats=-", folder_.write("a.txt", "sphere(r = 1);")});
+  EXPECT_EQ(nlohmann::json::parse(parsed.out)["times_ms"]["export"], 0);
+  // What is named so is a .csg, and what is no file can be read only once.
+  const std::string csg = folder_.write("a.CSG", "module ball() sphere(1);");
+  EXPECT_THAT(run({"-o", png_, csg}).err, HasSubstr("a.CSG:1:1: error: "));
+  EXPECT_THAT(run({"-o", png_, "/dev/null"}).err, IsEmpty());
 }
 
 TEST_F(Command, ARuleForMake) {

@@ -62,8 +62,8 @@ std::string model_of(const std::string& text, ImportOptions options = {}) {
 }
 
 /// "model | background | highlight".
-std::string trees_of(const std::string& text) {
-  const csgcore::Scene scene = import_text(text).scene;
+std::string trees_of(const std::string& text, ImportOptions options = {}) {
+  const csgcore::Scene scene = import_text(text, options).scene;
   return shape_of(scene.model, scene.primitives) + " | " +
          shape_of(scene.background, scene.primitives) + " | " +
          shape_of(scene.highlight, scene.primitives);
@@ -331,6 +331,19 @@ TEST(ImporterModifiers, HighlightsNest) {
   EXPECT_EQ(trees_of("%#sphere(); sphere();"), "1 | 0 | 0");
   EXPECT_EQ(trees_of("render() { #sphere(); } sphere();"), "(0+1) | - | -");
   EXPECT_EQ(trees_of("render() { %sphere(); sphere(); } sphere();"), "(1+2) | - | -");
+}
+
+TEST(ImporterModifiers, RenderedIsTheSolidAlone) {
+  ImportOptions rendered;
+  rendered.rendered = true;
+  EXPECT_EQ(trees_of("#sphere(); %sphere(); sphere();", rendered), "(0+2) | - | -");
+  EXPECT_EQ(trees_of("difference() { sphere(); #group() { %sphere(); #sphere(); } }", rendered),
+            "(0-2) | - | -");
+  EXPECT_EQ(trees_of("difference() { %sphere(); sphere(); sphere(); }", rendered), "(1-2) | - | -");
+  EXPECT_EQ(trees_of("%sphere();", rendered), "- | - | -");
+  const ImportedDesign red = import_text("color(\"red\") { sphere(); }", rendered);
+  EXPECT_FALSE(red.scene.primitives.at(0).color);
+  EXPECT_TRUE(import_text("color(\"red\") { sphere(); }").scene.primitives.at(0).color);
 }
 
 TEST(ImporterModifiers, DeeplyNestedHighlightsStayInProportion) {

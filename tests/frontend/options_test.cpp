@@ -58,7 +58,8 @@ TEST(Options, Defaults) {
   EXPECT_EQ(options.render.technique, Technique::kAuto);
   EXPECT_EQ(options.render.samples, 1u);
   EXPECT_FALSE(options.import.skip_unsupported);
-  EXPECT_FALSE(options.axes);
+  EXPECT_FALSE(options.overlays.any());
+  EXPECT_FALSE(options.import.rendered);
   EXPECT_FALSE(options.quiet);
   EXPECT_THAT(options.warnings, IsEmpty());
   EXPECT_THAT(options.stats_path, IsEmpty());
@@ -87,6 +88,7 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
 }
 
 TEST(Options, OutputsThatCannotBe) {
+  EXPECT_THAT(error_of({"-o", "x.stl", "a.scad"}), HasSubstr("openscad writes"));
   for (const char* name : {"x.stl", "x", "a.png/x", ".", "x.png.gz"}) {
     EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
   }
@@ -131,8 +133,9 @@ TEST(Options, ImageSize) {
   EXPECT_EQ(options.camera.width_px, 640u);
   EXPECT_EQ(options.camera.height_px, 480u);
   EXPECT_EQ(parse_drawing({"--imgsize", "16384,1"}).camera.width_px, 16384u);
+  EXPECT_EQ(parse_drawing({"--imgsize= 640, 480 "}).camera.height_px, 480u);
   for (const char* value : {"640", "640,480,1", "0,1", "1,0", "-1,2", "1.5,2", "a,b", ",", "1,",
-                            "16385,1", "1,99999999999", "1 ,2"}) {
+                            "16385,1", "1,99999999999", "1 2,3"}) {
     EXPECT_THAT(drawing_error({"--imgsize", value}), HasSubstr("--imgsize")) << value;
   }
 }
@@ -183,12 +186,30 @@ TEST(Options, EveryColorScheme) {
 }
 
 TEST(Options, View) {
-  EXPECT_TRUE(parse_drawing({"--view=axes"}).axes);
-  const Options options = parse_drawing({"--view", "edges,axes,scales"});
-  EXPECT_TRUE(options.axes);
-  EXPECT_THAT(options.warnings, ElementsAre(HasSubstr("edges"), HasSubstr("scales")));
+  EXPECT_TRUE(parse_drawing({"--view=axes"}).overlays.axes);
+  const Overlays two = parse_drawing({"--view", "edges,axes"}).overlays;
+  EXPECT_TRUE(two.axes && two.edges);
+  EXPECT_FALSE(two.crosshairs || two.scales);
+  const Options all = parse_drawing({"--view=scales,crosshairs,edges,axes"});
+  EXPECT_TRUE(all.overlays.axes && all.overlays.edges && all.overlays.crosshairs &&
+              all.overlays.scales);
+  EXPECT_THAT(all.warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--view=scales"}).warnings, ElementsAre(HasSubstr("without axes")));
+  EXPECT_THAT(parse_drawing({"--view=wireframe"}).warnings, ElementsAre(HasSubstr("wireframe")));
   // OpenSCAD goes on, too.
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
+}
+
+TEST(Options, RenderAndPreview) {
+  EXPECT_TRUE(parse_drawing({"--render", "-q"}).import.rendered);
+  EXPECT_TRUE(parse_drawing({"--render=cgal"}).import.rendered);
+  EXPECT_THAT(parse_drawing({"--render=1"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--preview", "-q"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--preview=throwntogether"}).warnings,
+              ElementsAre(HasSubstr("throwntogether")));
+  const Options both = parse_drawing({"--render", "--preview", "-q"});
+  EXPECT_FALSE(both.import.rendered);
+  EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("--render has no effect with --preview")));
 }
 
 TEST(Options, ShadingAndShow) {
@@ -307,14 +328,12 @@ TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
                           "--check-parameter-ranges=false", "-m", "make"));
   EXPECT_THAT(options.warnings, IsEmpty());
   EXPECT_THAT(parse_drawing({"-D", "a=1"}).warnings, ElementsAre(HasSubstr(".csg: -D")));
+  EXPECT_THAT(parse_options({"-o", "x.png", "-D", "a=1", "scad-x7Qf"}).warnings, IsEmpty());
 }
 
 TEST(Options, WhatHasNoEffectIsSaidOnce) {
-  const Options options =
-      parse_drawing({"--render=cgal", "--preview=throwntogether", "--csglimit=10", "--debug=all"});
-  EXPECT_THAT(options.warnings,
-              ElementsAre("without effect in this version: --render, --preview, --csglimit, "
-                          "--debug"));
+  const Options options = parse_drawing({"--csglimit=10", "--debug=all"});
+  EXPECT_THAT(options.warnings, ElementsAre("without effect in this version: --csglimit, --debug"));
   EXPECT_THAT(drawing_error({"--csglimit=x"}), HasSubstr("csglimit"));
 }
 
@@ -345,8 +364,8 @@ TEST(Options, SyntaxIsOpenScads) {
 }
 
 TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
-  EXPECT_THAT(parse_drawing({"--rend"}).warnings, ElementsAre(HasSubstr("--render")));
-  EXPECT_THAT(parse_drawing({"--rend=cgal"}).warnings, ElementsAre(HasSubstr("--render")));
+  EXPECT_TRUE(parse_drawing({"--rend"}).import.rendered);
+  EXPECT_TRUE(parse_drawing({"--rend=cgal"}).import.rendered);
   EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
   EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
 }

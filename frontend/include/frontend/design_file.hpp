@@ -46,7 +46,8 @@ struct DesignFileOptions {
 bool is_scad(const std::string& path);
 
 /// `path` is a .csg; a .scad, which the installed openscad exports; or "-", a .csg from standard
-/// input. Throws Error, also where openscad does not say which files it reads and they are wanted.
+/// input. A file of another name is a .csg if it parses as one, else a .scad. Throws Error, also
+/// where openscad does not say which files it reads and they are wanted.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
 /// The same without parsing it. What openscad does not say is left out of `files`. Throws Error,

@@ -30,6 +30,9 @@ struct ImportOptions {
   double few_fragments = 8;
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
+  /// As OpenSCAD's --render: the solid alone. No color() counts, `#` parts are like others, and `%`
+  /// parts are left out.
+  bool rendered = false;
 };
 
 struct ImportedDesign {

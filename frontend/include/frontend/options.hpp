@@ -7,6 +7,7 @@
 
 #include "frontend/camera.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/overlays.hpp"
 #include "frontend/render.hpp"
 
 namespace frontend {
@@ -30,7 +31,7 @@ struct Options {
   std::string rule_path;        // for make: what the outputs are made of; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // the command line says it
-  bool axes = false;
+  Overlays overlays;
   ImportOptions import;
   RenderSettings render;
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad

@@ -1,0 +1,26 @@
+// What OpenSCAD's --view draws over a finished picture.
+#pragma once
+
+#include "csgcore/image.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/camera.hpp"
+#include "frontend/render.hpp"
+
+namespace frontend {
+
+struct Overlays {
+  bool axes = false;        // the world's, and three coloured ones in the lower left corner
+  bool crosshairs = false;  // the diagonals of a cube around what the camera looks at
+  bool edges = false;       // the solid's creases and outlines
+  bool scales = false;      // marks and numbers on the axes; without these nothing
+
+  bool any() const { return axes || crosshairs || edges || scales; }
+  bool operator==(const Overlays&) const = default;
+};
+
+/// Draws them in the scheme's colours, 1 px wide, where the model is not in front. Precondition:
+/// the image has the view's size and, where any is drawn, its measured channels.
+void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
+                   const Overlays& overlays, const ColorScheme& scheme);
+
+}  // namespace frontend
