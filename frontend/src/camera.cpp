@@ -78,7 +78,7 @@ Camera camera_from_numbers(std::span<const double> numbers) {
 
 Camera choose_camera(const CameraOptions& options, const Box& view_box) {
   Camera camera = options.camera.value_or(Camera{});
-  const bool view_all = options.view_all || !options.camera;
+  const bool view_all = sees_all(options);
   const bool auto_center = options.auto_center || !options.camera;
   if (!view_box.empty()) {
     // Alone, auto_center does nothing: every OpenSCAD looks at it only where it views all.

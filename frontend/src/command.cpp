@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <new>
 
 #include "elapsed.hpp"
@@ -21,6 +22,7 @@
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
 #include "make_rule.hpp"
+#include "seen_box.hpp"
 
 namespace frontend {
 namespace {
@@ -90,11 +92,30 @@ class Run {
 
  private:
   void draw_frame(std::vector<PendingOutput>& outputs) {
-    if (frame_ == 0 || is_exported_) design_ = import();
+    if (frame_ == 0 || is_exported_) {
+      design_ = import();
+      if (options_.import.rendered && sees_all(options_.camera)) look_at_rendered();
+    }
     const Camera camera = choose_camera(options_.camera, design_.view_box);
     const csgcore::View view = make_view(camera, options_.camera);
     Image image = draw(design_.scene, view);
     encode(image, view, camera, outputs);
+  }
+
+  /// OpenSCAD's --viewall takes the box of what is there after the operations, with --render; that
+  /// of the operands otherwise. The view box holds both where it is that of facets.
+  void look_at_rendered() {
+    RenderSettings settings;
+    settings.renderer = RendererKind::kCpu;
+    settings.threads = options_.render.threads;
+    settings.measured_channels = true;
+    const csgcore::Box seen = seen_box(design_.view_box, [&](const csgcore::View& view) {
+      RenderStats stats;
+      return renderer_(design_.scene, view, settings, stats);
+    });
+    if (seen.empty()) return;
+    design_.view_box = {glm::max(design_.view_box.min, seen.min),
+                        glm::min(design_.view_box.max, seen.max)};
   }
 
   /// The output's file for a frame.

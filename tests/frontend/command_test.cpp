@@ -211,6 +211,15 @@ TEST_F(Command, AxesAreDrawn) {
   EXPECT_NE(std::find(picture.pixels.begin(), picture.pixels.end(), red), picture.pixels.end());
 }
 
+TEST_F(Command, RenderedIsLookedAtWhereAllOfItIsToBeSeen) {
+  EXPECT_EQ(run({"-o", png_, "--render=1", "--camera=0,0,0,0,0,0,9", file_}).err, "");
+  EXPECT_EQ(drawings_, 1);
+  EXPECT_EQ(run({"-o", png_, file_}).err, "");
+  EXPECT_EQ(drawings_, 2);
+  EXPECT_EQ(run({"-o", png_, "--render=1", file_}).err, "");
+  EXPECT_GT(drawings_, 3 + 5);
+}
+
 TEST_F(Command, AnEmptyDesignIsBackgroundWithoutARenderer) {
   for (const char* text : {"\n", "", "group();\n", "sphere(r = 0);\n"}) {
     const std::string empty = folder_.write("empty.csg", text);

@@ -32,6 +32,9 @@ struct CameraOptions {
 /// Error for any other count.
 Camera camera_from_numbers(std::span<const double> numbers);
 
+/// Whether the camera's place depends on the design's box.
+inline bool sees_all(const CameraOptions& options) { return options.view_all || !options.camera; }
+
 /// Applies view_all and auto_center to the design's box. An empty box leaves the camera as it is.
 /// Throws Error where the distance is not positive and nothing replaces it.
 Camera choose_camera(const CameraOptions& options, const csgcore::Box& view_box);
