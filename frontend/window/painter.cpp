@@ -179,7 +179,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
   frontend::RenderSettings settings = order.settings;
   settings.samples = samples;
   settings.stop = stop;
-  settings.measured_channels = is_channel(settings.show) || order.overlays.any();
+  settings.measured_channels |= is_channel(settings.show) || order.overlays.any();
   const Clock::time_point start = Clock::now();
   try {
     load(order);

@@ -96,6 +96,7 @@ std::string text(const char* format, double value) {
 State::State(const frontend::Options& options)
     : navigation(options.camera.camera.value_or(frontend::Camera{}), options.camera.projection),
       look(options.render),
+      overlays(options.overlays),
       name(options.input) {}
 
 csgcore::Box State::bounds() const { return design ? design->view_box : csgcore::Box{}; }
