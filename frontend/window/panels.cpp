@@ -64,8 +64,10 @@ void colored_text(ImU32 color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+/// Moved to the left where it would leave the window.
 void label(ImDrawList& list, ImVec2 at, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  at.x = std::max(4.0f, std::min(at.x, ImGui::GetIO().DisplaySize.x - size.x - 4));
   list.AddRectFilled({at.x - 3, at.y - 2}, {at.x + size.x + 3, at.y + size.y + 2}, kShadowColor, 3);
   list.AddText(at, kPointColor, text.c_str());
 }
@@ -202,9 +204,11 @@ void Panels::draw_points(const State& state, const csgcore::View& view) const {
     if (!places[i]) continue;
     list.AddCircleFilled(*places[i], 5, kShadowColor);
     list.AddCircleFilled(*places[i], 3.5f, kPointColor);
+    // Above the first point, below the second, so that they leave room between them.
     const float line = ImGui::GetTextLineHeight() + 4;
-    label(list, {places[i]->x + 10, places[i]->y - line}, coordinates(state.points[i].position));
-    label(list, {places[i]->x + 10, places[i]->y}, state.points[i].primitive);
+    const float top = places[i]->y + (i == 0 ? -2 * line - 8 : 12);
+    label(list, {places[i]->x, top}, coordinates(state.points[i].position));
+    label(list, {places[i]->x, top + line}, state.points[i].primitive);
   }
 }
 
