@@ -26,9 +26,11 @@ using csgcore::Image;
 using csgcore::Leaf;
 using csgcore::LeafBatch;
 using csgcore::Literal;
+using csgcore::SceneEdit;
 using csgcore::Solid;
 using csgcore::Subdivision;
 using csgcore::SubdivisionOptions;
+using csgcore::SubdivisionUpdate;
 using csgcore::View;
 
 /// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture (design.md
@@ -63,14 +65,40 @@ TargetFormat format_of(const View& view, bool measured, bool exact_colors) {
 class Renderer::Impl {
  public:
   explicit Impl(const Solid& solid)
-      : solid_(solid), buffers_(solid), tolerance_(thinnest_piece(solid)) {}
+      : solid_(&solid), buffers_(solid), tolerance_(thinnest_piece(solid)) {}
 
   void load(const Subdivision& subdivision) {
     PackedLiterals packed = pack_literals(subdivision);
     buffers_.upload_literals(packed.literals);
     subdivision_ = &subdivision;
     first_literal_ = std::move(packed.first_literal);
+    literals_ = packed.literals.size();
   }
+
+  void update(const Subdivision& subdivision, const SceneEdit& edit,
+              const SubdivisionUpdate& update) {
+    solid_ = &subdivision.solid();
+    tolerance_ = thinnest_piece(*solid_);
+    // Cells made anew come now and then: what polyhedra have left behind goes with them.
+    const bool in_part = edit.keeps_indices() && !update.is_anew;
+    if (in_part) {
+      buffers_.update(*solid_, edit);
+    } else {
+      uploaded_before_ += buffers_.uploaded_bytes();
+      buffers_ = SolidBuffers(*solid_);
+    }
+    if (!in_part || subdivision_ != &subdivision) {
+      load(subdivision);
+      return;
+    }
+    const PackedLiterals added = pack_literals(subdivision, update.first_new_leaf, literals_);
+    buffers_.add_literals(literals_, added.literals);
+    literals_ += added.literals.size();
+    first_literal_.insert(first_literal_.end(), added.first_literal.begin(),
+                          added.first_literal.end());
+  }
+
+  uint64_t uploaded_bytes() const { return uploaded_before_ + buffers_.uploaded_bytes(); }
 
   Image draw(const View& view, const FrameSettings& settings, FrameStats& stats) {
     stats = {};
@@ -139,7 +167,7 @@ class Renderer::Impl {
     std::thread subdividing([&] {
       std::exception_ptr error;
       try {
-        const Subdivision subdivision(solid_, options,
+        const Subdivision subdivision(*solid_, options,
                                       [&](const LeafBatch& batch) { queue.push(batch); });
       } catch (...) {
         error = std::current_exception();
@@ -164,7 +192,7 @@ class Renderer::Impl {
  private:
   /// What the frame and its light are fitted to.
   const csgcore::Box& scene_box(const FrameSettings& settings) const {
-    return settings.scene_box.empty() ? solid_.bounds() : settings.scene_box;
+    return settings.scene_box.empty() ? solid_->bounds() : settings.scene_box;
   }
 
   /// The same with the cells' overlap, which is drawn too.
@@ -174,7 +202,7 @@ class Renderer::Impl {
     return box;
   }
 
-  double overlap() const { return csgcore::cell_overlap(solid_.bounds()); }
+  double overlap() const { return csgcore::cell_overlap(solid_->bounds()); }
 
   /// The rays through the pixels' centres; `first`: the picture that they start behind, if any.
   Pass make_pass(const View& view, const FrameSettings& settings, const RenderTarget* first) const {
@@ -187,7 +215,7 @@ class Renderer::Impl {
     // An orthographic ray comes from infinity, so that it starts outside any solid. Others start
     // beyond what is too near to be told from the eye.
     pass.eye_inside =
-        pass.frame.perspective() && solid_.contains(view.eye + tolerance_ * view.forward);
+        pass.frame.perspective() && solid_->contains(view.eye + tolerance_ * view.forward);
     if (first) {
       pass.first = first->measured_texture();
       // Behind a front, rays start on the other side of it.
@@ -205,7 +233,7 @@ class Renderer::Impl {
 
   InstanceSorter sorter(const Pass& pass) {
     const bool boxes = pass.settings.subject == Subject::kCells;
-    return {pass.frame,   solid_,          short_list(buffers_.has_polyhedron()),
+    return {pass.frame,   *solid_,         short_list(buffers_.has_polyhedron()),
             pass.overlap, pass.eye_inside, boxes,
             streams_};
   }
@@ -319,13 +347,15 @@ class Renderer::Impl {
     drawer_.draw(streams_, pass, buffers_, stats);
   }
 
-  const Solid& solid_;
+  const Solid* solid_;
   SolidBuffers buffers_;
   StreamDrawer drawer_;
   InstanceStreams streams_;
   std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
   std::vector<uint64_t> first_literal_;  // of the subdivision's leaves, in the buffers
+  uint64_t literals_ = 0;                // that the buffers hold
+  uint64_t uploaded_before_ = 0;         // bytes, to buffers that were replaced
   double tolerance_;
 };
 
@@ -335,6 +365,13 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Subdivision& subdivision) { impl_->load(subdivision); }
+
+void Renderer::update(const Subdivision& subdivision, const SceneEdit& edit,
+                      const SubdivisionUpdate& update) {
+  impl_->update(subdivision, edit, update);
+}
+
+uint64_t Renderer::uploaded_bytes() const { return impl_->uploaded_bytes(); }
 
 Image Renderer::draw(const View& view, const FrameSettings& settings, FrameStats& stats) {
   return impl_->draw(view, settings, stats);

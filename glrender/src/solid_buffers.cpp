@@ -1,8 +1,11 @@
 #include "solid_buffers.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glrender/context.hpp"
@@ -25,19 +28,41 @@ uint32_t pack_rgba8(const csgcore::Color& color) {
   return packed;
 }
 
+using Surface = std::array<uint32_t, 4>;
+using LiteralTexel = std::array<uint32_t, 4>;
+constexpr size_t kPrimitiveBytes = kPrimitiveTexels * 4 * sizeof(float);
+
+Surface surface_of(const CanonicalPrimitive& primitive) {
+  return {primitive.color ? pack_rgba8(*primitive.color) : 0u, primitive.color ? 1u : 0u,
+          primitive.id, 0u};
+}
+
+std::vector<LiteralTexel> texels_of(std::span<const Literal> literals) {
+  std::vector<LiteralTexel> texels;
+  texels.reserve(literals.size());
+  for (const Literal& literal : literals) {
+    texels.push_back({literal.primitive | (static_cast<uint32_t>(literal.complement) << 31),
+                      literal.if_inside, literal.if_outside, 0u});
+  }
+  return texels;
+}
+
 constexpr const char* kFewerPrimitives = "draw the design in parts";
 
 }  // namespace
 
-void TextureBuffer::upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes,
-                           const char* what, const char* todo) {
+void TextureBuffer::require_room(size_t bytes) const {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  if (bytes / texel_bytes > static_cast<size_t>(limit)) {
-    throw GlError(std::string("the ") + what + " need a buffer of " +
-                  std::to_string(bytes / texel_bytes) + " texels, and this OpenGL driver allows " +
-                  std::to_string(limit) + " (" + todo + ")");
+  if (bytes / texel_bytes_ > static_cast<size_t>(limit)) {
+    throw GlError(std::string("the ") + what_ + " need a buffer of " +
+                  std::to_string(bytes / texel_bytes_) + " texels, and this OpenGL driver allows " +
+                  std::to_string(limit) + " (" + todo_ + ")");
   }
+}
+
+void TextureBuffer::upload(const void* data, size_t bytes) {
+  require_room(bytes);
   if (!buffer_) {
     buffer_ = Buffer::make();
     texture_ = Texture::make();
@@ -45,7 +70,42 @@ void TextureBuffer::upload(GLenum format, const void* data, size_t bytes, size_t
   glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
   glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
-  glTexBuffer(GL_TEXTURE_BUFFER, format, buffer_.name());
+  glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
+  bytes_ = capacity_ = bytes;
+  uploaded_bytes_ += bytes;
+}
+
+/// Copies on the GPU what is there to a larger buffer.
+void TextureBuffer::grow(size_t bytes) {
+  require_room(bytes);
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  const size_t capacity = std::min(2 * bytes, static_cast<size_t>(limit) * texel_bytes_);
+  Buffer larger = Buffer::make();
+  glBindBuffer(GL_COPY_WRITE_BUFFER, larger.name());
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(capacity), nullptr, GL_STATIC_DRAW);
+  glBindBuffer(GL_COPY_READ_BUFFER, buffer_.name());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
+                      static_cast<GLsizeiptr>(bytes_));
+  buffer_ = std::move(larger);
+  capacity_ = capacity;
+  glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+  glTexBuffer(GL_TEXTURE_BUFFER, format_, buffer_.name());
+}
+
+void TextureBuffer::update(size_t first_byte, const void* data, size_t bytes) {
+  assert(first_byte <= bytes_);
+  if (bytes == 0) return;
+  if (!buffer_) {
+    upload(data, bytes);
+    return;
+  }
+  if (first_byte + bytes > capacity_) grow(first_byte + bytes);
+  glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+  glBufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(first_byte),
+                  static_cast<GLsizeiptr>(bytes), data);
+  bytes_ = std::max(bytes_, first_byte + bytes);
+  uploaded_bytes_ += bytes;
 }
 
 void TextureBuffer::bind(GLuint unit) const {
@@ -53,21 +113,83 @@ void TextureBuffer::bind(GLuint unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
-SolidBuffers::SolidBuffers(const csgcore::Solid& solid) : solid_(&solid) {
-  std::vector<std::array<uint32_t, 4>> surfaces;
+SolidBuffers::SolidBuffers(const csgcore::Solid& solid)
+    : solid_(&solid),
+      primitives_(GL_RGBA32F, 4 * sizeof(float), "primitives", kFewerPrimitives),
+      surfaces_(GL_RGBA32UI, sizeof(Surface), "primitives", kFewerPrimitives),
+      literals_(GL_RGBA32UI, sizeof(LiteralTexel), "cells",
+                "use a larger --leaf-primitives or --threshold"),
+      polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), "faces of polyhedra",
+                 "use a smaller $fn") {
+  std::vector<Surface> surfaces;
   surfaces.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
-    surfaces.push_back({primitive.color ? pack_rgba8(*primitive.color) : 0u,
-                        primitive.color ? 1u : 0u, primitive.id, 0u});
+    surfaces.push_back(surface_of(primitive));
     (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
-    faces_.first_of(primitive.polyhedron.get());
+    number_faces(primitive);
   }
-  surfaces_.upload(GL_RGBA32UI, surfaces.data(), surfaces.size() * sizeof surfaces[0],
-                   sizeof surfaces[0], "primitives", kFewerPrimitives);
+  surfaces_.upload(surfaces.data(), surfaces.size() * sizeof(Surface));
   if (has_polyhedron()) {
-    polyhedra_.upload(GL_RGBA32F, faces_.texels().data(),
-                      faces_.texels().size() * sizeof(PolyhedronTexels::Texel),
-                      sizeof(PolyhedronTexels::Texel), "faces of polyhedra", "use a smaller $fn");
+    polyhedra_.upload(faces_.texels().data(),
+                      faces_.texels().size() * sizeof(PolyhedronTexels::Texel));
+  }
+}
+
+void SolidBuffers::number_faces(const CanonicalPrimitive& primitive) {
+  const size_t before = faces_.texels().size();
+  faces_.first_of(primitive.polyhedron.get());
+  if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
+}
+
+void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit) {
+  assert(edit.keeps_indices());
+  solid_ = &solid;
+  const std::span<const CanonicalPrimitive> primitives = solid.primitives();
+  const size_t faces_before = polyhedra_.uploaded_bytes() == 0 ? 0 : faces_.texels().size();
+  for (const uint32_t i : edit.added) number_faces(primitives[i]);
+  if (has_polyhedron()) {
+    polyhedra_.update(faces_before * sizeof(PolyhedronTexels::Texel),
+                      faces_.texels().data() + faces_before,
+                      (faces_.texels().size() - faces_before) * sizeof(PolyhedronTexels::Texel));
+  }
+  has_sphere_ = has_frustum_ = false;
+  for (const CanonicalPrimitive& primitive : primitives) {
+    (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
+  }
+  std::vector<float> texels;
+  for (const uint32_t i : edit.added) {
+    if (!placed_at_) break;  // nothing is there yet
+    texels.clear();
+    append_texels(primitives[i], *placed_at_, texels);
+    primitives_.update(i * kPrimitiveBytes, texels.data(), kPrimitiveBytes);
+  }
+  const auto update_surface = [&](uint32_t i) {
+    const Surface surface = surface_of(primitives[i]);
+    surfaces_.update(i * sizeof surface, surface.data(), sizeof surface);
+  };
+  if (edit.has_other_ids) {
+    std::vector<Surface> surfaces;
+    for (const CanonicalPrimitive& primitive : primitives)
+      surfaces.push_back(surface_of(primitive));
+    surfaces_.upload(surfaces.data(), surfaces.size() * sizeof(Surface));
+    return;
+  }
+  for (const uint32_t i : edit.added) update_surface(i);
+  for (const uint32_t i : edit.recolored) update_surface(i);
+}
+
+void SolidBuffers::append_texels(const CanonicalPrimitive& primitive, const Vec3& focus,
+                                 std::vector<float>& texels) {
+  const glm::vec3 center(primitive.center - focus);
+  texels.insert(texels.end(), {center.x, center.y, center.z,
+                               static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
+  const double beside[] = {primitive.radius_mid, primitive.radius_slope,
+                           primitive.enclosure == Shape::kSphere ? kShapeSphere : kShapeFrustum};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));
+    }
+    texels.push_back(static_cast<float>(beside[row]));
   }
 }
 
@@ -76,32 +198,26 @@ void SolidBuffers::place(const Frame& frame) {
   std::vector<float> texels;
   texels.reserve(solid_->primitives().size() * kPrimitiveTexels * 4);
   for (const CanonicalPrimitive& primitive : solid_->primitives()) {
-    const glm::vec3 center = frame.relative(primitive.center);
-    texels.insert(texels.end(), {center.x, center.y, center.z,
-                                 static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
-    const double beside[] = {primitive.radius_mid, primitive.radius_slope,
-                             primitive.enclosure == Shape::kSphere ? kShapeSphere : kShapeFrustum};
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));
-      }
-      texels.push_back(static_cast<float>(beside[row]));
-    }
+    append_texels(primitive, frame.focus, texels);
   }
-  primitives_.upload(GL_RGBA32F, texels.data(), texels.size() * sizeof(float), 4 * sizeof(float),
-                     "primitives", kFewerPrimitives);
+  primitives_.upload(texels.data(), texels.size() * sizeof(float));
   placed_at_ = frame.focus;
 }
 
 void SolidBuffers::upload_literals(std::span<const Literal> literals) {
-  std::vector<std::array<uint32_t, 4>> texels;
-  texels.reserve(literals.size());
-  for (const Literal& literal : literals) {
-    texels.push_back({literal.primitive | (static_cast<uint32_t>(literal.complement) << 31),
-                      literal.if_inside, literal.if_outside, 0u});
-  }
-  literals_.upload(GL_RGBA32UI, texels.data(), texels.size() * sizeof texels[0], sizeof texels[0],
-                   "cells", "use a larger --leaf-primitives or --threshold");
+  const std::vector<LiteralTexel> texels = texels_of(literals);
+  literals_.upload(texels.data(), texels.size() * sizeof(LiteralTexel));
+}
+
+void SolidBuffers::add_literals(uint64_t before, std::span<const Literal> literals) {
+  const std::vector<LiteralTexel> texels = texels_of(literals);
+  literals_.update(before * sizeof(LiteralTexel), texels.data(),
+                   texels.size() * sizeof(LiteralTexel));
+}
+
+uint64_t SolidBuffers::uploaded_bytes() const {
+  return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + literals_.uploaded_bytes() +
+         polyhedra_.uploaded_bytes();
 }
 
 void SolidBuffers::bind(GLuint program) const {

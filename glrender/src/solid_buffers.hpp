@@ -1,8 +1,10 @@
 // A solid's primitives as the shaders read them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "csgcore/solid.hpp"
 #include "frame.hpp"
@@ -14,15 +16,33 @@ namespace glrender {
 /// A buffer with the texture through which shaders read it.
 class TextureBuffer {
  public:
+  /// `texel_bytes` is the format's; `what` and `todo` are for messages.
+  TextureBuffer(GLenum format, size_t texel_bytes, const char* what, const char* todo)
+      : format_(format), texel_bytes_(texel_bytes), what_(what), todo_(todo) {}
+
   /// Replaces the contents. Throws GlError if they exceed what the driver can address.
-  /// `what` and `todo` are for the message.
-  void upload(GLenum format, const void* data, size_t bytes, size_t texel_bytes, const char* what,
-              const char* todo);
+  void upload(const void* data, size_t bytes);
+  /// Replaces, or adds, what starts at this byte, and leaves all before and behind it.
+  /// Precondition: no gap opens. Throws as above.
+  void update(size_t first_byte, const void* data, size_t bytes);
   void bind(GLuint unit) const;
 
+  /// By all calls so far.
+  uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+
  private:
+  void require_room(size_t bytes) const;
+  void grow(size_t bytes);
+
+  GLenum format_;
+  size_t texel_bytes_;
+  const char* what_;
+  const char* todo_;
   Buffer buffer_;
   Texture texture_;
+  size_t bytes_ = 0;     // that hold anything
+  size_t capacity_ = 0;  // of the buffer
+  uint64_t uploaded_bytes_ = 0;
 };
 
 class SolidBuffers {
@@ -32,10 +52,18 @@ class SolidBuffers {
 
   explicit SolidBuffers(const csgcore::Solid& solid);
 
+  /// Follows an edit that changed primitives in place: uploads those alone. `solid` must outlive
+  /// this from now on.
+  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit);
+
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
   /// Replaces the cells' functions.
   void upload_literals(std::span<const csgcore::Literal> literals);
+  /// Adds to them, behind so many.
+  void add_literals(uint64_t before, std::span<const csgcore::Literal> literals);
+  /// All that was uploaded so far.
+  uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program) const;
 
@@ -45,8 +73,14 @@ class SolidBuffers {
   bool has_polyhedron() const { return !faces_.empty(); }
 
  private:
+  void number_faces(const csgcore::CanonicalPrimitive& primitive);
+  void append_texels(const csgcore::CanonicalPrimitive& primitive, const Vec3& focus,
+                     std::vector<float>& texels);
+
   const csgcore::Solid* solid_;
   PolyhedronTexels faces_;
+  std::vector<std::shared_ptr<const csgcore::Polyhedron>>
+      numbered_;  // that faces_ knows by address
   TextureBuffer primitives_, surfaces_, literals_, polyhedra_;
   std::optional<Vec3> placed_at_;
   bool has_sphere_ = false;

@@ -152,12 +152,14 @@ class Frustum {
 
 }  // namespace
 
-PackedLiterals pack_literals(const csgcore::Subdivision& subdivision) {
+PackedLiterals pack_literals(const csgcore::Subdivision& subdivision, size_t first_leaf,
+                             uint64_t packed_before) {
   PackedLiterals packed;
-  packed.first_literal.reserve(subdivision.leaves().size());
-  packed.literals.reserve(subdivision.literals().size());
-  for (const Leaf& leaf : subdivision.leaves()) {
-    packed.first_literal.push_back(packed.literals.size());
+  const std::span<const Leaf> leaves = subdivision.leaves().subspan(first_leaf);
+  packed.first_literal.reserve(leaves.size());
+  if (first_leaf == 0) packed.literals.reserve(subdivision.literals().size());
+  for (const Leaf& leaf : leaves) {
+    packed.first_literal.push_back(packed_before + packed.literals.size());
     if (!is_drawn(leaf)) continue;
     const std::span<const Literal> literals = subdivision.literals_of(leaf);
     packed.literals.insert(packed.literals.end(), literals.begin(), literals.end());

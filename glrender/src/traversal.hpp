@@ -68,7 +68,9 @@ struct PackedLiterals {
   std::vector<uint64_t> first_literal;  // by leaf, where its literals start
 };
 
-PackedLiterals pack_literals(const csgcore::Subdivision& subdivision);
+/// Of the leaves from `first_leaf` on, behind so many literals that are packed already.
+PackedLiterals pack_literals(const csgcore::Subdivision& subdivision, size_t first_leaf = 0,
+                             uint64_t packed_before = 0);
 
 /// Calls `sorter.add` for every leaf that may be on the screen, nearest first. `first_literal` is
 /// PackedLiterals::first_literal.

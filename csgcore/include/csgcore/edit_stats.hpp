@@ -8,7 +8,7 @@ namespace csgcore {
 /// Of one edit, from the later scene to its picture. What was made anew as a whole counts in full.
 struct EditStats {
   uint64_t primitives = 0;          // of the later scene
-  uint64_t primitives_changed = 0;  // SceneEdit: added or recoloured, and removed without another
+  uint64_t primitives_changed = 0;  // SceneEdit: removed, added or recoloured; in place counts once
   uint64_t cells_kept = 0;          // SubdivisionUpdate
   uint64_t cells_made = 0;
   uint64_t pixels = 0;          // of the picture

@@ -56,6 +56,17 @@ class Renderer {
   /// renderer's solid and outlive its draws.
   void load(const csgcore::Subdivision& subdivision);
 
+  /// Follows an edit, after Subdivision::update, whose result is `update`: the subdivision is the
+  /// one that was loaded, and so is, from now on, the solid that it is of. Where primitives have
+  /// kept their indices and cells were kept, uploads what is new of both; else all.
+  /// Throws GlError.
+  void update(const csgcore::Subdivision& subdivision, const csgcore::SceneEdit& edit,
+              const csgcore::SubdivisionUpdate& update);
+
+  /// Bytes of primitives and cells' functions that went to the GPU so far; what each frame sends
+  /// besides, the cells in their order, is not counted.
+  uint64_t uploaded_bytes() const;
+
   /// Draws what was loaded, from any view, in its front-to-back order (paper §2.3). Throws GlError.
   csgcore::Image draw(const csgcore::View& view, const FrameSettings& settings, FrameStats& stats);
 
