@@ -70,8 +70,17 @@ class GlRenderer final : public SolidRenderer {
 
   void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
                csgcore::TreeEdit tree_edit) override {
+    auto loaded = loaded_.extract(&before);
     loaded_.clear();
-    subdivisions_.replace(before, after, edit, tree_edit);
+    const auto followed = subdivisions_.replace(before, after, edit, tree_edit);
+    if (loaded.empty() || !followed) return;
+    try {
+      loaded.mapped().renderer.update(followed->subdivision, edit, followed->update);
+    } catch (const glrender::GlError&) {
+      return;  // the next picture loads all, and tells if that fails, too
+    }
+    loaded.key() = &after;
+    loaded_.insert(std::move(loaded));
   }
 
   void forget() override {
@@ -80,12 +89,22 @@ class GlRenderer final : public SolidRenderer {
   }
 
  private:
+  /// A solid as OpenGL holds it.
+  struct Loaded {
+    Loaded(glrender::HeadlessContext& context, const Solid& solid) : renderer(context, solid) {}
+    glrender::Renderer renderer;
+    uint64_t reported_bytes = 0;  // of those that were uploaded
+  };
+
   /// With its cells, as the view needs them.
   glrender::Renderer& load(const Solid& solid, const PictureRequest& request) {
     const auto [subdivision, changed] = subdivisions_.of(solid, request);
     const auto [found, is_new] = loaded_.try_emplace(&solid, context_, solid);
-    if (is_new || changed) found->second.load(subdivision);
-    return found->second;
+    Loaded& loaded = found->second;
+    if (is_new || changed) loaded.renderer.load(subdivision);
+    const uint64_t bytes = loaded.renderer.uploaded_bytes();
+    request.stats.edit.bytes_uploaded += bytes - std::exchange(loaded.reported_bytes, bytes);
+    return loaded.renderer;
   }
 
   static glrender::FrameSettings frame_settings(const csgcore::FrameSettings& frame,
@@ -126,7 +145,7 @@ class GlRenderer final : public SolidRenderer {
 
   glrender::HeadlessContext context_;
   SceneSubdivisions subdivisions_;
-  std::map<const Solid*, glrender::Renderer> loaded_;
+  std::map<const Solid*, Loaded> loaded_;
 };
 
 }  // namespace

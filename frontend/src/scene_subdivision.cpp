@@ -72,7 +72,7 @@ SceneSubdivisions::Found SceneSubdivisions::of(const csgcore::Solid& solid,
       request.stats.edit.cells_kept += made.update.leaves_kept;
       request.stats.edit.cells_made += made.update.leaves_made;
     }
-    return {made.subdivision, was_updated || was_refined};
+    return {made.subdivision, was_refined};
   }
   SubdivisionProgress progress(solid, request.settings);
   const auto [made, is_new] = made_.insert_or_assign(
@@ -83,18 +83,19 @@ SceneSubdivisions::Found SceneSubdivisions::of(const csgcore::Solid& solid,
   return {made->second.subdivision, true};
 }
 
-void SceneSubdivisions::replace(const csgcore::Solid& before, const csgcore::Solid& after,
-                                const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit) {
+std::optional<SceneSubdivisions::Followed> SceneSubdivisions::replace(
+    const csgcore::Solid& before, const csgcore::Solid& after, const csgcore::SceneEdit& edit,
+    csgcore::TreeEdit tree_edit) {
   const Clock::time_point start = Clock::now();
   auto found = made_.extract(&before);
   made_.clear();
-  if (found.empty()) return;
-  Made& made = found.mapped();
+  if (found.empty()) return std::nullopt;
+  found.key() = &after;
+  Made& made = made_.insert(std::move(found)).position->second;
   made.update = made.subdivision.update(after, edit, tree_edit);
   made.update_ms += ms_since(start);
   made.is_updated = true;
-  found.key() = &after;
-  made_.insert(std::move(found));
+  return Followed{made.subdivision, made.update};
 }
 
 void count_cells(const Subdivision& subdivision, RenderStats& stats) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "csgcore/subdivision.hpp"
 #include "frontend/render.hpp"
@@ -17,16 +18,21 @@ class SceneSubdivisions {
  public:
   /// Subdivides the solid, or finds what was made of it by the same settings; with a threshold,
   /// divided further where the view needs it (paper §2.3). Reports progress. `changed`: it is not
-  /// as it was at the last call.
+  /// as it was at the last call, or after replace().
   struct Found {
     const csgcore::Subdivision& subdivision;
     bool changed;
   };
   Found of(const csgcore::Solid& solid, const PictureRequest& request);
 
-  /// What was made of `before` follows the edit of its tree to `after`; the rest is forgotten.
-  void replace(const csgcore::Solid& before, const csgcore::Solid& after,
-               const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit);
+  struct Followed {
+    const csgcore::Subdivision& subdivision;
+    const csgcore::SubdivisionUpdate& update;
+  };
+  /// What was made of `before`, if anything was, follows the edit of its tree to `after`; the rest
+  /// is forgotten.
+  std::optional<Followed> replace(const csgcore::Solid& before, const csgcore::Solid& after,
+                                  const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit);
 
   void forget() { made_.clear(); }
 

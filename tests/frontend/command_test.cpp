@@ -337,7 +337,7 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
     EXPECT_EQ(folder_.read("x.png"), "before");
   };
   expect_failure({}, "error: no file to draw (");
-  expect_failure({file_}, "error: this version has no live window (");
+  expect_failure({file_}, "error: this scadray has no `window`: ");
   expect_failure({"-o", png_, "--bogus", file_}, "--bogus");
   expect_failure({"-o", png_, folder_ / "none.csg"}, "none.csg: error: ");
   expect_failure({"-o", png_, folder_ / "none.scad"}, "none.scad: error: ");

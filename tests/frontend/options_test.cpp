@@ -100,7 +100,13 @@ TEST(Options, OutputsThatCannotBe) {
   for (std::size_t i = 0; i <= kMaxPictures; ++i) many.insert(many.end(), {"-o", "x.png"});
   many.push_back("a");
   EXPECT_THAT(error_of(many), HasSubstr("-o"));
-  EXPECT_THAT(error_of({"a.csg"}), HasSubstr("no live window"));
+}
+
+TEST(Options, WithoutAnOutputAWindowIsOpened) {
+  EXPECT_EQ(parse_options({"a.csg"}).action, Action::kOpenWindow);
+  EXPECT_EQ(parse_options({"-o", "x.png", "a.csg"}).action, Action::kDraw);
+  EXPECT_FALSE(parse_options({"a.csg"}).has_image_size);
+  EXPECT_TRUE(parse_options({"--imgsize=10,10", "a.csg"}).has_image_size);
 }
 
 TEST(Options, Animation) {
