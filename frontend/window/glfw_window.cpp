@@ -83,8 +83,9 @@ struct GlfwWindow::Impl {
   // Of the mouse, in units of the screen.
   int pressed = -1;  // the button that drags
   uint8_t modifiers = 0;
+  double cursor_x = 0, cursor_y = 0;
   double press_x = 0, press_y = 0;
-  double last_x = 0, last_y = 0;
+  double last_x = 0, last_y = 0;  // up to which it was dragged
   bool has_moved = false;
   double last_click_s = -1e9;
 };
@@ -123,7 +124,7 @@ void GlfwWindow::Impl::open(const std::string& title, Size size) {
     impl.is_active = true;
     if (impl.is_over_panel()) return;
     const double scale = impl.pixels_per_unit();
-    impl.events.wheel(notches, impl.last_x * scale, impl.last_y * scale);
+    impl.events.wheel(notches, impl.cursor_x * scale, impl.cursor_y * scale);
   });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     Impl& impl = of(w);
@@ -190,9 +191,9 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
     pressed = button;
     modifiers = modifiers_of(glfw_modifiers);
     has_moved = false;
-    glfwGetCursorPos(window, &last_x, &last_y);
-    press_x = last_x;
-    press_y = last_y;
+    // Where it was then, as the events tell; where it is now is further on if they come late.
+    press_x = last_x = cursor_x;
+    press_y = last_y = cursor_y;
     return;
   }
   if (button != pressed) return;
@@ -203,20 +204,20 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   const bool is_second = now - last_click_s < kDoubleClick_s;
   last_click_s = is_second ? -1e9 : now;
   if (is_second) {
-    events.double_click(last_x * scale, last_y * scale);
+    events.double_click(press_x * scale, press_y * scale);
   } else {
-    events.click(last_x * scale, last_y * scale);
+    events.click(press_x * scale, press_y * scale);
   }
 }
 
 void GlfwWindow::Impl::on_cursor(double x, double y) {
   is_active = true;
-  const double dx = x - last_x, dy = y - last_y;
-  if (pressed >= 0 && !has_moved && std::hypot(x - press_x, y - press_y) < kClickReach) return;
-  last_x = x;
-  last_y = y;
+  cursor_x = x;
+  cursor_y = y;
   if (pressed < 0) return;
+  if (!has_moved && std::hypot(x - press_x, y - press_y) < kClickReach) return;
   has_moved = true;
+  const double dx = x - std::exchange(last_x, x), dy = y - std::exchange(last_y, y);
   constexpr WindowEvents::Button kButtons[] = {
       WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
   const double scale = pixels_per_unit();

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "followed.hpp"
+#include "saves.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -18,50 +19,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-/// How an editor saves `text` as the file NAME of a folder.
-struct Save {
-  const char* name;
-  void (*write)(const TemporaryFolder& folder, const std::string& name, const std::string& text);
-};
-
-const Save kSaves[] = {
-    {"TruncatingAndWriting", [](const TemporaryFolder& folder, const std::string& name,
-                                const std::string& text) { folder.write(name, text); }},
-    {"RenamingANewFileOverIt",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       fs::rename(folder.write(".new", text), folder / name);
-     }},
-    {"MovingTheOldOneToABackup",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       fs::rename(folder / name, folder / (name + "~"));
-       folder.write(name, text);
-     }},
-    {"MovingTheOldOneAwayAndRemovingIt",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       fs::rename(folder / name, folder / "4913");
-       folder.write(name, text);
-       fs::remove(folder / "4913");
-     }},
-    {"RemovingAndWritingAnew",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       fs::remove(folder / name);
-       folder.write(name, text);
-     }},
-    {"SeveralQuickWrites",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       folder.write(name, "");
-       for (const char c : text) {
-         std::ofstream(folder / name, std::ios::app) << c;
-       }
-     }},
-    {"CopyingBackWhatWasMoved",
-     [](const TemporaryFolder& folder, const std::string& name, const std::string& text) {
-       fs::rename(folder / name, folder / "old");
-       fs::copy_file(folder / "old", folder / name);
-       folder.write(name, text);
-     }},
-};
 
 struct SaveCase {
   Save save;
