@@ -76,7 +76,7 @@ std::span<const CommandRow> command_rows() { return kRows; }
 
 const CommandRow* find_command(int key, uint8_t modifiers) {
   for (const CommandRow& row : kRows) {
-    if (row.key == key && row.modifiers == modifiers) return &row;
+    if (row.key != 0 && row.key == key && row.modifiers == modifiers) return &row;
   }
   for (const auto& further : kFurtherKeys) {
     if (further.key == key && further.modifiers == modifiers) return row_of(further.command);
