@@ -1,0 +1,177 @@
+// Keys in the window.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "designs.hpp"
+#include "live_window.hpp"
+
+namespace window_test {
+namespace {
+
+using csgcore::Vec3;
+
+class Keys : public LiveWindow {
+ protected:
+  frontend::Camera start(const std::vector<std::string>& options = {}) {
+    design_ = folder_.write("a.csg", kBlock);
+    open(design_, options);
+    first_ = next();
+    expect_drawn(design_, first_);
+    return camera_of(first_);
+  }
+  std::string design_;
+  json first_;
+};
+
+TEST_F(Keys, StandardViews) {
+  frontend::Camera camera = start();
+  const std::pair<const char*, Vec3> views[] = {{"ctrl+4", {0, 0, 0}},    {"ctrl+5", {180, 0, 0}},
+                                                {"ctrl+6", {90, 0, 270}}, {"ctrl+7", {90, 0, 90}},
+                                                {"ctrl+8", {90, 0, 0}},   {"ctrl+9", {90, 0, 180}},
+                                                {"ctrl+0", {55, 0, 25}}};
+  for (const auto& [name, rotation_deg] : views) {
+    SCOPED_TRACE(name);
+    key(name);
+    camera.rotation_deg = rotation_deg;
+    expect_drawn(design_, next_camera(camera));
+  }
+}
+
+TEST_F(Keys, CentreZoomViewAllAndProjection) {
+  frontend::Camera camera = start({"--camera=1,2,3,40,50,60,90"});
+  key("ctrl+shift+0");
+  camera.target = Vec3(0.0);
+  next_camera(camera);
+  key("ctrl+bracketright");
+  camera.distance *= 0.9;
+  next_camera(camera);
+  key("ctrl+bracketleft");
+  camera.distance /= 0.9;
+  next_camera(camera);
+  key("o");
+  expect_drawn(design_, next_camera(camera, true));
+  key("p");
+  expect_drawn(design_, next_camera(camera, false));
+  key("ctrl+shift+v");
+  const json whole = next();
+  const std::string path = folder_ / "whole.png";
+  ProcessSetup setup;
+  setup.words = {
+      SCADRAY_PROGRAM, "-o",           path,   "--imgsize=400,300", "--camera=1,2,3,40,50,60,90",
+      "--viewall",     "--autocenter", design_};
+  run(setup);
+  expect_shown(read_png(path));
+  expect_drawn(design_, whole);
+}
+
+TEST_F(Keys, WhatIsShown) {
+  start();
+  const std::pair<const char*, const char*> shows[] = {{"2", "--show=cells"},
+                                                       {"3", "--show=depth"},
+                                                       {"4", "--show=normals"},
+                                                       {"5", "--show=id"},
+                                                       {"1", "--show=surface"}};
+  for (const auto& [name, option] : shows) {
+    SCOPED_TRACE(option);
+    key(name);
+    expect_drawn(design_, next(), {option});
+  }
+  key("ctrl+2");
+  expect_drawn(design_, next(), {"--view=axes"});
+}
+
+TEST_F(Keys, HelpComesAndGoes) {
+  start();
+  const Picture before = shown();
+  key("F1");
+  wait_until_other(before);
+  key("F1");
+  expect_shown(before, {0, 0, kWidth, kHeight});
+}
+
+class Saving : public Keys {
+ protected:
+  /// Into the path that the dialogue proposes, or another one.
+  void save(const std::string& path = "") {
+    const Picture before = shown();
+    key("ctrl+s");
+    wait_until_settled(before);
+    if (!path.empty()) display().drive({"key", "ctrl+a", "type", path});
+  }
+  /// ImGui does not see a key that goes down and up between two frames.
+  void enter(const std::string& name) {
+    display().drive({"keydown", "Return"});
+    EXPECT_TRUE(wait_until([&] { return folder_.has(name); }));
+    display().drive({"keyup", "Return"});
+  }
+};
+
+TEST_F(Saving, WritesThePictureOfTheCommand) {
+  start();
+  save();
+  enter("a.png");
+  EXPECT_EQ(read_png(folder_ / "a.png"), drawn(design_, first_["camera"]));
+}
+
+TEST_F(Saving, WritesMeasurements) {
+  start();
+  save(folder_ / "b.exr");
+  enter("b.exr");
+  ProcessSetup setup;
+  setup.words = {SCADRAY_PROGRAM,
+                 "-o",
+                 folder_ / "wanted.exr",
+                 "--imgsize=400,300",
+                 camera_option(first_["camera"]),
+                 design_};
+  run(setup);
+  EXPECT_TRUE(folder_.read("b.exr") == folder_.read("wanted.exr"));
+}
+
+/// The block without what lies on one side of a plane across x.
+std::string cut_block(double position, bool keeps_lower) {
+  const double from = keeps_lower ? position : -100 + position;
+  return "difference() {\n" + kBlock + "multmatrix([[1, 0, 0, " + number_text(from) +
+         "], [0, 1, 0, -50], [0, 0, 1, -50], [0, 0, 0, 1]]) cube(size = [100, 100, 100]);\n}\n";
+}
+
+TEST_F(Keys, SectionPlane) {
+  start();
+  const Picture whole = shown();
+  key("x");
+  const json cut = next();
+  EXPECT_TRUE(cut["section_on"]);
+  EXPECT_EQ(cut["section_position"], 0);
+  // Beside the plane's panel.
+  const Area area{0, 150, kWidth, 100};
+  const auto side = [&](bool keeps_lower) {
+    return drawn(folder_.write("cut.csg", cut_block(0, keeps_lower)), cut["camera"]);
+  };
+  expect_shown(side(true), area);
+  key("f");
+  next();
+  expect_shown(side(false), area);
+  key("c");
+  EXPECT_FALSE(next()["section_on"]);
+  expect_shown(whole);
+}
+
+TEST_F(Keys, SectionPlaneUnderTheMouse) {
+  start({"--camera=0,0,0,0,0,0,100", "--projection=o"});  // x to the right
+  key("x");
+  next();
+  drag(1, 200, 200, 205, 220, "ctrl");
+  const json cut = next();
+  const double unit = 2 * 100 * std::tan(11.25 * M_PI / 180) / kHeight;
+  EXPECT_NEAR(cut["section_position"].get<double>(), 5 * unit, 1e-9);
+  EXPECT_EQ(cut["camera"], first_["camera"]);
+  const std::string design =
+      folder_.write("cut.csg", cut_block(cut["section_position"].get<double>(), true));
+  expect_shown(drawn(design, cut["camera"]), {0, 150, kWidth, 100});
+  drag(1, 200, 200, 390, 200, "ctrl");  // no further than the design's end
+  EXPECT_EQ(next()["section_position"], 5);
+}
+
+}  // namespace
+}  // namespace window_test

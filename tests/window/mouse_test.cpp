@@ -1,0 +1,143 @@
+// The mouse in the window: the camera by OpenSCAD's numbers (openscad.md §6), measuring, the plane.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "designs.hpp"
+#include "live_window.hpp"
+#include "navigation.hpp"
+
+namespace window_test {
+namespace {
+
+using csgcore::Vec3;
+using testing::ElementsAre;
+
+constexpr double kTurn_degPerPixel = 0.7;
+constexpr window::Size kSize{kWidth, kHeight};
+
+class Mouse : public LiveWindow {
+ protected:
+  /// The camera that the window starts with.
+  frontend::Camera start(const std::string& text = kBlock, std::vector<std::string> options = {}) {
+    design_ = folder_.write("a.csg", text);
+    open(design_, options);
+    const json line = next();
+    return camera_of(line);
+  }
+  void expect_camera(const frontend::Camera& camera, bool orthographic = false) {
+    expect_drawn(design_, next_camera(camera, orthographic));
+  }
+  csgcore::View view(const frontend::Camera& camera) const {
+    return window::Navigation(camera, csgcore::Projection::kPerspective).view(kSize);
+  }
+  std::string design_;
+};
+
+TEST_F(Mouse, LeftDragTurns) {
+  frontend::Camera camera = start();
+  drag(1, 200, 150, 230, 140);
+  camera.rotation_deg -= kTurn_degPerPixel * Vec3(-10, 0, 30);
+  expect_camera(camera);
+  drag(1, 100, 100, 90, 150, "shift");
+  camera.rotation_deg -= kTurn_degPerPixel * Vec3(50, -10, 0);
+  expect_camera(camera);
+}
+
+TEST_F(Mouse, RightDragPans) {
+  frontend::Camera camera = start();
+  drag(3, 200, 150, 240, 135);
+  const csgcore::View before = view(camera);
+  const double reach = 3 * 0.7 * camera.distance;
+  camera.target += reach * (-before.right * (40.0 / kWidth) - before.up * (15.0 / kHeight));
+  expect_camera(camera);
+}
+
+TEST_F(Mouse, MiddleAndShiftedRightDragMoveForwardAndBack) {
+  frontend::Camera camera = start();
+  for (const int button : {2, 3}) {
+    drag(button, 200, 150, 210, 130, button == 3 ? "shift" : "");
+    camera.target -= view(camera).forward * (3 * 0.7 * camera.distance * 20 / kHeight);
+    expect_camera(camera);
+  }
+}
+
+TEST_F(Mouse, WheelZoomsAtTheCursor) {
+  for (const char* projection : {"--projection=p", "--projection=o"}) {
+    const frontend::Camera camera = start(kBlock, {projection});
+    const bool orthographic = std::string(projection).ends_with('o');
+    window::Navigation navigation(camera, orthographic ? csgcore::Projection::kOrthographic
+                                                       : csgcore::Projection::kPerspective);
+    wheel(260, 100, 2);
+    navigation.zoom(2, 260, 100, kSize);
+    EXPECT_NEAR(navigation.camera().distance, 0.81 * camera.distance, 1e-9);
+    expect_camera(navigation.camera(), orthographic);
+    wheel(150, 200, -3);
+    navigation.zoom(-3, 150, 200, kSize);
+    expect_camera(navigation.camera(), orthographic);
+  }
+}
+
+/// The ball from above: what lies at a pixel is known.
+class MouseOnABall : public Mouse {
+ protected:
+  MouseOnABall() : camera_{Vec3(0.0), Vec3(0.0), 100} {}
+  void open_ball() { start(kBall, {"--camera=0,0,0,0,0,0,100", "--projection=o"}); }
+
+  /// Of the ball's upper half, at a pixel's corner.
+  Vec3 surface_at(int x, int y) const {
+    const double half_height = 100 * std::tan(11.25 * M_PI / 180);
+    const double unit = 2 * half_height / kHeight;
+    const double u = unit * (x - 0.5 * kWidth), v = unit * (0.5 * kHeight - y);
+    return {u, v, std::sqrt(kBallRadius * kBallRadius - u * u - v * v)};
+  }
+  json next_points(std::size_t count) {
+    return next([count](const json& line) { return line["points"].size() == count; })["points"];
+  }
+  static void expect_near(const json& place, const Vec3& wanted) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(place[static_cast<std::size_t>(axis)].get<double>(), wanted[axis], 1e-9);
+    }
+  }
+  const frontend::Camera camera_;
+};
+
+TEST_F(MouseOnABall, ClicksMeasure) {
+  open_ball();
+  const Picture before = shown();
+  click(210, 140);
+  const json one = next_points(1);
+  expect_near(one[0]["position"], surface_at(210, 140));
+  EXPECT_EQ(one[0]["primitive"], "line 1: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+  wait_until_other(before);                                     // its place is shown
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // no double click
+  click(190, 160);
+  const json two = next_points(2);
+  expect_near(two[0]["position"], surface_at(210, 140));
+  expect_near(two[1]["position"], surface_at(190, 160));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  click(20, 60);  // beside the ball: forgotten
+  next_points(0);
+  expect_shown(before);
+}
+
+TEST_F(MouseOnABall, EscapeForgets) {
+  open_ball();
+  const Picture before = shown();
+  click(210, 140);
+  next_points(1);
+  wait_until_other(before);
+  key("Escape");
+  expect_shown(before);
+}
+
+TEST_F(MouseOnABall, DoubleClickCentres) {
+  open_ball();
+  click(230, 120, 2);
+  frontend::Camera camera = camera_;
+  camera.target = surface_at(230, 120);
+  expect_camera(camera, true);
+}
+
+}  // namespace
+}  // namespace window_test

@@ -1,0 +1,190 @@
+// The camera under the mouse by OpenSCAD's numbers (openscad.md §6), and where a point is seen.
+#include "navigation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "projection.hpp"
+
+namespace window {
+namespace {
+
+using csgcore::Projection;
+using csgcore::Vec3;
+using frontend::Camera;
+
+constexpr Size kSize{640, 480};
+constexpr Projection kProjections[] = {Projection::kPerspective, Projection::kOrthographic};
+
+void expect_near(const Vec3& a, const Vec3& b, double error = 1e-12) {
+  EXPECT_LE(glm::length(a - b), error * (1 + glm::length(b)))
+      << a.x << ' ' << a.y << ' ' << a.z << " instead of " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+/// With numbers that no axis is the same for.
+Navigation tilted(Projection projection = Projection::kPerspective) {
+  return {Camera{{1, -2, 3}, {40, 10, 70}, 90}, projection};
+}
+
+TEST(Navigation, ADragTurnsBySevenTenthsOfADegreeAPixel) {
+  Navigation navigation = tilted();
+  navigation.turn(10, 20, false);
+  expect_near(navigation.camera().rotation_deg, {40 - 14, 10, 70 - 7});
+  navigation.turn(-30, 0, true);
+  expect_near(navigation.camera().rotation_deg, {26, 31, 63});
+  EXPECT_EQ(navigation.camera().target, tilted().camera().target);
+  EXPECT_EQ(navigation.camera().distance, 90);
+}
+
+TEST(Navigation, AnglesStayWithinAFullTurn) {
+  Navigation navigation = tilted();
+  navigation.turn(1000, 100, false);
+  navigation.turn(-2000, 0, true);
+  expect_near(navigation.camera().rotation_deg,
+              {40 - 70 + 360, 10 + 1400 - 3 * 360, 70 - 700 + 2 * 360}, 1e-11);
+}
+
+/// By 3·0.7 of the distance for the whole picture.
+TEST(Navigation, ThePictureFollowsAPan) {
+  for (const Projection projection : kProjections) {
+    Navigation navigation = tilted(projection);
+    const csgcore::View view = navigation.view(kSize);
+    navigation.pan(64, -24, kSize);
+    const Vec3 moved = navigation.camera().target - tilted().camera().target;
+    expect_near(moved, 2.1 * 90 * (-0.1 * view.right - 0.05 * view.up));
+    // What was in the middle is now to the right of it, and above.
+    const auto place = project(navigation.view(kSize), tilted().camera().target);
+    ASSERT_TRUE(place);
+    EXPECT_GT(place->x_px, 320);
+    EXPECT_LT(place->y_px, 240);
+  }
+}
+
+TEST(Navigation, ForwardAndBack) {
+  Navigation navigation = tilted();
+  const Vec3 forward = navigation.view(kSize).forward;
+  navigation.move_along(48, kSize);
+  expect_near(navigation.camera().target, tilted().camera().target + 2.1 * 90 * 0.1 * forward);
+  navigation.move_along(-48, kSize);
+  expect_near(navigation.camera().target, tilted().camera().target);
+  EXPECT_EQ(navigation.camera().distance, 90);
+}
+
+TEST(Navigation, ANotchOfTheWheelIsATenthOfTheDistance) {
+  Navigation navigation = tilted();
+  navigation.zoom(1);
+  EXPECT_DOUBLE_EQ(navigation.camera().distance, 81);
+  navigation.zoom(-2);
+  EXPECT_DOUBLE_EQ(navigation.camera().distance, 100);
+  EXPECT_EQ(navigation.camera().target, tilted().camera().target);
+}
+
+TEST(Navigation, WhatIsUnderTheCursorStaysThere) {
+  for (const Projection projection : kProjections) {
+    for (const double notches : {1.0, 5.0, -3.0, 0.25}) {
+      Navigation navigation = tilted(projection);
+      const double x = 500, y = 100;
+      const csgcore::View before = navigation.view(kSize);
+      const csgcore::Ray ray = csgcore::pixel_ray(before, x - 0.5, y - 0.5);
+      const double depth = glm::dot(navigation.camera().target - ray.origin, before.forward);
+      const Vec3 under_cursor = ray.origin + depth * ray.direction;
+      navigation.zoom(notches, x, y, kSize);
+      EXPECT_DOUBLE_EQ(navigation.camera().distance, 90 * std::pow(0.9, notches));
+      const auto place = project(navigation.view(kSize), under_cursor);
+      ASSERT_TRUE(place);
+      EXPECT_NEAR(place->x_px, x, 1e-9);
+      EXPECT_NEAR(place->y_px, y, 1e-9);
+    }
+  }
+}
+
+TEST(Navigation, ZoomingEndsWhereNumbersDo) {
+  Navigation navigation = tilted();
+  for (const double notches : {1e6, -1e6, 1e6}) {
+    navigation.zoom(notches, 100, 100, kSize);
+    const Camera& camera = navigation.camera();
+    EXPECT_TRUE(std::isfinite(camera.distance) && camera.distance > 0);
+    EXPECT_TRUE(std::isfinite(camera.target.x + camera.target.y + camera.target.z));
+    const csgcore::View view = navigation.view(kSize);
+    EXPECT_TRUE(std::isfinite(view.eye.x + view.eye.y + view.eye.z));
+  }
+}
+
+TEST(Navigation, StandardViews) {
+  const struct {
+    StandardView view;
+    Vec3 rotation_deg, forward, up;
+  } kViews[] = {
+      {StandardView::kTop, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+      {StandardView::kBottom, {180, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+      {StandardView::kLeft, {90, 0, 270}, {1, 0, 0}, {0, 0, 1}},
+      {StandardView::kRight, {90, 0, 90}, {-1, 0, 0}, {0, 0, 1}},
+      {StandardView::kFront, {90, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+      {StandardView::kBack, {90, 0, 180}, {0, -1, 0}, {0, 0, 1}},
+  };
+  for (const auto& row : kViews) {
+    Navigation navigation = tilted();
+    navigation.look_from(row.view);
+    EXPECT_EQ(navigation.camera().rotation_deg, row.rotation_deg);
+    EXPECT_EQ(navigation.view(kSize).forward, row.forward);
+    EXPECT_EQ(navigation.view(kSize).up, row.up);
+    EXPECT_EQ(navigation.camera().target, tilted().camera().target);
+  }
+  Navigation navigation = tilted();
+  navigation.look_from(StandardView::kDiagonal);
+  EXPECT_EQ(navigation.camera().rotation_deg, Vec3(55, 0, 25));
+}
+
+TEST(Navigation, ViewAllHoldsTheBoxAndKeepsTheDirection) {
+  const csgcore::Box box{{-10, 5, 20}, {10, 25, 21}};
+  for (const Projection projection : kProjections) {
+    Navigation navigation = tilted(projection);
+    navigation.view_all(box);
+    EXPECT_EQ(navigation.camera().target, box.center());
+    EXPECT_EQ(navigation.camera().rotation_deg, tilted().camera().rotation_deg);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 point{(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                       (corner & 4 ? box.max : box.min).z};
+      const auto place = project(navigation.view(kSize), point);
+      ASSERT_TRUE(place);
+      EXPECT_TRUE(0 < place->x_px && place->x_px < 640 && 0 < place->y_px && place->y_px < 480);
+    }
+    const Camera before = navigation.camera();
+    navigation.view_all(csgcore::Box{});
+    EXPECT_EQ(navigation.camera().target, before.target);
+    EXPECT_EQ(navigation.camera().distance, before.distance);
+  }
+}
+
+TEST(Projection, IsTheInverseOfAPixelsRay) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (const Projection projection : kProjections) {
+    const csgcore::View view = tilted(projection).view(kSize);
+    for (int i = 0; i < 100; ++i) {
+      const double x = 640 * share(random), y = 480 * share(random);
+      const csgcore::Ray ray = csgcore::pixel_ray(view, x - 0.5, y - 0.5);
+      const auto place = project(view, ray.origin + (1 + 200 * share(random)) * ray.direction);
+      ASSERT_TRUE(place);
+      EXPECT_NEAR(place->x_px, x, 1e-9);
+      EXPECT_NEAR(place->y_px, y, 1e-9);
+    }
+  }
+}
+
+TEST(Projection, BehindTheEyeThereIsNothingToSeeInPerspective) {
+  const csgcore::View perspective = tilted(Projection::kPerspective).view(kSize);
+  EXPECT_FALSE(project(perspective, perspective.eye - perspective.forward));
+  EXPECT_FALSE(project(perspective, perspective.eye));
+  const csgcore::View orthographic = tilted(Projection::kOrthographic).view(kSize);
+  const auto place = project(orthographic, orthographic.eye - orthographic.forward);
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->x_px, 320, 1e-9);
+  EXPECT_NEAR(place->y_px, 240, 1e-9);
+}
+
+}  // namespace
+}  // namespace window

@@ -1,0 +1,325 @@
+// The window's pictures: those of the command, whatever is ordered meanwhile; and what lies at a
+// pixel.
+#include "painter.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <condition_variable>
+
+#include "designs.hpp"
+#include "followed.hpp"
+#include "frontend/channel_picture.hpp"
+#include "frontend/overlays.hpp"
+#include "frontend/parser.hpp"
+#include "support/models.hpp"
+#include "temporary_folder.hpp"
+
+namespace window {
+namespace {
+
+using csgcore::Projection;
+using csgcore::Vec3;
+using frontend::ImportedDesign;
+using frontend::Show;
+using testing::HasSubstr;
+
+/// With translucent parts.
+const std::string kDesign = window_test::kBlock +
+                            "%sphere($fn = 0, $fa = 12, $fs = 2, r = 14);\n"
+                            "#multmatrix([[1, 0, 0, -5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])"
+                            " cylinder($fn = 0, h = 30, r1 = 2, r2 = 3, center = false);\n";
+
+std::shared_ptr<const ImportedDesign> design_of(const std::string& text) {
+  return std::make_shared<ImportedDesign>(frontend::import_design(frontend::parse(text, "")));
+}
+
+std::shared_ptr<const ImportedDesign> design_of(csgcore::Scene scene) {
+  auto design = std::make_shared<ImportedDesign>();
+  design->view_box = {Vec3(-20), Vec3(20)};
+  design->scene = std::move(scene);
+  return design;
+}
+
+PaintOrder order_of(std::shared_ptr<const ImportedDesign> design) {
+  PaintOrder order;
+  order.number = 1;
+  order.design = std::move(design);
+  order.navigation = {{}, Projection::kPerspective};
+  order.size = {160, 120};
+  order.settings.renderer = frontend::RendererKind::kCpu;
+  return order;
+}
+
+/// The picture that the command makes.
+csgcore::Image command_picture(const PaintOrder& order) {
+  const csgcore::View view = order.navigation.view(order.size);
+  frontend::RenderSettings settings = order.settings;
+  settings.measured_channels = true;
+  frontend::RenderStats stats;
+  const csgcore::Scene& scene = order.design->scene;
+  csgcore::Image image = frontend::render(
+      order.section.is_on ? cut_open(scene, order.section, order.design->view_box) : scene, view,
+      settings, stats);
+  frontend::show_channel(image, settings.show, settings.scheme.background);
+  frontend::draw_overlays(image, view, order.navigation.camera(), order.overlays, settings.scheme);
+  return image;
+}
+
+/// A painter, and whoever waits for it.
+class PainterTest : public testing::Test {
+ protected:
+  Painter& painter(double frame_ms = 1e6) {
+    return painter_.emplace(frame_ms, [this] {
+      const std::lock_guard lock(mutex_);
+      ++news_;
+      changed_.notify_all();
+    });
+  }
+
+  template <typename Take>
+  auto next(const Take& take) {
+    const auto end = std::chrono::steady_clock::now() + frontend::kPatience;
+    std::unique_lock lock(mutex_);
+    while (true) {
+      const int seen = news_;
+      lock.unlock();
+      if (auto found = take()) return std::move(*found);
+      lock.lock();
+      if (!changed_.wait_until(lock, end, [&] { return news_ != seen; })) {
+        throw std::runtime_error("nothing comes from the painter");
+      }
+    }
+  }
+  Painting next_painting() {
+    return next([this] { return painter_->take_painting(); });
+  }
+  Painting next_final() {
+    while (true) {
+      Painting painting = next_painting();
+      if (painting.is_final || !painting.error.empty()) return painting;
+    }
+  }
+  Finding next_finding() {
+    return next([this] { return painter_->take_finding(); });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int news_ = 0;
+  std::optional<Painter> painter_;
+};
+
+TEST_F(PainterTest, DrawsWhatTheCommandDraws) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(kDesign));
+  const auto check = [&] {
+    painter.order(order);
+    const Painting painting = next_painting();
+    EXPECT_TRUE(painting.is_final);
+    EXPECT_EQ(painting.error, "");
+    EXPECT_EQ(painting.order.number, order.number);
+    EXPECT_TRUE(painting.image.rgb == command_picture(order).rgb);
+    EXPECT_EQ(painting.stats.renderer, "cpu");
+    ++order.number;
+  };
+  check();
+  for (const Show show : {Show::kCells, Show::kDepth, Show::kNormals, Show::kId, Show::kSurface}) {
+    order.settings.show = show;
+    check();
+  }
+  order.overlays = {true, true, true, true};
+  check();
+  order.section = {false, 1, true, 2.5};  // off
+  check();
+  order.settings.samples = 4;
+  order.settings.shading = frontend::Shading::kPhong;
+  order.navigation = {{{1, 2, 3}, {30, 20, 10}, 80}, Projection::kOrthographic};
+  order.size = {200, 100};
+  check();
+  order.section.is_on = true;
+  check();
+  order.design = design_of(window_test::kBall);
+  check();
+}
+
+TEST_F(PainterTest, MeasuresWhereItIsAskedTo) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(kDesign));
+  order.settings.measured_channels = true;
+  painter.order(order);
+  const Painting painting = next_painting();
+  const csgcore::Image wanted = command_picture(order);
+  EXPECT_EQ(painting.image.z, wanted.z);
+  EXPECT_EQ(painting.image.id, wanted.id);
+  EXPECT_EQ(painting.image.normal, wanted.normal);
+  EXPECT_EQ(painting.image.position, wanted.position);
+}
+
+TEST_F(PainterTest, WhatMovesIsCoarseAndThenRefined) {
+  Painter& painter = this->painter(1e-6);  // a time in which nothing can be drawn
+  PaintOrder order = order_of(design_of(kDesign));
+  painter.order(order);
+  EXPECT_TRUE(next_painting().is_final);  // it does not move
+  order.settings.samples = 4;
+  order.is_moving = true;
+  order.navigation.turn(10, 5, false);
+  ++order.number;
+  painter.order(order);
+  const Painting coarse = next_painting();
+  EXPECT_FALSE(coarse.is_final);
+  EXPECT_LT(coarse.image.width_px, 160u);
+  EXPECT_LT(coarse.image.height_px, 120u);
+  EXPECT_EQ(coarse.image.rgb.size(), size_t{coarse.image.width_px} * coarse.image.height_px);
+  const Painting refined = next_painting();
+  EXPECT_TRUE(refined.is_final);
+  EXPECT_EQ(refined.order.number, order.number);
+  EXPECT_TRUE(refined.image.rgb == command_picture(order).rgb);
+}
+
+TEST_F(PainterTest, WhatIsQuickEnoughIsDrawnWholeAtOnce) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(kDesign));
+  order.is_moving = true;
+  painter.order(order);
+  EXPECT_TRUE(next_painting().is_final);
+  ++order.number;
+  painter.order(order);
+  EXPECT_TRUE(next_painting().is_final);
+}
+
+TEST_F(PainterTest, ANewerOrderReplacesAnOlderOne) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(test_support::cylinder_minus_spheres(300)));
+  uint64_t last = 0;
+  for (int i = 0; i < 40; ++i) {
+    order.navigation.turn(3, 1, false);
+    order.number = static_cast<uint64_t>(i) + 1;
+    painter.order(order);
+    if (const auto painting = painter.take_painting()) {
+      EXPECT_GT(painting->order.number, last);
+      last = painting->order.number;
+    }
+  }
+  while (last < order.number) {
+    const Painting painting = next_painting();
+    EXPECT_GT(painting.order.number, last);
+    last = painting.order.number;
+    if (last == order.number) {
+      EXPECT_TRUE(painting.image.rgb == command_picture(order).rgb);
+    }
+  }
+}
+
+TEST_F(PainterTest, ALargePictureIsGivenUpForANewerOrder) {
+  Painter& painter = this->painter();
+  PaintOrder order = order_of(design_of(test_support::cylinder_minus_spheres(2000)));
+  PaintOrder large = order;
+  large.size = {8000, 8000};
+  large.settings.samples = 64;
+  painter.order(large);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // so that it is begun, mostly
+  order.number = 2;
+  painter.order(order);
+  const Painting painting = next_painting();
+  EXPECT_EQ(painting.order.number, 2u);
+  EXPECT_TRUE(painting.image.rgb == command_picture(order).rgb);
+}
+
+TEST_F(PainterTest, EndsInTheMiddleOfAPicture) {
+  PaintOrder order = order_of(design_of(test_support::cylinder_minus_spheres(2000)));
+  order.size = {8000, 8000};
+  order.settings.samples = 64;
+  Painter(1e6, [] {}).order(order);
+}
+
+/// The ball from above.
+class ProbeTest : public PainterTest {
+ protected:
+  Probe probe_of(const std::string& text, double x_px, double y_px) {
+    Probe probe;
+    probe.number = 7;
+    probe.order = order_of(design_of(text));
+    probe.order.navigation = {{Vec3(0), Vec3(0), 100}, Projection::kOrthographic};
+    probe.x_px = x_px;
+    probe.y_px = y_px;
+    probe.csg = std::make_shared<frontend::FileText>(
+        frontend::read_file(folder_.write("probed.csg", text)));
+    return probe;
+  }
+  frontend::TemporaryFolder folder_;
+};
+
+TEST_F(ProbeTest, FindsPointNormalAndLine) {
+  const std::string text = "group() {\n\t" + window_test::kBall + "}\n";
+  Painter& painter = this->painter();
+  painter.probe(probe_of(text, 90, 55));
+  const Finding finding = next_finding();
+  EXPECT_EQ(finding.probe.number, 7u);
+  EXPECT_TRUE(finding.is_hit);
+  const double unit = 2 * 100 * std::tan(11.25 * M_PI / 180) / 120;
+  EXPECT_NEAR(finding.position.x, 10 * unit, 1e-12);
+  EXPECT_NEAR(finding.position.y, 5 * unit, 1e-12);
+  EXPECT_NEAR(glm::length(finding.position), 10, 1e-12);
+  EXPECT_GT(finding.position.z, 0);
+  EXPECT_LE(glm::length(finding.normal - finding.position / 10.0), 1e-12);
+  EXPECT_EQ(finding.id, 0u);
+  EXPECT_EQ(finding.line, "line 2: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+}
+
+TEST_F(ProbeTest, BesideTheModelThereIsNothing) {
+  Painter& painter = this->painter();
+  painter.probe(probe_of(window_test::kBall, 5, 5));
+  EXPECT_FALSE(next_finding().is_hit);
+}
+
+TEST_F(ProbeTest, ThePlaneIsNoPrimitive) {
+  Painter& painter = this->painter();
+  Probe probe = probe_of(window_test::kBall, 80, 60);
+  probe.order.section = {true, 2, false, 1.5};
+  painter.probe(probe);
+  const Finding finding = next_finding();
+  EXPECT_EQ(finding.id, kSectionId);
+  EXPECT_EQ(finding.line, "section plane");
+  EXPECT_NEAR(finding.position.z, 1.5, 1e-12);
+}
+
+TEST_F(ProbeTest, LongLinesAreCut) {
+  const std::string list = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+  Painter& painter = this->painter();
+  painter.probe(probe_of("multmatrix(" + list + ") multmatrix(" + list + ") cube(100);", 80, 60));
+  EXPECT_LE(next_finding().line.size(), 100u);
+  painter.probe(probe_of("sphere(r = 10);", 80, 60));  // no line's end
+  EXPECT_EQ(next_finding().line, "line 1: sphere(r = 10);");
+}
+
+TEST_F(ProbeTest, EachIsAnsweredInTurn) {
+  Painter& painter = this->painter();
+  for (uint64_t number = 1; number <= 5; ++number) {
+    Probe probe = probe_of(window_test::kBall, 80, 60);
+    probe.number = number;
+    painter.probe(probe);
+  }
+  for (uint64_t number = 1; number <= 5; ++number) {
+    EXPECT_EQ(next_finding().probe.number, number);
+  }
+}
+
+TEST_F(PainterTest, ErrorsComeInPlaceOfPictures) {
+  Painter& painter = this->painter();
+  // Beyond what even a scaled scene can hold.
+  painter.order(order_of(design_of("cube(1e95);")));
+  const Painting failed = next_painting();
+  EXPECT_THAT(failed.error, HasSubstr("error: "));
+  EXPECT_TRUE(failed.image.rgb.empty());
+  PaintOrder order = order_of(design_of(window_test::kBall));
+  order.number = 2;
+  painter.order(order);
+  const Painting painting = next_painting();
+  EXPECT_EQ(painting.error, "");
+  EXPECT_TRUE(painting.image.rgb == command_picture(order).rgb);
+}
+
+}  // namespace
+}  // namespace window

@@ -1,0 +1,173 @@
+// What each command makes of the state, and what the menu and the status line show of it.
+#include "state.hpp"
+
+#include <gmock/gmock.h>
+
+#include "frontend/parser.hpp"
+
+namespace window {
+namespace {
+
+using csgcore::Projection;
+using csgcore::Vec3;
+using frontend::Shading;
+using frontend::Show;
+using testing::HasSubstr;
+
+/// A box from (0, 0, 0) to (10, 20, 40).
+std::shared_ptr<const frontend::ImportedDesign> block() {
+  return std::make_shared<frontend::ImportedDesign>(
+      frontend::import_design(frontend::parse("cube(size = [10, 20, 40]);", "")));
+}
+
+class StateTest : public testing::Test {
+ protected:
+  StateTest() : state_(frontend::Options{}) { state_.design = block(); }
+  State state_;
+};
+
+TEST_F(StateTest, StartsAsTheCommandLineSays) {
+  frontend::Options options;
+  options.camera.camera = frontend::Camera{{1, 2, 3}, {4, 5, 6}, 7};
+  options.camera.projection = Projection::kOrthographic;
+  options.render.shading = Shading::kPhong;
+  options.render.show = Show::kDepth;
+  const State state(options);
+  EXPECT_EQ(state.navigation.camera().target, Vec3(1, 2, 3));
+  EXPECT_EQ(state.navigation.camera().distance, 7);
+  EXPECT_TRUE(state.is_checked(Command::kOrthographic));
+  EXPECT_TRUE(state.is_checked(Command::kPhongShading));
+  EXPECT_TRUE(state.is_checked(Command::kDepth));
+}
+
+/// Whoever adds a command has to say here what it is.
+TEST_F(StateTest, EveryCommandIsOfOneKind) {
+  for (const CommandRow& row : command_rows()) {
+    State state(frontend::Options{});
+    state.design = block();
+    const bool is_applications = row.command == Command::kReload || row.command == Command::kQuit;
+    EXPECT_EQ(state.apply(row.command), !is_applications) << row.label;
+  }
+}
+
+/// Of each group exactly the one that was chosen last is checked.
+TEST_F(StateTest, ChoicesExcludeEachOther) {
+  const std::vector<std::vector<Command>> kGroups = {
+      {Command::kPerspective, Command::kOrthographic},
+      {Command::kSurface, Command::kCells, Command::kDepth, Command::kNormals, Command::kId},
+      {Command::kOpenScadShading, Command::kPhongShading},
+      {Command::kSectionX, Command::kSectionY, Command::kSectionZ},
+  };
+  for (const auto& group : kGroups) {
+    for (const Command chosen : group) {
+      EXPECT_TRUE(state_.apply(chosen));
+      for (const Command other : group) EXPECT_EQ(state_.is_checked(other), other == chosen);
+    }
+  }
+}
+
+TEST_F(StateTest, SwitchesAreTurnedOnAndOff) {
+  for (const Command command :
+       {Command::kAxes, Command::kCrosshairs, Command::kScales, Command::kEdges, Command::kMessages,
+        Command::kStatus, Command::kHelp, Command::kSection, Command::kSectionFlip}) {
+    const bool before = state_.is_checked(command);
+    EXPECT_TRUE(state_.apply(command));
+    EXPECT_NE(state_.is_checked(command), before);
+    EXPECT_TRUE(state_.apply(command));
+    EXPECT_EQ(state_.is_checked(command), before);
+  }
+}
+
+TEST_F(StateTest, WhatIsShown) {
+  const std::pair<Command, Show> kShows[] = {{Command::kCells, Show::kCells},
+                                             {Command::kDepth, Show::kDepth},
+                                             {Command::kNormals, Show::kNormals},
+                                             {Command::kId, Show::kId},
+                                             {Command::kSurface, Show::kSurface}};
+  for (const auto& [command, show] : kShows) {
+    state_.apply(command);
+    EXPECT_EQ(state_.look.show, show);
+  }
+  state_.apply(Command::kPhongShading);
+  EXPECT_EQ(state_.look.shading, Shading::kPhong);
+  state_.apply(Command::kOpenScadShading);
+  EXPECT_EQ(state_.look.shading, Shading::kOpenScad);
+  state_.apply(Command::kOrthographic);
+  EXPECT_EQ(state_.navigation.projection(), Projection::kOrthographic);
+  state_.apply(Command::kPerspective);
+  EXPECT_EQ(state_.navigation.projection(), Projection::kPerspective);
+}
+
+TEST_F(StateTest, TheCamera) {
+  const std::pair<Command, Vec3> kViews[] = {
+      {Command::kTop, {0, 0, 0}},       {Command::kBottom, {180, 0, 0}},
+      {Command::kLeft, {90, 0, 270}},   {Command::kRight, {90, 0, 90}},
+      {Command::kFront, {90, 0, 0}},    {Command::kBack, {90, 0, 180}},
+      {Command::kDiagonal, {55, 0, 25}}};
+  for (const auto& [command, rotation_deg] : kViews) {
+    state_.apply(command);
+    EXPECT_EQ(state_.navigation.camera().rotation_deg, rotation_deg);
+  }
+  const double distance = state_.navigation.camera().distance;
+  state_.apply(Command::kZoomIn);
+  EXPECT_DOUBLE_EQ(state_.navigation.camera().distance, 0.9 * distance);
+  state_.apply(Command::kZoomOut);
+  EXPECT_DOUBLE_EQ(state_.navigation.camera().distance, distance);
+  state_.apply(Command::kViewAll);
+  EXPECT_EQ(state_.navigation.camera().target, Vec3(5, 10, 20));
+  state_.apply(Command::kCenter);
+  EXPECT_EQ(state_.navigation.camera().target, Vec3(0));
+}
+
+TEST_F(StateTest, APlaneStartsAcrossTheMiddle) {
+  const Command kAcross[] = {Command::kSectionX, Command::kSectionY, Command::kSectionZ};
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    state_.apply(kAcross[axis]);
+    EXPECT_TRUE(state_.section.is_on);
+    EXPECT_EQ(state_.section.axis, axis);
+    EXPECT_EQ(state_.section.position, Vec3(5, 10, 20)[axis]);
+  }
+  state_.apply(Command::kSection);
+  EXPECT_FALSE(state_.section.is_on);
+  state_.design = nullptr;
+  state_.apply(Command::kSection);
+  EXPECT_TRUE(state_.section.is_on);
+  EXPECT_EQ(state_.section.axis, 2);
+}
+
+TEST_F(StateTest, EscapeForgetsPointsAndHelp) {
+  state_.points.resize(2);
+  state_.shows_help = true;
+  state_.apply(Command::kForgetPoints);
+  EXPECT_TRUE(state_.points.empty());
+  EXPECT_FALSE(state_.shows_help);
+}
+
+TEST_F(StateTest, SavingAsksForAPath) {
+  state_.apply(Command::kSavePicture);
+  EXPECT_TRUE(state_.asks_for_path);
+}
+
+TEST_F(StateTest, StatusLine) {
+  state_.name = "a.scad";
+  EXPECT_EQ(status_line(state_), "reading a.scad");
+  frontend::DesignVersion version;
+  version.export_ms = 80;
+  version.parse_ms = 1.25;
+  version.import_ms = 2;
+  state_.version = version;
+  EXPECT_EQ(status_line(state_), "1 primitives  |  openscad 80, parse 1.2, import 2.0");
+  Painting painting;
+  painting.order.size = {640, 480};
+  painting.stats.renderer = "cpu";
+  painting.stats.render_ms = 7.5;
+  state_.painting = painting;
+  state_.frames_per_second = 59.6;
+  state_.is_reading = true;
+  EXPECT_EQ(status_line(state_),
+            "1 primitives  |  openscad 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
+            "cpu  |  640 x 480  |  reading");
+}
+
+}  // namespace
+}  // namespace window
