@@ -83,7 +83,7 @@ struct TraceList {
 struct TraceSubject {
   double thinnest_piece = 0;
   Boundary boundary = Boundary::kFirst;
-  std::stop_token stop;
+  std::stop_token stop{};
 };
 
 /// Working memory of one thread, for packets of one list after the other.

@@ -368,6 +368,12 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   if (const std::string list = given(kNeverUsed); !list.empty()) {
     options.warnings.push_back("without effect in this version: " + list);
   }
+  if (options.outputs.empty()) {
+    constexpr const char* kForPictures[] = {"d", "animate", "export-format"};
+    if (const std::string list = given(kForPictures); !list.empty()) {
+      options.warnings.push_back("without effect in a window, which needs no -o: " + list);
+    }
+  }
   if (arguments.has("preview")) {
     if (const std::string& how = arguments.text("preview"); !how.empty()) {
       options.warnings.push_back("--preview=" + how + " is drawn as --preview");

@@ -107,6 +107,8 @@ TEST(Options, WithoutAnOutputAWindowIsOpened) {
   EXPECT_EQ(parse_options({"-o", "x.png", "a.csg"}).action, Action::kDraw);
   EXPECT_FALSE(parse_options({"a.csg"}).has_image_size);
   EXPECT_TRUE(parse_options({"--imgsize=10,10", "a.csg"}).has_image_size);
+  EXPECT_THAT(parse_options({"-d", "x.d", "--animate=3", "a.scad"}).warnings,
+              testing::ElementsAre(HasSubstr("in a window, which needs no -o: -d, --animate")));
 }
 
 TEST(Options, Animation) {

@@ -45,7 +45,7 @@ struct TraceOptions {
   /// not the whole picture, what only others show is counted as cancelled.
   bool count_skipped = false;
   /// Where it asks for it, the frame ends early: what is left undrawn is undefined.
-  std::stop_token stop;
+  std::stop_token stop{};
 };
 
 /// Primitives of the solid that were never intersected with any ray, by the reason.
