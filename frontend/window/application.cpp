@@ -81,6 +81,8 @@ Application::Application(const frontend::Options& options)
       follower_(options.input, follow_options(options), GlfwWindow::wake),
       has_camera_(options.camera.camera && !options.camera.view_all) {
   state_.picture_path = default_picture(options.input);
+  const frontend::Rgb background = options.render.scheme.background;
+  screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}});
 }
 
 void Application::run() {
