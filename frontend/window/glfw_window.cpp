@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "frontend/error.hpp"
@@ -68,6 +69,11 @@ struct GlfwWindow::Impl {
   void set_up_imgui();
   void on_button(int button, int action, int glfw_modifiers);
   void on_cursor(double x, double y);
+  struct Key {
+    int key, scancode, modifiers;  // GLFW's
+  };
+  void on_key(const Key& key, int action);
+  void release_keys();
   double pixels_per_unit() const;
   bool is_over_panel() const { return ImGui::GetIO().WantCaptureMouse; }
 
@@ -79,6 +85,8 @@ struct GlfwWindow::Impl {
   Library library;
   GLFWwindow* window = nullptr;
   bool is_active = true;
+  std::vector<int> new_keys;  // that went down since the last frame
+  std::vector<Key> released;  // and are up again
 
   // Of the mouse, in units of the screen.
   int pressed = -1;  // the button that drags
@@ -126,13 +134,6 @@ void GlfwWindow::Impl::open(const std::string& title, Size size) {
     const double scale = impl.pixels_per_unit();
     impl.events.wheel(notches, impl.cursor_x * scale, impl.cursor_y * scale);
   });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
-    Impl& impl = of(w);
-    impl.is_active = true;
-    if (action != GLFW_RELEASE && !ImGui::GetIO().WantTextInput) {
-      impl.events.key(key, modifiers_of(mods));
-    }
-  });
   const auto activity = [](GLFWwindow* w) { of(w).is_active = true; };
   glfwSetWindowRefreshCallback(window, activity);
   glfwSetWindowCloseCallback(window, activity);
@@ -163,6 +164,10 @@ void GlfwWindow::Impl::set_up_imgui() {
   ImGui::GetStyle().WindowRounding = 4;
   // Ours stand already, and are called by ImGui's.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+  // But for keys, which are handed on to it.
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    of(w).on_key({key, scancode, mods}, action);
+  });
   if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
     fail("Dear ImGui does not start on this OpenGL", "draw without a window: scadray -o FILE.png");
   }
@@ -208,6 +213,29 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   } else {
     events.click(press_x * scale, press_y * scale);
   }
+}
+
+/// This ImGui sees what is down in a frame: a key that is let go before its frame is drawn is so
+/// for ImGui after it.
+void GlfwWindow::Impl::on_key(const Key& key, int action) {
+  is_active = true;
+  if (action != GLFW_RELEASE) {
+    if (!ImGui::GetIO().WantTextInput) events.key(key.key, modifiers_of(key.modifiers));
+    new_keys.push_back(key.key);
+  } else if (std::find(new_keys.begin(), new_keys.end(), key.key) != new_keys.end()) {
+    released.push_back(key);
+    return;
+  }
+  ImGui_ImplGlfw_KeyCallback(window, key.key, key.scancode, action, key.modifiers);
+}
+
+void GlfwWindow::Impl::release_keys() {
+  for (const Key& key : released) {
+    ImGui_ImplGlfw_KeyCallback(window, key.key, key.scancode, GLFW_RELEASE, key.modifiers);
+  }
+  if (!released.empty()) is_active = true;
+  released.clear();
+  new_keys.clear();
 }
 
 void GlfwWindow::Impl::on_cursor(double x, double y) {
@@ -265,6 +293,7 @@ void GlfwWindow::begin_frame() {
 void GlfwWindow::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  impl_->release_keys();
   glfwSwapBuffers(impl_->window);
 }
 
