@@ -67,7 +67,7 @@ TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
 }
 
 TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
-  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo x"));
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
   const std::string path = folder_.write("a.scad", "");
   DesignFileOptions options;
   options.wants_files = true;
