@@ -50,7 +50,9 @@ class CpuRenderer final : public SolidRenderer {
     note_renderer(request);
     if (request.settings.show == Show::kCells) return draw_cells(solid, frame, request);
     Image image;
-    draw_area(solid, frame, request, std::nullopt, image);
+    with_traced(solid, request, [&](const auto& traced) {
+      draw_area(traced, frame, request, std::nullopt, image);
+    });
     return image;
   }
 
@@ -60,7 +62,9 @@ class CpuRenderer final : public SolidRenderer {
                         const PictureRequest& request, std::span<const csgcore::PixelArea> areas,
                         Image& image) override {
     note_renderer(request);
-    for (const csgcore::PixelArea& area : areas) draw_area(solid, frame, request, area, image);
+    with_traced(solid, request, [&](const auto& traced) {
+      for (const csgcore::PixelArea& area : areas) draw_area(traced, frame, request, area, image);
+    });
   }
 
   Sides draw_sides(const Solid& solid, const FrameSettings& frame,
@@ -82,20 +86,27 @@ class CpuRenderer final : public SolidRenderer {
     request.stats.technique = uses_cells(request.settings) ? "cells" : "tiles";
   }
 
-  /// Nothing: the whole picture.
-  void draw_area(const Solid& solid, const FrameSettings& frame, const PictureRequest& request,
-                 std::optional<csgcore::PixelArea> area, Image& image) {
+  /// Calls `draw` with what the model's rays are traced through.
+  template <typename Draw>
+  void with_traced(const Solid& solid, const PictureRequest& request, Draw draw) {
+    if (uses_cells(request.settings)) {
+      draw(subdivide_model(solid, request));
+    } else {
+      draw(solid);
+    }
+  }
+
+  /// No area: the whole picture.
+  template <typename Traced>
+  static void draw_area(const Traced& traced, const FrameSettings& frame,
+                        const PictureRequest& request, std::optional<csgcore::PixelArea> area,
+                        Image& image) {
     csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
     options.samples = samples_of(request.settings);
     options.count_skipped = request.settings.all_stats;
     options.area = area;
     TraceStats frame_stats;
-    if (uses_cells(request.settings)) {
-      csgcore::draw(subdivide_model(solid, request), request.view, frame, options, image,
-                    frame_stats);
-    } else {
-      csgcore::draw(solid, request.view, frame, options, image, frame_stats);
-    }
+    csgcore::draw(traced, request.view, frame, options, image, frame_stats);
     RenderStats& stats = request.stats;
     add(frame_stats, stats);
     stats.trace.primitives = frame_stats.primitives;

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 #include "frontend/error.hpp"
@@ -58,14 +57,9 @@ Size window_size(const frontend::Options& options) {
 }
 
 bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
-  const auto camera = [](const Navigation& n) {
-    const frontend::Camera& c = n.camera();
-    return std::tuple(n.projection(), c.target.x, c.target.y, c.target.z, c.rotation_deg.x,
-                      c.rotation_deg.y, c.rotation_deg.z, c.distance);
-  };
   return a.design == b.design && a.section == b.section && a.size == b.size &&
          a.overlays == b.overlays && frontend::draw_the_same(a.settings, b.settings) &&
-         camera(a.navigation) == camera(b.navigation);
+         a.navigation == b.navigation;
 }
 
 }  // namespace
@@ -77,9 +71,10 @@ Application::Application(const frontend::Options& options)
       panels_([this](Command command) { run_command(command); },
               [this](const std::string& path) { save_picture(path); }),
       report_(options.stats_path),
-      painter_(kDrawingShare * 1000 / window_.frames_per_second(), GlfwWindow::wake),
+      frame_s_(1 / window_.frames_per_second()),
+      painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
       follower_(options.input, follow_options(options), GlfwWindow::wake),
-      has_camera_(options.camera.camera && !options.camera.view_all) {
+      has_camera_(!frontend::sees_all(options.camera)) {
   state_.picture_path = default_picture(options.input);
   const frontend::Rgb background = options.render.scheme.background;
   screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}});
@@ -126,8 +121,8 @@ bool Application::watch_reading() {
 
 /// Where the driver does not wait for the display, as a software renderer does not.
 void Application::wait_for_display() {
-  const auto frame = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(1 / window_.frames_per_second()));
+  const auto frame =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_s_));
   std::this_thread::sleep_until(last_frame_ + frame);
   last_frame_ = Clock::now();
 }
@@ -170,8 +165,7 @@ void Application::take_version(frontend::DesignVersion version) {
     state_.design = version.design;
     csg_ = version.csg;
     if (!has_camera_ && !state_.bounds().empty()) {
-      frontend::CameraOptions camera = options_.camera;
-      state_.navigation = Navigation(frontend::choose_camera(camera, state_.bounds()),
+      state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
                                      state_.navigation.projection());
       has_camera_ = true;
     }

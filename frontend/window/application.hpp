@@ -62,6 +62,7 @@ class Application final : private WindowEvents {
   Panels panels_;
   Report report_;
   MotionMeter motion_;
+  const double frame_s_;  // the display's; asking for it takes a round trip to the X server
   Painter painter_;
   frontend::DesignFollower follower_;
 

@@ -23,6 +23,8 @@ class Navigation {
   Navigation(const frontend::Camera& camera, csgcore::Projection projection)
       : camera_(camera), projection_(projection) {}
 
+  bool operator==(const Navigation&) const = default;
+
   const frontend::Camera& camera() const { return camera_; }
   csgcore::Projection projection() const { return projection_; }
   csgcore::View view(Size size) const;

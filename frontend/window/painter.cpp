@@ -101,10 +101,11 @@ void Painter::run() {
   std::unique_lock lock(mutex_);
   while (!is_stopping_) {
     if (waits_for_refinement(lock)) {
-      const PaintOrder order = *std::exchange(coarse_, std::nullopt);
+      PaintOrder order = *std::exchange(coarse_, std::nullopt);
+      order.is_moving = false;
       const std::stop_token stop = (outdated_ = {}).get_token();
       lock.unlock();
-      refine(order, stop);
+      paint(std::move(order), stop);
     } else if (ordered_ && !is_stopping_) {
       PaintOrder order = *std::exchange(ordered_, std::nullopt);
       coarse_.reset();
@@ -148,13 +149,6 @@ void Painter::paint(PaintOrder order, const std::stop_token& stop) {
   if (!order.is_moving && stop.stop_requested()) return;
   painting.is_final = size == order.size && samples == order.settings.samples;
   if (!painting.is_final && painting.error.empty()) coarse_ = std::move(order);
-  publish(std::move(painting));
-}
-
-void Painter::refine(const PaintOrder& order, const std::stop_token& stop) {
-  Painting painting = paint_at(order, order.size, order.settings.samples, stop);
-  if (stop.stop_requested()) return;
-  painting.is_final = true;
   publish(std::move(painting));
 }
 

@@ -85,7 +85,6 @@ class Painter {
 
   void run();
   void paint(PaintOrder order, const std::stop_token& stop);
-  void refine(const PaintOrder& order, const std::stop_token& stop);
   Painting paint_at(const PaintOrder& order, Size size, uint32_t samples,
                     const std::stop_token& stop);
   void load(const PaintOrder& order);

@@ -12,7 +12,7 @@ struct EditStats {
   uint64_t cells_kept = 0;          // SubdivisionUpdate
   uint64_t cells_made = 0;
   uint64_t pixels = 0;          // of the picture
-  uint64_t pixels_traced = 0;   // changed_areas; 0 where OpenGL draws
+  uint64_t pixels_traced = 0;   // changed_areas; by OpenGL all
   uint64_t bytes_uploaded = 0;  // to the GPU
 };
 

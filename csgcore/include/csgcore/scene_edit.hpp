@@ -2,11 +2,12 @@
 // one need not be made again where the later one is the same.
 //
 //   const SceneEdit edit = compare(before, after);
-//   auto primitives = canonical_primitives(after, *earlier_primitives, edit);       // solid.hpp
-//   const Solid solid(primitives, after.model, earlier_solid, edit, edit.model);    // solid.hpp
-//   subdivision.update(solid, edit, edit.model);                                    //
-//   subdivision.hpp for (const PixelArea& area : changed_areas(…)) draw(…);  // changed_areas.hpp,
-//   tracer.hpp
+//   auto primitives = canonical_primitives(after, *earlier_primitives, edit);
+//   const Solid solid(primitives, after.model, earlier_solid, edit, edit.model);
+//   subdivision.update(solid, edit, edit.model);
+//   for (const PixelArea& area : changed_areas(…)) draw(…);
+//
+// See solid.hpp, subdivision.hpp, changed_areas.hpp and TraceOptions::area.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ struct TraceOptions {
   Boundary boundary = Boundary::kFirst;
   /// Trace these pixels only, which lie within the view; none: all. `image` or `hits` come from the
   /// same view, settings, samples and boundary, and keep all other pixels: the picture is the whole
-  /// one, bit for bit, if the solid has since changed nowhere else (scene_edit.hpp, changed_area).
+  /// one, bit for bit, if the solid has since changed nowhere else (changed_areas.hpp).
   /// With more than one sample the pixels beside the area are looked at too, which it may have made
   /// edges of, or no longer edges.
   std::optional<PixelArea> area;

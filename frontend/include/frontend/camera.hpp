@@ -16,6 +16,7 @@ struct Camera {
   csgcore::Vec3 target{0.0};
   csgcore::Vec3 rotation_deg{55, 0, 25};
   double distance = 140;
+  bool operator==(const Camera&) const = default;
 };
 
 /// What the command line says of the camera and of the picture's size.
