@@ -1,0 +1,62 @@
+// What is measured, in sections: each checks its answers before it takes a time.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "samples.hpp"
+
+namespace measure {
+
+struct Settings {
+  /// What the measured programs are: those of the build that this program is of.
+  std::filesystem::path scadray;
+  std::filesystem::path examples;
+  /// Designs are exported into it, and pictures written; kept from run to run.
+  std::filesystem::path work_folder;
+  /// A peer that takes longer for one picture is left out there, and from all that is harder.
+  double peer_limit_s = 60;
+  /// The largest scene of the sections about size.
+  uint32_t most_primitives = 1'000'000;
+  /// A few of each kind only: to see that all works.
+  bool quick = false;
+  unsigned threads = 2;
+  Repetitions repetitions{};
+};
+
+/// A picture that is not what it has to be: no time of it may be seen.
+struct WrongAnswer : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Progress, on stderr: a line.
+void say(const std::string& line);
+
+/// A list of strings "what: why", under "left_out" of a section: what the machine does not have, or
+/// what took too long.
+struct LeftOut {
+  std::vector<std::string> reasons;
+  void add(const std::string& what, const std::string& why);
+};
+
+struct Section {
+  const char* name;
+  const char* title;
+  /// Throws WrongAnswer.
+  nlohmann::json (*measure)(const Settings& settings);
+};
+std::span<const Section> sections();
+
+nlohmann::json measure_paper(const Settings& settings);      // Table 1, figures 3 and 14, §4.1
+nlohmann::json measure_error(const Settings& settings);      // time against error, with peers
+nlohmann::json measure_frames(const Settings& settings);     // a moved camera, Embree beside it
+nlohmann::json measure_whole(const Settings& settings);      // file to PNG, whole processes
+nlohmann::json measure_scale(const Settings& settings);      // primitives, pixels, threads
+nlohmann::json measure_stability(const Settings& settings);  // the stress suite's errors
+nlohmann::json measure_opengl(const Settings& settings);     // frames, by which technique
+
+}  // namespace measure

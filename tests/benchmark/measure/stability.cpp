@@ -1,0 +1,7 @@
+#include "section.hpp"
+
+namespace measure {
+
+nlohmann::json measure_stability(const Settings&) { return {}; }
+
+}  // namespace measure
