@@ -149,6 +149,25 @@ ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives,
   return answers;
 }
 
+uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
+  const hn::CappedTag<float, kRectanglePadding> d;
+  const auto min_x = hn::Set(d, static_cast<float>(cell.min.x));
+  const auto max_x = hn::Set(d, static_cast<float>(cell.max.x));
+  const auto min_y = hn::Set(d, static_cast<float>(cell.min.y));
+  const auto max_y = hn::Set(d, static_cast<float>(cell.max.y));
+  uint64_t outside = 0;
+  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(d))) {
+    const auto beside = hn::Or(hn::Gt(hn::LoadU(d, rows.low_x + i), max_x),
+                               hn::Lt(hn::LoadU(d, rows.high_x + i), min_x));
+    const auto above = hn::Or(hn::Gt(hn::LoadU(d, rows.low_y + i), max_y),
+                              hn::Lt(hn::LoadU(d, rows.high_y + i), min_y));
+    std::array<uint8_t, 8> bytes{};
+    hn::StoreMaskBits(d, hn::Or(beside, above), bytes.data());
+    outside |= uint64_t{bytes[0] | uint32_t{bytes[1]} << 8} << i;
+  }
+  return outside;
+}
+
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
 using Counters = hn::Vec<Unsigned>;
 
@@ -229,6 +248,7 @@ namespace csgcore {
 CSGCORE_SIMD_EXPORT(test_extents);
 CSGCORE_SIMD_EXPORT(test_boxes);
 CSGCORE_SIMD_EXPORT(test_rectangles);
+CSGCORE_SIMD_EXPORT(find_outside);
 CSGCORE_SIMD_EXPORT(count_ends);
 
 namespace {
@@ -259,6 +279,10 @@ ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint
 ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
                               const Halves& cell) {
   return of_first(count, CSGCORE_SIMD(test_rectangles)(extents, primitives, count, cell));
+}
+
+uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
+  return CSGCORE_SIMD(find_outside)(rows, count, cell);
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

@@ -193,18 +193,17 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
                            transformed(d, map, rays.direction));
 }
 
-/// The points, relative to the centre, that lie further away than `distance`: beyond an end, or
-/// beyond the wall moved outward.
+/// The points, relative to the centre, that lie further away than `reach` in canonical space:
+/// beyond an end, or beyond the wall moved outward.
 template <class D>
 HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& point,
-                                  double distance) {
+                                  double reach) {
   const Lanes3<D> p = transformed(d, primitive.world_to_canonical, point);
-  const double reach = distance * primitive.canonical_stretch;
   const double slope = primitive.radius_slope;
-  const auto beyond = hn::Gt(hn::Abs(p.z), hn::Set(d, 1 + reach));
+  const auto beyond = hn::Gt(hn::Abs(p.z), set(d, 1 + reach));
   // Of the wall's meridian, √(1 + slope²) ≤ 1 + |slope|.
-  const auto moved = hn::Set(d, primitive.radius_mid + reach * (1 + std::abs(slope)));
-  const auto radius = hn::Max(hn::Add(moved, hn::Mul(hn::Set(d, slope), p.z)), hn::Zero(d));
+  const auto moved = set(d, primitive.radius_mid + reach * (1 + std::abs(slope)));
+  const auto radius = hn::Max(hn::Add(moved, hn::Mul(set(d, slope), p.z)), hn::Zero(d));
   return hn::Or(beyond, hn::Gt(dot_xy(p, p), hn::Mul(radius, radius)));
 }
 

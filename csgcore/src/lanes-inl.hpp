@@ -80,15 +80,19 @@ HWY_INLINE hn::Vec<D> dot(D, const Lanes3<D>& a, const Lanes3<D>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 template <class D>
+HWY_INLINE hn::Vec<D> set(D d, double value) {
+  return hn::Set(d, static_cast<hn::TFromD<D>>(value));
+}
+template <class D>
 HWY_INLINE Lanes3<D> broadcast(D d, const Vec3& v) {
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+  return {set(d, v.x), set(d, v.y), set(d, v.z)};
 }
 /// m · v
 template <class D>
 HWY_INLINE Lanes3<D> transformed(D d, const Mat3& m, const Lanes3<D>& v) {
   const auto row = [&](int i) {
-    return hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0][i]), v.x), hn::Mul(hn::Set(d, m[1][i]), v.y)),
-                   hn::Mul(hn::Set(d, m[2][i]), v.z));
+    return hn::Add(hn::Add(hn::Mul(set(d, m[0][i]), v.x), hn::Mul(set(d, m[1][i]), v.y)),
+                   hn::Mul(set(d, m[2][i]), v.z));
   };
   return {row(0), row(1), row(2)};
 }

@@ -98,6 +98,18 @@ uint32_t key_of(const Box& box, const Box& all, bool alike) {
 }
 uint32_t size_class(uint32_t key) { return key >> kMortonBits; }
 
+/// As OperandGroups::Members::is_union.
+bool is_plain_union(const CellList& list) {
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t next = i == 0 ? CellList::kFalse : i - 1 + CellList::kFirst;
+    const bool complement = (list.primitive[i] & CellList::kComplementBit) != 0;
+    if (complement || list.if_inside[i] != CellList::kTrue || list.if_outside[i] != next) {
+      return false;
+    }
+  }
+  return true;
+}
+
 struct Keyed {
   uint32_t key, index;
 };
@@ -266,7 +278,8 @@ class OperandGroups::Builder {
     const auto append = [count](std::vector<uint32_t>& to, const std::vector<uint32_t>& from) {
       to.insert(to.end(), from.begin(), from.begin() + count);
     };
-    groups_.members_.push_back({static_cast<uint32_t>(groups_.primitive_.size()), count});
+    groups_.members_.push_back(
+        {static_cast<uint32_t>(groups_.primitive_.size()), count, is_plain_union(list_)});
     append(groups_.primitive_, list_.primitive);
     append(groups_.if_inside_, list_.if_inside);
     append(groups_.if_outside_, list_.if_outside);
@@ -290,7 +303,7 @@ class OperandGroups::Builder {
         const uint32_t index = groups_.primitive_[i] & kPrimitiveBits;
         if (uses[index] == 1) groups_.own_.push_back(index), uses[index] = 0;
       }
-      groups_.owned_.push_back({first, static_cast<uint32_t>(groups_.own_.size()) - first});
+      groups_.owned_.push_back({first, static_cast<uint32_t>(groups_.own_.size()) - first, false});
     }
     for (uint32_t index = 0; index < uses.size(); ++index) {
       if (uses[index] > 0) groups_.common_.push_back(index);
@@ -359,7 +372,7 @@ OperandGroups::Members OperandGroups::members(uint32_t group) const {
   const auto part = [&](const std::vector<uint32_t>& all) {
     return std::span(all).subspan(range.first, range.count);
   };
-  return {part(primitive_), part(if_inside_), part(if_outside_)};
+  return {part(primitive_), part(if_inside_), part(if_outside_), range.first, range.is_union};
 }
 
 std::span<const uint32_t> OperandGroups::own(uint32_t group) const {

@@ -47,8 +47,14 @@ class OperandGroups {
   struct Members {
     std::span<const uint32_t> primitive;  // or group; with kComplementBit
     std::span<const uint32_t> if_inside, if_outside;
+    /// Where the first of them stands among the members of all groups.
+    uint32_t first;
+    /// Each member holds the group, and the next is asked otherwise: any of them may be left out.
+    bool is_union;
   };
   Members members(uint32_t group) const;
+  /// Of all groups together.
+  uint32_t member_count() const { return static_cast<uint32_t>(if_inside_.size()); }
   /// The primitives and groups that stand in this group and nowhere else.
   std::span<const uint32_t> own(uint32_t group) const;
   /// All others: what is in no group, or stands in the tree more than once.
@@ -58,6 +64,7 @@ class OperandGroups {
   class Builder;
   struct Range {
     uint32_t first = 0, count = 0;
+    bool is_union = false;  // of members
   };
 
   CellList list_;

@@ -104,6 +104,16 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
   intersect_packet(frame, rays, primitive, segments);
 }
 
+LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, const double (&t)[kPacketRays],
+                    double distance) {
+  PacketV at;
+  for (int c = 0; c < kChunks; ++c) at.chunk[c] = hn::LoadU(Wide(), t + first_lane(c));
+  PacketPoints points;
+  find_points(rays, at, distance, points);
+  return lanes_apart(primitive, frame.pivot, points, distance);
+}
+
 HWY_INLINE bool is_complement(const TraceList& list, uint32_t index) {
   return (list.list->primitive[index] & CellList::kComplementBit) != 0;
 }
@@ -447,6 +457,7 @@ namespace csgcore {
 CSGCORE_SIMD_EXPORT(make_rays);
 CSGCORE_SIMD_EXPORT(make_block_rays);
 CSGCORE_SIMD_EXPORT(intersect);
+CSGCORE_SIMD_EXPORT(find_apart);
 CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 CSGCORE_SIMD_EXPORT(shade_packet);
@@ -465,6 +476,12 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
   CSGCORE_SIMD(intersect)(frame, rays, primitive, segments);
+}
+
+LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, const double (&t)[kPacketRays],
+                    double distance) {
+  return CSGCORE_SIMD(find_apart)(frame, rays, primitive, t, distance);
 }
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,

@@ -141,6 +141,13 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
 
+/// The lanes that certainly lie, at τ = t, further than `distance` (world units) away from the
+/// primitive, or, of a polyhedron, from what encloses it; told in float (NUMERICS.md,
+/// "Classification and culling"). Polyhedra and what is no true ball only.
+LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, const double (&t)[kPacketRays],
+                    double distance);
+
 /// 1/d of each lane, +∞ for 0, by coordinate.
 struct alignas(64) PacketInverses {
   double inverse[3][kPacketRays];

@@ -47,24 +47,6 @@ HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const V
   return polyhedron_rays::normal(d, primitive, center, rays, on_cap);
 }
 
-/// The lanes that stand, at t, further away from the primitive (of a polyhedron: from what encloses
-/// it) than `distance`: far cheaper than their segments.
-HWY_NOINLINE LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec3& pivot,
-                                  const RayPacket& packet, const PacketV& t, double distance) {
-  const Wide d;
-  const Lanes3<Wide> center = broadcast(d, primitive.center - pivot);
-  LaneMask result = 0;
-  for (int c = 0; c < kChunks; ++c) {
-    const Rays<Wide> rays = load_rays(d, packet, first_lane(c));
-    const Lanes3<Wide> point = rays.origin - center + scaled(rays.direction, t.chunk[c]);
-    result |= bits_of(primitive.enclosure == Shape::kSphere
-                          ? sphere_rays::lies_apart(d, primitive, point, distance)
-                          : frustum_rays::lies_apart(d, primitive, point, distance),
-                      c);
-  }
-  return result;
-}
-
 /// Fetches what `segment_of` reads.
 HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
   hwy::Prefetch(&primitive);

@@ -113,24 +113,48 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
     }
     const OperandGroups::Members members = groups.members(entry & kPrimitiveBits);
     const uint32_t count = static_cast<uint32_t>(members.primitive.size());
+    const uint32_t complement = entry & CellList::kComplementBit;
+    if (members.is_union) {
+      const uint32_t inner = pass.at(list.if_inside[i]);
+      uint32_t outer = pass.at(list.if_outside[i]);
+      for (uint32_t first = 0; first < count; first += kBlock) {
+        const uint32_t size = std::min(count - first, kBlock);
+        const ExtentAnswers answers = answers_of_members(members, first, size, cell);
+        uint64_t left = ~answers.outside[0] & ~uint64_t{0} >> (kBlock - size);
+        for (; left != 0; left &= left - 1) {
+          const int bit = std::countr_zero(left);
+          outer = pass.put(members.primitive[first + static_cast<uint32_t>(bit)] ^ complement,
+                           inner, outer, false, (answers.inside[0] >> bit) & 1);
+        }
+      }
+      pass.at(number) = outer;
+      continue;
+    }
     if (map.size() < count + CellList::kFirst) map.resize(count + CellList::kFirst);
     map[CellList::kFalse] = pass.at(list.if_outside[i]);
     map[CellList::kTrue] = pass.at(list.if_inside[i]);
     for (uint32_t first = 0; first < count; first += kBlock) {
       const uint32_t size = std::min(count - first, kBlock);
-      const ExtentAnswers answers =
-          answers_of<1>(members.primitive.data() + first, size, {cell, cell, 0});
+      const ExtentAnswers answers = answers_of_members(members, first, size, cell);
       for (uint32_t bit = 0, k = first; bit < size; ++bit, ++k) {
         map[k + CellList::kFirst] =
-            pass.put(members.primitive[k] ^ (entry & CellList::kComplementBit),
-                     map[members.if_inside[k]], map[members.if_outside[k]],
-                     (answers.outside[0] >> bit) & 1, (answers.inside[0] >> bit) & 1);
+            pass.put(members.primitive[k] ^ complement, map[members.if_inside[k]],
+                     map[members.if_outside[k]], (answers.outside[0] >> bit) & 1,
+                     (answers.inside[0] >> bit) & 1);
       }
     }
     pass.at(number) = map[count - 1 + CellList::kFirst];
   }
   result.finish(maps_[0][list.root]);
   drop_unreached(result);
+}
+
+ExtentAnswers Restrictor::answers_of_members(const OperandGroups::Members& members, uint32_t first,
+                                             uint32_t count, const Box& cell) const {
+  if (const auto outside = open_.members_outside(members, first, count, cell)) {
+    return {{*outside, *outside}, {0, 0}, 0};
+  }
+  return answers_of<1>(members.primitive.data() + first, count, {cell, cell, 0});
 }
 
 template <int kSides>

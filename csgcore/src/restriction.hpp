@@ -1,6 +1,7 @@
 // Restricting a cell's function to the cell's two halves (paper §2.2.1).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,12 @@ class OpenClassifier {
   /// the bits of those that are certainly outside the cell, or hold all of it. Their extents meet
   /// the cell.
   virtual Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const = 0;
+  /// Of up to 64 members of a group, from `first` on, the bits of those that are certainly outside
+  /// the cell, by what is kept for members of groups. None: nothing is.
+  virtual std::optional<uint64_t> members_outside(const OperandGroups::Members&, uint32_t /*first*/,
+                                                  uint32_t /*count*/, const Box& /*cell*/) const {
+    return std::nullopt;
+  }
 };
 
 /// In world space.
@@ -76,6 +83,8 @@ class Restrictor {
             const Box& cell, CellList& result);
 
  private:
+  ExtentAnswers answers_of_members(const OperandGroups::Members& members, uint32_t first,
+                                   uint32_t count, const Box& cell) const;
   template <int kSides>
   ExtentAnswers answers_of(const uint32_t* primitives, uint32_t count, const Halves& halves) const;
   template <int kSides>

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -33,7 +35,9 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       options_{centers_only},
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
       shapes_(std::make_unique_for_overwrite<ScreenShape[]>(primitives.size())),
-      states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())) {
+      states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
+      rectangles_(std::make_unique_for_overwrite<float[]>(
+          4 * size_t{groups.member_count() + kRectanglePadding})) {
   const std::span<const uint32_t> common = groups.common();
   if (common.size() <= kBoundedAtOnce) {
     bound(common);
@@ -52,7 +56,7 @@ bool ScreenBounds::open(uint32_t group) {
   if (found == kClosed &&
       state.compare_exchange_strong(found, kOpening, std::memory_order_acquire)) {
     bound(groups_.own(group));
-    found = is_any_seen(group) ? kSeen : kUnseen;
+    found = keep_rectangles(group) ? kSeen : kUnseen;
     state.store(found, std::memory_order_release);
   }
   // Another thread is about to have done it: some microseconds.
@@ -63,11 +67,34 @@ bool ScreenBounds::open(uint32_t group) {
   return found == kSeen;
 }
 
-bool ScreenBounds::is_any_seen(uint32_t group) const {
-  const std::span<const uint32_t> members = groups_.members(group).primitive;
-  return std::any_of(members.begin(), members.end(), [&](uint32_t entry) {
-    return fate_on_screen(screen_[entry & kPrimitiveBits]) == ScreenFate::kVisible;
-  });
+RectangleRows ScreenBounds::rectangles_from(uint32_t member) const {
+  const size_t count = groups_.member_count() + kRectanglePadding;
+  const float* const from = rectangles_.get() + member;
+  return {from, from + count, from + 2 * count, from + 3 * count};
+}
+
+/// Returns whether any ray can meet any of them.
+bool ScreenBounds::keep_rectangles(uint32_t group) {
+  // Coordinates lie within far_off, 1e6, where float rounds by half of this at most.
+  constexpr float kFloatSlack_px = 0.125f;
+  constexpr float kNowhere = std::numeric_limits<float>::infinity();
+  const OperandGroups::Members members = groups_.members(group);
+  const size_t row = groups_.member_count() + kRectanglePadding;
+  float* to = rectangles_.get() + members.first;
+  bool any = false;
+  for (const uint32_t entry : members.primitive) {
+    const Extent& extent = screen_[entry & kPrimitiveBits];
+    const bool is_seen = fate_on_screen(extent) == ScreenFate::kVisible;
+    for (const size_t axis : {0, 1}) {
+      const float low = static_cast<float>(extent.center[axis] - extent.half[axis]);
+      const float high = static_cast<float>(extent.center[axis] + extent.half[axis]);
+      to[2 * axis * row] = is_seen ? low - kFloatSlack_px : kNowhere;
+      to[(2 * axis + 1) * row] = is_seen ? high + kFloatSlack_px : -kNowhere;
+    }
+    any |= is_seen;
+    ++to;
+  }
+  return any;
 }
 
 void ScreenBounds::bound_all() {
@@ -79,6 +106,20 @@ void ScreenBounds::bound_all() {
 OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint64_t open,
                                                const Box& cell) const {
   return {find_misses(shapes_.get(), screen_.get(), primitives, open, frame_, cell), 0};
+}
+
+std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Members& members,
+                                                      uint32_t first, uint32_t count,
+                                                      const Box& cell) const {
+  const uint32_t* const primitives = members.primitive.data() + first;
+  uint64_t outside = find_outside(rectangles_from(members.first + first), count, cell);
+  uint64_t open = 0;
+  for (uint64_t left = ~outside & ~uint64_t{0} >> (64 - count); left != 0; left &= left - 1) {
+    const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;
+    if (screen_[primitive].inside2 < 0) open |= left & -left;
+  }
+  if (open != 0) outside |= classify(primitives, open, cell).outside;
+  return outside;
 }
 
 void ScreenBounds::bound(std::span<const uint32_t> indices) {

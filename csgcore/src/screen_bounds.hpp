@@ -30,9 +30,13 @@ class ScreenBounds final : public OpenClassifier {
 
   /// In screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
+  /// Of an opened group.
+  std::optional<uint64_t> members_outside(const OperandGroups::Members& members, uint32_t first,
+                                          uint32_t count, const Box& cell) const override;
 
  private:
-  bool is_any_seen(uint32_t group) const;
+  bool keep_rectangles(uint32_t group);
+  RectangleRows rectangles_from(uint32_t member) const;
   void bound(std::span<const uint32_t> indices);
 
   enum State : uint8_t { kClosed, kOpening, kSeen, kUnseen };
@@ -43,6 +47,9 @@ class ScreenBounds final : public OpenClassifier {
   std::unique_ptr<Extent[]> screen_;
   std::unique_ptr<ScreenShape[]> shapes_;  // of what fills its box badly and is on the screen
   std::unique_ptr<std::atomic<uint8_t>[]> states_;  // of the groups
+  /// Of opened groups' members, side by side: what tiles tell them apart by. Low x of all, then
+  /// high x, low y, high y.
+  std::unique_ptr<float[]> rectangles_;
 };
 
 }  // namespace csgcore

@@ -60,22 +60,21 @@ HWY_INLINE WideV reach_along(const ExtentLanes& extent, const Vec3& axis) {
   return dot(d, extent.half, broadcast(d, glm::abs(axis)));
 }
 
-/// The range of a box's across/depth, depth > 0.
-HWY_INLINE Range box_range(WideV across, WideV reach, WideV nearest, WideV furthest) {
+/// The range of a box's across/depth, depth > 0, by 1/depth at its ends.
+HWY_INLINE Range box_range(WideV across, WideV reach, WideV by_nearest, WideV by_furthest) {
   const WideV low = hn::Sub(across, reach);
   const WideV high = hn::Add(across, reach);
-  return {hn::Min(hn::Div(low, nearest), hn::Div(low, furthest)),
-          hn::Max(hn::Div(high, nearest), hn::Div(high, furthest))};
+  return {hn::Min(hn::Mul(low, by_nearest), hn::Mul(low, by_furthest)),
+          hn::Max(hn::Mul(high, by_nearest), hn::Mul(high, by_furthest))};
 }
 
 /// The same of a ball: the two planes through the eye that touch it, (across − u·depth)² =
-/// radius²·(1 + u²).
-HWY_INLINE Range ball_range(WideV across, WideV depth, WideV radius2) {
-  const WideV a = hn::Sub(hn::Mul(depth, depth), radius2);
+/// radius²·(1 + u²), with a = depth² − radius² and 1/a.
+HWY_INLINE Range ball_range(WideV across, WideV depth, WideV radius2, WideV a, WideV by_a) {
   const WideV middle = hn::Mul(across, depth);
   const WideV half =
       hn::Sqrt(hn::Mul(radius2, hn::Max(hn::Zero(Wide()), hn::Add(hn::Mul(across, across), a))));
-  return {hn::Div(hn::Sub(middle, half), a), hn::Div(hn::Add(middle, half), a)};
+  return {hn::Mul(hn::Sub(middle, half), by_a), hn::Mul(hn::Add(middle, half), by_a)};
 }
 
 /// What a frame needs of its view, once.
@@ -126,21 +125,34 @@ HWY_INLINE void Projector::project(const Extent* world, const uint32_t* indices,
   const WideV furthest = hn::Add(depth, depth_reach);
   auto anywhere = hn::Lt(depth, depth);
   auto behind = anywhere;
+  const WideV across[2] = {dot(d, from_eye, broadcast(d, view.right)),
+                           dot(d, from_eye, broadcast(d, view.up))};
+  const WideV across_reach[2] = {reach(view.right), reach(view.up)};
   Range ranges[2];
-  const Vec3 axes[2] = {view.right, view.up};
   for (int i = 0; i < 2; ++i) {
-    const WideV across = dot(d, from_eye, broadcast(d, axes[i]));
-    const WideV across_reach = reach(axes[i]);
-    if (!is_perspective) {
-      ranges[i] = {hn::Sub(across, across_reach), hn::Add(across, across_reach)};
-      continue;
-    }
+    ranges[i] = {hn::Sub(across[i], across_reach[i]), hn::Add(across[i], across_reach[i])};
+  }
+  if (is_perspective) {
     anywhere = hn::Le(nearest, hn::Mul(hn::Set(d, kNearestDepth), depth_reach));
     behind = hn::Le(furthest, zero);
-    const Range box = box_range(across, across_reach, nearest, furthest);
-    const Range ball = ball_range(across, depth, hn::Mul(ball_reach, ball_reach));
-    ranges[i] = {hn::IfThenElse(is_ball, ball.low, box.low),
-                 hn::IfThenElse(is_ball, ball.high, box.high)};
+    const WideV one = hn::Set(d, 1.0);
+    if (!hn::AllTrue(d, is_ball)) {
+      const WideV by_nearest = hn::Div(one, nearest);
+      const WideV by_furthest = hn::Div(one, furthest);
+      for (int i = 0; i < 2; ++i) {
+        ranges[i] = box_range(across[i], across_reach[i], by_nearest, by_furthest);
+      }
+    }
+    if (!hn::AllFalse(d, is_ball)) {
+      const WideV radius2 = hn::Mul(ball_reach, ball_reach);
+      const WideV a = hn::Sub(hn::Mul(depth, depth), radius2);
+      const WideV by_a = hn::Div(one, a);
+      for (int i = 0; i < 2; ++i) {
+        const Range ball = ball_range(across[i], depth, radius2, a, by_a);
+        ranges[i] = {hn::IfThenElse(is_ball, ball.low, ranges[i].low),
+                     hn::IfThenElse(is_ball, ball.high, ranges[i].high)};
+      }
+    }
   }
   const Range x = to_pixels(ranges[0], 1, middle_px[0]);
   const Range y = to_pixels(ranges[1], -1, middle_px[1]);

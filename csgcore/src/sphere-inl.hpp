@@ -38,17 +38,12 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
                        inverse_length2, hn::Set(d, 1.0));
 }
 
-/// The points, relative to the centre, that lie further away than `distance`.
+/// The points, relative to the centre, that lie further away than `reach` in canonical space.
 template <class D>
 HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& point,
-                                  double distance) {
-  if (primitive.ball_radius > 0) {
-    const double reach = primitive.ball_radius + distance;
-    return hn::Gt(dot(d, point, point), hn::Set(d, reach * reach));
-  }
+                                  double reach) {
   const Lanes3<D> p = transformed(d, primitive.world_to_canonical, point);
-  const double reach = 1 + distance * primitive.canonical_stretch;
-  return hn::Gt(dot(d, p, p), hn::Set(d, reach * reach));
+  return hn::Gt(dot(d, p, p), set(d, (1 + reach) * (1 + reach)));
 }
 
 /// Outward and unit, at the point that lies at τ = t.

@@ -10,16 +10,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apart-inl.hpp"
 #include "primitive-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
-
-/// A ray that stands so many thinnest pieces away from a primitive is told to be outside by its
-/// place alone: far more than what is rounded there. No crossing of that primitive can be together
-/// with one where the ray stands, unless the ray runs along that face: the resolver's business.
-constexpr double kApart = 0x1p14;
 
 /// The segments of a list's primitives, computed where first needed.
 class ListSegments {
@@ -70,13 +66,15 @@ class ListSegments {
     if (primitive(index).ball_radius > 0) return false;
     LaneMask& known = workspace_.apart[index];
     if ((lanes & ~known) != 0) {
-      known |= lanes_apart(primitive(index), frame_.pivot, rays_, t, apart_);
-      any_apart_ = true;
+      if (!has_points_) find_points(rays_, t, apart_, points_);
+      known |= lanes_apart(primitive(index), frame_.pivot, points_, apart_);
+      has_points_ = any_apart_ = true;
     }
     return (lanes & ~known) == 0;
   }
   /// The lanes have gone on.
   HWY_INLINE void forget_apart(LaneMask lanes) {
+    has_points_ = false;
     if (!any_apart_) return;
     for (uint32_t i = 0; i < list_.list->count(); ++i) workspace_.apart[i] &= ~lanes;
   }
@@ -105,6 +103,8 @@ class ListSegments {
   const TraceList& list_;
   const double apart_;
   bool any_apart_ = false;
+  bool has_points_ = false;
+  PacketPoints points_;  // where the lanes stand
   PacketWorkspace& workspace_;
 };
 

@@ -21,6 +21,7 @@
 namespace csgcore {
 namespace {
 
+using checks::LongMat3;
 using checks::LongRay;
 using checks::LongVec3;
 using checks::PivotRay;
@@ -279,6 +280,63 @@ TEST(Crossings, AreAsExactFromFarAway) {
     std::printf("from %g sizes away: surfaces displaced by up to %.1e of the size\n", distance,
                 worst);
   }
+}
+
+/// By how much a point, relative to the pivot, lies outside of what encloses a primitive, in
+/// canonical space; negative within.
+Real canonical_gap(const Target& target, const LongVec3& point) {
+  const CanonicalPrimitive& primitive = target.canonical;
+  const LongVec3 center = LongVec3(primitive.center) - LongVec3(target.frame.pivot);
+  const LongVec3 p = LongMat3(primitive.world_to_canonical) * (point - center);
+  if (primitive.enclosure == Shape::kSphere) return glm::length(p) - 1;
+  const Real slope = primitive.radius_slope;
+  const Real radius = std::max<Real>(primitive.radius_mid + slope * p.z, 0);
+  const Real wall = (std::hypot(p.x, p.y) - radius) / (1 + std::abs(slope));
+  return std::max(std::abs(p.z) - 1, wall);
+}
+
+/// In units of the distance that is asked for: who is told to be apart is so in extended precision,
+/// and who is four times as far away, where float tells, is told.
+TEST(Apart, IsWhoIsFurtherAway) {
+  std::mt19937 random(6);
+  int told = 0;
+  for_each_target(random, [&](const Target& target, const Placement& placement) {
+    if (target.canonical.ball_radius > 0) return;
+    SCOPED_TRACE(placement.name);
+    const double distance = placement.size * std::pow(10, uniform(random, -9, 0));
+    checks::SpecialRays rays(target.primitive, target.frame.pivot, random);
+    const std::vector<PivotRay> lanes =
+        rays.next(static_cast<RayKind>(random() % checks::kRayKinds));
+    const RayPacket packet = checks::packet_of(lanes);
+    PacketSegments segments;
+    intersect(target.frame, packet, target.canonical, segments);
+    double t[kPacketRays];
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const bool crosses = segments.start[lane] < segments.end[lane];
+      const double step = std::exp(uniform(random, -3, 6)) * distance;
+      t[lane] = (crosses ? segments.start[lane] : 0) - step / glm::length(lanes[lane].direction);
+    }
+    const LaneMask apart = find_apart(target.frame, packet, target.canonical, t, distance);
+    const double reach = distance * target.canonical.canonical_stretch;
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const bool is_told = (apart >> lane & 1) != 0;
+      const LongVec3 point = LongRay(lanes[lane]).at(t[lane]);
+      const Real gap = canonical_gap(target, point) / reach;
+      told += is_told;
+      if (is_told) {
+        // Rays that start far from the pivot round on their way.
+        const Real rounding = 4 * kEpsilon * glm::length(lanes[lane].origin) / distance;
+        ASSERT_GE(gap + rounding, 1) << "distance " << distance;
+      }
+      const Vec3 center = target.canonical.center - target.frame.pivot;
+      const double furthest = 1e5 * distance;
+      const bool is_near = glm::length(center) < furthest && glm::length(point) < furthest;
+      if (is_near && reach > 1e-5) {
+        ASSERT_TRUE(is_told || gap < 4) << gap;
+      }
+    }
+  });
+  EXPECT_GT(told, 1000);
 }
 
 /// Of one primitive's list.
