@@ -157,6 +157,7 @@ class Run {
 
   DesignFile read() {
     DesignFileOptions reading;
+    reading.import = options_.import;
     reading.openscad_arguments = options_.openscad_arguments;
     if (options_.frames > 0) {
       reading.openscad_arguments.insert(reading.openscad_arguments.end(),
@@ -174,20 +175,20 @@ class Run {
   }
 
   ImportedDesign import() {
-    const DesignFile file = read();
+    DesignFile file = read();
     stats_.file = file.name;
     stats_.file_bytes = file.file_bytes;
     stats_.read_ms = file.read_ms;
     stats_.export_ms = file.export_ms;
     stats_.parse_ms = file.parse_ms;
-    stats_.nodes = file.tree.nodes.size();
+    stats_.nodes = file.import.nodes();
     is_exported_ = file.is_exported;
     for (const std::string& name : file.files) {
       if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
     }
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
-    ImportedDesign design = import_design(file.tree, options_.import);
+    ImportedDesign design = file.import.finish();
     stats_.import_ms = ms_since(import_start);
     stats_.primitive_nodes = design.primitive_nodes;
     for (const Warning& warning : design.warnings) say(warning.text);

@@ -9,7 +9,6 @@
 #include "elapsed.hpp"
 #include "frontend/error.hpp"
 #include "frontend/openscad_export.hpp"
-#include "frontend/parser.hpp"
 
 namespace frontend {
 
@@ -45,17 +44,17 @@ void export_design(const std::string& path, const DesignFileOptions& options, De
   text.export_ms = ms_since(start);
 }
 
-/// The tree of what may turn out to be a .scad.
-SyntaxTree parse_either(const std::string& path, const DesignFileOptions& options,
+/// Parses what may turn out to be a .scad.
+TextImport parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
   try {
-    return parse(text.csg.view(), text.name);
+    return TextImport(text.csg.view(), text.name, options.import);
   } catch (const Error&) {
     if (path == "-" || text.is_exported || !may_be_scad(path)) throw;
   }
   export_design(path, options, text, {});
   options.progress("parsing");
-  return parse(text.csg.view(), text.name);
+  return TextImport(text.csg.view(), text.name, options.import);
 }
 
 }  // namespace
@@ -79,12 +78,11 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
 
 DesignFile read_design(const std::string& path, const DesignFileOptions& options) {
   DesignText text = read_design_text(path, options);
-  DesignFile design;
-  design.name = path == "-" ? "standard input" : path;
   options.progress("parsing");
   const double export_before_ms = text.export_ms;
   const Clock::time_point parse_start = Clock::now();
-  design.tree = parse_either(path, options, text);
+  DesignFile design{.import = parse_either(path, options, text)};
+  design.name = path == "-" ? "standard input" : path;
   design.parse_ms = ms_since(parse_start) - (text.export_ms - export_before_ms);
   if (text.is_exported && options.wants_files && text.files.empty()) {
     throw Error(path, {}, "openscad does not say which files it reads",

@@ -7,7 +7,6 @@
 #include "elapsed.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
-#include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
 
 namespace frontend {
@@ -17,12 +16,12 @@ GoodVersion import_text(const std::string& name, std::shared_ptr<const FileText>
                         const ImportOptions& options, DesignVersion& version,
                         const std::stop_token& stop) {
   const Clock::time_point parse_start = Clock::now();
-  const SyntaxTree tree = parse(csg->view(), name, stop);
+  TextImport import(csg->view(), name, options, stop);
   version.parse_ms = ms_since(parse_start);
   const Clock::time_point import_start = Clock::now();
-  auto design = std::make_shared<const ImportedDesign>(import_design(tree, options, stop));
+  auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
   version.import_ms = ms_since(import_start);
-  return {std::move(csg), std::move(design), tree.nodes.size()};
+  return {std::move(csg), std::move(design), import.nodes()};
 }
 
 void read_into(DesignReading& reading, const std::string& path, const FollowOptions& options,

@@ -1,293 +1,34 @@
 #include "frontend/importer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "frames.hpp"
+#include "collector.hpp"
 #include "frontend/stop.hpp"
 #include "healing.hpp"
-#include "import_arguments.hpp"
-#include "import_polyhedra.hpp"
 #include "import_view_box.hpp"
 #include "marks.hpp"
-#include "matrix_healing.hpp"
+#include "node_roles.hpp"
+#include "node_sink.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Box;
-using csgcore::Color;
 using csgcore::CsgTree;
 using csgcore::CsgTreeBuilder;
 using csgcore::Op;
-using csgcore::Primitive;
 
-constexpr size_t kKinds = static_cast<size_t>(NodeKind::kRoof) + 1;
-constexpr uint32_t kNone = 0xFFFFFFFFu;
-
-enum class Role : uint8_t { kSolid, kOperation, kUnsupportedLeaf, kUnsupportedOperation };
-
-Role role_of(NodeKind kind) {
-  switch (kind) {
-    case NodeKind::kSphere:
-    case NodeKind::kCylinder:
-    case NodeKind::kCube:
-    case NodeKind::kPolyhedron:
-      return Role::kSolid;
-    case NodeKind::kMultmatrix:
-    case NodeKind::kColor:
-    case NodeKind::kGroup:
-    case NodeKind::kRender:
-    case NodeKind::kUnion:
-    case NodeKind::kDifference:
-    case NodeKind::kIntersection:
-      return Role::kOperation;
-    case NodeKind::kCircle:
-    case NodeKind::kSquare:
-    case NodeKind::kPolygon:
-    case NodeKind::kText:
-    case NodeKind::kImport:
-    case NodeKind::kSurface:
-      return Role::kUnsupportedLeaf;
-    case NodeKind::kHull:
-    case NodeKind::kFill:
-    case NodeKind::kMinkowski:
-    case NodeKind::kProjection:
-    case NodeKind::kOffset:
-    case NodeKind::kResize:
-    case NodeKind::kLinearExtrude:
-    case NodeKind::kRotateExtrude:
-    case NodeKind::kRoof:
-      break;
-  }
-  return Role::kUnsupportedOperation;
-}
-
-bool is_primitive_node(NodeKind kind) {
-  const Role role = role_of(kind);
-  return role == Role::kSolid || role == Role::kUnsupportedLeaf;
-}
+constexpr uint32_t kNone = Collector::kNoPrimitive;
 
 Op operation_of(NodeKind kind) {
   if (kind == NodeKind::kDifference) return Op::kDifference;
   if (kind == NodeKind::kIntersection) return Op::kIntersection;
   return Op::kUnion;
 }
-
-/// Without children and without a file to read (`file`, up to 2021) it makes nothing.
-bool makes_nothing(const SyntaxTree& tree, const SyntaxNode& node, uint32_t index) {
-  if (node.subtree_end > index + 1) return false;
-  for (const Argument& argument : tree.arguments_of(node)) {
-    if (argument.name == "file" && argument.value.kind == ValueKind::kString &&
-        argument.value.count > 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// What a node hands down to its children.
-struct Context {
-  uint32_t end;    // the node's subtree_end
-  uint32_t frame;  // coordinates
-  std::optional<Color> color;
-  bool flattened;  // a matrix with inf or nan on the way: nothing is left
-};
-
-/// The nodes of one kind that cannot be drawn.
-struct Unsupported {
-  uint32_t count = 0;
-  uint32_t first = kNone;  // node
-  std::string_view why;    // of the first; empty: no node of the kind can be
-
-  void add(uint32_t node, std::string_view reason) {
-    if (count++ > 0) return;
-    first = node;
-    why = reason;
-  }
-};
-
-std::string_view why_not(Convexity convexity) {
-  return convexity == Convexity::kTooLarge
-             ? "it has too many faces"
-             : "it is not the closed boundary of one convex solid, its faces plane and clockwise "
-               "seen from outside";
-}
-
-/// From the tree to primitives in their frames.
-class Collector {
- public:
-  Collector(const SyntaxTree& tree, NodeRange selected, const ImportOptions& options)
-      : tree_(tree), selected_(selected), options_(options) {
-    primitive_of.assign(tree.nodes.size(), kNone);
-  }
-
-  void collect(const std::stop_token& stop) {
-    reserve();
-    contexts_.push_back({kNone, 0, std::nullopt, false});
-    uint32_t skipped_until = 0;
-    for (uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-      throw_if_stopped(stop);
-      const SyntaxNode& node = tree_.nodes[i];
-      const uint32_t id = primitive_nodes;
-      if (is_primitive_node(node.kind)) ++primitive_nodes;
-      if (i < skipped_until || i < selected_.begin || i >= selected_.end) continue;
-      any_modifiers = any_modifiers || node.modifiers != 0;
-      while (contexts_.back().end <= i) contexts_.pop_back();
-      if ((node.modifiers & kDisable) != 0 || !visit(i, id)) skipped_until = node.subtree_end;
-    }
-  }
-
-  std::vector<uint32_t> primitive_of;  // by node: index into `primitives`, or kNone
-  std::vector<Primitive> primitives;
-  std::vector<uint32_t> frame_of;  // by primitive
-  std::vector<Box> boxes;          // by primitive, faceted
-  std::vector<int> fragments;      // by primitive; 0: it is not to be faceted
-  PolyhedronPool polyhedra;
-  FrameTree frames;
-  std::vector<uint32_t> left_out;  // nodes that cannot be drawn
-  std::array<Unsupported, kKinds> unsupported;
-  std::vector<Warning> warnings;
-  uint32_t primitive_nodes = 0;
-  bool any_modifiers = false;
-
- private:
-  /// Growing by doubling would copy, and touch, twice the memory.
-  void reserve() {
-    size_t solids = 0;
-    size_t matrices = 0;
-    for (const SyntaxNode& node : tree_.nodes) {
-      solids += role_of(node.kind) == Role::kSolid;
-      matrices += node.kind == NodeKind::kMultmatrix;
-    }
-    primitives.reserve(solids);
-    frame_of.reserve(solids);
-    boxes.reserve(solids);
-    fragments.reserve(solids);
-    frames.reserve(matrices);
-  }
-
-  /// False: the children do not matter.
-  bool visit(uint32_t index, uint32_t id) {
-    const SyntaxNode& node = tree_.nodes[index];
-    switch (role_of(node.kind)) {
-      case Role::kSolid:
-        add_solid(index, id);
-        return false;
-      case Role::kOperation:
-        if (node.kind == NodeKind::kMultmatrix) enter_matrix(node);
-        if (node.kind == NodeKind::kColor) enter_color(node);
-        return true;
-      case Role::kUnsupportedOperation:
-        if (makes_nothing(tree_, node, index)) return false;
-        break;
-      case Role::kUnsupportedLeaf:
-        break;
-    }
-    leave_out(index, "");
-    return false;
-  }
-
-  void leave_out(uint32_t index, std::string_view reason) {
-    unsupported[static_cast<size_t>(tree_.nodes[index].kind)].add(index, reason);
-    left_out.push_back(index);
-  }
-
-  void enter_matrix(const SyntaxNode& node) {
-    const FileMatrix file = read_matrix(tree_, node);
-    if (is_identity(file)) return;
-    Context context = contexts_.back();
-    context.end = node.subtree_end;
-    const csgcore::Affine divided{file.map.linear / file.divisor,
-                                  file.map.translation / file.divisor};
-    if (context.flattened || !divided.finite()) {
-      context.flattened = true;
-    } else {
-      context.frame = frames.add(context.frame, heal(file));
-    }
-    contexts_.push_back(context);
-  }
-
-  static bool is_identity(const FileMatrix& file) {
-    return file.divisor == 1 && file.map.linear == csgcore::Mat3(1.0) &&
-           file.map.translation == csgcore::Vec3(0.0);
-  }
-
-  static HealedMatrix heal(const FileMatrix& file) {
-    HealedMatrix matrix = heal_matrix(file.map);
-    if (file.divisor != 1) {
-      const double size = std::abs(file.divisor);
-      matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};
-      matrix.linear_error /= size;
-      matrix.translation_error /= size;
-    }
-    return matrix;
-  }
-
-  void enter_color(const SyntaxNode& node) {
-    const std::optional<Color> color = read_color(tree_, node, warnings);
-    if (!color || options_.rendered) return;
-    if (contexts_.back().color) return;  // the outermost valid one wins
-    Context context = contexts_.back();
-    context.end = node.subtree_end;
-    context.color = color;
-    contexts_.push_back(context);
-  }
-
-  void add_solid(uint32_t index, uint32_t id) {
-    const SyntaxNode& node = tree_.nodes[index];
-    const Context& context = contexts_.back();
-    const csgcore::Affine& to_world = frames[context.frame].to_world;
-    Primitive primitive;
-    csgcore::FacetSettings facets;
-    if (node.kind == NodeKind::kCube) {
-      primitive = polyhedra.box(read_cube(tree_, node), to_world);
-    } else if (node.kind == NodeKind::kPolyhedron) {
-      const PolyhedronArguments arguments = read_polyhedron(tree_, node);
-      const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
-      if (convexity == Convexity::kNothing || context.flattened) return;
-      if (convexity != Convexity::kConvex) return leave_out(index, why_not(convexity));
-    } else {
-      RoundPrimitive round = read_round_primitive(tree_, node);
-      primitive = std::move(round.primitive);
-      primitive.local_to_world = to_world;
-      facets = round.facets;
-      if (options_.fn) facets.fn = *options_.fn;
-    }
-    primitive.color = context.color;
-    primitive.id = id;
-    if (context.flattened || !csgcore::is_valid(primitive)) return;
-    primitive_of[index] = static_cast<uint32_t>(primitives.size());
-    boxes.push_back(faceted_box(primitive, facets));
-    fragments.push_back(keeps_facets(primitive, facets) ? fragment_count(primitive, facets) : 0);
-    frame_of.push_back(context.frame);
-    primitives.push_back(std::move(primitive));
-  }
-
-  bool keeps_facets(const Primitive& primitive, const csgcore::FacetSettings& facets) const {
-    if (primitive.shape == csgcore::Shape::kPolyhedron) return false;
-    switch (options_.facets) {
-      case Facets::kNone:
-        return false;
-      case Facets::kFew:
-        return facets.fn > 0 && facets.fn <= options_.few_fragments;
-      case Facets::kAll:
-        return true;
-    }
-    return false;
-  }
-
-  const SyntaxTree& tree_;
-  NodeRange selected_;
-  const ImportOptions& options_;
-  std::vector<Context> contexts_;
-};
 
 /// Writes parts of the file as CSG trees.
 class Emitter {
@@ -365,7 +106,7 @@ std::string counted(uint32_t count, NodeKind kind) {
 
 [[noreturn]] void throw_unsupported(const SyntaxTree& tree, const Collector& collected) {
   std::string kinds;
-  for (size_t i = 0; i < kKinds; ++i) {
+  for (size_t i = 0; i < kNodeKinds; ++i) {
     if (collected.unsupported[i].count == 0) continue;
     if (!kinds.empty()) kinds += ", ";
     kinds += counted(collected.unsupported[i].count, static_cast<NodeKind>(i));
@@ -381,7 +122,7 @@ std::string counted(uint32_t count, NodeKind kind) {
 
 void warn_of_unsupported(const SyntaxTree& tree, const Collector& collected,
                          std::vector<Warning>& warnings) {
-  for (size_t i = 0; i < kKinds; ++i) {
+  for (size_t i = 0; i < kNodeKinds; ++i) {
     const Unsupported& kind = collected.unsupported[i];
     if (kind.count == 0) continue;
     warnings.push_back(make_warning(
@@ -411,14 +152,14 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
                    "give a smaller $fn"));
 }
 
-Marks marks_of(const SyntaxTree& tree, NodeRange selected, const Collector& collected) {
+Marks marks_of(const SyntaxTree& tree, const Collector& collected) {
   if (!collected.any_modifiers && collected.left_out.empty()) return {};
   std::vector<Presence> leaves(tree.nodes.size(), Presence::kEmpty);
   for (size_t i = 0; i < leaves.size(); ++i) {
     if (collected.primitive_of[i] != kNone) leaves[i] = Presence::kSolid;
   }
   for (const uint32_t node : collected.left_out) leaves[node] = Presence::kLeftOut;
-  return find_marks(tree, selected, leaves);
+  return find_marks(tree, collected.selected, leaves);
 }
 
 /// Nothing is overlaid: `#` parts become operands like others.
@@ -434,6 +175,39 @@ Box union_of(std::span<const Box> boxes) {
   return result;
 }
 
+/// What comes after the last node was taken. Frees what the collector holds as soon as it can: of a
+/// large design each part of it has hundreds of MB.
+ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
+                             const ImportOptions& options, const std::stop_token& stop) {
+  collected.finish();
+  if (!collected.left_out.empty() && !options.skip_unsupported) throw_unsupported(tree, collected);
+
+  ImportedDesign design;
+  design.warnings = std::move(collected.warnings);
+  warn_of_unsupported(tree, collected, design.warnings);
+  design.primitive_nodes = collected.primitive_nodes;
+
+  const std::vector<Box>& boxes = collected.boxes;
+  merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
+  collected.frames = {};
+  collected.frame_of = {};
+  throw_if_stopped(stop);
+  facet(tree, collected, design.warnings);
+  throw_if_stopped(stop);
+  Marks marks = marks_of(tree, collected);
+  if (options.rendered) keep_solid_alone(marks);
+  Emitter emitter(tree, collected.primitive_of, marks);
+  design.scene.model = emitter.model(collected.selected);
+  design.scene.background = emitter.parts(marks.background);
+  design.scene.highlight = emitter.parts(marks.highlight);
+  design.scene.primitives = std::move(collected.primitives);
+  for (const CsgTree* part :
+       {&design.scene.model, &design.scene.background, &design.scene.highlight}) {
+    design.view_box.merge(view_box(*part, boxes));
+  }
+  return design;
+}
+
 }  // namespace
 
 Location place_of_primitive(const SyntaxTree& tree, uint32_t id) {
@@ -445,33 +219,52 @@ Location place_of_primitive(const SyntaxTree& tree, uint32_t id) {
 
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
                              const std::stop_token& stop) {
-  const NodeRange selected = selected_nodes(tree);
-  Collector collected(tree, selected, options);
-  collected.collect(stop);
-  if (!collected.left_out.empty() && !options.skip_unsupported) throw_unsupported(tree, collected);
-
-  ImportedDesign design;
-  design.warnings = std::move(collected.warnings);
-  warn_of_unsupported(tree, collected, design.warnings);
-  design.primitive_nodes = collected.primitive_nodes;
-
-  const std::vector<Box>& boxes = collected.boxes;
-  merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
-  throw_if_stopped(stop);
-  facet(tree, collected, design.warnings);
-  throw_if_stopped(stop);
-  Marks marks = marks_of(tree, selected, collected);
-  if (options.rendered) keep_solid_alone(marks);
-  Emitter emitter(tree, collected.primitive_of, marks);
-  design.scene.model = emitter.model(selected);
-  design.scene.background = emitter.parts(marks.background);
-  design.scene.highlight = emitter.parts(marks.highlight);
-  design.scene.primitives = std::move(collected.primitives);
-  for (const CsgTree* part :
-       {&design.scene.model, &design.scene.background, &design.scene.highlight}) {
-    design.view_box.merge(view_box(*part, boxes));
+  Collector collected(tree, options);
+  size_t solids = 0;
+  size_t matrices = 0;
+  for (const SyntaxNode& node : tree.nodes) {
+    solids += role_of(node.kind) == Role::kSolid;
+    matrices += node.kind == NodeKind::kMultmatrix;
   }
-  return design;
+  collected.reserve(tree.nodes.size(), solids, matrices);
+  for (uint32_t i = 0; i < tree.nodes.size(); ++i) {
+    throw_if_stopped(stop);
+    collected.take(i);
+  }
+  return finish_import(tree, collected, options, stop);
+}
+
+struct TextImport::Impl {
+  Impl(std::string file_name, const ImportOptions& import_options)
+      : options(import_options), collector(tree, options) {
+    tree.file_name = std::move(file_name);
+  }
+
+  const ImportOptions options;
+  SyntaxTree tree;
+  Collector collector;
+};
+
+TextImport::TextImport(std::string_view text, std::string file_name, const ImportOptions& options,
+                       const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(std::move(file_name), options)) {
+  // What has no children ends with ';', in OpenSCAD's files, and takes no less than this: room that
+  // is not used costs addresses, not memory.
+  constexpr size_t kLeastBytes = 32;
+  const auto ends = static_cast<size_t>(std::count(text.begin(), text.end(), ';'));
+  const size_t leaves = std::min(ends, text.size() / kLeastBytes);
+  impl_->collector.reserve(2 * leaves, leaves, leaves);
+  parse_nodes(text, impl_->tree, impl_->collector, stop);
+}
+
+TextImport::TextImport(TextImport&&) noexcept = default;
+TextImport& TextImport::operator=(TextImport&&) noexcept = default;
+TextImport::~TextImport() = default;
+
+size_t TextImport::nodes() const { return impl_->tree.nodes.size(); }
+
+ImportedDesign TextImport::finish(const std::stop_token& stop) {
+  return finish_import(impl_->tree, impl_->collector, impl_->options, stop);
 }
 
 }  // namespace frontend

@@ -162,20 +162,6 @@ class MarkFinder {
 
 }  // namespace
 
-NodeRange selected_nodes(const SyntaxTree& tree) {
-  const auto count = static_cast<uint32_t>(tree.nodes.size());
-  for (uint32_t i = 0; i < count;) {
-    const SyntaxNode& node = tree.nodes[i];
-    if ((node.modifiers & kDisable) != 0) {
-      i = node.subtree_end;
-      continue;
-    }
-    if ((node.modifiers & kRoot) != 0) return {i, node.subtree_end};
-    ++i;
-  }
-  return {0, count};
-}
-
 Marks find_marks(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves) {
   return MarkFinder(tree, selected, leaves).find();
 }

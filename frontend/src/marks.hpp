@@ -41,7 +41,6 @@ struct NodeRange {
   uint32_t begin = 0;
   uint32_t end = 0;
 };
-NodeRange selected_nodes(const SyntaxTree& tree);
 
 /// `leaves` says for each node without children, and for each that cannot be drawn (whose children
 /// are then not looked at), what it is: kSolid, kEmpty or kLeftOut.

@@ -6,6 +6,7 @@
 #include "frontend/stop.hpp"
 #include "lexer.hpp"
 #include "name_table.hpp"
+#include "node_sink.hpp"
 
 namespace frontend {
 namespace {
@@ -34,9 +35,6 @@ constexpr size_t kMaxTextBytes = kNone - 1;
 /// OpenSCAD writes lists at most three deep. The limit is far above any use, and keeps a damaged
 /// file of nothing but brackets from taking 16 bytes for each.
 constexpr uint32_t kMaxListDepth = 1u << 20;
-
-/// In SyntaxNode::modifiers while the node is open: its one child stands without braces.
-constexpr uint8_t kSingleChild = 0x80;
 
 constexpr const char* kValueHint = "write a number, true, false, undef, a \"string\" or a [list]";
 
@@ -80,12 +78,13 @@ bool constant(std::string_view word, Value& value) {
   return true;
 }
 
-/// Builds the tree in one pass. Depth lives in the tree itself, not on the stack: an open node's
-/// subtree_end is its parent's index, and an open list's `first` is its parent's place in lists_.
+/// Builds the tree in one pass. Depth lives in vectors, not on the stack: an open list's `first` is
+/// its parent's place in lists_.
 class Parser {
  public:
-  Parser(std::string_view text, std::string file_name);
-  SyntaxTree run(const std::stop_token& stop);
+  /// `tree` has a file name and nothing else. Without a sink it keeps all arguments.
+  Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink);
+  void run(const std::stop_token& stop);
 
  private:
   uint8_t modifiers();
@@ -100,16 +99,23 @@ class Parser {
   Value list();
   Value string();
   Value store(std::string_view text);
+  void hand_over();
+  void give_names();
   uint32_t open_list(uint32_t parent);
   uint32_t close_list(uint32_t list);
   [[noreturn]] void fail_unclosed() const;
   [[noreturn]] void fail_value() const;
   [[noreturn]] void fail_word(const char* start, std::string_view word) const;
 
-  SyntaxTree tree_;  // before lexer_, which refers to its file name
+  SyntaxTree& tree_;
+  NodeSink* const sink_;
   Lexer lexer_;
-  uint32_t open_ = kNone;     // the innermost open node
-  std::vector<Value> lists_;  // the open lists, each followed by its elements so far
+  struct OpenNode {
+    uint32_t node;
+    bool single_child;  // stands without braces
+  };
+  std::vector<OpenNode> open_;  // the innermost last
+  std::vector<Value> lists_;    // the open lists, each followed by its elements so far
   uint32_t list_depth_ = 0;
   struct StoredName {
     uint32_t argument, first, count;
@@ -117,17 +123,18 @@ class Parser {
   std::vector<StoredName> names_;  // in tree_.strings, which still moves
 };
 
-Parser::Parser(std::string_view text, std::string file_name) : lexer_(text, tree_.file_name) {
-  tree_.file_name = std::move(file_name);
+Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
+    : tree_(tree), sink_(sink), lexer_(text, tree.file_name) {
   // About what OpenSCAD's files have, so that most never move; a vector that is not used in full
   // costs addresses, not memory.
   constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
   tree_.nodes.reserve(text.size() / kBytesPerNode);
+  if (sink != nullptr) return;
   tree_.arguments.reserve(text.size() / kBytesPerArgument);
   tree_.values.reserve(text.size() / kBytesPerValue);
 }
 
-SyntaxTree Parser::run(const std::stop_token& stop) {
+void Parser::run(const std::stop_token& stop) {
   for (;;) {
     throw_if_stopped(stop);
     const uint8_t found = modifiers();
@@ -141,15 +148,31 @@ SyntaxTree Parser::run(const std::stop_token& stop) {
     if (lexer_.peek() != '}') {
       lexer_.fail_expected("a node", "a .csg holds nodes such as sphere(r = 1);");
     }
-    if (open_ == kNone) lexer_.fail("'}' without a '{'", "remove it");
+    if (open_.empty()) lexer_.fail("'}' without a '{'", "remove it");
     lexer_.advance();
     close_node();
   }
-  if (open_ != kNone) fail_unclosed();
+  if (!open_.empty()) fail_unclosed();
+  give_names();
+}
+
+/// Those that are not in the table, once tree_.strings does not move any more.
+void Parser::give_names() {
   for (const StoredName& name : names_) {
     tree_.arguments[name.argument].name = {tree_.strings.data() + name.first, name.count};
   }
-  return std::move(tree_);
+  names_.clear();
+}
+
+/// The last node, whose arguments are not needed after that.
+void Parser::hand_over() {
+  give_names();
+  SyntaxNode& node = tree_.nodes.back();
+  sink_->take(static_cast<uint32_t>(tree_.nodes.size() - 1));
+  node.first_argument = node.argument_count = 0;
+  tree_.arguments.clear();
+  tree_.values.clear();
+  tree_.strings.clear();
 }
 
 uint8_t Parser::modifiers() {
@@ -169,15 +192,15 @@ void Parser::node(uint8_t modifiers) {
   node.first_argument = static_cast<uint32_t>(tree_.arguments.size());
   arguments(node.kind);
   node.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - node.first_argument;
-  node.subtree_end = open_;
-  open_ = static_cast<uint32_t>(tree_.nodes.size());
+  node.subtree_end = kOpenSubtree;
   lexer_.skip_space();
-  const bool single = lexer_.at_word() || is_modifier(lexer_.peek());
-  if (single && !is_leaf(node.kind)) node.modifiers |= kSingleChild;
+  const bool single = !is_leaf(node.kind) && (lexer_.at_word() || is_modifier(lexer_.peek()));
+  open_.push_back({static_cast<uint32_t>(tree_.nodes.size()), single});
   tree_.nodes.push_back(node);
+  if (sink_ != nullptr) hand_over();
   if (lexer_.take(';')) {
     close_node();
-  } else if (!(node.modifiers & kSingleChild) && !lexer_.take('{')) {
+  } else if (!single && !lexer_.take('{')) {
     lexer_.fail_expected(is_leaf(node.kind) ? "';'" : "';' or '{'",
                          "end the " + std::string(name_of(node.kind)) + " with ';'");
   }
@@ -195,10 +218,9 @@ NodeKind Parser::node_kind() {
 
 void Parser::close_node() {
   do {
-    SyntaxNode& node = tree_.nodes[open_];
-    open_ = std::exchange(node.subtree_end, static_cast<uint32_t>(tree_.nodes.size()));
-    node.modifiers &= static_cast<uint8_t>(~kSingleChild);
-  } while (open_ != kNone && (tree_.nodes[open_].modifiers & kSingleChild));
+    tree_.nodes[open_.back().node].subtree_end = static_cast<uint32_t>(tree_.nodes.size());
+    open_.pop_back();
+  } while (!open_.empty() && open_.back().single_child);
 }
 
 void Parser::arguments(NodeKind kind) {
@@ -357,7 +379,7 @@ Value Parser::store(std::string_view text) {
 }
 
 void Parser::fail_unclosed() const {
-  const SyntaxNode& node = tree_.nodes[open_];
+  const SyntaxNode& node = tree_.nodes[open_.back().node];
   lexer_.fail("the '{' of the " + std::string(name_of(node.kind)) + " in line " +
                   std::to_string(node.location.line) + " is not closed",
               "add a '}'; if the file is cut off, export it again");
@@ -370,14 +392,26 @@ void Parser::fail_word(const char* start, std::string_view word) const {
   lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
+void check_size(std::string_view text, const std::string& file_name) {
+  if (text.size() <= kMaxTextBytes) return;
+  throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
+              "at most " + std::to_string(kMaxTextBytes) + " can be read; split the design");
+}
+
 }  // namespace
 
 SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop) {
-  if (text.size() > kMaxTextBytes) {
-    throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
-                "at most " + std::to_string(kMaxTextBytes) + " can be read; split the design");
-  }
-  return Parser(text, std::move(file_name)).run(stop);
+  SyntaxTree tree;
+  tree.file_name = std::move(file_name);
+  check_size(text, tree.file_name);
+  Parser(text, tree, nullptr).run(stop);
+  return tree;
+}
+
+void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,
+                 const std::stop_token& stop) {
+  check_size(text, tree.file_name);
+  Parser(text, tree, &sink).run(stop);
 }
 
 }  // namespace frontend

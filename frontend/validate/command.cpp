@@ -57,14 +57,15 @@ class Run {
   /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
   csgcore::Scene import() {
     frontend::DesignFileOptions reading;
+    reading.import = options_.import;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
-    const frontend::DesignFile file = frontend::read_design(options_.input, reading);
+    frontend::DesignFile file = frontend::read_design(options_.input, reading);
     name_ = file.name;
-    frontend::ImportedDesign design = frontend::import_design(file.tree, options_.import);
+    frontend::ImportedDesign design = file.import.finish();
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }

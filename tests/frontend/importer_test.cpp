@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/scene_edit.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
 
@@ -23,8 +25,35 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
+void expect_same(const ImportedDesign& a, const ImportedDesign& b, const std::string& text) {
+  EXPECT_TRUE(csgcore::compare(a.scene, b.scene).nothing()) << text;
+  EXPECT_EQ(a.view_box.min, b.view_box.min) << text;
+  EXPECT_EQ(a.view_box.max, b.view_box.max) << text;
+  EXPECT_EQ(a.primitive_nodes, b.primitive_nodes) << text;
+  ASSERT_EQ(a.warnings.size(), b.warnings.size()) << text;
+  for (size_t i = 0; i < a.warnings.size(); ++i) {
+    EXPECT_EQ(a.warnings[i].text, b.warnings[i].text) << text;
+  }
+}
+
+/// In one pass, and by the tree: both must say the same.
 ImportedDesign import_text(const std::string& text, ImportOptions options = {}) {
-  return import_design(parse(text, "a.csg"), options);
+  std::optional<ImportedDesign> in_one_pass;
+  std::string error;
+  try {
+    in_one_pass = TextImport(text, "a.csg", options).finish();
+  } catch (const Error& e) {
+    error = e.what();
+  }
+  try {
+    ImportedDesign design = import_design(parse(text, "a.csg"), options);
+    EXPECT_EQ(error, "") << text;
+    if (in_one_pass) expect_same(*in_one_pass, design, text);
+    return design;
+  } catch (const Error& e) {
+    EXPECT_EQ(error, e.what()) << text;
+    throw;
+  }
 }
 
 std::string error_of(const std::string& text) {
@@ -744,6 +773,40 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   EXPECT_DOUBLE_EQ(
       width("intersection() {" + small + "multmatrix([[1,0,0,20]]) {" + large + "} } " + small), 1);
   EXPECT_TRUE(import_text("").view_box.empty());
+}
+
+/// Errors of the text go before those of the nodes' arguments, and `!` makes these void.
+TEST(TextImport, TellsErrorsInTheirOrder) {
+  const std::string wrong = "sphere(r = \"1\");";
+  EXPECT_THAT(error_of(wrong + "cube(size = true);"), HasSubstr("a.csg:1:1: error: sphere"));
+  EXPECT_THAT(error_of(wrong + "cube(size = "), HasSubstr("a.csg:1:29: error: expected a value"));
+  EXPECT_EQ(error_of(wrong + "group() { !sphere(); } " + wrong), "no error");
+  EXPECT_EQ(error_of("*group() {" + wrong + "}"), "no error");
+  EXPECT_THAT(error_of("hull() {" + wrong + "}" + wrong), HasSubstr(":1:26: error: sphere"));
+  // Only what the text itself says wrong is an error before the end.
+  TextImport import(wrong + "square();", "a.csg");
+  EXPECT_EQ(import.nodes(), 2u);
+  EXPECT_THROW(import.finish(), Error);
+}
+
+TEST(TextImport, SelectsWhateverCameBefore) {
+  const std::string before =
+      "color(\"nothing\") cube(); square(); *sphere(); multmatrix([[1,0,0,0.1]]) { #cube();";
+  const std::string root = "hull() { %group() { !color([1,0,0]) { sphere(); } } } ";
+  const ImportedDesign design = import_text(before + root + "} cube(); square();");
+  EXPECT_THAT(design.warnings, IsEmpty());
+  ASSERT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_EQ(design.scene.primitives[0].id, 4u);
+  EXPECT_EQ(design.scene.primitives[0].local_to_world.translation, Vec3(0));
+  EXPECT_EQ(design.primitive_nodes, 7u);
+}
+
+TEST(TextImport, StopsWhenAsked) {
+  std::stop_source stop;
+  TextImport import("sphere(r = 1);", "x.csg", {}, stop.get_token());
+  stop.request_stop();
+  EXPECT_THROW(TextImport("sphere(r = 1);", "x.csg", {}, stop.get_token()), Stopped);
+  EXPECT_THROW(import.finish(stop.get_token()), Stopped);
 }
 
 TEST(Importer, StopsWhenAsked) {

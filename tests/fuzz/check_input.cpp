@@ -1,5 +1,8 @@
 #include "check_input.hpp"
 
+#include <optional>
+
+#include "csgcore/scene_edit.hpp"
 #include "frontend/error.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
@@ -58,21 +61,55 @@ std::string fault_of(const SyntaxTree& tree) {
   return "";
 }
 
+constexpr frontend::ImportOptions kOptions{.skip_unsupported = true};
+
+/// What came of a text: a design, or an error.
+struct Outcome {
+  frontend::ImportedDesign design;
+  std::string error;
+};
+
+template <typename Import>
+Outcome outcome_of(Import import) {
+  try {
+    return {import(), ""};
+  } catch (const frontend::Error& error) {
+    return {{}, error.what()};
+  }
+}
+
+std::string difference_of(const Outcome& by_tree, const Outcome& by_text) {
+  if (by_tree.error != by_text.error) {
+    return "the tree says \"" + by_tree.error + "\", the text \"" + by_text.error + '"';
+  }
+  if (by_tree.design.primitive_nodes != by_text.design.primitive_nodes ||
+      by_tree.design.warnings.size() != by_text.design.warnings.size() ||
+      !csgcore::compare(by_tree.design.scene, by_text.design.scene).nothing()) {
+    return "the text is imported otherwise than its tree";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string fault_of(std::string_view text) {
-  try {
-    const SyntaxTree tree = frontend::parse(text, "fuzz.csg");
-    std::string fault = fault_of(tree);
-    if (fault.empty()) frontend::import_design(tree, {.skip_unsupported = true});
-    return fault;
-  } catch (const frontend::Error& error) {
-    const std::string_view message = error.what();
-    if (!message.starts_with("fuzz.csg:"))
-      return "an error without its place: " + std::string(message);
-    if (message.find(": error: ") == std::string_view::npos) return "an error of another form";
-    return "";
+  std::optional<SyntaxTree> tree;
+  const Outcome by_tree = outcome_of([&] {
+    tree = frontend::parse(text, "fuzz.csg");
+    return frontend::import_design(*tree, kOptions);
+  });
+  const Outcome by_text =
+      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg", kOptions).finish(); });
+  if (tree) {
+    const std::string fault = fault_of(*tree);
+    if (!fault.empty()) return fault;
   }
+  if (const std::string fault = difference_of(by_tree, by_text); !fault.empty()) return fault;
+  const std::string& message = by_tree.error;
+  if (message.empty()) return "";
+  if (!message.starts_with("fuzz.csg:")) return "an error without its place: " + message;
+  if (message.find(": error: ") == std::string::npos) return "an error of another form";
+  return "";
 }
 
 }  // namespace fuzz

@@ -1,4 +1,4 @@
-// A design's file, .csg or .scad, as a syntax tree.
+// A design's file, .csg or .scad, from disk to what is imported.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/files.hpp"
-#include "frontend/syntax_tree.hpp"
+#include "frontend/importer.hpp"
 
 namespace frontend {
 
@@ -23,17 +23,18 @@ struct DesignText {
 };
 
 struct DesignFile {
-  std::string name;            // as messages show it
-  std::size_t file_bytes = 0;  // of the .csg text that was parsed
-  SyntaxTree tree;
-  bool is_exported = false;        // from a .scad
-  std::vector<std::string> files;  // that it was read from, the design last; if wanted
-  double export_ms = 0;            // openscad, for a .scad
+  std::string name{};                // as messages show it
+  std::size_t file_bytes = 0;        // of the .csg text that was parsed
+  TextImport import;                 // to be finished
+  bool is_exported = false;          // from a .scad
+  std::vector<std::string> files{};  // that it was read from, the design last; if wanted
+  double export_ms = 0;              // openscad, for a .scad
   double read_ms = 0;
   double parse_ms = 0;
 };
 
 struct DesignFileOptions {
+  ImportOptions import;
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
   bool wants_files = false;
   /// Given each line that openscad says.

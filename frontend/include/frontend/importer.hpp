@@ -1,9 +1,13 @@
-// Syntax tree → csgcore::Scene (openscad.md §2, design.md §3).
+// Syntax tree, or text, → csgcore::Scene (openscad.md §2, design.md §3).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -56,5 +60,26 @@ Location place_of_primitive(const SyntaxTree& tree, uint32_t id);
 /// asks for it.
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {},
                              const std::stop_token& stop = {});
+
+/// import_design(parse(text)) in one pass over the text. Of a node's arguments nothing is kept but
+/// what is drawn, so that large designs take a fraction of the time and the memory.
+class TextImport {
+ public:
+  /// Throws what parse() throws (parser.hpp), and nothing that import_design() does.
+  TextImport(std::string_view text, std::string file_name, const ImportOptions& options = {},
+             const std::stop_token& stop = {});
+  TextImport(TextImport&&) noexcept;
+  TextImport& operator=(TextImport&&) noexcept;
+  ~TextImport();
+
+  /// In the file, of all kinds.
+  std::size_t nodes() const;
+  /// The rest, which needs the text no more. Throws what import_design() throws. To be called once.
+  ImportedDesign finish(const std::stop_token& stop = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace frontend
