@@ -1,0 +1,48 @@
+// The program's operator new. A design of a million primitives takes hundreds of MB, page by page
+// of 4 KB: a third of its run is the kernel's, handing these out. In large blocks the kernel is
+// asked for huge pages, where it gives them on request only (its "madvise" setting).
+#include <sys/mman.h>
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
+// Below this a huge page is mostly empty, and clearing it costs more than it saves.
+constexpr std::size_t kLarge = kHugePage;
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  if (size >= kLarge && alignment <= kHugePage) {
+    if (void* const block =
+            std::aligned_alloc(kHugePage, (size + kHugePage - 1) & ~(kHugePage - 1))) {
+      madvise(block, size, MADV_HUGEPAGE);  // a wish: it may fail
+      return block;
+    }
+  }
+  if (alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__) return std::malloc(size == 0 ? 1 : size);
+  return std::aligned_alloc(alignment, (size + alignment - 1) & ~(alignment - 1));
+}
+
+void* allocate_or_throw(std::size_t size, std::size_t alignment) {
+  for (;;) {
+    if (void* const block = allocate(size, alignment)) return block;
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
+}
+
+}  // namespace
+
+// The array forms call these.
+void* operator new(std::size_t size) {
+  return allocate_or_throw(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate_or_throw(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
