@@ -259,7 +259,7 @@ class Run {
 };
 
 void print_info() {
-  std::printf("scadray %s\npictures: PNG (libspng), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
+  std::printf("scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
               SCADRAY_VERSION, SCADRAY_RENDERERS, "openscad on PATH, or $OPENSCAD");
 }
 

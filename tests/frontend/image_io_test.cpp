@@ -107,6 +107,29 @@ TEST(Png, SmallestPicture) {
   EXPECT_EQ(decode_png(encode_png(image), header), image.rgb);
 }
 
+std::size_t count_pixel_chunks(const Bytes& file) {
+  std::size_t count = 0;
+  for (std::size_t at = 8; at < file.size();) {
+    std::size_t length = 0;
+    for (int i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(file[at++]);
+    count += std::memcmp(file.data() + at, "IDAT", 4) == 0;
+    at += 4 + length + 4;
+  }
+  return count;
+}
+
+/// Noise is not compressed: one picture is longer than a chunk, the other's rows than what is
+/// compressed at a time.
+TEST(Png, LargePictures) {
+  for (const auto& [width, height] : {std::pair(900u, 800u), std::pair(30000u, 3u)}) {
+    const Image image = random_image(width, height);
+    const Bytes file = encode_png(image);
+    EXPECT_EQ(count_pixel_chunks(file), width == 900 ? 2u : 1u);
+    spng_ihdr header{};
+    EXPECT_TRUE(decode_png(file, header) == image.rgb) << width;
+  }
+}
+
 TEST(Png, SameImageGivesTheSameBytes) {
   EXPECT_EQ(encode_png(random_image(64, 64)), encode_png(random_image(64, 64)));
 }

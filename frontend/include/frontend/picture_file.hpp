@@ -11,7 +11,8 @@ namespace frontend {
 
 using Bytes = std::vector<std::byte>;
 
-/// 8-bit RGB. The same image gives the same bytes. Throws Error if memory runs out.
+/// 8-bit RGB. The same image gives the same bytes; on processors with other instructions it may be
+/// compressed otherwise. Throws Error if it cannot be.
 Bytes encode_png(const csgcore::Image& image);
 
 /// Float channels R, G, B, A, Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and the uint channel id.
