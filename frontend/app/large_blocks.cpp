@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 // Below this a huge page is mostly empty, and clearing it costs more than it saves.
-constexpr std::size_t kLarge = kHugePage;
+constexpr std::size_t kLarge = std::size_t{1} << 19;
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (size >= kLarge && alignment <= kHugePage) {
-    if (void* const block =
-            std::aligned_alloc(kHugePage, (size + kHugePage - 1) & ~(kHugePage - 1))) {
-      madvise(block, size, MADV_HUGEPAGE);  // a wish: it may fail
+    const std::size_t whole = (size + kHugePage - 1) & ~(kHugePage - 1);
+    if (void* const block = std::aligned_alloc(kHugePage, whole)) {
+      madvise(block, whole, MADV_HUGEPAGE);  // a wish: it may fail
       return block;
     }
   }

@@ -248,12 +248,10 @@ struct TextImport::Impl {
 TextImport::TextImport(std::string_view text, std::string file_name, const ImportOptions& options,
                        const std::stop_token& stop)
     : impl_(std::make_unique<Impl>(std::move(file_name), options)) {
-  // What has no children ends with ';', in OpenSCAD's files, and takes no less than this: room that
-  // is not used costs addresses, not memory.
-  constexpr size_t kLeastBytes = 32;
-  const auto ends = static_cast<size_t>(std::count(text.begin(), text.end(), ';'));
-  const size_t leaves = std::min(ends, text.size() / kLeastBytes);
-  impl_->collector.reserve(2 * leaves, leaves, leaves);
+  // About what OpenSCAD's files have, as the parser's own: growing copies.
+  constexpr size_t kBytesPerNode = 48, kBytesPerLeaf = 128;
+  const size_t leaves = text.size() / kBytesPerLeaf;
+  impl_->collector.reserve(text.size() / kBytesPerNode, leaves, leaves);
   parse_nodes(text, impl_->tree, impl_->collector, stop);
 }
 

@@ -47,6 +47,11 @@ class Lexer {
   bool at_number() const { return at_ != end_ && (is_digit(*at_) || *at_ == '.'); }
   /// The unsigned decimal number at the cursor, where at_number() holds, correctly rounded.
   double number();
+  /// Takes a number as most are written: perhaps a minus, a few digits, no exponent. False, and
+  /// nothing taken, where there is none.
+  bool plain_number(double& value);
+  /// Back to a position on the same line.
+  void go_back(const char* position) { at_ = position; }
   /// What stands between the quotes at the cursor, escapes as written; past the closing quote.
   std::string_view quoted_string();
   /// Takes `text`'s argument as OpenSCAD writes it: `kTextStart`, anything, `kTextEnd`; whatever
@@ -74,6 +79,7 @@ class Lexer {
   /// Moves the cursor to `to`, counting the lines passed.
   void move_over(const char* to);
   void skip_comment();
+  bool plain_digits(double& value);
   double number_by_library();
   /// The quote in [from, to) that ends an ordinary string whose first byte is `from`, or `to`.
   static const char* closing_quote(const char* from, const char* to);
@@ -120,6 +126,23 @@ inline std::string_view Lexer::word() {
 }
 
 inline double Lexer::number() {
+  double value;
+  return plain_digits(value) ? value : number_by_library();
+}
+
+inline bool Lexer::plain_number(double& value) {
+  const char* const start = at_;
+  const bool negative = take('-');
+  if (plain_digits(value)) {
+    if (negative) value = -value;
+    return true;
+  }
+  at_ = start;
+  return false;
+}
+
+/// False, and nothing taken, for what needs the library.
+inline bool Lexer::plain_digits(double& value) {
   // Exact where the digits make an integer below 2^53 and the power of ten is a double without
   // rounding (10^22 is the last): then one division of two exact doubles is correctly rounded. So
   // %g's six digits never need more.
@@ -139,10 +162,11 @@ inline double Lexer::number() {
     count += decimals;
   }
   const bool exponent = p != end_ && (*p | 0x20) == 'e';
-  if (exponent || count > kExactDigits || count == 0) return number_by_library();
+  if (exponent || count > kExactDigits || count == 0) return false;
   at_ = p;
-  const double value = static_cast<double>(digits);
-  return decimals == 0 ? value : value / kPowers[static_cast<size_t>(decimals)];
+  value = static_cast<double>(digits);
+  if (decimals > 0) value /= kPowers[static_cast<size_t>(decimals)];
+  return true;
 }
 
 inline void Lexer::move_over(const char* to) {

@@ -97,6 +97,7 @@ class Parser {
   Value value();
   Value scalar();
   Value list();
+  bool list_of_numbers(Value& list);
   Value string();
   Value store(std::string_view text);
   void hand_over();
@@ -300,15 +301,21 @@ Value Parser::scalar() {
 }
 
 Value Parser::list() {
+  Value numbers;
+  if (list_of_numbers(numbers)) return numbers;
   uint32_t open = open_list(kNone);
   for (;;) {
     lexer_.skip_space();
     const char c = lexer_.peek();
     if (c == '[') {
-      open = open_list(open);
-      continue;
+      if (!list_of_numbers(numbers)) {
+        open = open_list(open);
+        continue;
+      }
+      lists_.push_back(numbers);
+    } else if (c != ']') {
+      lists_.push_back(scalar());
     }
-    if (c != ']') lists_.push_back(scalar());
     // A value is complete, or the list after '[' or ','. Close what ends here.
     for (;;) {
       lexer_.skip_space();
@@ -324,6 +331,32 @@ Value Parser::list() {
       }
     }
   }
+}
+
+/// The list at the cursor, if it holds nothing but plain numbers, spaced as OpenSCAD does: rows of
+/// matrices, points, faces. False, and nothing taken, for others; of these no more than the numbers
+/// before the first inner list are looked at twice.
+bool Parser::list_of_numbers(Value& list) {
+  if (list_depth_ == kMaxListDepth) return false;
+  const char* const start = lexer_.position();
+  std::vector<Value>& values = tree_.values;
+  const size_t first = values.size();
+  lexer_.advance();
+  double number;
+  while (lexer_.plain_number(number)) {
+    values.push_back(number_value(number));
+    if (lexer_.take(']')) {
+      list.kind = ValueKind::kList;
+      list.first = first;
+      list.count = static_cast<uint32_t>(values.size() - first);
+      return true;
+    }
+    if (!lexer_.take(',')) break;
+    lexer_.take(' ');
+  }
+  values.resize(first);
+  lexer_.go_back(start);
+  return false;
 }
 
 uint32_t Parser::open_list(uint32_t parent) {
