@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
+#include "arguments.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "option_table.hpp"
@@ -18,7 +17,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr unsigned kMaxThreads = 1024;
 constexpr unsigned kHelpColumns = 80;
 
 po::options_description openscad_table() {
@@ -29,95 +27,17 @@ po::options_description own_table() {
   return table_of("scadray's own options", own_options(), kHelpColumns);
 }
 
-[[noreturn]] void fail(const std::string& what, const std::string& todo) {
-  throw Error("", {}, what, todo);
-}
-
-[[noreturn]] void bad_value(const std::string& option, const std::string& value,
-                            const std::string& todo) {
-  fail("--" + option + "=" + value + " is not understood", todo);
-}
-
-/// The whole text as a finite number; a leading + is allowed.
-template <typename Number>
-std::optional<Number> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  Number number{};
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failed != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(number)) return std::nullopt;
-  }
-  return number;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-std::vector<std::string_view> split_at_commas(std::string_view text) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    parts.push_back(trimmed(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return parts;
-    text.remove_prefix(comma + 1);
-  }
-}
-
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
-/// The words of the command line, sorted by option; not checked further.
-class Arguments {
- public:
-  explicit Arguments(const std::vector<std::string>& words);
-
-  bool has(const char* option) const { return values_.count(option) > 0; }
-  const std::string& text(const char* option) const { return values_[option].as<std::string>(); }
-  std::vector<std::string> texts(const char* option) const {
-    return has(option) ? values_[option].as<std::vector<std::string>>()
-                       : std::vector<std::string>{};
-  }
-  /// The option's value as a number in [least, most], or `missing`.
-  template <typename Number>
-  Number number(const char* option, Number least, Number most, Number missing,
-                const char* todo) const {
-    if (!has(option)) return missing;
-    const std::optional<Number> number = parse_number<Number>(text(option));
-    if (!number || !(*number >= least && *number <= most)) bad_value(option, text(option), todo);
-    return *number;
-  }
-  /// Calls visit(option, value) for every option in the order of the command line.
-  template <typename Visit>
-  void for_each(Visit visit) const {
-    for (const po::option& option : parsed_.options) {
-      if (option.position_key < 0) {
-        visit(option.string_key, option.value.empty() ? std::string() : option.value[0]);
-      }
-    }
-  }
-
- private:
-  static std::pair<std::string, std::string> openscad_prefix(
-      const po::options_description& openscad, const po::options_description& own,
-      const std::string& word);
-
-  po::options_description table_;
-  po::parsed_options parsed_{nullptr};
-  po::variables_map values_;
-};
-
 /// An abbreviation that is clear among OpenSCAD's options stays clear although ours are there, too:
 /// `--rend` is `--render`. Gives {option, value}, or nothing to leave the word to the library.
-std::pair<std::string, std::string> Arguments::openscad_prefix(
-    const po::options_description& openscad, const po::options_description& own,
-    const std::string& word) {
+std::pair<std::string, std::string> openscad_prefix(const po::options_description& openscad,
+                                                    const po::options_description& own,
+                                                    const std::string& word) {
   if (!word.starts_with("--") || word.size() == 2) return {};
   const std::size_t equals = word.find('=');
   const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
@@ -134,81 +54,13 @@ std::pair<std::string, std::string> Arguments::openscad_prefix(
   return {meant[0], equals == std::string::npos ? "" : word.substr(equals + 1)};
 }
 
-Arguments::Arguments(const std::vector<std::string>& words) {
+Arguments arguments_of(const std::vector<std::string>& words) {
   const po::options_description openscad = openscad_table();
   const po::options_description own = own_table();
-  po::options_description files;
-  files.add_options()("file", po::value<std::vector<std::string>>());
-  table_.add(openscad).add(own).add(files);
-  po::positional_options_description positions;
-  positions.add("file", -1);
-  try {
-    parsed_ = po::command_line_parser(words)
-                  .options(table_)
-                  .positional(positions)
-                  .extra_parser(
-                      [&](const std::string& word) { return openscad_prefix(openscad, own, word); })
-                  .run();
-    po::store(parsed_, values_);
-    po::notify(values_);
-  } catch (const po::error& error) {
-    fail(error.what(), "see scadray --help");
-  }
-}
-
-/// "a, b or c"
-template <typename Value, std::size_t kCount>
-std::string listed(const Word<Value> (&names)[kCount]) {
-  std::string list;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    list += i == 0 ? "" : (i + 1 < kCount ? ", " : " or ");
-    list += names[i].first;
-  }
-  return list;
-}
-
-/// The value that goes with the option's word, or `missing`.
-template <typename Value, std::size_t kCount>
-Value choice(const Arguments& arguments, const char* option, const Word<Value> (&names)[kCount],
-             Value missing) {
-  if (!arguments.has(option)) return missing;
-  const std::string& word = arguments.text(option);
-  if (const Value* value = find_word(names, word)) return *value;
-  bad_value(option, word, "give " + listed(names));
-}
-
-uint32_t picture_side(std::string_view text, const std::string& value) {
-  const std::optional<uint32_t> side = parse_number<uint32_t>(text);
-  if (!side || *side == 0 || *side > kMaxPictureSide_px) {
-    bad_value("imgsize", value,
-              "give width,height in pixels, each from 1 to " + std::to_string(kMaxPictureSide_px));
-  }
-  return *side;
-}
-
-void read_image_size(const Arguments& arguments, CameraOptions& camera) {
-  if (!arguments.has("imgsize")) return;
-  const std::string& value = arguments.text("imgsize");
-  const std::vector<std::string_view> sides = split_at_commas(value);
-  if (sides.size() != 2) bad_value("imgsize", value, "give two numbers: width,height");
-  camera.width_px = picture_side(sides[0], value);
-  camera.height_px = picture_side(sides[1], value);
-}
-
-void read_camera(const Arguments& arguments, CameraOptions& camera) {
-  camera.view_all = arguments.has("viewall");
-  camera.auto_center = arguments.has("autocenter");
-  if (arguments.has("camera")) {
-    const std::string& value = arguments.text("camera");
-    std::vector<double> numbers;
-    for (const std::string_view part : split_at_commas(value)) {
-      const std::optional<double> number = parse_number<double>(part);
-      if (!number) bad_value("camera", value, "give 6 or 7 finite numbers, with commas between");
-      numbers.push_back(*number);
-    }
-    camera.camera = camera_from_numbers(numbers);
-  }
-  camera.projection = choice(arguments, "projection", kProjections, camera.projection);
+  po::options_description all;
+  all.add(openscad).add(own);
+  return Arguments(all, words, "scadray",
+                   [&](const std::string& word) { return openscad_prefix(openscad, own, word); });
 }
 
 void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
@@ -253,13 +105,8 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
   read_color_scheme(arguments, render);
   render.shading = choice(arguments, "shading", kShadings, render.shading);
   render.show = choice(arguments, "show", kShows, render.show);
-  render.renderer = choice(arguments, "renderer", kRenderers, render.renderer);
-  render.leaf_primitives =
-      arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, 8, "give a whole number from 1");
-  render.threshold_px =
-      arguments.number<double>("threshold", 0, HUGE_VAL, 0, "give a number of pixels from 0");
-  render.threads = arguments.number<unsigned>("threads", 1, kMaxThreads, 0,
-                                              "give a whole number from 1 to 1024");
+  render.renderer = read_renderer(arguments);
+  read_cells_and_threads(arguments, render);
   static_assert(kMaxSamples == 64, "said below");
   render.samples =
       arguments.number<uint32_t>("samples", 1, kMaxSamples, 1, "give a whole number from 1 to 64");
@@ -340,19 +187,6 @@ void read_outputs(const Arguments& arguments, Options& options) {
   }
 }
 
-/// Options that only an OpenSCAD can follow are handed on to it.
-void read_openscad_arguments(const Arguments& arguments, Options& options) {
-  arguments.for_each([&](const std::string& option, const std::string& value) {
-    if (option == "D" || option == "p" || option == "P" || option == "m") {
-      options.openscad_arguments.insert(options.openscad_arguments.end(), {"-" + option, value});
-    } else if (option == "check-parameters" || option == "check-parameter-ranges") {
-      options.openscad_arguments.push_back("--" + option + "=" + value);
-    } else if (option == "hardwarnings") {
-      options.openscad_arguments.push_back("--hardwarnings");
-    }
-  });
-}
-
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
   constexpr const char* kForScad[] = {
@@ -408,7 +242,7 @@ std::optional<Action> action_without_file(const Arguments& arguments) {
 }  // namespace
 
 Options parse_options(const std::vector<std::string>& words) {
-  const Arguments arguments(words);
+  const Arguments arguments = arguments_of(words);
   Options options;
   if (const std::optional<Action> action = action_without_file(arguments)) {
     options.action = *action;
@@ -434,7 +268,7 @@ Options parse_options(const std::vector<std::string>& words) {
   read_view(arguments, options);
   read_outputs(arguments, options);
   if (options.outputs.empty()) options.action = Action::kOpenWindow;
-  read_openscad_arguments(arguments, options);
+  options.openscad_arguments = openscad_arguments_of(arguments);
   warn_of_what_is_ignored(arguments, options);
   return options;
 }
