@@ -1,6 +1,7 @@
 // scadray-document PROGRAM VERSION TEMPLATE FILE: writes a manual page, or a shell's completion, of
-// scadray or scadray-validate. TEMPLATE's suffix, before ".in", says which; it has the program's
-// name as @program@, what the option table says as @options@, and so on. Run by the build.
+// scadray or one of the programs that it runs. TEMPLATE's suffix, before ".in", says which; it has
+// the program's name as @program@, what the option table says as @options@, and so on. Run by the
+// build.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -8,8 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "option_rows.hpp"
+#include "bench/option_rows.hpp"
 #include "program.hpp"
+#include "validate/option_rows.hpp"
 
 namespace packaging {
 namespace {
@@ -17,10 +19,11 @@ namespace {
 Program program_of(const std::string& name) {
   if (name == "scadray") {
     return {"scadray",
-            "validate",
+            "bench validate",
             {{"OpenSCAD's options", frontend::openscad_options()},
              {"scadray's own options", frontend::own_options()}}};
   }
+  if (name == "scadray-bench") return {"scadray-bench", "", {{"Options", bench::option_rows()}}};
   if (name == "scadray-validate") {
     return {"scadray-validate", "", {{"Options", validation::option_rows()}}};
   }
@@ -59,7 +62,7 @@ void run(const Program& program, const std::string& version, const std::string& 
   replace_all(text, "@options@\n", options_of(program, template_path));
   replace_all(text, "@program@", program.name);
   replace_all(text, "@function@", function_of(program));
-  replace_all(text, "@subcommand@", program.subcommand);
+  replace_all(text, "@subcommands@", program.subcommands);
   replace_all(text, "@version@", version);
   std::ofstream file(path, std::ios::binary);
   file << text;

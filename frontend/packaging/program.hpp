@@ -16,7 +16,7 @@ struct OptionGroup {
 
 struct Program {
   const char* name;
-  const char* subcommand;  // a first word that makes it run NAME-SUBCOMMAND; or ""
+  const char* subcommands;  // first words that make it run NAME-SUBCOMMAND, with spaces between
   std::vector<OptionGroup> groups;
 };
 

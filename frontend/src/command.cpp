@@ -264,6 +264,10 @@ void print_info() {
 }
 
 void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  if (!arguments.empty() && arguments[0] == "bench") {
+    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
+                   "install scadray as a whole: its programs belong into one folder");
+  }
   if (!arguments.empty() && arguments[0] == "validate") {
     run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
                    "install the package scadray-validate, or build scadray with SCADRAY_ORACLE=ON "

@@ -124,6 +124,7 @@ class GlRenderer final : public SolidRenderer {
     stats.cells_drawn += frame.cells_drawn;
     stats.traverse_ms += frame.traverse_ms;
     stats.render_ms += frame.draw_ms + frame.read_ms;
+    stats.read_ms += frame.read_ms;
     return image;
   }
 

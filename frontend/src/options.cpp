@@ -277,9 +277,11 @@ std::string help_text() {
   po::options_description all(
       "Usage: scadray [options] FILE              (a window that follows every save)\n"
       "       scadray -o OUT [options] FILE\n"
+      "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
-      ".csg from standard input. `validate` compares it with exact arithmetic instead",
+      ".csg from standard input. `bench` measures how long that takes, `validate` compares\n"
+      "it with exact arithmetic",
       kHelpColumns);
   all.add(openscad_table()).add(own_table());
   std::ostringstream text;

@@ -16,8 +16,8 @@ enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,
                                               const RenderSettings&, RenderStats&)>;
 
-/// Runs the command; where the first argument is `validate`, the program scadray-validate in this
-/// one's place. Messages go to stderr; nothing is thrown.
+/// Runs the command; where the first argument is `bench` or `validate`, the program scadray-bench
+/// or scadray-validate in this one's place. Messages go to stderr; nothing is thrown.
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer);
 
 }  // namespace frontend

@@ -99,6 +99,7 @@ struct RenderStats {
   double subdivide_ms = 0;  // the paper's S
   double traverse_ms = 0;   // T_S without the pass over the vertices: order and upload
   double render_ms = 0;     // draw, and read back from OpenGL, which compiles its shaders, too
+  double read_ms = 0;       // of render_ms, reading back
   double measuring_ms = 0;  // drawing again, for the times below
   double paper_ts_ms = 0;   // T_S: traverse and pass the parameters, no pixel shader
   double paper_tr_ms = 0;   // T_R: traverse and render

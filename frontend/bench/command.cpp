@@ -1,0 +1,153 @@
+#include "command.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <new>
+#include <thread>
+#include <utility>
+
+#include "frontend/design_file.hpp"
+#include "frontend/error.hpp"
+#include "frontend/progress.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace bench {
+namespace {
+
+using frontend::Error;
+using frontend::ExitCode;
+using Json = nlohmann::ordered_json;
+
+struct Design {
+  std::string name;
+  ScenePointer scene;
+  frontend::Camera camera;
+};
+
+/// From the camera once around the vertical axis.
+std::vector<csgcore::View> turning_views(frontend::Camera camera,
+                                         const frontend::CameraOptions& options) {
+  constexpr int kSteps = 36;
+  std::vector<csgcore::View> views;
+  for (int i = 0; i < kSteps; ++i) {
+    views.push_back(frontend::make_view(camera, options));
+    camera.rotation_deg.z += 360.0 / kSteps;
+  }
+  return views;
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options)
+      : options_(options), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+
+  ExitCode execute() {
+    // All are read before the first is measured: a file that cannot be read is found at once.
+    std::vector<Design> designs;
+    for (const std::string& input : options_.inputs) designs.push_back(import(input));
+    Json files = Json::array();
+    bool is_right = true;
+    for (const Design& design : designs) {
+      const Result result = measure(design);
+      for (const std::string& wrong : result.wrong) {
+        say(design.name + ": error: " + wrong + ": not measured" +
+            (wrong.starts_with("gl") ? " (OpenGL computes in float; give --renderer=cpu)" : ""));
+        is_right = false;
+      }
+      if (options_.json) {
+        files.push_back(json_of(design.name, result));
+      } else {
+        std::fputs(table_of(design.name, result).c_str(), stdout);
+        std::fflush(stdout);
+      }
+    }
+    if (options_.json) print(files);
+    return is_right ? ExitCode::kDone : ExitCode::kFailure;
+  }
+
+ private:
+  void say(const std::string& text) {
+    progress_.clear();
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+
+  /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
+  Design import(const std::string& input) {
+    frontend::DesignFileOptions reading;
+    reading.openscad_arguments = options_.openscad_arguments;
+    reading.message = [this](const std::string& line) {
+      if (!options_.quiet || line.starts_with("ERROR")) say(line);
+    };
+    reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    const frontend::DesignFile file = frontend::read_design(input, reading);
+    frontend::ImportedDesign design = frontend::import_design(file.tree, options_.import);
+    for (const frontend::Warning& warning : design.warnings) {
+      if (!options_.quiet) say(warning.text);
+    }
+    design.scene.background = {};
+    design.scene.highlight = {};
+    return {file.name, std::make_shared<const csgcore::Scene>(std::move(design.scene)),
+            frontend::choose_camera(options_.camera, design.view_box)};
+  }
+
+  Result measure(const Design& design) {
+    const std::vector<csgcore::View> views = turning_views(design.camera, options_.camera);
+    Result result =
+        bench::measure(design.scene, views, options_.settings, [&](const std::string& stage) {
+          progress_.update((design.name + ": " + stage).c_str(), -1);
+        });
+    progress_.clear();
+    return result;
+  }
+
+  void print(const Json& files) const {
+    const unsigned threads = options_.settings.threads;
+    const Json all = {{"version", SCADRAY_VERSION},
+                      {"width_px", options_.camera.width_px},
+                      {"height_px", options_.camera.height_px},
+                      {"threads", threads > 0 ? threads : std::thread::hardware_concurrency()},
+                      {"files", files}};
+    // A file's name need not be UTF-8.
+    const std::string text = all.dump(1, ' ', false, Json::error_handler_t::replace);
+    std::printf("%s\n", text.c_str());
+  }
+
+  const Options& options_;
+  frontend::ProgressLine progress_;
+};
+
+ExitCode run(const std::vector<std::string>& arguments) {
+  const Options options = parse_options(arguments);
+  switch (options.action) {
+    case Action::kHelp:
+      std::fputs(help_text().c_str(), stdout);
+      return ExitCode::kDone;
+    case Action::kVersion:
+      std::printf("scadray-bench version %s\n", SCADRAY_VERSION);
+      return ExitCode::kDone;
+    case Action::kMeasure:
+      break;
+  }
+  return Run(options).execute();
+}
+
+}  // namespace
+
+ExitCode run_command(const std::vector<std::string>& arguments) {
+  try {
+    const ExitCode code = run(arguments);
+    if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
+    return code;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: out of memory (try a smaller --imgsize or design)\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return ExitCode::kFailure;
+}
+
+}  // namespace bench

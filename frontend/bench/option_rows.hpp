@@ -1,0 +1,12 @@
+// The options of `scadray bench`. Apart from what reads them, for frontend/packaging.
+#pragma once
+
+#include <span>
+
+#include "option_table.hpp"
+
+namespace bench {
+
+std::span<const frontend::OptionRow> option_rows();
+
+}  // namespace bench

@@ -1,0 +1,84 @@
+#include "options.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "arguments.hpp"
+#include "option_rows.hpp"
+
+namespace bench {
+namespace {
+
+using frontend::Arguments;
+
+constexpr size_t kMostRuns = 1'000'000;
+constexpr double kLongest_s = 1e6;
+
+boost::program_options::options_description option_table() {
+  constexpr unsigned kColumns = 100;
+  return frontend::table_of("Options", option_rows(), kColumns);
+}
+
+std::vector<std::string> read_inputs(const Arguments& arguments) {
+  std::vector<std::string> files = arguments.texts("file");
+  if (files.empty()) frontend::fail("no file to measure", "give .csg or .scad files, or -");
+  if (std::count(files.begin(), files.end(), "-") > 1) {
+    frontend::fail("standard input is given twice", "give - once");
+  }
+  return files;
+}
+
+/// Those of the command line, or else scadray's own rule and the paper's.
+std::vector<Rule> read_rules(const Arguments& arguments, const frontend::RenderSettings& given) {
+  if (arguments.has("leaf-primitives") || arguments.has("threshold")) {
+    return {{given.leaf_primitives, given.threshold_px}};
+  }
+  return {Rule{}, kPaperRule};
+}
+
+}  // namespace
+
+Options parse_options(const std::vector<std::string>& words) {
+  const Arguments arguments(option_table(), words, "scadray bench");
+  Options options;
+  if (arguments.has("help") || arguments.has("version")) {
+    options.action = arguments.has("help") ? Action::kHelp : Action::kVersion;
+    return options;
+  }
+  options.inputs = read_inputs(arguments);
+  options.camera.width_px = 640;  // the paper's (§4.1)
+  options.camera.height_px = 480;
+  frontend::read_image_size(arguments, options.camera);
+  frontend::read_camera(arguments, options.camera);
+  options.import.skip_unsupported = arguments.has("skip-unsupported");
+  options.openscad_arguments = frontend::openscad_arguments_of(arguments);
+  frontend::RenderSettings render;
+  frontend::read_cells_and_threads(arguments, render);
+  Settings& settings = options.settings;
+  settings.rules = read_rules(arguments, render);
+  settings.renderer = frontend::read_renderer(arguments);
+  settings.threads = render.threads;
+  Repetitions& repetitions = settings.repetitions;
+  repetitions.least = arguments.number<size_t>("repeat", 1, kMostRuns, repetitions.least);
+  repetitions.most = kMostRuns;
+  repetitions.long_enough_ms = 1000 * arguments.number("time", 0.0, kLongest_s, 1.0);
+  options.json = arguments.has("json");
+  options.quiet = arguments.has("quiet");
+  return options;
+}
+
+std::string help_text() {
+  std::ostringstream text;
+  text << "Usage: scadray bench [options] FILE...\n"
+          "Measures how long the designs take to draw: each renderer's first picture, and those "
+          "of a\n"
+          "turning camera; and what the paper measures: S subdivide, T_S traverse and pass the\n"
+          "parameters to OpenGL, T_R traverse and render, S_R render while subdividing. FILE is a "
+          ".csg,\n"
+          "a .scad (exported by OpenSCAD), or - for a .csg from standard input. The pictures are\n"
+          "compared first: exit status 1 where they differ, or anything fails.\n"
+       << option_table();
+  return text.str();
+}
+
+}  // namespace bench

@@ -1,0 +1,35 @@
+// The command line of scadray-bench.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frontend/camera.hpp"
+#include "frontend/importer.hpp"
+#include "measurement.hpp"
+
+namespace bench {
+
+enum class Action : uint8_t { kMeasure, kHelp, kVersion };
+
+/// Checked: every value is in its documented range.
+struct Options {
+  Action action = Action::kMeasure;
+  std::vector<std::string> inputs;  // at least one; "-", at most once: a .csg from standard input
+  frontend::CameraOptions camera;
+  frontend::ImportOptions import;
+  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  Settings settings;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Throws frontend::Error for anything that is wrong with the arguments (without the program's
+/// name).
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// The text of --help.
+std::string help_text();
+
+}  // namespace bench
