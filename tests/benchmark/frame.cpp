@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <random>
 #include <utility>
 
 #include "frontend/camera.hpp"
-#include "support/reference.hpp"
+#include "reference_check.hpp"
 
 namespace frame_benchmark {
 namespace {
@@ -31,40 +29,6 @@ FrameSettings cornfield() {
   settings.front = glm::vec3{0xf9, 0xd7, 0x2c} / 255.0f;
   settings.back = glm::vec3{0x9d, 0xcb, 0x51} / 255.0f;
   return settings;
-}
-
-/// Seen pixels, and seeded ones of any kind: most of a wrong answer's wrong pixels are hits, but
-/// all of them may be missing.
-std::vector<size_t> sampled_pixels(const Hits& hits) {
-  constexpr size_t kHits = 80;
-  constexpr size_t kAny = 40;
-  std::vector<size_t> seen;
-  for (size_t i = 0; i < hits.primitive.size(); ++i) {
-    if (hits.primitive[i] != Hits::kMiss) seen.push_back(i);
-  }
-  std::mt19937 random(1);
-  std::vector<size_t> sample;
-  for (size_t i = 0; i < kHits && !seen.empty(); ++i) {
-    sample.push_back(seen[random() % seen.size()]);
-  }
-  for (size_t i = 0; i < kAny; ++i) sample.push_back(random() % hits.primitive.size());
-  return sample;
-}
-
-/// What the reference knows to be so is so.
-bool agrees_with_reference(const Subject& subject) {
-  const csgcore::Reference reference(subject.scene(), subject.view());
-  const Hits hits = subject.hits();
-  const double far = csgcore::kReferencePositionError * reference.model_size();
-  for (const size_t pixel : sampled_pixels(hits)) {
-    const uint32_t x = static_cast<uint32_t>(pixel % hits.width_px);
-    const uint32_t y = static_cast<uint32_t>(pixel / hits.width_px);
-    const csgcore::ReferenceHit expected = reference.at(x, y);
-    const bool same = hits.primitive[pixel] == expected.primitive &&
-                      (!expected.hit() || std::abs(hits.s[pixel] - double(expected.s)) <= far);
-    if (!same && !reference.undecided(x, y)) return false;
-  }
-  return true;
 }
 
 double median_of(std::vector<double> values) {
@@ -145,7 +109,8 @@ void give_up(const std::string& what) {
 
 void AnswerCheck::require_right(const Drawing& drawing) {
   if (first_.rgb.empty()) {
-    if (!agrees_with_reference(subject_)) give_up("not what the reference sees");
+    const bool is_right = agrees_with_reference(subject_.scene(), subject_.view(), subject_.hits());
+    if (!is_right) give_up("not what the reference sees");
     subject_.draw(Drawing{}, first_);
   }
   Image image;

@@ -1,33 +1,18 @@
 // Repeated measurements of the same work, and what they come to.
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <vector>
 
+#include "bench/samples.hpp"
+
 namespace measure {
 
-/// Of values of one unit, at least one: the median, the least, the quartiles.
-struct Summary {
-  double median = 0;
-  double least = 0;
-  double lower_quartile = 0;
-  double upper_quartile = 0;
-  size_t count = 0;
-};
-Summary summarise(std::vector<double> values);
-/// {"median", "least", "quartiles": [lower, upper], "count"}; every time in the results is one.
-void to_json(nlohmann::json& json, const Summary& summary);
-
-/// How often work is repeated: `least` times, and on until it took `long_enough_ms` in all or was
-/// done `most` times.
-struct Repetitions {
-  size_t least = 5;
-  size_t most = 50;
-  double long_enough_ms = 2'000;
-};
+// As `scadray bench` has them; every time in the results is a Summary.
+using bench::Repetitions;
+using bench::summarise;
+using bench::Summary;
 
 /// Work that takes its own time: returns ms.
 using Timed = std::function<double()>;
