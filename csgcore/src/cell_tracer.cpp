@@ -265,7 +265,7 @@ void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undec
 TileTracer& CellTracer::tile_tracer() {
   std::call_once(tile_tracer_made_, [&] {
     tile_tracer_ =
-        std::make_unique<TileTracer>(subdivision_.solid(), frame_, subject_, true, fates_);
+        std::make_unique<TileTracer>(subdivision_.solid(), frame_, subject_, TileRules{}, fates_);
   });
   return *tile_tracer_;
 }

@@ -46,6 +46,7 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
     cuts = depth && drop_hidden(list, restrictor, *depth, cover);
+    if (cuts) cut_t_ = *depth;
     if (cuts) break;
   }
   if (!cuts && !marked_.empty()) return Outcome::kOpenGroups;
@@ -105,8 +106,10 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
     const double from = *std::max_element(segments.start, segments.start + 4);
     const double to = *std::min_element(segments.end, segments.end + 4);
     const double slack = kCoverSlack * (std::abs(from) + std::abs(to) + (to - from));
+    const double least = cover_share_ * (cover.to_t - cover.from_t);
     cover.from_t = std::max(from, frame_.first_t) + slack;
     cover.to_t = to - slack;
+    if (!(cover.to_t - cover.from_t > least)) cover.to_t = cover.from_t;
   }
   std::erase_if(covers_, [](const Cover& c) { return !(c.from_t < c.to_t); });
   is_partly_covered_ = covers_.empty() && (is_partly_covered_ || candidates > 0);

@@ -54,9 +54,10 @@ class Fates {
 class TileSimplifier {
  public:
   /// `last_value`: a ray ends once the solid has that value; none: rays go on.
+  /// `cover_share`: a stretch counts if it is longer than this share of its primitive's depth.
   TileSimplifier(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
                  ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
-                 std::optional<bool> last_value, Fates& fates)
+                 std::optional<bool> last_value, double cover_share, Fates& fates)
       : primitives_(primitives),
         groups_(groups),
         bounds_(bounds),
@@ -64,6 +65,7 @@ class TileSimplifier {
         frame_(frame),
         centers_only_(centers_only),
         last_value_(last_value),
+        cover_share_(cover_share),
         fates_(fates) {}
 
   enum class Outcome : uint8_t {
@@ -76,6 +78,8 @@ class TileSimplifier {
                    CellList& result);
   /// By the list's indices.
   std::span<const uint8_t> marked() const { return marked_; }
+  /// After kCut: the depth that all rays of the tile end before.
+  double cut_t() const { return cut_t_; }
   /// Whether some primitive covers a part of the tile that smaller tiles may lie in wholly.
   bool is_partly_covered() const { return is_partly_covered_; }
 
@@ -100,6 +104,7 @@ class TileSimplifier {
   const FrameRays& frame_;
   bool centers_only_;
   std::optional<bool> last_value_;
+  double cover_share_;
   Fates& fates_;
 
   using Decision = Restrictor::Decision;
@@ -107,6 +112,7 @@ class TileSimplifier {
   // Of the list that is simplified:
   bool has_groups_ = false;
   bool is_partly_covered_ = false;
+  double cut_t_ = 0;
   std::vector<Decision> decisions_;  // while a question is asked
   std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
   std::vector<uint8_t> marked_;

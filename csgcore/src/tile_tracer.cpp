@@ -11,11 +11,13 @@
 namespace csgcore {
 namespace {
 
-/// A tile of kTileSide_px is traced if its list is this short; of one packet in any case.
-constexpr uint32_t kTileList = 32;
-/// So are larger ones whose list is this short: dividing it costs more than it saves.
+/// Tiles larger than kTileSide_px whose list is this short are not divided: that costs more than it
+/// saves.
 constexpr uint32_t kShortList = 3;
 constexpr uint32_t kShortListSide_px = 32;
+
+/// Tiles of so few pixels a side are never divided.
+constexpr uint32_t kLeastSide_px = 2;
 
 /// Larger tiles are divided by two tasks.
 constexpr uint32_t kTaskPixels = 64 * 64;
@@ -93,7 +95,8 @@ struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
       : restrictor(owner.bounds_.extents(), owner.bounds_, Restrictor::Space::kScreen),
         simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
-                   owner.centers_only_, owner.last_value_, owner.fates_) {}
+                   owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
+                   owner.fates_) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -137,14 +140,14 @@ class TileTracer::Lease {
 };
 
 TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-                       bool centers_only, Fates& fates)
+                       const TileRules& rules, Fates& fates)
     : solid_(solid),
       groups_(solid.groups()),
       frame_(frame),
       subject_(subject),
-      centers_only_(centers_only),
+      rules_(rules),
       fates_(fates),
-      bounds_(solid.primitives(), groups_, frame, centers_only) {
+      bounds_(solid.primitives(), groups_, frame, rules.centers_only) {
   last_value_ = find_last_value();
 }
 
@@ -184,7 +187,7 @@ std::optional<bool> TileTracer::find_last_value() const {
 
 Box TileTracer::box_of(const Tile& tile) const {
   constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
-  const double border = centers_only_ ? 0.0 : 0.5;
+  const double border = rules_.centers_only ? 0.0 : 0.5;
   const double x = tile.x;
   const double y = tile.y;
   return {{x - border, y - border, -kAnyDepth},
@@ -199,45 +202,50 @@ void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
   const Lease workspace(*this);
   CellList& list = (*workspace).level(0).halves[0];
   (*workspace).restrictor.restrict(groups_.list(), box_of(area), list);
-  divide(area, list, nullptr, 1, *workspace, visitor);
+  divide(area, list, {}, 1, *workspace, visitor);
 }
 
 /// Recursion halves the tile each time.
-void TileTracer::divide(const Tile& tile, const CellList& given, const CellList* uncut,
-                        size_t level, Workspace& workspace, TileVisitor& visitor) {
+void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t level,
+                        Workspace& workspace, TileVisitor& visitor) {
   if (subject_.stop.stop_requested() || !visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
   const uint32_t side = std::max(tile.width, tile.height);
   const bool is_packet = tile.width <= kPacketWidth_px && tile.height <= kPacketHeight_px;
   const auto is_short = [&] {
-    return is_packet || (side <= kTileSide_px && list->count() <= kTileList) ||
+    return side <= kLeastSide_px || (is_packet && list->count() <= rules_.packet_list) ||
+           (side <= kTileSide_px && list->count() <= rules_.tile_list) ||
            (side <= kShortListSide_px && list->count() <= kShortList);
   };
   const auto simplify_list = [&](bool is_new) {
     bool cuts = false;
-    list = simplify(tile, list, is_new, uncut != nullptr, own, workspace, cuts);
-    if (cuts && !uncut) uncut = &given;
+    list = simplify(tile, list, is_new, cut.uncut != nullptr, own, workspace, cuts);
+    if (!cuts) return;
+    if (!cut.uncut) cut.uncut = &given;
+    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
   };
   // Groups that are left of a list that was cut are mostly seen.
-  simplify_list(!uncut && has_groups(*list));
+  simplify_list(!cut.uncut && has_groups(*list));
   const CellList* const closed = list;
-  const bool is_behind = !uncut && workspace.simplifier.is_partly_covered();
+  const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
   list = open_large_groups(tile, list, share, own.opened, workspace);
-  if (list != closed) simplify_list(!uncut);
-  if (list->is_constant() && !uncut) {
+  if (list != closed) simplify_list(!cut.uncut);
+  if (list->is_constant() && !cut.uncut) {
     visitor.visit_empty(tile);
     return;
   }
   if (is_short()) list = open_large_groups(tile, list, 0.0, own.opened, workspace);
   if (is_short()) {
-    visit_leaf(tile, *list, uncut, workspace, visitor);
+    visit_leaf(tile, *list, cut, workspace, visitor);
     return;
   }
   Tile below = tile, above = tile;
-  const bool across = tile.width > std::max(tile.height, kPacketWidth_px);
-  const uint32_t unit = side > kTileSide_px ? kTileSide_px : kPacketHeight_px;
+  const bool across = tile.width > std::max(tile.height, is_packet ? 0 : kPacketWidth_px);
+  const uint32_t unit = side > kTileSide_px ? kTileSide_px
+                        : is_packet         ? kLeastSide_px
+                                            : kPacketHeight_px;
   const auto half = [unit](uint32_t size) { return (size / 2 + unit - 1) / unit * unit; };
   if (across) {
     below.width = half(tile.width);
@@ -258,13 +266,13 @@ void TileTracer::divide(const Tile& tile, const CellList& given, const CellList*
   if (tile.width * tile.height > kTaskPixels) {
     const auto task = [&](const Tile& part, const CellList& part_list) {
       const Lease lease(*this);
-      divide(part, part_list, uncut, 0, *lease, visitor);
+      divide(part, part_list, cut, 0, *lease, visitor);
     };
     tbb::parallel_invoke([&] { task(below, own.halves[0]); }, [&] { task(above, own.halves[1]); });
     return;
   }
-  divide(below, own.halves[0], uncut, level + 1, workspace, visitor);
-  divide(above, own.halves[1], uncut, level + 1, workspace, visitor);
+  divide(below, own.halves[0], cut, level + 1, workspace, visitor);
+  divide(above, own.halves[1], cut, level + 1, workspace, visitor);
 }
 
 /// The list without what decides nothing in the tile, if it is time to look for that. `cuts` is set
@@ -333,11 +341,17 @@ const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* 
 
 class TileTracer::LeafRays final : public TileRays {
  public:
-  /// `uncut`: the list before what is hidden was dropped from it, or null.
-  LeafRays(TileTracer& owner, const Tile& tile, const CellList& list, const CellList* uncut,
+  LeafRays(TileTracer& owner, const Tile& tile, const CellList& list, const Cut& cut,
            Workspace& workspace)
-      : owner_(owner), tile_(tile), uncut_(uncut), workspace_(workspace) {
+      : owner_(owner), tile_(tile), cut_(cut), workspace_(workspace) {
     workspace.list.assign(owner.solid_.primitives(), owner.bounds_.extents(), tile, list);
+  }
+
+  Met met() override {
+    const CellList& list = *workspace_.list.trace_list().list;
+    if (!cut_.uncut || !list.is_constant()) return {list, cut_.t};
+    assign_uncut();
+    return {*workspace_.uncut_list.trace_list().list, Cut{}.t};
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
@@ -355,7 +369,7 @@ class TileTracer::LeafRays final : public TileRays {
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
     // by a piece too thin to exist, what lies behind counts.
-    if (!uncut_ || (hits.hits & lanes) == lanes) return workspace_.list.trace_list();
+    if (!cut_.uncut || (hits.hits & lanes) == lanes) return workspace_.list.trace_list();
     workspace_.packets.was_computed.clear();
     if (!has_uncut_) assign_uncut();
     const TraceList& uncut = workspace_.uncut_list.trace_list();
@@ -367,7 +381,7 @@ class TileTracer::LeafRays final : public TileRays {
   void assign_uncut() {
     has_uncut_ = true;
     CellList& restricted = workspace_.uncut;
-    workspace_.restrictor.restrict(*uncut_, owner_.box_of(tile_), restricted);
+    workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
     const CellList* list =
         owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
     workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_.extents(), tile_,
@@ -376,16 +390,16 @@ class TileTracer::LeafRays final : public TileRays {
 
   TileTracer& owner_;
   const Tile& tile_;
-  const CellList* uncut_;
+  const Cut cut_;
   bool has_uncut_ = false;
   Workspace& workspace_;
 };
 
-void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
+void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const Cut& cut,
                             Workspace& workspace, TileVisitor& visitor) {
   ++workspace.tiles;
   workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
-  LeafRays rays(*this, tile, list, uncut, workspace);
+  LeafRays rays(*this, tile, list, cut, workspace);
   visitor.visit(tile, rays);
   if (!fates_.wanted()) return;
   const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;

@@ -2,6 +2,7 @@
 // is divided like a kd-tree, and with it the solid's list, down to tiles of a few pixels.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -38,6 +39,15 @@ class TileRays {
  public:
   virtual ~TileRays() = default;
 
+  /// What the tile's rays can meet; for those who evaluate it themselves.
+  struct Met {
+    const CellList& list;
+    /// All rays end before this depth, and the list is without what lies behind it. +∞: it is
+    /// without nothing.
+    double cut_t;
+  };
+  virtual Met met() = 0;
+
   /// Rays through any pixels of the tile. Returns the list that the hits' indices refer to.
   virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
   /// Those through the centres of a block's pixels.
@@ -59,6 +69,20 @@ class TileVisitor {
   virtual void visit(const Tile& tile, TileRays& rays) = 0;
 };
 
+/// When a tile is divided no further, and what its list may be without. The defaults are the
+/// tracer's.
+struct TileRules {
+  /// Rays go through pixels' centres only.
+  bool centers_only = true;
+  /// A tile of kTileSide_px is not divided if its list is this short.
+  uint32_t tile_list = 32;
+  /// Nor is one of a packet; one of 2 pixels a side in any case.
+  uint32_t packet_list = std::numeric_limits<uint32_t>::max();
+  /// What is hidden is left out where what hides it is, along every ray, longer than this share of
+  /// its depth on the screen: who computes less exactly than the tracer must not miss it.
+  double cover_share = 0;
+};
+
 /// One frame's tiles.
 class TileTracer {
  public:
@@ -70,9 +94,8 @@ class TileTracer {
   };
 
   /// Keeps references to solid, frame and fates.
-  /// `centers_only`: rays go through pixels' centres only.
   TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-             bool centers_only, Fates& fates);
+             const TileRules& rules, Fates& fates);
   ~TileTracer();
 
   /// All tiles of `area`, in parallel if that is more than a few.
@@ -88,10 +111,16 @@ class TileTracer {
   class Lease;
   class LeafRays;
 
-  void divide(const Tile& tile, const CellList& list, const CellList* uncut, size_t level,
-              Workspace& workspace, TileVisitor& visitor);
-  void visit_leaf(const Tile& tile, const CellList& list, const CellList* uncut,
-                  Workspace& workspace, TileVisitor& visitor);
+  /// What a list has lost of what is hidden.
+  struct Cut {
+    const CellList* uncut = nullptr;                     // the list before; null: it is whole
+    double t = std::numeric_limits<double>::infinity();  // TileRays::Met::cut_t
+  };
+
+  void divide(const Tile& tile, const CellList& list, Cut cut, size_t level, Workspace& workspace,
+              TileVisitor& visitor);
+  void visit_leaf(const Tile& tile, const CellList& list, const Cut& cut, Workspace& workspace,
+                  TileVisitor& visitor);
   const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                            Level& level, Workspace& workspace, bool& cuts);
   bool has_groups(const CellList& list) const;
@@ -107,7 +136,7 @@ class TileTracer {
   const OperandGroups& groups_;
   const FrameRays& frame_;
   const TraceSubject subject_;
-  const bool centers_only_;
+  const TileRules rules_;
   Fates& fates_;
   std::optional<bool> last_value_;
   ScreenBounds bounds_;

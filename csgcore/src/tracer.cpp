@@ -1,8 +1,5 @@
 #include "csgcore/tracer.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -12,6 +9,7 @@
 #include "cell_tracer.hpp"
 #include "edge_samples.hpp"
 #include "packet_blocks.hpp"
+#include "worker_threads.hpp"
 
 namespace csgcore {
 namespace {
@@ -33,19 +31,6 @@ class Stopwatch {
  private:
   Clock::time_point last_ = Clock::now();
 };
-
-/// Runs with as many threads as are wanted.
-template <typename Work>
-void with_threads(unsigned threads, Work&& work) {
-  if (threads == 0) {
-    work();
-    return;
-  }
-  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute(work);
-}
 
 TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
   TraceSubject subject;
@@ -158,7 +143,7 @@ class Frame {
           fates_.note(literal.primitive, Fate::kHidden);
         }
       } else {
-        TileTracer tracer(solid_, rays_, subject_, true, fates_);
+        TileTracer tracer(solid_, rays_, subject_, TileRules{}, fates_);
         stats_.cull_ms = watch.lap_ms();
         PixelVisitor visitor(rays_, sink);
         tracer.visit(area, visitor);
@@ -174,7 +159,7 @@ class Frame {
       Stopwatch watch;
       const EdgeMap edges(image, area);
       stats_.edge_pixels = edges.count();
-      TileTracer tracer(solid_, rays_, subject_, false, fates_);
+      TileTracer tracer(solid_, rays_, subject_, TileRules{.centers_only = false}, fates_);
       EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
       tracer.visit(area, visitor);
       add(tracer.counts());

@@ -1,8 +1,8 @@
 // The ray-tracing area of a cell (paper §3.1.1): its box, one instance a cell. All coordinates are
 // world axes relative to the view's focus.
 
-layout(location = LOCATION_BOX_MIN) in vec3 a_box_min;
-layout(location = LOCATION_BOX_MAX) in vec3 a_box_max;
+layout(location = LOCATION_LOW) in vec3 a_box_min;
+layout(location = LOCATION_HIGH) in vec3 a_box_max;
 layout(location = LOCATION_LIST) in uvec2 a_list;  // first literal, number of literals
 
 flat out vec3 v_box_min;

@@ -3,6 +3,9 @@
 
 flat in uvec2 v_list;           // first literal; how many (PATH_UNION: how many come before it)
 
+#if TILES
+flat in float v_cut_t;          // the solid holds there, however thin the piece; +inf: nobody knows
+#endif
 uniform float u_tolerance;      // thinnest piece, along the normal, in world units (design.md §3)
 uniform bool u_eye_inside;      // rays start in the solid: what is seen is the solid's complement
 
@@ -157,6 +160,18 @@ Evaluation evaluate(Ray ray, float t) {
   return result;
 }
 
+// Whether the piece that starts there is what the ray ends in. Of a cell, also one that covers its
+// front, and hides what lies behind; of a tile, none that covers the eye.
+bool ends_in(Hit from, float piece_ends, bool covered) {
+  bool thin = too_thin(piece_ends - from.t, from.speed);
+#if TILES
+  if (covered) return piece_ends == INFINITY;
+  return !thin || from.t <= v_cut_t && v_cut_t < piece_ends;
+#else
+  return !thin;
+#endif
+}
+
 Hit first_hit(Ray ray, float enter, float leave) {
 #if PATH == PATH_SHORT_LIST
   for (uint i = 0u; i < v_list.y; ++i) {
@@ -176,7 +191,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
         covered = first;
       }
       from.speed = crossing_speed(ray, covered ? now.next : from);
-      if (!too_thin(now.next.t - from.t, from.speed)) break;
+      if (ends_in(from, now.next.t, covered)) break;
     } else {
       from = NO_HIT;
       covered = false;

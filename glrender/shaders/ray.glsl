@@ -1,6 +1,7 @@
 // Rays, segments and the ray-primitive intersections of paper §3.2, steps 1 to 4.
 
 const float INFINITY = uintBitsToFloat(0x7F800000u);
+const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // as far as a ray goes
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;     // per primitive: colour, colour as a cut face, id

@@ -44,9 +44,9 @@ bool holds_without(Ray ray, Crossed crossed, uint faces) {
   do {
     Literal literal = fetch_literal(v_list.x + i);
     bool is_inside = (inside >> i & 1u) != 0u;
-#if PATH == PATH_LIST
+#if PATH == PATH_LIST || SHORT_LIST > SHARED_FACES
     if (i >= uint(SHARED_FACES)) {
-      Segment segment = intersect(ray, literal.primitive);
+      Segment segment = segment_of(ray, i, literal.primitive);
       is_inside = segment.start <= crossed.t && crossed.t < segment.end;
     }
 #endif

@@ -17,6 +17,7 @@
 #include "render_target.hpp"
 #include "solid_buffers.hpp"
 #include "stream_drawer.hpp"
+#include "tile_instances.hpp"
 #include "traversal.hpp"
 
 namespace glrender {
@@ -38,6 +39,10 @@ using csgcore::View;
 /// of a float t: about 2^-24 of the scene's size, times the few operations that lead to it.
 /// (Measured on coincident faces at several angles: no speckle down to 2^-22, some at 2^-23.)
 constexpr double kThinnestPiece = 0x1p-21;
+
+/// Of the primitives in place, where no cells are made anew: then what polyhedra have left behind
+/// goes.
+constexpr uint32_t kMostUpdates = 256;
 
 double thinnest_piece(const Solid& solid) {
   if (solid.bounds().empty()) return 0;
@@ -75,18 +80,16 @@ class Renderer::Impl {
     literals_ = packed.literals.size();
   }
 
+  void update(const Solid& solid, const SceneEdit& edit) {
+    follow(solid, edit, edit.keeps_indices() && updates_ < kMostUpdates);
+    subdivision_ = nullptr;
+  }
+
   void update(const Subdivision& subdivision, const SceneEdit& edit,
               const SubdivisionUpdate& update) {
-    solid_ = &subdivision.solid();
-    tolerance_ = thinnest_piece(*solid_);
     // Cells made anew come now and then: what polyhedra have left behind goes with them.
     const bool in_part = edit.keeps_indices() && !update.is_anew;
-    if (in_part) {
-      buffers_.update(*solid_, edit);
-    } else {
-      uploaded_before_ += buffers_.uploaded_bytes();
-      buffers_ = SolidBuffers(*solid_);
-    }
+    follow(subdivision.solid(), edit, in_part);
     if (!in_part || subdivision_ != &subdivision) {
       load(subdivision);
       return;
@@ -160,7 +163,8 @@ class Renderer::Impl {
     stats = {};
     subdivision_ = nullptr;
     Stopwatch watch;
-    const Pass pass = make_pass(view, settings, nullptr);
+    Pass pass = make_pass(view, settings, nullptr);
+    pass.tiles = false;
     use_target(view, settings.measured_channels);
     begin(pass, *target_);
     BatchQueue queue;
@@ -190,6 +194,20 @@ class Renderer::Impl {
   }
 
  private:
+  /// Brings what the GPU has of primitives up to date.
+  void follow(const Solid& solid, const SceneEdit& edit, bool in_part) {
+    solid_ = &solid;
+    tolerance_ = thinnest_piece(solid);
+    if (in_part) {
+      buffers_.update(solid, edit);
+      ++updates_;
+    } else {
+      uploaded_before_ += buffers_.uploaded_bytes();
+      buffers_ = SolidBuffers(solid);
+      updates_ = 0;
+    }
+  }
+
   /// What the frame and its light are fitted to.
   const csgcore::Box& scene_box(const FrameSettings& settings) const {
     return settings.scene_box.empty() ? solid_->bounds() : settings.scene_box;
@@ -209,6 +227,7 @@ class Renderer::Impl {
     Pass pass;
     pass.frame = make_frame(view, drawn_box(settings));
     pass.settings = settings;
+    pass.tiles = settings.technique == Technique::kTiles && settings.subject == Subject::kSurface;
     pass.overlap = overlap();
     pass.tolerance = tolerance_;
     pass.light_world = csgcore::phong_light(view, scene_box(settings)).position_world;
@@ -233,7 +252,7 @@ class Renderer::Impl {
 
   InstanceSorter sorter(const Pass& pass) {
     const bool boxes = pass.settings.subject == Subject::kCells;
-    return {pass.frame,   *solid_,         short_list(buffers_.has_polyhedron()),
+    return {pass.frame,   *solid_,         short_list(buffers_.has_polyhedron(), false),
             pass.overlap, pass.eye_inside, boxes,
             streams_};
   }
@@ -248,15 +267,39 @@ class Renderer::Impl {
   /// Brings the cells that the pass draws to the GPU; displaced passes draw the same ones.
   void prepare(const Pass& pass, FrameStats& stats) {
     Stopwatch watch;
-    traverse(pass);
+    if (pass.tiles) {
+      list_tiles(pass);
+      stats.list_ms += watch.lap();
+      add_lists(pass);
+    } else {
+      traverse(pass);
+    }
     drawer_.upload(streams_);
     glFinish();
     stats.traverse_ms += watch.lap();
   }
 
+  void list_tiles(const Pass& pass) {
+    csgcore::TileListOptions options;
+    options.boundary = pass.first ? csgcore::Boundary::kBehind : csgcore::Boundary::kFirst;
+    options.centers_only = pass.settings.samples <= 1;
+    options.thinnest_piece = pass.tolerance;
+    options.short_list = short_list(buffers_.has_polyhedron(), true);
+    options.threads = pass.settings.threads;
+    options.longest_list = kLongList;
+    if (!csgcore::list_tiles(*solid_, pass.frame.view, options, lists_)) refuse_lists();
+  }
+
+  void add_lists(const Pass& pass) {
+    streams_.clear();
+    if (!pass.frame.visible) return;
+    add_tiles(lists_, pass.frame, *solid_, pass.eye_inside, streams_);
+    buffers_.upload_literals(lists_.literals, ListsOf::kTiles);
+  }
+
   void begin(const Pass& pass, const RenderTarget& target) {
     target.begin(pass.settings.background);
-    drawer_.begin();
+    drawer_.begin(pass);
     buffers_.place(pass.frame);
   }
 
@@ -351,11 +394,13 @@ class Renderer::Impl {
   SolidBuffers buffers_;
   StreamDrawer drawer_;
   InstanceStreams streams_;
+  csgcore::TileLists lists_;
   std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
   std::vector<uint64_t> first_literal_;  // of the subdivision's leaves, in the buffers
   uint64_t literals_ = 0;                // that the buffers hold
   uint64_t uploaded_before_ = 0;         // bytes, to buffers that were replaced
+  uint32_t updates_ = 0;                 // since they were
   double tolerance_;
 };
 
@@ -365,6 +410,8 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Subdivision& subdivision) { impl_->load(subdivision); }
+
+void Renderer::update(const Solid& solid, const SceneEdit& edit) { impl_->update(solid, edit); }
 
 void Renderer::update(const Subdivision& subdivision, const SceneEdit& edit,
                       const SubdivisionUpdate& update) {

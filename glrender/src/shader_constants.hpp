@@ -18,14 +18,20 @@ enum class Path : int {
   kMinus,      // cases 2 and 3
   kNeither,    // case 4
   kShortList,  // any function of up to short_list() primitives
+  kLongList,   // the same of up to kLongList primitives, in tiles
   kList,       // any function
   kBoxes,      // the cells themselves
 };
-constexpr int kPaths = 8;
+constexpr int kPaths = 9;
 
-/// Up to so many primitives a fragment keeps all segments: the default K. Those of polyhedra, which
-/// take a hundred rounds of a loop each (see kMostRounds), it rather keeps than finds again.
-constexpr uint32_t short_list(bool has_polyhedron) { return has_polyhedron ? 32 : 8; }
+/// Up to so many primitives a fragment keeps all segments: in cells the default K. Those of
+/// polyhedra, which take a hundred rounds of a loop each (see kMostRounds), it rather keeps than
+/// finds again; in tiles, all.
+constexpr uint32_t short_list(bool has_polyhedron, bool tiles) {
+  return has_polyhedron || tiles ? 32 : 8;
+}
+/// Longer lists of a tile are refused, as are those of too many rounds.
+constexpr uint32_t kLongList = 128;
 
 /// Of a cell with more primitives, those beyond are not asked whether they share the face that is
 /// hit: the shaders keep one bit for each. In longer unions nobody is asked.
@@ -35,9 +41,11 @@ constexpr uint32_t kSharedFaces = 32;
 /// shader's loops silently after 65,535 rounds of them together, each at least one literal, and a
 /// pixel may need two evaluations.
 constexpr uint64_t kMostRounds = 30000;
+/// The same of a tile, for all evaluations that a ray may need.
+constexpr uint64_t kMostTileRounds = 60000;
 
-constexpr unsigned kLocationBoxMin = 0;
-constexpr unsigned kLocationBoxMax = 1;
+constexpr unsigned kLocationLow = 0;
+constexpr unsigned kLocationHigh = 1;
 constexpr unsigned kLocationList = 2;
 
 /// Texels of the primitive buffer: centre, with the first texel of a polyhedron's faces beside it;
@@ -63,8 +71,8 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"SHARED_FACES", kSharedFaces, true},
     ShaderConstant{"PATH_LIST", double(Path::kList), true},
     ShaderConstant{"PATH_BOXES", double(Path::kBoxes), true},
-    ShaderConstant{"LOCATION_BOX_MIN", kLocationBoxMin, true},
-    ShaderConstant{"LOCATION_BOX_MAX", kLocationBoxMax, true},
+    ShaderConstant{"LOCATION_LOW", kLocationLow, true},
+    ShaderConstant{"LOCATION_HIGH", kLocationHigh, true},
     ShaderConstant{"LOCATION_LIST", kLocationList, true},
     ShaderConstant{"PRIMITIVE_TEXELS", kPrimitiveTexels, true},
     ShaderConstant{"SHAPE_SPHERE", kShapeSphere, false},

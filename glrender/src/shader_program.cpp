@@ -30,8 +30,11 @@ std::string prologue(const ProgramKey& key) {
   }
   source += "#define LIST_TRUE " + std::to_string(csgcore::kListTrue) + "u\n";
   source += "#define LIST_FALSE " + std::to_string(csgcore::kListFalse) + "u\n";
-  define(source, "SHORT_LIST", static_cast<int>(short_list(key.has_polyhedron)));
-  define(source, "PATH", static_cast<int>(key.path));
+  const bool is_long = key.path == Path::kLongList;
+  define(source, "SHORT_LIST",
+         static_cast<int>(is_long ? kLongList : short_list(key.has_polyhedron, key.tiles)));
+  define(source, "PATH", static_cast<int>(is_long ? Path::kShortList : key.path));
+  define(source, "TILES", key.tiles);
   define(source, "SHADING", static_cast<int>(key.shading));
   define(source, "PERSPECTIVE", key.perspective);
   define(source, "MEASURED", key.measured);
@@ -73,7 +76,8 @@ void attach(GLuint program, GLenum stage, const ProgramKey& key,
 
 Program compile_program(const ProgramKey& key) {
   Program program = Program::make();
-  attach(program.name(), GL_VERTEX_SHADER, key, {shader_source::frame, shader_source::cell_vert});
+  attach(program.name(), GL_VERTEX_SHADER, key,
+         {shader_source::frame, key.tiles ? shader_source::tile_vert : shader_source::cell_vert});
   if (key.path == Path::kBoxes) {
     attach(
         program.name(), GL_FRAGMENT_SHADER, key,
@@ -81,7 +85,7 @@ Program compile_program(const ProgramKey& key) {
   } else {
     attach(program.name(), GL_FRAGMENT_SHADER, key,
            {shader_source::frame, shader_source::ray, shader_source::shade,
-            shader_source::first_hit, shader_source::shared_faces, shader_source::cell_frag});
+            shader_source::first_hit, shader_source::shared_faces, shader_source::trace_frag});
   }
   glLinkProgram(program.name());
   GLint linked = GL_FALSE;

@@ -13,6 +13,7 @@ namespace glrender {
 /// Everything that a variant is compiled for.
 struct ProgramKey {
   Path path = Path::kSingle;
+  bool tiles = false;  // of the screen, not cells
   Shading shading = Shading::kOpenScad;
   bool perspective = true;
   bool measured = false;

@@ -119,6 +119,8 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid)
       surfaces_(GL_RGBA32UI, sizeof(Surface), "primitives", kFewerPrimitives),
       literals_(GL_RGBA32UI, sizeof(LiteralTexel), "cells",
                 "use a larger --leaf-primitives or --threshold"),
+      tile_literals_(GL_RGBA32UI, sizeof(LiteralTexel), "tiles",
+                     "use a smaller --imgsize, or --technique=cells"),
       polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), "faces of polyhedra",
                  "use a smaller $fn") {
   std::vector<Surface> surfaces;
@@ -204,9 +206,10 @@ void SolidBuffers::place(const Frame& frame) {
   placed_at_ = frame.focus;
 }
 
-void SolidBuffers::upload_literals(std::span<const Literal> literals) {
+void SolidBuffers::upload_literals(std::span<const Literal> literals, ListsOf of) {
   const std::vector<LiteralTexel> texels = texels_of(literals);
-  literals_.upload(texels.data(), texels.size() * sizeof(LiteralTexel));
+  (of == ListsOf::kTiles ? tile_literals_ : literals_)
+      .upload(texels.data(), texels.size() * sizeof(LiteralTexel));
 }
 
 void SolidBuffers::add_literals(uint64_t before, std::span<const Literal> literals) {
@@ -220,10 +223,10 @@ uint64_t SolidBuffers::uploaded_bytes() const {
          polyhedra_.uploaded_bytes();
 }
 
-void SolidBuffers::bind(GLuint program) const {
+void SolidBuffers::bind(GLuint program, ListsOf of) const {
   primitives_.bind(0);
   surfaces_.bind(1);
-  literals_.bind(2);
+  (of == ListsOf::kTiles ? tile_literals_ : literals_).bind(2);
   if (has_polyhedron()) polyhedra_.bind(3);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);

@@ -45,6 +45,9 @@ class TextureBuffer {
   uint64_t uploaded_bytes_ = 0;
 };
 
+/// Whose functions the shaders read.
+enum class ListsOf : uint8_t { kCells, kTiles };
+
 class SolidBuffers {
  public:
   /// Texture units 0 up to this one (exclusive) are bind's.
@@ -58,14 +61,14 @@ class SolidBuffers {
 
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
-  /// Replaces the cells' functions.
-  void upload_literals(std::span<const csgcore::Literal> literals);
-  /// Adds to them, behind so many.
+  /// Replaces the functions.
+  void upload_literals(std::span<const csgcore::Literal> literals, ListsOf of = ListsOf::kCells);
+  /// Adds to the cells', behind so many.
   void add_literals(uint64_t before, std::span<const csgcore::Literal> literals);
-  /// All that was uploaded so far.
+  /// All that was uploaded so far, but for the tiles' functions.
   uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
-  void bind(GLuint program) const;
+  void bind(GLuint program, ListsOf of) const;
 
   /// Also those that enclose polyhedra.
   bool has_sphere() const { return has_sphere_; }
@@ -81,7 +84,7 @@ class SolidBuffers {
   PolyhedronTexels faces_;
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
       numbered_;  // that faces_ knows by address
-  TextureBuffer primitives_, surfaces_, literals_, polyhedra_;
+  TextureBuffer primitives_, surfaces_, literals_, tile_literals_, polyhedra_;
   std::optional<Vec3> placed_at_;
   bool has_sphere_ = false;
   bool has_frustum_ = false;

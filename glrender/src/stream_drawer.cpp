@@ -21,15 +21,16 @@ StreamDrawer::StreamDrawer()
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, strip_.name());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof kBoxStrip, kBoxStrip, GL_STATIC_DRAW);
-  for (const GLuint location : {kLocationBoxMin, kLocationBoxMax, kLocationList}) {
+  for (const GLuint location : {kLocationLow, kLocationHigh, kLocationList}) {
     glEnableVertexAttribArray(location);
     glVertexAttribDivisor(location, 1);
   }
 }
 
-void StreamDrawer::begin() const {
+void StreamDrawer::begin(const Pass& pass) const {
   glBindVertexArray(vertex_array_.name());
-  glEnable(GL_DEPTH_TEST);
+  // Tiles lie side by side.
+  (pass.tiles ? glDisable : glEnable)(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glEnable(GL_DEPTH_CLAMP);
   glEnable(GL_CULL_FACE);
@@ -63,11 +64,15 @@ void StreamDrawer::draw(const InstanceStreams& streams, const Pass& pass,
       if (count == 0) continue;
       use_program(static_cast<Path>(path), front, pass, buffers);
       point_attributes(offset);
-      glDrawElementsInstanced(GL_TRIANGLE_STRIP, std::size(kBoxStrip), GL_UNSIGNED_BYTE, nullptr,
-                              static_cast<GLsizei>(count));
+      if (pass.tiles) {
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+      } else {
+        glDrawElementsInstanced(GL_TRIANGLE_STRIP, std::size(kBoxStrip), GL_UNSIGNED_BYTE, nullptr,
+                                static_cast<GLsizei>(count));
+      }
       offset += count * sizeof(Instance);
       ++stats.draw_calls;
-      stats.cells_drawn += count;
+      (pass.tiles ? stats.tiles_drawn : stats.cells_drawn) += count;
     }
   }
 }
@@ -76,6 +81,7 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
                                const SolidBuffers& buffers) {
   ProgramKey key;
   key.path = path;
+  key.tiles = pass.tiles;
   key.shading = pass.settings.shading;
   key.perspective = pass.frame.perspective();
   key.measured = pass.settings.measured_channels;
@@ -86,11 +92,11 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
   key.behind = pass.first != 0;
   // A back face lies behind the hit, so that its depth promises nothing; a box's own face is at
   // the depth of the fragment, but for rounding.
-  key.conservative_depth = conservative_depth_ && front && path != Path::kBoxes;
+  key.conservative_depth = conservative_depth_ && front && path != Path::kBoxes && !pass.tiles;
   const GLuint program = programs_.get(key);
   glUseProgram(program);
   set_frame_uniforms(program, pass.frame, pass.overlap);
-  buffers.bind(program);
+  buffers.bind(program, pass.tiles ? ListsOf::kTiles : ListsOf::kCells);
   const auto set3 = [&](const char* name, const glm::vec3& v) {
     glUniform3f(glGetUniformLocation(program, name), v.x, v.y, v.z);
   };
@@ -111,10 +117,9 @@ void StreamDrawer::point_attributes(size_t offset) const {
   glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
   const auto at = [&](size_t member) { return reinterpret_cast<const void*>(offset + member); };
   constexpr GLsizei kStride = sizeof(Instance);
-  glVertexAttribPointer(kLocationBoxMin, 3, GL_FLOAT, GL_FALSE, kStride,
-                        at(offsetof(Instance, box_min)));
-  glVertexAttribPointer(kLocationBoxMax, 3, GL_FLOAT, GL_FALSE, kStride,
-                        at(offsetof(Instance, box_max)));
+  glVertexAttribPointer(kLocationLow, 3, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, low)));
+  glVertexAttribPointer(kLocationHigh, 3, GL_FLOAT, GL_FALSE, kStride,
+                        at(offsetof(Instance, high)));
   glVertexAttribIPointer(kLocationList, 2, GL_UNSIGNED_INT, kStride,
                          at(offsetof(Instance, first_literal)));
 }

@@ -10,13 +10,14 @@
 
 namespace glrender {
 
-/// One pass over the cells: a ray for each pixel.
+/// One pass over the cells or tiles: a ray for each pixel.
 struct Pass {
   Frame frame;
   FrameSettings settings;
   double overlap = 0;       // of the cells: csgcore::cell_overlap
   double tolerance = 0;     // thinnest piece that exists, world units
   Vec3 light_world{0.0};    // csgcore::phong_light
+  bool tiles = false;       // of the screen, not cells
   bool eye_inside = false;  // rays start in the solid: what is seen is its complement
   GLuint first = 0;         // measured texture of the picture that this one lies behind; 0: none
 };
@@ -26,8 +27,8 @@ class StreamDrawer {
  public:
   StreamDrawer();
 
-  /// Sets the state that every pass needs, in whatever framebuffer is bound.
-  void begin() const;
+  /// Sets the state that the pass needs, in whatever framebuffer is bound.
+  void begin(const Pass& pass) const;
   /// Replaces the instances.
   void upload(const InstanceStreams& streams);
   /// Draws the instances, which must be those uploaded, into the framebuffer that is bound: one

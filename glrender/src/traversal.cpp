@@ -38,6 +38,17 @@ uint64_t InstanceStreams::size() const {
   return sum;
 }
 
+uint64_t rounds(const csgcore::Solid& solid, std::span<const Literal> literals) {
+  /// Of a polyhedron with thousands of faces; it grows little with them.
+  constexpr size_t kOfManyFaces = 256;
+  uint64_t sum = literals.size();
+  for (const Literal& literal : literals) {
+    const csgcore::Polyhedron* polyhedron = solid.primitives()[literal.primitive].polyhedron.get();
+    if (polyhedron) sum += std::min(polyhedron->entries().size(), kOfManyFaces);
+  }
+  return sum;
+}
+
 /// Generous: the back faces serve any cell, front faces only those that the eye is surely outside
 /// of after the vertex shader has pushed them out.
 bool InstanceSorter::surrounds_eye(const Box& box) const {
@@ -50,18 +61,6 @@ bool InstanceSorter::surrounds_eye(const Box& box) const {
     if (eye[axis] < box.min[axis] - margin || eye[axis] > box.max[axis] + margin) return false;
   }
   return true;
-}
-
-/// Those that the shaders take for one evaluation of the function, about.
-uint64_t InstanceSorter::rounds(std::span<const Literal> literals) const {
-  /// Of a polyhedron with thousands of faces; it grows little with them.
-  constexpr size_t kOfManyFaces = 256;
-  uint64_t sum = literals.size();
-  for (const Literal& literal : literals) {
-    const csgcore::Polyhedron* polyhedron = solid_.primitives()[literal.primitive].polyhedron.get();
-    if (polyhedron) sum += std::min(polyhedron->entries().size(), kOfManyFaces);
-  }
-  return sum;
 }
 
 void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uint32_t count) {
@@ -78,7 +77,7 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
                          uint64_t first_literal) {
   if (!is_drawn(leaf)) return;
   if (leaf.literal_count > short_list_ && leaf.kind != LeafKind::kUnion &&
-      rounds(literals) > kMostRounds) {
+      rounds(solid_, literals) > kMostRounds) {
     throw GlError(std::to_string(leaf.literal_count) +
                   " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
                   "(leave out the repeated ones)");

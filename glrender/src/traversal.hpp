@@ -10,10 +10,10 @@
 
 namespace glrender {
 
-/// One cell, or one primitive of a union cell, as the vertex shader reads it.
+/// One cell, one primitive of a union cell, or one tile, as its vertex shader reads it.
 struct Instance {
-  float box_min[3];
-  float box_max[3];
+  float low[3];
+  float high[3];
   uint32_t first_literal;
   uint32_t literal_count;
 };
@@ -26,6 +26,9 @@ struct InstanceStreams {
   void clear();
   uint64_t size() const;
 };
+
+/// Loop rounds that the shaders take for one evaluation of the function, about.
+uint64_t rounds(const csgcore::Solid& solid, std::span<const csgcore::Literal> literals);
 
 /// Sorts leaves into streams.
 class InstanceSorter {
@@ -49,7 +52,6 @@ class InstanceSorter {
 
  private:
   void push(Path path, const csgcore::Box& box, uint64_t first_literal, uint32_t count);
-  uint64_t rounds(std::span<const csgcore::Literal> literals) const;
   bool surrounds_eye(const csgcore::Box& box) const;
 
   const Frame& frame_;

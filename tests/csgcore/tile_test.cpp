@@ -319,7 +319,7 @@ class Simplifying {
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
         restrictor_(bounds_.extents(), bounds_, Restrictor::Space::kScreen),
         simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
-                    fates_) {
+                    0.0, fates_) {
     bounds_.bound_all();
   }
 

@@ -78,6 +78,7 @@ Speckle speckle_of(const NamedScene& scene, const Affine& frame, Projection proj
       sum += gl_test::speckle(gl_test::draw(scene.scene, view, gl_test::leaves_of(leaf_primitives)),
                               oracle);
     }
+    sum += gl_test::speckle(gl_test::draw(scene.scene, view, gl_test::by_tiles()), oracle);
   }
   return sum;
 }

@@ -33,16 +33,16 @@ struct Case {
 /// For the test's name, which must not hold an address.
 void PrintTo(const Case& one, std::ostream* out) { *out << one.example; }
 
-class CpuAgreementTest : public testing::TestWithParam<Case> {
+class CpuAgreementTest : public testing::TestWithParam<std::tuple<Case, gl_test::Way>> {
  protected:
   CpuAgreementTest()
-      : design_(gl_test::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + GetParam().example +
-                                     ".csg")),
+      : design_(
+            gl_test::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + drawn().example + ".csg")),
         view_(gl_test::default_view(design_, 320, 240)),
-        loaded_(design_.scene, gl_test::leaves_of(8)) {
+        loaded_(design_.scene, std::get<1>(GetParam())) {
     const csgcore::Box box = csgcore::reference_box(design_.scene);
     model_size_ = box.diagonal();
-    if (GetParam().projection == Projection::kOrthographic) {
+    if (drawn().projection == Projection::kOrthographic) {
       view_.projection = Projection::kOrthographic;
       view_.half_height *= glm::length(view_.eye - box.center());
     }
@@ -50,6 +50,8 @@ class CpuAgreementTest : public testing::TestWithParam<Case> {
     loaded_.settings.front = glm::vec3(0xf9, 0xd7, 0x2c) / 255.0f;
     loaded_.settings.back = glm::vec3(0x9d, 0xcb, 0x51) / 255.0f;
   }
+
+  static const Case& drawn() { return std::get<0>(GetParam()); }
 
   Pictures draw(uint32_t samples = 1) {
     Pictures pictures;
@@ -65,23 +67,28 @@ class CpuAgreementTest : public testing::TestWithParam<Case> {
   double model_size_ = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(, CpuAgreementTest,
-                         testing::Values(Case{"r9", Projection::kPerspective},
-                                         Case{"three_spheres", Projection::kOrthographic},
-                                         Case{"knob", Projection::kPerspective},
-                                         Case{"flange", Projection::kOrthographic},
-                                         Case{"cs100", Projection::kPerspective},
-                                         Case{"nut_trap", Projection::kPerspective},
-                                         Case{"bracket", Projection::kOrthographic},
-                                         Case{"t1022", Projection::kOrthographic}),
-                         [](const auto& instance) { return instance.param.example; });
+INSTANTIATE_TEST_SUITE_P(
+    , CpuAgreementTest,
+    testing::Combine(testing::Values(Case{"r9", Projection::kPerspective},
+                                     Case{"three_spheres", Projection::kOrthographic},
+                                     Case{"knob", Projection::kPerspective},
+                                     Case{"flange", Projection::kOrthographic},
+                                     Case{"cs100", Projection::kPerspective},
+                                     Case{"nut_trap", Projection::kPerspective},
+                                     Case{"bracket", Projection::kOrthographic},
+                                     Case{"t1022", Projection::kOrthographic}),
+                     testing::Values(gl_test::Way(gl_test::leaves_of(8)), gl_test::by_tiles())),
+    [](const auto& instance) {
+      const bool tiles = std::get<1>(instance.param).technique == glrender::Technique::kTiles;
+      return std::get<0>(instance.param).example + std::string(tiles ? "_tiles" : "_cells");
+    });
 
 TEST_P(CpuAgreementTest, OfEveryChannel) {
   for (const auto shading : {glrender::Shading::kOpenScad, glrender::Shading::kPhong}) {
     loaded_.settings.shading = shading;
     const Pictures pictures = draw();
     gl_test::expect_agreement(pictures.gl, pictures.cpu, view_, model_size_, kEdges,
-                              GetParam().example);
+                              drawn().example);
   }
 }
 
@@ -96,9 +103,9 @@ TEST_P(CpuAgreementTest, OfTheSamples) {
     apart += levels > gl_test::kLevels;
     most = std::max(most, levels);
   }
-  std::printf("%s: %llu pixels blended, %llu of them differently, by up to %d\n",
-              GetParam().example, static_cast<unsigned long long>(blended),
-              static_cast<unsigned long long>(apart), most);
+  std::printf("%s: %llu pixels blended, %llu of them differently, by up to %d\n", drawn().example,
+              static_cast<unsigned long long>(blended), static_cast<unsigned long long>(apart),
+              most);
   EXPECT_GT(blended, 200u);
   EXPECT_LE(apart * kBlendedPerMissed, blended);
 }

@@ -54,17 +54,36 @@ SubdivisionOptions leaves_of(uint32_t leaf_primitives) {
   return options;
 }
 
-LoadedScene::LoadedScene(const Scene& scene, const SubdivisionOptions& options)
+Way by_tiles() {
+  Way way{SubdivisionOptions{}};
+  way.technique = glrender::Technique::kTiles;
+  return way;
+}
+
+std::string name_of(const Way& way) {
+  if (way.technique == glrender::Technique::kTiles) return "tiles";
+  return "K = " + std::to_string(way.options.leaf_primitives);
+}
+
+void PrintTo(const Way& way, std::ostream* out) { *out << name_of(way); }
+
+std::string test_name(const testing::TestParamInfo<Way>& instance) {
+  if (instance.param.technique == glrender::Technique::kTiles) return "Tiles";
+  return "K" + std::to_string(instance.param.options.leaf_primitives);
+}
+
+LoadedScene::LoadedScene(const Scene& scene, const Way& way)
     : solid(csgcore::canonical_primitives(scene), scene.model),
-      subdivision(solid, options),
+      subdivision(solid, way.options),
       renderer(context(), solid) {
-  renderer.load(subdivision);
+  settings.technique = way.technique;
+  if (way.technique == glrender::Technique::kCells) renderer.load(subdivision);
   settings.background = {0, 0, 0};
   settings.measured_channels = true;
 }
 
-Image draw(const Scene& scene, const View& view, const SubdivisionOptions& options) {
-  return LoadedScene(scene, options).draw(view);
+Image draw(const Scene& scene, const View& view, const Way& way) {
+  return LoadedScene(scene, way).draw(view);
 }
 
 namespace {
@@ -134,8 +153,9 @@ Comparison compare(const Image& picture, const Image& oracle, double model_size)
   return result;
 }
 
-void expect_right(const Scene& scene, const View& view, const SubdivisionOptions& options) {
-  const Image picture = draw(scene, view, options);
+void expect_right(const Scene& scene, const View& view, const Way& way) {
+  SCOPED_TRACE(name_of(way));
+  const Image picture = draw(scene, view, way);
   const Image oracle = csgcore::reference_render(scene, view);
   const Comparison result = compare(picture, oracle, csgcore::reference_box(scene).diagonal());
   EXPECT_LE(result.wrong() * 10000, std::max<uint64_t>(result.hits, 10000)) << result.first;

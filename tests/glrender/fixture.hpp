@@ -1,6 +1,8 @@
 // GL pictures held against the brute-force oracle.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +27,23 @@ csgcore::View view_from(const csgcore::Scene& scene, csgcore::Projection project
 csgcore::View view_from(const csgcore::Box& box, csgcore::Projection projection, double around_deg,
                         double above_deg, double distance = 3);
 
-/// A scene's model, subdivided and loaded, ready to be drawn: by default with all channels, on
-/// black.
+/// How a picture is drawn: by cells of these options, or by tiles, which have none.
+struct Way {
+  Way(const csgcore::SubdivisionOptions& cells) : options(cells) {}
+  csgcore::SubdivisionOptions options;
+  glrender::Technique technique = glrender::Technique::kCells;
+};
+Way by_tiles();
+/// For messages: "tiles", "K = 8".
+std::string name_of(const Way& way);
+void PrintTo(const Way& way, std::ostream* out);
+/// Of a test that has a Way for its parameter: "Tiles", "K8".
+std::string test_name(const testing::TestParamInfo<Way>& instance);
+
+/// A scene's model, ready to be drawn, with its cells loaded if they are what draws it: by default
+/// with all channels, on black.
 struct LoadedScene {
-  LoadedScene(const csgcore::Scene& scene, const csgcore::SubdivisionOptions& options);
+  LoadedScene(const csgcore::Scene& scene, const Way& way);
   LoadedScene(const LoadedScene&) = delete;  // its members refer to each other
   LoadedScene& operator=(const LoadedScene&) = delete;
   csgcore::Image draw(const csgcore::View& view) { return renderer.draw(view, settings, stats); }
@@ -41,8 +56,7 @@ struct LoadedScene {
 };
 
 /// One frame of it.
-csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view,
-                    const csgcore::SubdivisionOptions& options);
+csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view, const Way& way);
 
 /// The default rule at a given K.
 csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
@@ -72,7 +86,6 @@ Comparison compare(const csgcore::Image& picture, const csgcore::Image& oracle, 
 
 /// Draws and compares; expects at most 1 wrong pixel in 10,000 hits (issue's bar) and consistent
 /// channels.
-void expect_right(const csgcore::Scene& scene, const csgcore::View& view,
-                  const csgcore::SubdivisionOptions& options);
+void expect_right(const csgcore::Scene& scene, const csgcore::View& view, const Way& way);
 
 }  // namespace gl_test

@@ -33,10 +33,14 @@ using test_support::scene_of;
 
 Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
 
-/// Leaf size and projection: every test of the suite runs over all of them.
+/// Tiles, or the leaf size of cells, and projection: every test of the suite runs over all of them.
+constexpr uint32_t kTiles = 0;
 class PictureTest : public testing::TestWithParam<std::tuple<uint32_t, Projection>> {
  protected:
-  SubdivisionOptions options() const { return leaves_of(std::get<0>(GetParam())); }
+  gl_test::Way options() const {
+    const uint32_t leaf_primitives = std::get<0>(GetParam());
+    return leaf_primitives == kTiles ? gl_test::by_tiles() : leaves_of(leaf_primitives);
+  }
   Projection projection() const { return std::get<1>(GetParam()); }
   void expect_right_around(const Scene& scene) const {
     expect_right(scene, view_from(scene, projection(), 25, 35), options());
@@ -46,16 +50,16 @@ class PictureTest : public testing::TestWithParam<std::tuple<uint32_t, Projectio
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(, PictureTest,
-                         testing::Combine(testing::Values(2u, 4u, 8u),
-                                          testing::Values(Projection::kPerspective,
-                                                          Projection::kOrthographic)),
-                         [](const auto& instance) {
-                           return "K" + std::to_string(std::get<0>(instance.param)) +
-                                  (std::get<1>(instance.param) == Projection::kPerspective
-                                       ? "Perspective"
-                                       : "Orthographic");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    , PictureTest,
+    testing::Combine(testing::Values(2u, 4u, 8u, kTiles),
+                     testing::Values(Projection::kPerspective, Projection::kOrthographic)),
+    [](const auto& instance) {
+      const uint32_t leaf_primitives = std::get<0>(instance.param);
+      return (leaf_primitives == kTiles ? "Tiles" : "K" + std::to_string(leaf_primitives)) +
+             (std::get<1>(instance.param) == Projection::kPerspective ? "Perspective"
+                                                                      : "Orthographic");
+    });
 
 TEST_P(PictureTest, SinglePrimitives) {
   expect_right_around(scene_of(Op::kUnion, {make_sphere(3)}));
@@ -116,8 +120,8 @@ TEST_P(PictureTest, PixelsOnTheMiddlePlanes) {
   View view = view_from(scene, projection(), 0, 90);
   view.width_px = 241;
   view.height_px = 181;
-  SubdivisionOptions middle = options();
-  middle.split = csgcore::SplitRule::kCyclic;
+  gl_test::Way middle = options();
+  middle.options.split = csgcore::SplitRule::kCyclic;
   expect_right(scene, view, middle);
 }
 
@@ -199,10 +203,11 @@ std::vector<SharedTop> shared_tops() {
 
 TEST(CoincidentFacesTest, ShowTheEarliestThatBoundsTheSolid) {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    for (const uint32_t leaf_primitives : {1u, 2u, 8u}) {
+    for (const gl_test::Way& way : {gl_test::Way(leaves_of(1)), gl_test::Way(leaves_of(2)),
+                                    gl_test::Way(leaves_of(8)), gl_test::by_tiles()}) {
       for (const SharedTop& top : shared_tops()) {
         const View view = view_from(top.scene, projection, 25, 35);
-        const Image image = draw(top.scene, view, leaves_of(leaf_primitives));
+        const Image image = draw(top.scene, view, way);
         uint64_t seen = 0;
         uint64_t of_another = 0;
         for (size_t i = 0; i < image.z.size(); ++i) {
@@ -213,7 +218,7 @@ TEST(CoincidentFacesTest, ShowTheEarliestThatBoundsTheSolid) {
           of_another += image.id[i] != top.id_near_axis;
         }
         EXPECT_GT(seen, 1000u) << top.name;
-        EXPECT_EQ(of_another, 0u) << top.name << ", K = " << leaf_primitives;
+        EXPECT_EQ(of_another, 0u) << top.name << ", " << gl_test::name_of(way);
       }
     }
   }
@@ -246,10 +251,10 @@ std::array<uint8_t, 3> middle(const Image& image) {
   return image.rgb[size_t{image.height_px / 2} * image.width_px + image.width_px / 2];
 }
 
-class ColorTest : public testing::Test {
+class ColorTest : public testing::TestWithParam<gl_test::Way> {
  protected:
   Image draw_with(const Scene& scene, const View& view, glrender::Shading shading) {
-    LoadedScene loaded(scene, leaves_of(8));
+    LoadedScene loaded(scene, GetParam());
     loaded.settings.background = glm::vec3(0xff, 0xff, 0xe5) / 255.0f;
     loaded.settings.front = glm::vec3(0xf9, 0xd7, 0x2c) / 255.0f;
     loaded.settings.back = glm::vec3(0x9d, 0xcb, 0x51) / 255.0f;
@@ -267,7 +272,11 @@ class ColorTest : public testing::Test {
   }
 };
 
-TEST_F(ColorTest, OpenScadShading) {
+INSTANTIATE_TEST_SUITE_P(, ColorTest,
+                         testing::Values(gl_test::Way(leaves_of(8)), gl_test::by_tiles()),
+                         gl_test::test_name);
+
+TEST_P(ColorTest, OpenScadShading) {
   // A face towards the eye: n = (0, 0, 1), rgb · (0.2 + 1/√3) (openscad.md §4).
   const double light = 0.2 + 1 / std::sqrt(3.0);
   const auto lit = [&](int channel) { return std::min(255.0, channel * light); };
@@ -288,7 +297,7 @@ TEST_F(ColorTest, OpenScadShading) {
   EXPECT_EQ(image.rgb[0], (std::array<uint8_t, 3>{0xff, 0xff, 0xe5}));
 }
 
-TEST_F(ColorTest, PhongShading) {
+TEST_P(ColorTest, PhongShading) {
   const Scene ball = scene_of(Op::kUnion, {make_sphere(5)});
   const View view = from_above();
   const Image image = draw_with(ball, view, glrender::Shading::kPhong);
@@ -357,14 +366,17 @@ TEST(RendererTest, DrawsWhatLiesBehindAFront) {
   view.eye = {0, 0, 50};
   view.half_height = 10;
   view.width_px = view.height_px = 64;
-  LoadedScene loaded(scene, leaves_of(8));
-  const Image front = loaded.draw(view);
-  const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
-  for (size_t i = 0; i < front.z.size(); ++i) {
-    ASSERT_EQ(std::isinf(front.z[i]), std::isinf(behind.z[i])) << i;
-    // Symmetric about z = 0, which is at depth 50.
-    if (!std::isinf(front.z[i])) {
-      ASSERT_NEAR(front.z[i] + behind.z[i], 100, 1e-3) << i;
+  for (const gl_test::Way& way : {gl_test::Way(leaves_of(8)), gl_test::by_tiles()}) {
+    SCOPED_TRACE(gl_test::name_of(way));
+    LoadedScene loaded(scene, way);
+    const Image front = loaded.draw(view);
+    const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
+    for (size_t i = 0; i < front.z.size(); ++i) {
+      ASSERT_EQ(std::isinf(front.z[i]), std::isinf(behind.z[i])) << i;
+      // Symmetric about z = 0, which is at depth 50.
+      if (!std::isinf(front.z[i])) {
+        ASSERT_NEAR(front.z[i] + behind.z[i], 100, 1e-3) << i;
+      }
     }
   }
 }
@@ -373,6 +385,7 @@ TEST(RendererTest, RefusesWhatAShaderCannotEvaluate) {
   const Scene scene = scene_of(Op::kIntersection, std::vector<Primitive>(40000, make_sphere(1)));
   const View view = view_from(scene, Projection::kPerspective, 0, 0);
   EXPECT_THROW(draw(scene, view, leaves_of(8)), glrender::GlError);
+  EXPECT_THROW(draw(scene, view, gl_test::by_tiles()), glrender::ListsTooLong);
 }
 
 TEST(RendererTest, RefusesPicturesThatTheDriverCannotMake) {

@@ -29,6 +29,7 @@ using csgcore::Vec3;
 using csgcore::View;
 using gl_test::leaves_of;
 using gl_test::LoadedScene;
+using gl_test::Way;
 
 /// Normals of faces are theirs but for rounding; those next to the pole of a sphere with 200
 /// fragments are 5e-4 apart.
@@ -38,6 +39,8 @@ constexpr gl_test::EdgeLimits kEdges{.face_distance = kOtherFace};
 constexpr gl_test::EdgeLimits kManyEdges{.face_distance = kOtherFace, .hits_per_edge_pixel = 1000};
 /// Along an axis some of the rays lie in edges.
 constexpr gl_test::EdgeLimits kAlongAnAxis{.face_distance = kOtherFace, .hits_per_edge_pixel = 500};
+
+const Way kWays[] = {leaves_of(2), leaves_of(8), gl_test::by_tiles()};
 
 Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
 
@@ -149,8 +152,8 @@ INSTANTIATE_TEST_SUITE_P(, PolyhedronTest, testing::ValuesIn(scenes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(PolyhedronTest, EveryChannelIsTheTracers) {
-  for (const uint32_t leaf_primitives : {2u, 8u}) {
-    LoadedScene loaded(GetParam().scene, leaves_of(leaf_primitives));
+  for (const Way& way : kWays) {
+    LoadedScene loaded(GetParam().scene, way);
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
       expect_agreement(loaded, view_of(loaded, projection, 25, 35), GetParam().name);
       expect_agreement(loaded, view_of(loaded, projection, 200, -20, 1.2), GetParam().name);
@@ -167,8 +170,8 @@ NamedScene cube_with_rooms() {
 
 TEST(PolyhedronPictureTest, EyeInsideTheSolidACellAndACut) {
   const NamedScene rooms = cube_with_rooms();
-  for (const uint32_t leaf_primitives : {2u, 8u}) {
-    LoadedScene loaded(rooms.scene, leaves_of(leaf_primitives));
+  for (const Way& way : kWays) {
+    LoadedScene loaded(rooms.scene, way);
     View view = view_of(loaded, Projection::kPerspective, 30, 20);
     view.half_height = 0.7;
     for (const Vec3& eye : {Vec3{-1, 0, 1} /* in a room */, Vec3{2.8, 0.1, 0} /* in a ball */,
@@ -181,29 +184,33 @@ TEST(PolyhedronPictureTest, EyeInsideTheSolidACellAndACut) {
 
 TEST(PolyhedronPictureTest, WhatLiesBehindAFront) {
   const NamedScene rooms = cube_with_rooms();
-  LoadedScene loaded(rooms.scene, leaves_of(8));
-  const View view = view_of(loaded, Projection::kPerspective, 25, 35);
-  loaded.draw(view);
-  const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
-  const Image oracle = gl_test::draw_by_cpu(loaded, view, csgcore::Boundary::kBehind);
-  gl_test::expect_agreement(behind, oracle, view, loaded.solid.bounds().diagonal(), kEdges,
-                            "behind");
+  for (const Way& way : kWays) {
+    LoadedScene loaded(rooms.scene, way);
+    const View view = view_of(loaded, Projection::kPerspective, 25, 35);
+    loaded.draw(view);
+    const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
+    const Image oracle = gl_test::draw_by_cpu(loaded, view, csgcore::Boundary::kBehind);
+    gl_test::expect_agreement(behind, oracle, view, loaded.solid.bounds().diagonal(), kEdges,
+                              "behind, " + name_of(way));
+  }
 }
 
 TEST(PolyhedronPictureTest, Samples) {
-  LoadedScene loaded(cube_with_rooms().scene, leaves_of(8));
-  const View view = view_of(loaded, Projection::kPerspective, 25, 35);
-  const Image plain = loaded.draw(view);
-  loaded.settings.samples = 4;
-  const Image gl = loaded.draw(view);
-  const Image cpu = gl_test::draw_by_cpu(loaded, view);
-  uint64_t blended = 0, apart = 0;
-  for (size_t i = 0; i < gl.rgb.size(); ++i) {
-    blended += gl_test::levels_apart(plain, cpu, i) > gl_test::kLevels;
-    apart += gl_test::levels_apart(gl, cpu, i) > gl_test::kLevels;
+  for (const Way& way : kWays) {
+    LoadedScene loaded(cube_with_rooms().scene, way);
+    const View view = view_of(loaded, Projection::kPerspective, 25, 35);
+    const Image plain = loaded.draw(view);
+    loaded.settings.samples = 4;
+    const Image gl = loaded.draw(view);
+    const Image cpu = gl_test::draw_by_cpu(loaded, view);
+    uint64_t blended = 0, apart = 0;
+    for (size_t i = 0; i < gl.rgb.size(); ++i) {
+      blended += gl_test::levels_apart(plain, cpu, i) > gl_test::kLevels;
+      apart += gl_test::levels_apart(gl, cpu, i) > gl_test::kLevels;
+    }
+    EXPECT_GT(blended, 500u);
+    EXPECT_LE(apart * 100, blended) << name_of(way);
   }
-  EXPECT_GT(blended, 500u);
-  EXPECT_LE(apart * 100, blended);
 }
 
 TEST(PolyhedronPictureTest, LongLists) {
@@ -216,10 +223,10 @@ TEST(PolyhedronPictureTest, LongLists) {
     turned.push_back(mapped(cube({-3, -4 - 0.01 * i, -3}, {3, 4, 3}), {turn, Vec3{0}}));
     nested.push_back(ball(3, 6 + i, at(0.01 * i, 0, 0)));
   }
-  for (const uint32_t leaf_primitives : {32u, 64u}) {
+  for (const Way& way : {Way(leaves_of(32)), Way(leaves_of(64)), gl_test::by_tiles()}) {
     for (const auto& primitives : {turned, nested}) {
       const NamedScene common = combine("common", Op::kIntersection, primitives);
-      LoadedScene loaded(common.scene, leaves_of(leaf_primitives));
+      LoadedScene loaded(common.scene, way);
       View view = view_of(loaded, Projection::kPerspective, 25, 35);
       view.width_px = 160;
       view.height_px = 120;

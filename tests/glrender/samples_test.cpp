@@ -18,6 +18,7 @@ using csgcore::Scene;
 using csgcore::View;
 using gl_test::leaves_of;
 using gl_test::LoadedScene;
+using glrender::Technique;
 
 TEST(SamplePatternTest, OneSampleIsTheCentre) {
   EXPECT_EQ(sample_offset(0, 1), (std::array<double, 2>{0, 0}));
@@ -78,13 +79,18 @@ void expect_average(const Image& image, const View& view, uint32_t samples, Draw
   EXPECT_LE(wrong, 3u);
 }
 
-class SamplesTest : public testing::TestWithParam<uint32_t> {
+class SamplesTest : public testing::TestWithParam<std::tuple<uint32_t, Technique>> {
  protected:
   SamplesTest()
       : scene_(test_support::cylinder_minus_spheres(60)),
         view_(gl_test::view_from(scene_, Projection::kOrthographic, 25, 35)),
-        loaded_(scene_, leaves_of(8)),
+        loaded_(scene_, way()),
         centre_(loaded_.draw(view_)) {}
+
+  static uint32_t samples() { return std::get<0>(GetParam()); }
+  static gl_test::Way way() {
+    return std::get<1>(GetParam()) == Technique::kTiles ? gl_test::by_tiles() : leaves_of(8);
+  }
 
   Scene scene_;
   View view_;
@@ -92,20 +98,22 @@ class SamplesTest : public testing::TestWithParam<uint32_t> {
   Image centre_;
 };
 
-INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(2u, 5u, 16u));
+INSTANTIATE_TEST_SUITE_P(, SamplesTest,
+                         testing::Combine(testing::Values(2u, 5u, 16u),
+                                          testing::Values(Technique::kCells, Technique::kTiles)));
 
 TEST_P(SamplesTest, AreAveraged) {
-  loaded_.settings.samples = GetParam();
+  loaded_.settings.samples = samples();
   loaded_.settings.measured_channels = false;
   const Image image = loaded_.draw(view_);
   EXPECT_NE(image.rgb, centre_.rgb);
   EXPECT_TRUE(image.z.empty());
   loaded_.settings.samples = 1;
-  expect_average(image, view_, GetParam(), [&](const View& view) { return loaded_.draw(view); });
+  expect_average(image, view_, samples(), [&](const View& view) { return loaded_.draw(view); });
 }
 
 TEST_P(SamplesTest, LeaveTheMeasuredChannelsToTheCentre) {
-  loaded_.settings.samples = GetParam();
+  loaded_.settings.samples = samples();
   const Image image = loaded_.draw(view_);
   EXPECT_NE(image.rgb, centre_.rgb);
   EXPECT_EQ(image.z, centre_.z);
@@ -117,14 +125,14 @@ TEST_P(SamplesTest, LeaveTheMeasuredChannelsToTheCentre) {
 
 TEST_P(SamplesTest, EachLieBehindAFrontOfTheirOwn) {
   const Image centre = loaded_.renderer.draw_behind(view_, loaded_.settings, loaded_.stats);
-  loaded_.settings.samples = GetParam();
+  loaded_.settings.samples = samples();
   loaded_.draw(view_);
   const Image image = loaded_.renderer.draw_behind(view_, loaded_.settings, loaded_.stats);
   EXPECT_NE(image.rgb, centre.rgb);
   EXPECT_EQ(image.z, centre.z);
   EXPECT_EQ(image.id, centre.id);
   loaded_.settings.samples = 1;
-  expect_average(image, view_, GetParam(), [&](const View& view) {
+  expect_average(image, view_, samples(), [&](const View& view) {
     loaded_.draw(view);
     return loaded_.renderer.draw_behind(view, loaded_.settings, loaded_.stats);
   });
@@ -142,8 +150,8 @@ TEST_P(SamplesTest, CoverAPixelAsAFaceDoesInPerspective) {
   view.eye = {0.3, 0.2, 20};
   view.half_height = 0.3;
   view.width_px = view.height_px = 101;
-  LoadedScene loaded(scene, leaves_of(8));
-  loaded.settings.samples = GetParam();
+  LoadedScene loaded(scene, way());
+  loaded.settings.samples = samples();
   const Image image = loaded.draw(view);
   const double lit = image.rgb[size_t{50} * 101 + 50][0];
   ASSERT_GT(lit, 100);
@@ -151,14 +159,14 @@ TEST_P(SamplesTest, CoverAPixelAsAFaceDoesInPerspective) {
   for (uint32_t y = 0; y < view.height_px; ++y) {
     for (uint32_t x = 0; x < view.width_px; ++x) {
       uint32_t seen = 0;
-      for (uint32_t i = 0; i < GetParam(); ++i) {
-        const auto offset = sample_offset(i, GetParam());
+      for (uint32_t i = 0; i < samples(); ++i) {
+        const auto offset = sample_offset(i, samples());
         const csgcore::Ray ray = csgcore::pixel_ray(view, x + offset[0], y + offset[1]);
         const csgcore::Vec3 point = ray.origin + view.eye.z * ray.direction;
         seen += std::hypot(point.x, point.y) < kRadius;
       }
-      partly += seen > 0 && seen < GetParam();
-      EXPECT_NEAR(image.rgb[size_t{y} * 101 + x][0], lit * seen / GetParam(), 1) << x << ", " << y;
+      partly += seen > 0 && seen < samples();
+      EXPECT_NEAR(image.rgb[size_t{y} * 101 + x][0], lit * seen / samples(), 1) << x << ", " << y;
     }
   }
   EXPECT_GT(partly, 100u);

@@ -41,6 +41,19 @@ stress::Method gl_method(uint32_t leaf_primitives) {
           }};
 }
 
+stress::Method gl_tiles() {
+  return {"tiles", [](const csgcore::Scene& scene, const Solid& solid) -> stress::Drawer {
+            const auto renderer = std::make_shared<glrender::Renderer>(gl_test::context(), solid);
+            return [renderer, &scene](const csgcore::View& view) {
+              glrender::FrameSettings settings;
+              settings.technique = glrender::Technique::kTiles;
+              settings.measured_channels = true;
+              glrender::FrameStats stats;
+              return csgcore::hits_of(renderer->draw(view, settings, stats), scene);
+            };
+          }};
+}
+
 /// Wrong pixels per hit that a family may have: the 1 in 10,000, or half as many again as
 /// were measured (the larger of the sample and the full run, on llvmpipe) where floats cannot do
 /// better.
@@ -86,7 +99,7 @@ class GlStressTest : public testing::TestWithParam<Family> {};
 TEST_P(GlStressTest, IsMeasuredAgainstTheOracle) {
   Family family = GetParam();
   std::erase_if(family.cases, [](const stress::Case& one) { return one.beyond_float; });
-  std::vector<stress::Method> methods{gl_method(2), gl_method(8), gl_method(32)};
+  std::vector<stress::Method> methods{gl_method(2), gl_method(8), gl_method(32), gl_tiles()};
   const std::vector<Line> lines = stress::run_family(family, methods, stress::kFloatTolerance);
   for (const Line& total : stress::totals(lines, family.name)) {
     const auto hits = double(total.tally.hits);
@@ -106,26 +119,27 @@ TEST(GlRandomTrees, AreMeasuredAgainstTheOracle) {
   constexpr double kMostWrong = 1e-3;
   constexpr stress::PictureSize kPicture{32, 32};
   const uint32_t trees = test_support::full_run() ? 10'000 : 100;
-  const stress::Method method = gl_method(8);
-  stress::Tally sum;
-  for (uint32_t seed = 1; seed <= trees; ++seed) {
-    const csgcore::Scene scene = stress::random_scene(seed, false);
-    const csgcore::View view = stress::random_view(scene, kPicture, seed);
-    const Solid solid(csgcore::canonical_primitives(scene), scene.model);
-    stress::Oracle oracle(scene, view);
-    sum.add(stress::judge(oracle, method.prepare(scene, solid)(view), stress::kFloatTolerance));
-  }
   const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
-  std::printf(
-      "%u trees, %llu rays, %llu hits; wrong %llu: hit %llu, primitive %llu, position %llu, "
-      "normal %llu; undecided %llu\n",
-      trees, number(sum.pixels), number(sum.hits), number(sum.wrong_pixels()),
-      number(sum.wrong[int(stress::Verdict::kWrongHit)]),
-      number(sum.wrong[int(stress::Verdict::kWrongPrimitive)]),
-      number(sum.wrong[int(stress::Verdict::kWrongPosition)]),
-      number(sum.wrong[int(stress::Verdict::kWrongNormal)]), number(sum.undecided));
-  EXPECT_GT(sum.hits, sum.pixels / 10);
-  EXPECT_LE(double(sum.wrong_pixels()), kMostWrong * double(sum.hits));
+  for (const stress::Method& method : {gl_method(8), gl_tiles()}) {
+    stress::Tally sum;
+    for (uint32_t seed = 1; seed <= trees; ++seed) {
+      const csgcore::Scene scene = stress::random_scene(seed, false);
+      const csgcore::View view = stress::random_view(scene, kPicture, seed);
+      const Solid solid(csgcore::canonical_primitives(scene), scene.model);
+      stress::Oracle oracle(scene, view);
+      sum.add(stress::judge(oracle, method.prepare(scene, solid)(view), stress::kFloatTolerance));
+    }
+    std::printf(
+        "%s: %u trees, %llu rays, %llu hits; wrong %llu: hit %llu, primitive %llu, position %llu, "
+        "normal %llu; undecided %llu\n",
+        method.name.c_str(), trees, number(sum.pixels), number(sum.hits),
+        number(sum.wrong_pixels()), number(sum.wrong[int(stress::Verdict::kWrongHit)]),
+        number(sum.wrong[int(stress::Verdict::kWrongPrimitive)]),
+        number(sum.wrong[int(stress::Verdict::kWrongPosition)]),
+        number(sum.wrong[int(stress::Verdict::kWrongNormal)]), number(sum.undecided));
+    EXPECT_GT(sum.hits, sum.pixels / 10);
+    EXPECT_LE(double(sum.wrong_pixels()), kMostWrong * double(sum.hits));
+  }
 }
 
 }  // namespace

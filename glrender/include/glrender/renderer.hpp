@@ -1,5 +1,8 @@
-// Draws a subdivision by OpenGL (paper §3): the front faces of the leaf cells are rasterised, and a
-// fragment shader traces the ray of the pixel within its cell.
+// Draws a solid by OpenGL. A fragment shader traces the ray of the pixel, by either technique:
+// - cells (paper §3): the front faces of a subdivision's leaf cells are rasterised, and the ray is
+//   traced within the cell;
+// - tiles: the CPU lists, for each frame, what the rays of some 8×8 pixels can meet
+//   (csgcore/tile_lists.hpp), and each ray is traced along its whole length, once.
 //
 // Needs OpenGL 3.3 core. Uses more where the driver has it: ARB_conservative_depth and
 // ARB_clip_control together let the driver skip fragments behind what is drawn already.
@@ -26,19 +29,35 @@ enum class Subject : uint8_t {
   kCells,  // the leaf cells with a surface in them, as boxes (paper, figure 5b)
 };
 
+/// How a ray finds what it may meet.
+enum class Technique : uint8_t {
+  kCells,  // the leaf cells of the subdivision that was loaded (paper §3)
+  kTiles,  // lists for tiles of the screen, which the CPU makes for each frame
+};
+
 struct FrameSettings : csgcore::FrameSettings {
   glm::vec3 edge{0.0f};  // of the cells' edges
   Subject subject = Subject::kSurface;
+  Technique technique = Technique::kCells;  // kTiles: of a surface only
+  unsigned threads = 0;                     // that make the tiles' lists; 0: as many as there are
   /// Rays per pixel, ≥ 1, displaced by csgcore::sample_offset; rgb is their average. The measured
   /// channels are those of the pixel's centre.
   uint32_t samples = 1;
+};
+
+/// Tiles have lists that no shader can evaluate. Cells still may be drawn.
+class ListsTooLong : public GlError {
+ public:
+  using GlError::GlError;
 };
 
 /// Of one frame, all samples together. Times in ms; GL is finished before a clock is read.
 struct FrameStats {
   uint64_t draw_calls = 0;
   uint64_t cells_drawn = 0;  // instances: a union of n counts n times (paper §3.3.3)
-  double traverse_ms = 0;    // front-to-back order, and the parameters' way to the GPU
+  uint64_t tiles_drawn = 0;
+  double list_ms = 0;      // the tiles' lists
+  double traverse_ms = 0;  // front-to-back order, and the parameters' way to the GPU
   double draw_ms = 0;
   double read_ms = 0;  // from the GPU into the Image
 };
@@ -63,11 +82,16 @@ class Renderer {
   void update(const csgcore::Subdivision& subdivision, const csgcore::SceneEdit& edit,
               const csgcore::SubdivisionUpdate& update);
 
+  /// The same with no cells, for tiles: `solid` is the one that is drawn from now on. Cells have to
+  /// be loaded anew.
+  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit);
+
   /// Bytes of primitives and cells' functions that went to the GPU so far; what each frame sends
   /// besides, the cells in their order, is not counted.
   uint64_t uploaded_bytes() const;
 
-  /// Draws what was loaded, from any view, in its front-to-back order (paper §2.3). Throws GlError.
+  /// Draws what was loaded, from any view, in its front-to-back order (paper §2.3); by tiles,
+  /// nothing need be loaded. Throws GlError; of tiles, ListsTooLong.
   csgcore::Image draw(const csgcore::View& view, const FrameSettings& settings, FrameStats& stats);
 
   /// What lies behind the last draw(), which must have had the same view and measured channels: the

@@ -1,7 +1,10 @@
-// Traces the pixel's ray within its cell (paper §3): first_hit.glsl, shared_faces.glsl.
+// Traces the pixel's ray within its cell (paper §3), or all of it within its tile: first_hit.glsl,
+// shared_faces.glsl.
 
+#if !TILES
 flat in vec3 v_box_min;
 flat in vec3 v_box_max;
+#endif
 
 layout(location = 0) out vec4 o_color;
 #if MEASURED
@@ -19,7 +22,11 @@ uniform sampler2D u_first;      // o_measured of the picture that this one lies 
 
 void main() {
   Ray ray = pixel_ray();
+#if TILES
+  vec2 range = vec2(-INFINITY, LAST_T);
+#else
   vec2 range = box_range(ray, v_box_min, v_box_max);
+#endif
 #if BEHIND
   float enter = max(range.x, texelFetch(u_first, ivec2(gl_FragCoord.xy), 0).w);
 #else
@@ -41,8 +48,10 @@ void main() {
   o_measured = vec4(normal, seen.t);
   o_id = texelFetch(u_surfaces, int(seen.primitive)).z;
 #endif
+#if !TILES
   // Of the boundary that lies in the cell, which the face that is seen may not.
   float depth = u_depth_scale * (u_far - hit.t);
   if (PERSPECTIVE != 0) depth /= u_eye_distance + hit.t;
   gl_FragDepth = clamp(depth, 0.0, 1.0);
+#endif
 }
