@@ -218,7 +218,8 @@ class Run {
     } else {
       image = renderer_(scene, view, settings, stats_.render);
       if (settings.technique == Technique::kTiles && stats_.render.technique == "cells") {
-        say("warning: --technique=tiles has no effect with OpenGL in this version");
+        say("warning: more primitives lie behind each other than OpenGL can take by tiles: it has "
+            "drawn cells");
       }
     }
     if (options_.info) say(renderer_line(stats_.render));

@@ -31,10 +31,6 @@ void add(const TraceStats& frame, RenderStats& stats) {
   stats.render_ms += frame.cull_ms + frame.trace_ms;
 }
 
-bool uses_cells(const RenderSettings& settings) {
-  return settings.technique == Technique::kCells || settings.show == Show::kCells;
-}
-
 csgcore::TraceOptions trace_options(const RenderSettings& settings, Boundary boundary) {
   csgcore::TraceOptions options;
   options.threads = settings.threads;

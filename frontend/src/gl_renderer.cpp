@@ -1,5 +1,6 @@
 // The drawing by OpenGL.
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "elapsed.hpp"
@@ -37,34 +38,26 @@ class GlRenderer final : public SolidRenderer {
                    const PictureRequest& request) override {
     return translate_errors([&] {
       request.stats.renderer = "gl: " + context_.renderer_name();
-      request.stats.technique = "cells";
-      glrender::Renderer& renderer = load(solid, request);
-      count_cells(subdivisions_.of(solid, request).subdivision, request.stats);
-      glrender::FrameSettings gl_frame = frame_settings(frame, request.settings);
-      gl_frame.samples = samples_of(request.settings);
-      if (request.settings.show == Show::kCells) gl_frame.subject = glrender::Subject::kCells;
-      Image image =
-          count([&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
-      if (request.settings.all_stats) {
-        measure(renderer, gl_frame, request);
-        loaded_.erase(&solid);  // measuring leaves nothing loaded
-      }
-      return image;
+      return with_technique(request, [&](glrender::Technique technique) {
+        return draw_model(solid, frame_settings(frame, request.settings, technique), request);
+      });
     });
   }
 
   Sides draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
                    const PictureRequest& request) override {
     return translate_errors([&] {
-      glrender::Renderer& renderer = load(solid, request);
-      const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings);
-      Sides sides;
-      sides.front =
-          count([&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
-      sides.behind =
-          count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
-                request);
-      return sides;
+      return with_technique(request, [&](glrender::Technique technique) {
+        glrender::Renderer& renderer = load(solid, request, technique);
+        const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings, technique);
+        Sides sides;
+        sides.front = count(
+            [&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
+        sides.behind =
+            count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
+                  request);
+        return sides;
+      });
     });
   }
 
@@ -73,9 +66,15 @@ class GlRenderer final : public SolidRenderer {
     auto loaded = loaded_.extract(&before);
     loaded_.clear();
     const auto followed = subdivisions_.replace(before, after, edit, tree_edit);
-    if (loaded.empty() || !followed) return;
+    if (loaded.empty()) return;
+    Loaded& kept = loaded.mapped();
     try {
-      loaded.mapped().renderer.update(followed->subdivision, edit, followed->update);
+      if (followed && kept.has_cells) {
+        kept.renderer.update(followed->subdivision, edit, followed->update);
+      } else {
+        kept.renderer.update(after, edit);
+        kept.has_cells = false;
+      }
     } catch (const glrender::GlError&) {
       return;  // the next picture loads all, and tells if that fails, too
     }
@@ -94,24 +93,65 @@ class GlRenderer final : public SolidRenderer {
     Loaded(glrender::HeadlessContext& context, const Solid& solid) : renderer(context, solid) {}
     glrender::Renderer renderer;
     uint64_t reported_bytes = 0;  // of those that were uploaded
+    bool has_cells = false;
   };
 
-  /// With its cells, as the view needs them.
-  glrender::Renderer& load(const Solid& solid, const PictureRequest& request) {
-    const auto [subdivision, changed] = subdivisions_.of(solid, request);
-    const auto [found, is_new] = loaded_.try_emplace(&solid, context_, solid);
-    Loaded& loaded = found->second;
-    if (is_new || changed) loaded.renderer.load(subdivision);
+  /// Calls `draw` with the technique that the settings ask for, and with cells where tiles have
+  /// lists that are too long for OpenGL. A picture counts as one of cells if any of it is.
+  template <typename Draw>
+  static std::invoke_result_t<Draw, glrender::Technique> with_technique(
+      const PictureRequest& request, Draw draw) {
+    std::string& technique = request.stats.technique;
+    if (!uses_cells(request.settings)) {
+      try {
+        auto drawn = draw(glrender::Technique::kTiles);
+        if (technique.empty()) technique = "tiles";
+        return drawn;
+      } catch (const glrender::ListsTooLong&) {
+      }
+    }
+    technique = "cells";
+    return draw(glrender::Technique::kCells);
+  }
+
+  Image draw_model(const Solid& solid, glrender::FrameSettings frame,
+                   const PictureRequest& request) {
+    const bool has_cells = frame.technique == glrender::Technique::kCells;
+    glrender::Renderer& renderer = load(solid, request, frame.technique);
+    if (has_cells) count_cells(subdivisions_.of(solid, request).subdivision, request.stats);
+    frame.samples = samples_of(request.settings);
+    if (request.settings.show == Show::kCells) frame.subject = glrender::Subject::kCells;
+    Image image =
+        count([&](auto& stats) { return renderer.draw(request.view, frame, stats); }, request);
+    if (has_cells && request.settings.all_stats) {
+      measure(renderer, frame, request);
+      loaded_.erase(&solid);  // measuring leaves nothing loaded
+    }
+    return image;
+  }
+
+  /// With its cells, as the view needs them, if they are what is drawn.
+  glrender::Renderer& load(const Solid& solid, const PictureRequest& request,
+                           glrender::Technique technique) {
+    Loaded& loaded = loaded_.try_emplace(&solid, context_, solid).first->second;
+    if (technique == glrender::Technique::kCells) {
+      const auto [subdivision, changed] = subdivisions_.of(solid, request);
+      if (changed || !loaded.has_cells) loaded.renderer.load(subdivision);
+      loaded.has_cells = true;
+    }
     const uint64_t bytes = loaded.renderer.uploaded_bytes();
     request.stats.edit.bytes_uploaded += bytes - std::exchange(loaded.reported_bytes, bytes);
     return loaded.renderer;
   }
 
   static glrender::FrameSettings frame_settings(const csgcore::FrameSettings& frame,
-                                                const RenderSettings& settings) {
+                                                const RenderSettings& settings,
+                                                glrender::Technique technique) {
     glrender::FrameSettings result;
     static_cast<csgcore::FrameSettings&>(result) = frame;
     result.edge = color_of(settings.scheme.axes);
+    result.technique = technique;
+    result.threads = settings.threads;
     return result;
   }
 
@@ -122,7 +162,8 @@ class GlRenderer final : public SolidRenderer {
     RenderStats& stats = request.stats;
     stats.draw_calls += frame.draw_calls;
     stats.cells_drawn += frame.cells_drawn;
-    stats.traverse_ms += frame.traverse_ms;
+    stats.trace.tiles += frame.tiles_drawn;
+    stats.traverse_ms += frame.list_ms + frame.traverse_ms;
     stats.render_ms += frame.draw_ms + frame.read_ms;
     stats.read_ms += frame.read_ms;
     return image;

@@ -67,7 +67,7 @@ constexpr OptionRow kOwnOptions[] = {
     {"renderer", Takes::kText, "R",
      "cpu, gl or auto, the default: OpenGL where there is a GPU, else the CPU", kOneOf<kRenderers>},
     {"technique", Takes::kText, "T",
-     "how the CPU finds what a ray may meet: tiles of the screen (default), or the cells of a "
+     "how a ray finds what it may meet: by tiles of the screen (default), or the cells of a "
      "kd-tree (default with --leaf-primitives, --threshold and --show=cells)",
      kOneOf<kTechniques>},
     {"samples", Takes::kText, "N",

@@ -29,6 +29,11 @@ inline glm::vec3 color_of(const Rgb& color) {
   return glm::vec3(color.r, color.g, color.b) / 255.0f;
 }
 
+/// Whether the settings ask for a kd-tree.
+inline bool uses_cells(const RenderSettings& settings) {
+  return settings.technique == Technique::kCells || settings.show == Show::kCells;
+}
+
 /// Of the model's picture: only a surface's is smoothed.
 inline uint32_t samples_of(const RenderSettings& settings) {
   return settings.show == Show::kSurface ? settings.samples : 1;

@@ -304,10 +304,10 @@ TEST_F(Command, HelpVersionInfo) {
   EXPECT_EQ(run({"--info", "-o", png_, file_}).err, "renderer: played (no GPU)\n");
 }
 
-TEST_F(Command, SaysThatTilesHadNoEffect) {
+TEST_F(Command, SaysWhereTilesWereNotTaken) {
   EXPECT_EQ(run({"--technique=tiles", "-o", png_, file_}).err, "");
   technique_ = "cells";
-  EXPECT_THAT(run({"--technique=tiles", "-o", png_, file_}).err, HasSubstr("--technique=tiles"));
+  EXPECT_THAT(run({"--technique=tiles", "-o", png_, file_}).err, HasSubstr("drawn cells"));
   EXPECT_EQ(run({"--technique=cells", "-o", png_, file_}).err, "");
 }
 

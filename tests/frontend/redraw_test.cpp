@@ -194,14 +194,15 @@ TEST_P(Redrawn, ASizeBeyondFloatsIsScaledAndFollowed) {
 }
 
 std::string name_of(const testing::TestParamInfo<Way>& way) {
-  if (way.param.renderer == RendererKind::kGl) return "Gl";
-  return way.param.technique == Technique::kTiles ? "Tiles" : "Cells";
+  const std::string renderer = way.param.renderer == RendererKind::kGl ? "Gl" : "";
+  return renderer + (way.param.technique == Technique::kTiles ? "Tiles" : "Cells");
 }
 
 INSTANTIATE_TEST_SUITE_P(, Redrawn,
                          testing::Values(Way{RendererKind::kCpu, Technique::kTiles},
                                          Way{RendererKind::kCpu, Technique::kCells},
-                                         Way{RendererKind::kGl, Technique::kCells}),
+                                         Way{RendererKind::kGl, Technique::kCells},
+                                         Way{RendererKind::kGl, Technique::kTiles}),
                          name_of);
 
 }  // namespace

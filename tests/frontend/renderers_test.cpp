@@ -124,7 +124,6 @@ TEST_F(Renderers, DrawTheSamePicture) {
       {"--projection=o"},
       {"--camera=-6,-9,0,30,0,0,3"},  // from within the translucent part
       {"--camera=0,0,0,90,0,0,7"},    // from within the hole
-      {"--technique=cells"},
       {"--samples=4"},
       {"--threshold=1", "--leaf-primitives=2"},
       {"--show=cells", "--leaf-primitives=1"},
@@ -136,7 +135,13 @@ TEST_F(Renderers, DrawTheSamePicture) {
     const Drawn a = cpu(options);
     const Drawn b = gl(options);
     EXPECT_EQ(a.err, "");
+    EXPECT_EQ(a.stats.technique, b.stats.technique);
     EXPECT_LE(different_pixels(a.image, b.image), kEdgePixels);
+    std::vector<std::string> by_cells = options;
+    by_cells.push_back("--technique=cells");
+    const Drawn c = gl(by_cells);
+    EXPECT_EQ(c.stats.technique, "cells");
+    EXPECT_LE(different_pixels(a.image, c.image), kEdgePixels);
     EXPECT_GT(pixels_unlike(a.image, {0xff, 0xff, 0xe5}), 1000u) << "nothing to compare";
   }
 }
@@ -193,9 +198,34 @@ TEST_F(Renderers, TheTechniqueOfASinglePictureIsTiles) {
   EXPECT_EQ(cpu({"--leaf-primitives=8"}).stats.technique, "cells");
   EXPECT_EQ(cpu({"--threshold=0.5"}).stats.technique, "cells");
   EXPECT_EQ(cpu({"--show=cells"}).stats.technique, "cells");
-  EXPECT_EQ(gl().stats.technique, "cells");
-  EXPECT_EQ(gl().err, "");
-  EXPECT_THAT(gl({"--technique=tiles"}).err, HasSubstr("--technique=tiles has no effect"));
+  for (const Drawn& drawn : {gl(), gl({"--technique=tiles"})}) {
+    EXPECT_EQ(drawn.stats.technique, "tiles");
+    EXPECT_EQ(drawn.err, "");
+    EXPECT_GT(drawn.stats.trace.tiles, 0u);
+    EXPECT_EQ(drawn.stats.cells, 0u);
+    EXPECT_EQ(drawn.stats.cells_drawn, 0u);
+  }
+  for (const char* option : {"--leaf-primitives=8", "--threshold=0.5", "--show=cells"}) {
+    const Drawn drawn = gl({option});
+    EXPECT_EQ(drawn.stats.technique, "cells");
+    EXPECT_EQ(drawn.stats.trace.tiles, 0u);
+    EXPECT_GT(drawn.stats.cells_drawn, 0u);
+  }
+}
+
+/// Each ray meets more primitives than a tile can have.
+TEST_F(Renderers, OpenGlTakesCellsWhereTilesHaveTooMuch) {
+  std::string balls = "intersection() {";
+  for (int i = 0; i < 200; ++i) balls += "sphere($fn = 0, r = " + std::to_string(10 + i) + ");\n";
+  file_ = folder_.write("balls.csg", balls + "}");
+  const std::vector<std::string> options = {"--camera=0,0,0,5,0,0,50"};
+  const Drawn drawn = gl(options);
+  EXPECT_EQ(drawn.stats.technique, "cells");
+  EXPECT_EQ(drawn.err, "");
+  EXPECT_LE(different_pixels(drawn.image, cpu(options).image), kEdgePixels);
+  std::vector<std::string> by_tiles = options;
+  by_tiles.push_back("--technique=tiles");
+  EXPECT_THAT(gl(by_tiles).err, HasSubstr("drawn cells"));
 }
 
 TEST_F(Renderers, StatisticsOfTheCpu) {
@@ -252,7 +282,13 @@ difference() {
 }
 
 TEST_F(Renderers, StatisticsOfOpenGl) {
-  const Drawn drawn = gl({"--stats", folder_ / "s.json"});
+  const Drawn tiles = gl({"--stats", folder_ / "s.json"});
+  EXPECT_THAT(tiles.stats.renderer, StartsWith("gl: "));
+  EXPECT_GT(tiles.stats.draw_calls, 0u);
+  EXPECT_GT(tiles.stats.traverse_ms, 0);
+  EXPECT_GT(tiles.stats.render_ms, 0);
+  EXPECT_EQ(tiles.stats.paper_tr_ms, 0) << "the paper's are of cells";
+  const Drawn drawn = gl({"--technique=cells", "--stats", folder_ / "s.json"});
   EXPECT_THAT(drawn.stats.renderer, StartsWith("gl: "));
   EXPECT_GT(drawn.stats.draw_calls, 0u);
   EXPECT_GT(drawn.stats.measuring_ms, 0);

@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
     SceneRenderer, EveryMethod,
     testing::Values(Method{"Tiles", settings_of(RendererKind::kCpu, Technique::kTiles)},
                     Method{"Cells", settings_of(RendererKind::kCpu, Technique::kCells)},
-                    Method{"Gl", settings_of(RendererKind::kGl)}),
+                    Method{"GlTiles", settings_of(RendererKind::kGl, Technique::kTiles)},
+                    Method{"GlCells", settings_of(RendererKind::kGl, Technique::kCells)}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(EveryMethod, DrawsAgainAndAgain) {

@@ -41,15 +41,20 @@ stress::Method gl_method(uint32_t leaf_primitives) {
           }};
 }
 
+/// Cells where tiles have lists that are too long, as the command does.
 stress::Method gl_tiles() {
   return {"tiles", [](const csgcore::Scene& scene, const Solid& solid) -> stress::Drawer {
             const auto renderer = std::make_shared<glrender::Renderer>(gl_test::context(), solid);
-            return [renderer, &scene](const csgcore::View& view) {
+            return [renderer, &scene, &solid](const csgcore::View& view) {
               glrender::FrameSettings settings;
               settings.technique = glrender::Technique::kTiles;
               settings.measured_channels = true;
               glrender::FrameStats stats;
-              return csgcore::hits_of(renderer->draw(view, settings, stats), scene);
+              try {
+                return csgcore::hits_of(renderer->draw(view, settings, stats), scene);
+              } catch (const glrender::ListsTooLong&) {
+                return gl_method(8).prepare(scene, solid)(view);
+              }
             };
           }};
 }

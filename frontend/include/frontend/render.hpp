@@ -23,7 +23,7 @@ enum class Show : uint8_t { kSurface, kCells, kDepth, kNormals, kId };
 /// What draws (`--renderer`). kAuto: OpenGL where there is a GPU, else the CPU.
 enum class RendererKind : uint8_t { kAuto, kGl, kCpu };
 /// How a ray finds what it may meet (`--technique`): the leaf cells of a kd-tree, or lists for
-/// tiles of the screen. kAuto: what is quickest for one picture.
+/// tiles of the screen. kAuto: tiles, the quicker for both renderers.
 enum class Technique : uint8_t { kAuto, kCells, kTiles };
 
 /// The most --samples: an edge then has 65 steps between its two colours, and more no eye tells.
@@ -91,13 +91,14 @@ struct RenderStats {
   uint64_t cells_drawn = 0;
 
   /// The CPU: of all solids that were drawn, translucent ones twice; but `primitives`,
-  /// `intersected` and `skipped` are the model's.
+  /// `intersected` and `skipped` are the model's. OpenGL: `tiles` alone.
   csgcore::TraceStats trace;
 
   double prepare_ms = 0;    // canonical primitives, and lists for the trees
   double context_ms = 0;    // starting OpenGL
   double subdivide_ms = 0;  // the paper's S
-  double traverse_ms = 0;   // T_S without the pass over the vertices: order and upload
+  double traverse_ms = 0;   // T_S without the pass over the vertices: order and upload; of tiles,
+                            // their lists and upload
   double render_ms = 0;     // draw, and read back from OpenGL, which compiles its shaders, too
   double read_ms = 0;       // of render_ms, reading back
   double measuring_ms = 0;  // drawing again, for the times below
