@@ -76,13 +76,14 @@ class Run {
   /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
   Design import(const std::string& input) {
     frontend::DesignFileOptions reading;
+    reading.import = options_.import;
     reading.openscad_arguments = options_.openscad_arguments;
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
-    const frontend::DesignFile file = frontend::read_design(input, reading);
-    frontend::ImportedDesign design = frontend::import_design(file.tree, options_.import);
+    frontend::DesignFile file = frontend::read_design(input, reading);
+    frontend::ImportedDesign design = file.import.finish();
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }

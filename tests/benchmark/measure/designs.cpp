@@ -36,13 +36,12 @@ Source scad_of(const std::string& design, const Settings& settings) {
 }
 
 csgcore::Scene scene_of(const std::string& design, const Settings& settings, uint32_t facets) {
-  const frontend::DesignFile file = frontend::read_design(csg_of(design, settings), {});
-  frontend::ImportOptions options;
+  frontend::DesignFileOptions options;
   if (facets >= 3) {
-    options.facets = frontend::Facets::kAll;
-    options.fn = facets;
+    options.import.facets = frontend::Facets::kAll;
+    options.import.fn = facets;
   }
-  return frontend::import_design(file.tree, options).scene;
+  return frontend::read_design(csg_of(design, settings), options).import.finish().scene;
 }
 
 }  // namespace measure
