@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <glm/common.hpp>
 #include <new>
+#include <thread>
 
+#include "csgcore/workers.hpp"
 #include "elapsed.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/design_file.hpp"
@@ -74,6 +76,7 @@ class Run {
         progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
   void execute() {
+    const std::jthread workers = start_workers();
     check_outputs();
     for (const std::string& warning : options_.warnings) say("warning: " + warning);
     std::vector<PendingOutput> outputs;
@@ -91,6 +94,15 @@ class Run {
   }
 
  private:
+  /// Small pictures are drawn by one thread.
+  std::jthread start_workers() const {
+    constexpr uint64_t kSmallPixels = 64 * 64;
+    const CameraOptions& camera = options_.camera;
+    const bool is_small = uint64_t{camera.width_px} * camera.height_px <= kSmallPixels;
+    if (is_small || options_.render.threads == 1) return {};
+    return csgcore::start_workers();
+  }
+
   void draw_frame(std::vector<PendingOutput>& outputs) {
     if (frame_ == 0 || is_exported_) {
       design_ = import();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -110,33 +109,32 @@ class FilteredRows {
  public:
   explicit FilteredRows(const csgcore::Image& image)
       : row_bytes_(std::size_t{image.width_px} * 3),
-        rows_(image.height_px),
-        next_(reinterpret_cast<const uint8_t*>(image.rgb.data())),
-        above_(row_bytes_),
+        rows_left_(image.height_px),
+        row_(reinterpret_cast<const uint8_t*>(image.rgb.data())),
+        above_first_(row_bytes_),
+        above_(above_first_.data()),
         batch_(std::max<std::size_t>(kBatchBytes / (row_bytes_ + 1), 1) * (row_bytes_ + 1)) {}
 
-  bool at_end() const { return rows_ == 0; }
+  bool at_end() const { return rows_left_ == 0; }
 
   /// The next ones, until the next call.
   std::span<uint8_t> next() {
     uint8_t* to = batch_.data();
-    for (; rows_ > 0 && to != batch_.data() + batch_.size(); --rows_) {
+    for (; rows_left_ > 0 && to != batch_.data() + batch_.size(); --rows_left_) {
       *to++ = static_cast<uint8_t>(kFilterUp);
-      for (std::size_t i = 0; i < row_bytes_; ++i) {
-        to[i] = static_cast<uint8_t>(next_[i] - above_[i]);
-      }
-      std::memcpy(above_.data(), next_, row_bytes_);
-      to += row_bytes_;
-      next_ += row_bytes_;
+      to = std::transform(row_, row_ + row_bytes_, above_, to,
+                          [](uint8_t byte, uint8_t above) { return byte - above; });
+      above_ = std::exchange(row_, row_ + row_bytes_);
     }
     return {batch_.data(), to};
   }
 
  private:
   std::size_t row_bytes_;
-  uint32_t rows_;  // to come
-  const uint8_t* next_;
-  std::vector<uint8_t> above_;  // 0 above the first row
+  uint32_t rows_left_;
+  const uint8_t* row_;
+  std::vector<uint8_t> above_first_;  // 0
+  const uint8_t* above_;
   std::vector<uint8_t> batch_;
 };
 
