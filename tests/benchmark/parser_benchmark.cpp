@@ -1,10 +1,11 @@
-// How fast a .csg becomes a syntax tree (issue 2: at least 100 MB/s on cs10000.csg).
+// How fast a .csg becomes a syntax tree (issue 2: at least 100 MB/s on cs10000.csg), and a scene.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstdio>
 #include <string>
 
+#include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 
 namespace {
@@ -37,6 +38,25 @@ void parse_carved_cylinder(benchmark::State& state) {
   state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(text.size()));
 }
 BENCHMARK(parse_carved_cylinder)
+    ->Arg(100)
+    ->Arg(10'000)
+    ->Arg(1'000'000)
+    ->Unit(benchmark::kMillisecond);
+
+/// The same text straight to a scene: `parse` and `import` of --stats.
+void import_carved_cylinder(benchmark::State& state) {
+  const int spheres = static_cast<int>(state.range(0));
+  const std::string text = carved_cylinder(spheres);
+  for (auto _ : state) {
+    frontend::TextImport import(text, "carved.csg");
+    const frontend::ImportedDesign design = import.finish();
+    if (design.primitive_nodes != 1 + static_cast<uint32_t>(spheres)) {
+      state.SkipWithError("wrong number of primitives");
+    }
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(text.size()));
+}
+BENCHMARK(import_carved_cylinder)
     ->Arg(100)
     ->Arg(10'000)
     ->Arg(1'000'000)
