@@ -118,6 +118,21 @@ TEST_F(Bench, MeasuresOpenGlWhereItCanBeHad) {
   }
 }
 
+TEST_F(Bench, WithoutOpenGlTheCpuIsMeasured) {
+  const Environment environment("__EGL_VENDOR_LIBRARY_FILENAMES", folder_ / "none.json");
+  const std::vector<std::string> few{"--repeat=1", "--time=0", "--imgsize=80,60", example("r9")};
+  const Outcome outcome = run(few);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("tiles, cpu"), HasSubstr("\n  left out: OpenGL: "),
+                                 Not(HasSubstr("gl: "))));
+  std::vector<std::string> gl = few;
+  gl.insert(gl.begin(), "--renderer=gl");
+  const Outcome failed = run(gl);
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(failed.out, "");
+  EXPECT_THAT(failed.err, StartsWith("error: "));
+}
+
 TEST_F(Bench, RepeatsAsOftenAsItIsTold) {
   const auto count = [&](const char* repeat, const char* time) {
     const Outcome outcome =
