@@ -3,6 +3,7 @@
 // asked for huge pages, where it gives them on request only (its "madvise" setting).
 #include <sys/mman.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -13,6 +14,7 @@ constexpr std::size_t kHugePage = std::size_t{1} << 21;
 constexpr std::size_t kLarge = std::size_t{1} << 19;
 
 void* allocate(std::size_t size, std::size_t alignment) {
+  if (size > PTRDIFF_MAX) return nullptr;  // rounded up it might be nothing
   if (size >= kLarge && alignment <= kHugePage) {
     const std::size_t whole = (size + kHugePage - 1) & ~(kHugePage - 1);
     if (void* const block = std::aligned_alloc(kHugePage, whole)) {
