@@ -63,6 +63,10 @@ class Subject {
   mutable double subdivide_ms_ = 0;
 };
 
+/// Sees the same primitives at the same places, but for pixels on a silhouette: the grown solid's
+/// larger box moves the rays' origins, and so their last bits.
+bool sees_the_same(const Subject& alone, const Subject& grown);
+
 /// Ends the program, so that no time of a wrong answer is seen.
 [[noreturn]] void give_up(const std::string& what);
 

@@ -6,7 +6,6 @@
 // Benchmark prints is the grown scene's. (Issue 3: at most 1.5 for 99,000 off screen or hidden.)
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,11 +13,9 @@
 
 #include "frame.hpp"
 #include "growth_scenes.hpp"
-#include "support/reference.hpp"
 
 namespace {
 
-using csgcore::Hits;
 using csgcore::Image;
 using csgcore::TraceStats;
 using frame_benchmark::Drawing;
@@ -34,23 +31,6 @@ struct Checked {
   frame_benchmark::AnswerCheck answer;
 };
 
-/// Sees the same primitives at the same places, but for pixels on a silhouette: the grown solid's
-/// larger box moves the rays' origins, and so their last bits.
-bool sees_the_same(const Subject& alone, const Subject& grown) {
-  const csgcore::Reference reference(alone.scene(), alone.view());
-  const double far = csgcore::kReferencePositionError * reference.model_size();
-  const Hits a = alone.hits();
-  const Hits b = grown.hits();
-  for (size_t i = 0; i < a.primitive.size(); ++i) {
-    const bool same = a.primitive[i] == b.primitive[i] &&
-                      (a.primitive[i] == Hits::kMiss || std::abs(a.s[i] - b.s[i]) <= far);
-    const uint32_t x = static_cast<uint32_t>(i % a.width_px);
-    const uint32_t y = static_cast<uint32_t>(i / a.width_px);
-    if (!same && !reference.undecided(x, y)) return false;
-  }
-  return true;
-}
-
 /// Made once, and kept for as long as benchmarks of the same kind of scene follow.
 Checked& scene_of(const GrowthScene& growth, uint32_t unseen) {
   static const char* kept = nullptr;
@@ -64,7 +44,8 @@ Checked& scene_of(const GrowthScene& growth, uint32_t unseen) {
     if (scene->subject.scene().primitives.size() != expected) {
       frame_benchmark::give_up("primitives are missing");
     }
-    if (unseen > 0 && !sees_the_same(scene_of(growth, 0).subject, scene->subject)) {
+    if (unseen > 0 &&
+        !frame_benchmark::sees_the_same(scene_of(growth, 0).subject, scene->subject)) {
       frame_benchmark::give_up("parts that cannot be seen change the picture");
     }
   }

@@ -73,7 +73,9 @@ std::string commit_of(const std::filesystem::path& folder) {
   };
   const ProcessResult head = git({"rev-parse", "--short=10", "HEAD"});
   if (!head.succeeded()) return "unknown";
-  const ProcessResult changes = git({"status", "--porcelain", "--untracked-files=no"});
+  // What this program and the report write is no change of what is measured.
+  const ProcessResult changes = git({"status", "--porcelain", "--untracked-files=no", "--", ":/",
+                                     ":!/README.md", ":!/tests/benchmark/results"});
   return first_match(head.output, R"((\w+))") + (changes.output.empty() ? "" : "+");
 }
 
@@ -89,7 +91,7 @@ nlohmann::json describe_machine(const Settings& settings) {
   const Peer peers[] = {
       {"scadray", {settings.scadray, "--version"}, R"(([\d.]+))"},
       {"OpenSCAD", {"openscad", "--version"}, R"(([\d.]+))"},
-      {"POV-Ray", {"povray", "--version"}, R"(POV-Ray ([\d.]+))"},
+      {"POV-Ray", {"povray", "--version"}, R"(POV-Ray ([\d.]*\d))"},
   };
   nlohmann::json versions = nlohmann::json::object();
   for (const Peer& peer : peers) {

@@ -46,15 +46,16 @@ void write(const std::filesystem::path& file, const json& results) {
 
 int run(int argc, char** argv) {
   measure::Settings settings;
-  settings.scadray = SCADRAY_PROGRAM;
   settings.examples = SCADRAY_EXAMPLES_DIR;
   std::vector<std::string> wanted;
-  std::string output, folder;
+  std::string output, folder, scadray;
   options::options_description described("measure [options]; sections: " + names_of_sections());
   described.add_options()("help,h", "this text")(
       "output,o", options::value(&output)->default_value("results.json"), "the results file")(
       "section,s", options::value(&wanted),
       "only this one, and the others as they were; repeatable")(
+      "scadray", options::value(&scadray)->default_value(SCADRAY_PROGRAM),
+      "the program that is measured as a process")(
       "folder", options::value(&folder)->default_value("benchmark_work"),
       "for exported designs and pictures; kept")(
       "peer-limit", options::value(&settings.peer_limit_s)->default_value(settings.peer_limit_s),
@@ -77,6 +78,7 @@ int run(int argc, char** argv) {
       throw std::runtime_error("no section " + name + " (there are: " + names_of_sections() + ")");
     }
   }
+  settings.scadray = scadray;
   if (settings.quick) settings.repetitions = {1, 2, 0};
   std::filesystem::create_directories(folder);
   settings.work_folder = std::filesystem::canonical(folder);

@@ -1,0 +1,60 @@
+// What the results file holds, as text, tables and plots.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plot.hpp"
+
+namespace report {
+
+/// In the order of the README.
+struct Report {
+  std::string markdown;
+  std::vector<Figure> figures;
+  std::string pictures_link;  // of the plots' folder, as README.md has it
+
+  void heading(const std::string& title) { markdown += "\n### " + title + "\n"; }
+  /// A paragraph, in lines of README.md's width.
+  void text(const std::string& paragraph);
+  /// Nothing of a table without rows.
+  void table(const class Table& table);
+  /// A long one, behind a line to click on.
+  void folded(const std::string& title, const class Table& table);
+  /// Nothing of a figure without points.
+  void figure(Figure figure, const std::string& alternative);
+};
+
+/// One section of the results, which is not empty. Throws nlohmann::json::exception where it is not
+/// as its section's file says.
+struct Chapter {
+  const char* section;
+  void (*write)(const nlohmann::json& section, Report& report);
+};
+std::span<const Chapter> chapters();
+
+/// The whole of it; sections that are missing or null are left out. Throws std::runtime_error,
+/// naming the section that is not as it has to be.
+Report make_report(const nlohmann::json& results, const std::string& pictures_link);
+
+void write_opengl(const nlohmann::json& section, Report& report);
+void write_paper(const nlohmann::json& section, Report& report);
+void write_whole(const nlohmann::json& section, Report& report);
+void write_error(const nlohmann::json& section, Report& report);
+void write_frames(const nlohmann::json& section, Report& report);
+void write_scale(const nlohmann::json& section, Report& report);
+void write_stability(const nlohmann::json& section, Report& report);
+
+// --- What chapters share ---
+
+double median(const nlohmann::json& summary);
+/// With the quartiles for ends.
+Point summary_point(double x, const nlohmann::json& summary);
+/// "8.13 (8.01–8.4)": median and quartiles.
+std::string with_spread(const nlohmann::json& summary);
+/// "CS1000" for "cs1000"; others as they are.
+std::string design_title(const std::string& design);
+
+}  // namespace report
