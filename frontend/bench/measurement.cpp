@@ -127,10 +127,9 @@ class Measurement {
     Runs runs;
     draw_first(settings, times, runs);  // what is slower the first time does not count
     runs = {};
-    double total_ms = 0;
-    while (!settings_.repetitions.enough(runs.first.size(), total_ms)) {
+    const Clock::time_point start = Clock::now();
+    while (!settings_.repetitions.enough(runs.first.size(), ms_since(start))) {
       draw_first(settings, times, runs);
-      total_ms += runs.first.back() + runs.context.back();
     }
     times.first = summarise(std::move(runs.first));
     if (settings.technique == Technique::kCells) {
@@ -164,13 +163,12 @@ class Measurement {
     RenderStats stats;
     renderer.draw(views_[0], settings, stats);
     std::vector<double> frames;
-    double total_ms = 0;
-    while (!settings_.repetitions.enough(frames.size(), total_ms)) {
+    const Clock::time_point start = Clock::now();
+    while (!settings_.repetitions.enough(frames.size(), ms_since(start))) {
       const View& view = views_[(frames.size() + 1) % views_.size()];
-      const Clock::time_point start = Clock::now();
+      const Clock::time_point frame_start = Clock::now();
       renderer.draw(view, settings, stats);
-      frames.push_back(ms_since(start));
-      total_ms += frames.back();
+      frames.push_back(ms_since(frame_start));
     }
     times.steady = summarise(std::move(frames));
   }
@@ -190,13 +188,12 @@ class Measurement {
     const RenderSettings settings = settings_of(method, rule);
     times.cpu_wrong_pixels = wrong_pixels(picture(settings), exact_);
     std::vector<double> subdivide, render;
-    double total_ms = 0;
-    while (!settings_.repetitions.enough(subdivide.size(), total_ms)) {
+    const Clock::time_point start = Clock::now();
+    while (!settings_.repetitions.enough(subdivide.size(), ms_since(start))) {
       SceneRenderer renderer;
       renderer.load(scene_);
       renderer.draw(views_[0], settings, times.cells);
       subdivide.push_back(times.cells.subdivide_ms);
-      total_ms += times.cells.subdivide_ms + times.cells.render_ms;
       if (!is_wanted(RendererKind::kCpu)) continue;
       RenderStats again;
       renderer.draw(views_[0], settings, again);
@@ -220,13 +217,12 @@ class Measurement {
     RenderStats stats;
     renderer.draw(views_[0], settings, stats);  // shaders are compiled
     std::vector<double> pass, render, both;
-    double total_ms = 0;
-    while (!settings_.repetitions.enough(pass.size(), total_ms)) {
+    const Clock::time_point start = Clock::now();
+    while (!settings_.repetitions.enough(pass.size(), ms_since(start))) {
       renderer.draw(views_[0], settings, stats);
       pass.push_back(stats.paper_ts_ms);
       render.push_back(stats.paper_tr_ms);
       both.push_back(stats.paper_sr_ms);
-      total_ms += pass.back() + render.back() + both.back();
     }
     gl.pass = summarise(std::move(pass));
     gl.render = summarise(std::move(render));
