@@ -14,6 +14,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace povray {
 namespace {
 
@@ -29,6 +31,9 @@ using csgcore::View;
 
 /// One step of 8 bits, twice: what a surface's ambient part must reach to be no miss.
 constexpr double kBrighterThanBlack = 2.0 / 255;
+
+/// A polyhedron's bounds, beyond its rounded vertices: a share of its size.
+constexpr double kBoundsMargin = 1e-6;
 
 std::string number(double value) {
   char text[32];
@@ -54,7 +59,24 @@ Vec3 base_color(const Primitive& p, bool subtracted, const ReferenceColors& colo
   return subtracted ? colors.back : colors.front;
 }
 
+/// A face is a plane, whose inside is what lies behind it. POV-Ray does not see that they are
+/// bounded.
+std::string convex(const csgcore::Polyhedron& polyhedron) {
+  csgcore::Box box;
+  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
+  const Vec3 margin(kBoundsMargin * box.diagonal());
+  std::string text = "intersection {";
+  for (const csgcore::HalfSpace& half_space : polyhedron.half_spaces()) {
+    const double length = glm::length(half_space.normal);
+    text += std::string(" plane { ") + vector(half_space.normal / length) + "," +
+            number(half_space.offset / length) + " }";
+  }
+  return text + " bounded_by { box { " + vector(box.min - margin) + "," + vector(box.max + margin) +
+         " } }";
+}
+
 std::string shape(const Primitive& p) {
+  if (p.shape == Shape::kPolyhedron) return convex(*p.polyhedron);
   const std::string bottom = vector({0, 0, p.z_min}), top = vector({0, 0, p.z_max});
   if (p.shape == Shape::kSphere) return std::string("sphere { <0,0,0>,") + number(p.r_bottom);
   if (p.r_bottom == p.r_top)
@@ -80,14 +102,22 @@ const char* keyword(Op op) {
   return "";
 }
 
-/// The postfix tree in POV-Ray's nested form. Operands are collected on a stack, each as its text.
-std::string tree_text(const Scene& scene, const ReferenceColors& colors) {
+/// A colour for each primitive.
+std::vector<Vec3> base_colors(const Scene& scene, const ReferenceColors& colors) {
   const std::vector<bool> subtracted = csgcore::subtracted_primitives(scene);
+  std::vector<Vec3> result;
+  for (size_t i = 0; i < scene.primitives.size(); ++i) {
+    result.push_back(base_color(scene.primitives[i], subtracted[i], colors));
+  }
+  return result;
+}
+
+/// The postfix tree in POV-Ray's nested form. Operands are collected on a stack, each as its text.
+std::string tree_text(const Scene& scene, const std::vector<Vec3>& colors) {
   std::vector<std::string> stack;
   for (const CsgToken& token : scene.model.tokens()) {
     if (token.is_primitive) {
-      const Primitive& p = scene.primitives[token.value];
-      stack.push_back(primitive_text(p, base_color(p, subtracted[token.value], colors)));
+      stack.push_back(primitive_text(scene.primitives[token.value], colors[token.value]));
       continue;
     }
     std::string text = std::string(keyword(token.op)) + " {\n";
@@ -115,6 +145,13 @@ std::string camera_text(const Scene& scene, const View& view) {
   return std::string("camera { ") + (orthographic ? "orthographic" : "perspective") + " location " +
          vector(location) + " right " + vector(width * view.right) + " up " +
          vector(2 * view.half_height * view.up) + " direction " + vector(view.forward) + " }\n";
+}
+
+/// `finish` is that of all surfaces.
+std::string header_text(const Vec3& background, const std::string& finish) {
+  return std::string(
+             "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\nbackground { color rgb ") +
+         vector(background) + " }\n#declare Lit = finish { " + finish + " }\n";
 }
 
 /// A folder that goes with its contents.
@@ -198,17 +235,40 @@ bool may_be_told_from_black(const Scene& scene, const ReferenceColors& colors) {
 
 std::string scene_text(const Scene& scene, const View& view, const csgcore::PhongLight& light,
                        const ReferenceColors& colors) {
-  std::string text =
-      "#version 3.7;\n"
-      "global_settings { assumed_gamma 1.0 }\n"
-      "background { color rgb <0,0,0> }\n";
-  text += std::string("#declare Lit = finish { ambient ") + number(csgcore::kPhongAmbient) +
-          " diffuse " + number(csgcore::kPhongDiffuse) + " phong " +
-          number(csgcore::kPhongSpecular) + " phong_size " + number(csgcore::kPhongExponent) +
-          " }\n";
-  text += camera_text(scene, view);
-  text += std::string("light_source { ") + vector(light.position_world) + " color rgb <1,1,1> }\n";
-  return text + tree_text(scene, colors);
+  const std::string finish = std::string("ambient ") + number(csgcore::kPhongAmbient) +
+                             " diffuse " + number(csgcore::kPhongDiffuse) + " phong " +
+                             number(csgcore::kPhongSpecular) + " phong_size " +
+                             number(csgcore::kPhongExponent);
+  return header_text(Vec3(0.0), finish) + camera_text(scene, view) + "light_source { " +
+         vector(light.position_world) + " color rgb <1,1,1> }\n" +
+         tree_text(scene, base_colors(scene, colors));
+}
+
+std::string openscad_scene_text(const Scene& scene, const View& view,
+                                const ReferenceColors& colors) {
+  // |n·l| is what two lights give, from either side.
+  const Vec3 to_light = view.up - view.right - view.forward;
+  std::string lights;
+  for (const double side : {1.0, -1.0}) {
+    lights += std::string("light_source { ") + vector(side * to_light) +
+              " color rgb <1,1,1> parallel point_at <0,0,0> }\n";
+  }
+  return header_text(colors.background, "ambient 0.2 diffuse 1") + camera_text(scene, view) +
+         lights + tree_text(scene, base_colors(scene, colors));
+}
+
+std::string id_scene_text(const Scene& scene, const View& view) {
+  std::vector<Vec3> colors;
+  for (uint32_t i = 1; i <= scene.primitives.size(); ++i) {
+    colors.push_back(Vec3(i >> 16 & 0xff, i >> 8 & 0xff, i & 0xff) / 255.0);
+  }
+  return header_text(Vec3(0.0), "ambient 1 diffuse 0") + camera_text(scene, view) +
+         tree_text(scene, colors);
+}
+
+uint32_t primitive_of(const std::array<uint8_t, 3>& pixel) {
+  const uint32_t value = uint32_t{pixel[0]} << 16 | uint32_t{pixel[1]} << 8 | pixel[2];
+  return value == 0 ? csgcore::kNoPrimitive : value - 1;
 }
 
 Pixels render(const std::string& scene_text, uint32_t width_px, uint32_t height_px) {

@@ -18,6 +18,15 @@ namespace povray {
 std::string scene_text(const csgcore::Scene& scene, const csgcore::View& view,
                        const csgcore::PhongLight& light, const csgcore::ReferenceColors& colors);
 
+/// The same model and camera as OpenSCAD shades them (openscad.md §4).
+std::string openscad_scene_text(const csgcore::Scene& scene, const csgcore::View& view,
+                                const csgcore::ReferenceColors& colors);
+
+/// The same with every primitive in a flat colour of its own, that of `primitive_of`, on black.
+std::string id_scene_text(const csgcore::Scene& scene, const csgcore::View& view);
+/// The index of the primitive that a pixel of such a picture shows; csgcore::kNoPrimitive of none.
+uint32_t primitive_of(const std::array<uint8_t, 3>& pixel);
+
 /// True if every surface's ambient part alone is brighter than 8-bit black, so that a black pixel
 /// is a miss.
 bool may_be_told_from_black(const csgcore::Scene& scene, const csgcore::ReferenceColors& colors);

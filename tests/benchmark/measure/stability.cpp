@@ -15,8 +15,6 @@
 //  "left_out"}
 #include "section.hpp"
 
-#ifdef SCADRAY_MEASURE_ORACLE
-
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -252,17 +250,3 @@ json measure_stability(const Settings& settings) {
 }
 
 }  // namespace measure
-
-#else
-
-namespace measure {
-
-nlohmann::json measure_stability(const Settings&) {
-  LeftOut left_out;
-  left_out.add("numerical stability", "built without the exact oracle (CGAL)");
-  return {{"curves", nlohmann::json::array()}, {"left_out", left_out.reasons}};
-}
-
-}  // namespace measure
-
-#endif
