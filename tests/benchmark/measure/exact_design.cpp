@@ -58,7 +58,8 @@ frontend::ImportedDesign read_csg(const std::filesystem::path& csg,
   frontend::DesignFileOptions reading;
   reading.message = [](const std::string&) {};
   reading.progress = [](const char*) {};
-  return frontend::import_design(frontend::read_design(csg, reading).tree, options);
+  reading.import = options;
+  return frontend::read_design(csg, reading).import.finish();
 }
 
 csgcore::Image draw(const Scene& scene, const View& view, const RenderSettings& settings) {

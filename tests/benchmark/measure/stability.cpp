@@ -13,8 +13,6 @@
 //        picture's coordinates alone may do to those}}]}],
 //  "tolerances": {"double", "float": {"position": a share of the model's size, "normal"}},
 //  "left_out"}
-#include "section.hpp"
-
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -23,6 +21,7 @@
 
 #include "cases.hpp"
 #include "judge.hpp"
+#include "section.hpp"
 #ifdef SCADRAY_MEASURE_GL
 #include "glrender/renderer.hpp"
 #endif
