@@ -195,7 +195,8 @@ TEST(Report, PutsThePapersFiguresBeside) {
                         "1,000 | 4 | 295 |"));
   EXPECT_THAT(made.markdown,
               HasSubstr("| CS1000 | here, K = 8 | 1 | – | – | – | 2 | 1,000 | – | – |"));
-  EXPECT_THAT(made.markdown, HasSubstr("T_R grows as n^1.02 by OpenGL with K = 2, 1 pixel.\n"));
+  EXPECT_THAT(made.markdown, HasSubstr("From 100 to 200 cones (figure 14) T_R grows as n^1.02 by "
+                                       "OpenGL with K = 2, 1 pixel.\n"));
   EXPECT_THAT(names_of(made.figures), testing::ElementsAre("paper_growth", "paper_threshold"));
   EXPECT_EQ(made.figures[1].panels.at(0).series.at(0).points.at(0).y, 0.1);
 }

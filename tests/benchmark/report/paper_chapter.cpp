@@ -124,7 +124,9 @@ void write_growth(const json& growth, Report& report) {
   }
   panel.series.push_back(std::move(paper));
   if (!sentences.empty()) {
-    report.text("From 100 to 1,000 cones (figure 14) T_R grows as " + listed(sentences) + ".");
+    report.text("From " + whole_number(points.front().at("cones")) + " to " +
+                whole_number(points.back().at("cones")) + " cones (figure 14) T_R grows as " +
+                listed(sentences) + ".");
   }
   report.figure({"paper_growth", {panel}}, "Figure 14: T_R over the number of cones");
 }
