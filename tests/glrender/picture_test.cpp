@@ -328,6 +328,37 @@ TEST(RendererTest, DrawCallsDoNotGrowWithCells) {
   EXPECT_LE(few.draw_calls, 5u);
 }
 
+TEST(RendererTest, NorWithTiles) {
+  const auto drawn = [](uint32_t spheres) {
+    const Scene scene = test_support::cylinder_minus_spheres(spheres);
+    LoadedScene loaded(scene, gl_test::by_tiles());
+    loaded.draw(view_from(scene, Projection::kPerspective, 25, 35));
+    return loaded.stats;
+  };
+  const glrender::FrameStats few = drawn(20);
+  const glrender::FrameStats many = drawn(2000);
+  EXPECT_GT(many.tiles_drawn, few.tiles_drawn);
+  EXPECT_EQ(many.cells_drawn, 0u);
+  EXPECT_LE(many.draw_calls, 3u);
+}
+
+/// Of up to 120 balls, each of which is seen somewhere.
+TEST(RendererTest, LongListsOfTiles) {
+  for (const int balls : {33, 60, 120}) {
+    std::vector<Primitive> primitives{make_frustum(-4, 4, 9, 9), make_frustum(-6, 4, 9, 9)};
+    for (int i = 0; i < balls; ++i) {
+      const double angle = 2 * std::numbers::pi * i / balls;
+      primitives.push_back(make_sphere(5, at(0.8 * std::cos(angle), 0.8 * std::sin(angle), 0)));
+    }
+    const Scene scene = scene_of(Op::kIntersection, primitives);
+    SCOPED_TRACE(balls);
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+      const View view = view_from(scene, projection, 25, 50);
+      expect_right(scene, view, gl_test::by_tiles());
+    }
+  }
+}
+
 TEST(RendererTest, DrawsWhileSubdividing) {
   const Scene scene = test_support::cylinder_minus_spheres(2000);
   const View view = view_from(scene, Projection::kPerspective, 25, 35);
