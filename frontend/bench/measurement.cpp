@@ -26,6 +26,7 @@ struct Method {
 };
 constexpr Method kMethods[] = {{RendererKind::kCpu, Technique::kTiles},
                                {RendererKind::kCpu, Technique::kCells},
+                               {RendererKind::kGl, Technique::kTiles},
                                {RendererKind::kGl, Technique::kCells}};
 
 std::string name_of(const Method& method) {

@@ -144,7 +144,7 @@ TEST(Measurement, AWrongPictureHasNoTimes) {
   EXPECT_FALSE(result.rules[0].gl);
   EXPECT_THAT(result.wrong,
               testing::Each(testing::MatchesRegex("gl, .*: [0-9]+ of 10800 pixels show .*")));
-  EXPECT_EQ(result.wrong.size(), 2u);  // the frames, and the paper's times
+  EXPECT_EQ(result.wrong.size(), 3u);  // the frames of both techniques, and the paper's times
 }
 
 }  // namespace

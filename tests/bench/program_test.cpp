@@ -108,7 +108,9 @@ TEST_F(Bench, MeasuresOpenGlWhereItCanBeHad) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const json r9 = json::parse(outcome.out)["files"][0];
   if (!r9["left_out"].empty()) GTEST_SKIP() << r9["left_out"];
-  EXPECT_GE(r9["frames"].size(), 3u);
+  ASSERT_EQ(r9["frames"].size(), 4u);
+  EXPECT_EQ(r9["frames"][2]["technique"], "tiles");
+  EXPECT_EQ(r9["frames"][3]["technique"], "cells");
   const json& frame = r9["frames"].back();
   EXPECT_THAT(std::string(frame["renderer"]), StartsWith("gl: "));
   EXPECT_THAT(keys_of(frame), testing::IsSupersetOf({"context", "first_shaders"}));

@@ -1,14 +1,15 @@
 // {"left_out": [reason, …],
 //  "renderer": "gl: " and GL_RENDERER, "software": whether that runs on the CPU,
 //  "frames": [{"design", "primitives", "width_px", "height_px", "leaf_primitives", "threshold_px",
-//              "technique": "cells" or "tiles", "leaves", "cells_drawn", "draw_calls",
+//              "technique": "cells", or "tiles", which no rule concerns: with the first alone,
+//              "leaves", "cells_drawn", "draw_calls",
 //              "subdivide_ms", "upload_ms", "upload_bytes",      once, of the first frame
 //              "frame": summary of a frame from the view to its picture in memory,
 //              "traverse", "draw", "read": summaries of its parts,
 //              "hits", "wrong_pixels": against the CPU's picture at 640 × 480}, …]}
 // Without OpenGL "frames" is empty. Summaries are in ms. traverse: the cells in their order,
-// brought to the GPU; draw: until OpenGL has finished; read: back into memory. The rest of a frame
-// is what the CPU adds to it.
+// or the tiles and their lists, brought to the GPU; draw: until OpenGL has finished; read: back
+// into memory. The rest of a frame is what the CPU adds to it.
 #include <algorithm>
 #include <optional>
 
@@ -38,10 +39,7 @@ struct Size {
 constexpr Size kSizes[] = {{640, 480}, {1920, 1080}, {3840, 2160}};
 constexpr const char* kDesigns[] = {"r9", "cs1000", "cc1000", "t1022", "cs10000"};
 constexpr bench::Rule kRules[] = {bench::Rule{}, bench::kPaperRule};
-constexpr struct {
-  Technique technique;
-  const char* name;
-} kTechniques[] = {{Technique::kCells, "cells"}};
+constexpr Technique kTechniques[] = {Technique::kTiles, Technique::kCells};
 
 /// On the CPU a frame of 4K takes seconds.
 constexpr uint64_t kManyPixels = 3'000'000;
@@ -80,12 +78,13 @@ class OpenGlMeasurer {
       const Subject subject = read_subject(design, settings_);
       say("opengl: " + subject.name);
       for (const bench::Rule& rule : kRules) {
-        for (const auto& [technique, name] : kTechniques) {
+        for (const Technique technique : kTechniques) {
+          // Tiles have no cells that a rule could divide.
+          if (technique == Technique::kTiles && rule.threshold_px > 0) continue;
           const json answer = check(subject, technique, rule);
           for (const Size& size : kSizes) {
             if (settings_.quick && size.width_px > kSizes[0].width_px) continue;
             json frame = measure_size(subject, technique, rule, size);
-            frame["technique"] = name;
             frame.update(answer);
             frames_.push_back(std::move(frame));
           }
@@ -150,6 +149,7 @@ class OpenGlMeasurer {
             {"height_px", size.height_px},
             {"leaf_primitives", rule.leaf_primitives},
             {"threshold_px", rule.threshold_px},
+            {"technique", first.technique},
             {"leaves", first.leaves},
             {"cells_drawn", first.cells_drawn},
             {"draw_calls", first.draw_calls},
