@@ -1,13 +1,11 @@
 #include "picture_errors.hpp"
 
-#include <spng.h>
-
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "png.hpp"
 
 namespace measure {
 namespace {
@@ -27,22 +25,12 @@ void require_same_size(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-Picture read_png(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             std::fclose);
-  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
-  spng_ihdr header{};
-  Picture picture;
-  if (file && spng_set_png_file(context.get(), file.get()) == 0 &&
-      spng_get_ihdr(context.get(), &header) == 0) {
-    picture.rgb.resize(size_t{header.width} * header.height);
-    if (spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size() * 3, SPNG_FMT_RGB8,
-                          0) == 0) {
-      picture.width_px = header.width;
-      picture.height_px = header.height;
-    }
+Picture read_picture(const std::filesystem::path& file) {
+  const Png png = read_png(file);
+  Picture picture{png.width_px, png.height_px, {}};
+  for (size_t i = 0; i < png.rgb.size(); i += 3) {
+    picture.rgb.push_back({png.rgb[i], png.rgb[i + 1], png.rgb[i + 2]});
   }
-  if (picture.width_px == 0) throw std::runtime_error(path.string() + " is no PNG");
   return picture;
 }
 

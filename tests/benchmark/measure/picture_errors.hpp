@@ -19,8 +19,8 @@ struct Picture {
   std::vector<std::array<uint8_t, 3>> rgb;
 };
 
-/// 8 bits a channel; an alpha channel is left out. Throws std::runtime_error.
-Picture read_png(const std::filesystem::path& file);
+/// Of a PNG. Throws std::runtime_error.
+Picture read_picture(const std::filesystem::path& file);
 
 /// Each pixel the mean of factor × factor pixels, whose picture's sides are multiples of it.
 Picture averaged(const Picture& picture, uint32_t factor);

@@ -31,7 +31,7 @@ Candidate of(ExactDesign& subject, const std::string& display, uint32_t fragment
   };
   candidate.judge = [&subject, fragments, rendered, picture] {
     const FacetedDesign& design = subject.faceted(fragments);
-    const Picture drawn = read_png(picture);
+    const Picture drawn = read_picture(picture);
     const uint64_t other = differing_pixels(drawn, rendered ? design.rendered : design.plain);
     if (static_cast<double>(other) > kMostDiffering * static_cast<double>(drawn.rgb.size())) {
       throw WrongAnswer(

@@ -51,7 +51,7 @@ csgcore::Hits hits_of(const ExactDesign& subject) {
   const ProcessResult result = run_process(words, {subject.settings().peer_limit_s});
   if (!result.succeeded()) throw std::runtime_error("povray: " + result.output);
   csgcore::Hits hits;
-  for (const auto& pixel : read_png(picture).rgb) {
+  for (const auto& pixel : read_picture(picture).rgb) {
     hits.primitive.push_back(povray::primitive_of(pixel));
   }
   return hits;
@@ -73,7 +73,7 @@ Candidate of(ExactDesign& subject, const std::string& series, const std::string&
     PictureErrors errors;
     compare_hits(hits_of(subject), subject.exact(), subject.size(), errors);
     const ExactPictures& exact = subject.pictures();
-    compare_colours(read_png(picture), exact.plain, exact.antialiased, errors);
+    compare_colours(read_picture(picture), exact.plain, exact.antialiased, errors);
     if (is_antialiased) errors.colour_wrong.reset();  // its edges are meant to be mixed
     return errors;
   };

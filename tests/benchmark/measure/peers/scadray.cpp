@@ -87,7 +87,7 @@ PictureErrors judge(const ExactDesign& subject, const Drawing& drawing,
   const csgcore::Image image = draw(subject.scene(), subject.view(), settings);
   csgcore::Hits hits = csgcore::hits_of(image, subject.scene());
   if (settings.renderer == RendererKind::kCpu) hits = subject.traced();  // an image's are floats
-  const Picture picture = read_png(file);
+  const Picture picture = read_picture(file);
   require_same(picture, picture_of(image), subject.design() + ", " + drawing.series);
   PictureErrors errors;
   compare_hits(hits, subject.exact(), subject.size(), errors);
@@ -132,7 +132,7 @@ Candidate faceted(ExactDesign& subject, uint32_t fragments) {
   };
   candidate.judge = [&subject, fragments, picture] {
     const FacetedDesign& design = subject.faceted(fragments);
-    const Picture drawn = read_png(picture);
+    const Picture drawn = read_picture(picture);
     require_same(drawn, design.plain, subject.design() + ", facets");
     PictureErrors errors;
     compare_hits(design.hits, subject.exact(), subject.size(), errors);
