@@ -295,7 +295,8 @@ void SceneMeasurement::add_ratios(json& ratios) const {
 /// From the easy to the hard.
 std::vector<std::string> designs(const Settings& settings) {
   if (settings.quick) return {"r9", "cs100"};
-  return {"r9", "bracket", "flange", "knob", "cs100", "cs1000", "cc1000", "t1022"};
+  // Those that bars ask for first.
+  return {"r9", "cs1000", "cc1000", "cs100", "t1022", "flange", "knob", "bracket"};
 }
 
 }  // namespace
@@ -311,7 +312,10 @@ json measure_error(const Settings& settings) {
     left_out.add(peer, "Debian 12 has no package of it");
   }
   Limits limits;
-  json scenes = json::array(), ratios = json::array();
+  json result{{"picture", {{"width_px", 640}, {"height_px", 480}, {"pixels", 640 * 480}}},
+              {"measures", kMeasures},
+              {"scenes", json::array()},
+              {"ratios", json::array()}};
   for (const std::string& design : designs(settings)) {
     say(design);
     SceneMeasurement scene(design, settings, limits, left_out);
@@ -320,14 +324,12 @@ json measure_error(const Settings& settings) {
     if (has_openscad) scene.add(openscad_candidates(scene.subject(), display.display()));
     scene.add(nef_candidates(scene.subject()));
     scene.finish();
-    scenes.push_back(scene.results());
-    scene.add_ratios(ratios);
+    result["scenes"].push_back(scene.results());
+    scene.add_ratios(result["ratios"]);
+    result["left_out"] = left_out.reasons;
+    settings.keep(result);
   }
-  return {{"picture", {{"width_px", 640}, {"height_px", 480}, {"pixels", 640 * 480}}},
-          {"measures", kMeasures},
-          {"scenes", scenes},
-          {"ratios", ratios},
-          {"left_out", left_out.reasons}};
+  return result;
 }
 
 }  // namespace measure

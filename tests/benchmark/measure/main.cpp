@@ -89,8 +89,11 @@ int run(int argc, char** argv) {
     const bool is_wanted = std::find(wanted.begin(), wanted.end(), section.name) != wanted.end();
     if (!wanted.empty() && !is_wanted) continue;
     measure::say(std::string("== ") + section.title);
-    kept[section.name] = section.measure(settings);
-    write(output, {{"format", 1}, {"machine", machine}, {"sections", kept}});
+    settings.keep = [&](const json& result) {
+      kept[section.name] = result;
+      write(output, {{"format", 1}, {"machine", machine}, {"sections", kept}});
+    };
+    settings.keep(section.measure(settings));
   }
   return 0;
 }

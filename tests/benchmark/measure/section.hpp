@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -26,6 +27,8 @@ struct Settings {
   bool quick = false;
   unsigned threads = 2;
   Repetitions repetitions{};
+  /// A long section hands over what it has so far, so that what ends it early costs the rest alone.
+  std::function<void(const nlohmann::json& so_far)> keep = [](const nlohmann::json&) {};
 };
 
 /// A picture that is not what it has to be: no time of it may be seen.
