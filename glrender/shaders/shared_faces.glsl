@@ -29,9 +29,9 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 #elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
 
-// The ray at the hit, where it crosses several faces together: one bit for each of some literals.
+// The ray at the hit, where it crosses several faces together: one bit for each of the first
+// literals.
 struct Crossed {
-  uint first;   // of these literals, in the list
   uint faces;   // those that start the solid there
   uint inside;  // the primitives that the ray is inside of behind them
   float t;      // where the other literals are asked
@@ -43,9 +43,9 @@ bool holds_without(Ray ray, Crossed crossed, uint faces) {
   uint i = 0u;
   do {
     Literal literal = fetch_literal(v_list.x + i);
-    bool is_inside = (inside >> (i - crossed.first & 31u) & 1u) != 0u;
+    bool is_inside = (inside >> i & 1u) != 0u;
 #if PATH == PATH_LIST || SHORT_LIST > SHARED_FACES
-    if (i - crossed.first >= uint(SHARED_FACES)) {
+    if (i >= uint(SHARED_FACES)) {
       Segment segment = segment_of(ray, i, literal.primitive);
       is_inside = segment.start <= crossed.t && crossed.t < segment.end;
     }
@@ -61,23 +61,13 @@ Hit boundary(Segment segment, Literal literal, bool starts) {
   return end_of(segment, literal);
 }
 
-// Whether another face than the hit's own may start the solid there. Most often none does. Where
-// segments are kept, all are asked, and `first` is the first of these faces; else as many as have a
-// bit are asked, from 0 on.
-bool is_shared(Ray ray, Hit hit, out uint first) {
+// Whether another face than the hit's own may start the solid there. Most often none does.
+bool is_shared(Ray ray, Hit hit) {
   bool shared = false;
-#if PATH == PATH_SHORT_LIST
-  uint asked = v_list.y;
-  first = v_list.y;
-#else
-  uint asked = min(v_list.y, uint(SHARED_FACES));
-  first = 0u;
-#endif
-  for (uint i = 0u; i < asked; ++i) {
+  for (uint i = 0u; i < min(v_list.y, uint(SHARED_FACES)); ++i) {
     Literal literal = fetch_literal(v_list.x + i);
     Hit start = boundary(segment_of(ray, i, literal.primitive), literal, true);
     bool near = too_thin(abs(start.t - hit.t), hit.speed);
-    if (near) first = min(first, i);
     shared = shared || near && literal.primitive != hit.primitive;
   }
   return shared;
@@ -88,11 +78,11 @@ bool together(Ray ray, Hit hit, Hit other) {
   return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
 }
 
-Crossed crossed_at(Ray ray, Hit hit, uint first) {
-  Crossed result = Crossed(first, 0u, 0u, hit.t + u_tolerance / hit.speed);
-  for (uint i = 0u; i < min(v_list.y - first, uint(SHARED_FACES)); ++i) {
-    Literal literal = fetch_literal(v_list.x + first + i);
-    Segment segment = segment_of(ray, first + i, literal.primitive);
+Crossed crossed_at(Ray ray, Hit hit) {
+  Crossed result = Crossed(0u, 0u, hit.t + u_tolerance / hit.speed);
+  for (uint i = 0u; i < min(v_list.y, uint(SHARED_FACES)); ++i) {
+    Literal literal = fetch_literal(v_list.x + i);
+    Segment segment = segment_of(ray, i, literal.primitive);
     bool starts = together(ray, hit, boundary(segment, literal, true));
     bool ends = together(ray, hit, boundary(segment, literal, false));
     bool inside = segment.start <= hit.t && hit.t < segment.end;
@@ -119,9 +109,8 @@ uint first_decider(Ray ray, Crossed crossed, uint faces, uint aside) {
 // each other, then of only as many, from the earliest, as make it start.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   seen = hit;
-  uint first;
-  if (!is_shared(ray, hit, first)) return true;
-  Crossed crossed = crossed_at(ray, hit, first);
+  if (!is_shared(ray, hit)) return true;
+  Crossed crossed = crossed_at(ray, hit);
   uint faces = crossed.faces;
   if (faces == 0u) return true;
   uint aside = 0u;
@@ -138,9 +127,8 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
     decider = 0u;
     while ((faces >> decider & 1u) == 0u) ++decider;
   }
-  uint index = crossed.first + decider;
-  Literal literal = fetch_literal(v_list.x + index);
-  seen = boundary(segment_of(ray, index, literal.primitive), literal, true);
+  Literal literal = fetch_literal(v_list.x + decider);
+  seen = boundary(segment_of(ray, decider, literal.primitive), literal, true);
   return true;
 }
 

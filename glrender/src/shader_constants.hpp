@@ -33,9 +33,8 @@ constexpr uint32_t short_list(bool has_polyhedron, bool tiles) {
 /// Longer lists of a tile are refused, as are those of too many rounds.
 constexpr uint32_t kLongList = 128;
 
-/// Of a longer list only so many are asked whether they share the face that is hit, as the shaders
-/// keep one bit for each: the first of a cell's, of a tile's those from the first that does. In
-/// longer unions nobody is asked.
+/// Of a cell with more primitives, those beyond are not asked whether they share the face that is
+/// hit: the shaders keep one bit for each. In longer unions nobody is asked.
 constexpr uint32_t kSharedFaces = 32;
 
 /// A cell whose function takes more rounds is refused: Mesa's software renderer ends all of a
