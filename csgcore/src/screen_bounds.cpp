@@ -36,8 +36,7 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
       shapes_(std::make_unique_for_overwrite<ScreenShape[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
-      rectangles_(std::make_unique_for_overwrite<float[]>(
-          4 * size_t{groups.member_count() + kRectanglePadding})) {
+      rectangles_(std::make_unique_for_overwrite<float[]>(4 * rectangle_row())) {
   const std::span<const uint32_t> common = groups.common();
   if (common.size() <= kBoundedAtOnce) {
     bound(common);
@@ -67,19 +66,13 @@ bool ScreenBounds::open(uint32_t group) {
   return found == kSeen;
 }
 
-RectangleRows ScreenBounds::rectangles_from(uint32_t member) const {
-  const size_t count = groups_.member_count() + kRectanglePadding;
-  const float* const from = rectangles_.get() + member;
-  return {from, from + count, from + 2 * count, from + 3 * count};
-}
-
 /// Returns whether any ray can meet any of them.
 bool ScreenBounds::keep_rectangles(uint32_t group) {
   // Coordinates lie within far_off, 1e6, where float rounds by half of this at most.
   constexpr float kFloatSlack_px = 0.125f;
   constexpr float kNowhere = std::numeric_limits<float>::infinity();
   const OperandGroups::Members members = groups_.members(group);
-  const size_t row = groups_.member_count() + kRectanglePadding;
+  const size_t row = rectangle_row();
   float* to = rectangles_.get() + members.first;
   bool any = false;
   for (const uint32_t entry : members.primitive) {
@@ -112,7 +105,10 @@ std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Membe
                                                       uint32_t first, uint32_t count,
                                                       const Box& cell) const {
   const uint32_t* const primitives = members.primitive.data() + first;
-  uint64_t outside = find_outside(rectangles_from(members.first + first), count, cell);
+  const size_t row = rectangle_row();
+  const float* const from = rectangles_.get() + members.first + first;
+  const RectangleRows rows{from, from + row, from + 2 * row, from + 3 * row};
+  uint64_t outside = find_outside(rows, count, cell);
   uint64_t open = 0;
   for (uint64_t left = ~outside & ~uint64_t{0} >> (64 - count); left != 0; left &= left - 1) {
     const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;

@@ -36,7 +36,8 @@ class ScreenBounds final : public OpenClassifier {
 
  private:
   bool keep_rectangles(uint32_t group);
-  RectangleRows rectangles_from(uint32_t member) const;
+  /// How far the rows of rectangles_ lie apart.
+  size_t rectangle_row() const { return groups_.member_count() + size_t{kRectanglePadding}; }
   void bound(std::span<const uint32_t> indices);
 
   enum State : uint8_t { kClosed, kOpening, kSeen, kUnseen };

@@ -46,8 +46,9 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
     cuts = depth && drop_hidden(list, restrictor, *depth, cover);
-    if (cuts) cut_t_ = *depth;
-    if (cuts) break;
+    if (!cuts) continue;
+    cut_t_ = *depth;
+    break;
   }
   if (!cuts && !marked_.empty()) return Outcome::kOpenGroups;
   if (!cuts && (has_groups_ || list.count() > kUndecisiveList)) {

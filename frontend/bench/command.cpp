@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <new>
 #include <thread>
 #include <utility>
 
@@ -137,18 +136,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 ExitCode run_command(const std::vector<std::string>& arguments) {
-  try {
-    const ExitCode code = run(arguments);
-    if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
-    return code;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-  } catch (const std::bad_alloc&) {
-    std::fputs("error: out of memory (try a smaller --imgsize or design)\n", stderr);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-  }
-  return ExitCode::kFailure;
+  return frontend::run_program([&] { return run(arguments); }, "a smaller --imgsize or design");
 }
 
 }  // namespace bench

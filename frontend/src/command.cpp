@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/common.hpp>
-#include <new>
 #include <thread>
 
 #include "csgcore/workers.hpp"
@@ -311,18 +310,11 @@ void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
 }  // namespace
 
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
-  try {
+  const auto program = [&] {
     run(arguments, renderer);
-    if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
     return ExitCode::kDone;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-  } catch (const std::bad_alloc&) {
-    std::fputs("error: out of memory (try a smaller --imgsize or design)\n", stderr);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-  }
-  return ExitCode::kFailure;
+  };
+  return run_program(program, "a smaller --imgsize or design");
 }
 
 }  // namespace frontend

@@ -8,52 +8,24 @@
 
 #include <algorithm>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "frame.hpp"
-#include "frontend/importer.hpp"
-#include "frontend/parser.hpp"
 #include "glrender/fixture.hpp"
 #include "glrender/renderer.hpp"
-#include "support/models.hpp"
+#include "named_design.hpp"
 
 namespace {
 
 using csgcore::Image;
 using csgcore::Scene;
 using csgcore::Solid;
+using frame_benchmark::Design;
 using frame_benchmark::Subject;
 using glrender::FrameStats;
 using glrender::Technique;
-
-struct Design {
-  Scene scene;
-  csgcore::Box view_box;
-};
-
-/// CSn, CCn, or an example's name.
-Design make_design(const std::string& name) {
-  const std::string kind = name.substr(0, 2);
-  if (kind == "CS" || kind == "CC") {
-    const auto n = static_cast<uint32_t>(std::stoul(name.substr(2)));
-    Scene scene = kind == "CS" ? test_support::cylinder_minus_spheres(n)
-                               : test_support::cylinder_minus_cones(n);
-    const csgcore::Box box = Solid(csgcore::canonical_primitives(scene), scene.model).bounds();
-    return {std::move(scene), box};
-  }
-  const std::filesystem::path path = std::filesystem::path(SCADRAY_EXAMPLES_DIR) / (name + ".csg");
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) frame_benchmark::give_up("cannot read " + path.string());
-  auto imported = frontend::import_design(frontend::parse(text.str(), path.string()));
-  return {std::move(imported.scene), imported.view_box};
-}
 
 double cpu_ms(std::clock_t ticks) { return 1e3 * static_cast<double>(ticks) / CLOCKS_PER_SEC; }
 
@@ -73,7 +45,7 @@ class Medians {
 };
 
 void draw_frames(benchmark::State& state, const std::string& name) {
-  Design design = make_design(name);
+  Design design = frame_benchmark::make_design(name);
   const Subject subject(std::move(design.scene), frame_benchmark::default_view(design.view_box));
   glrender::Renderer renderer(gl_test::context(), subject.solid());
   renderer.load(subject.subdivision());

@@ -5,19 +5,14 @@
 //   tracer_benchmark --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "frame.hpp"
-#include "frontend/importer.hpp"
-#include "frontend/parser.hpp"
+#include "named_design.hpp"
 #include "simd.hpp"
-#include "support/models.hpp"
 
 namespace {
 
@@ -25,37 +20,12 @@ using csgcore::Image;
 using csgcore::Scene;
 using csgcore::SimdLevel;
 using csgcore::Solid;
+using frame_benchmark::Design;
 using frame_benchmark::Drawing;
 using frame_benchmark::Method;
 using frame_benchmark::PictureSize;
 using frame_benchmark::Subject;
 using frame_benchmark::Times;
-
-/// A scene by its name: CSn, CCn, or an example's.
-struct Design {
-  Scene scene;
-  csgcore::Box view_box;
-};
-
-Design import_example(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(SCADRAY_EXAMPLES_DIR) / (name + ".csg");
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) frame_benchmark::give_up("cannot read " + path.string());
-  auto imported = frontend::import_design(frontend::parse(text.str(), path.string()));
-  return {std::move(imported.scene), imported.view_box};
-}
-
-Design make_design(const std::string& name) {
-  const std::string kind = name.substr(0, 2);
-  if (kind != "CS" && kind != "CC") return import_example(name);
-  const auto n = static_cast<uint32_t>(std::stoul(name.substr(2)));
-  Scene scene = kind == "CS" ? test_support::cylinder_minus_spheres(n)
-                             : test_support::cylinder_minus_cones(n);
-  const csgcore::Box box = Solid(csgcore::canonical_primitives(scene), scene.model).bounds();
-  return {std::move(scene), box};
-}
 
 struct Checked {
   Checked(Design design, const PictureSize& size)
@@ -69,7 +39,7 @@ struct Checked {
 Checked& design_of(const std::string& name, const PictureSize& size) {
   static std::map<std::pair<std::string, uint32_t>, std::unique_ptr<Checked>> designs;
   auto& design = designs[{name, size.width_px}];
-  if (!design) design = std::make_unique<Checked>(make_design(name), size);
+  if (!design) design = std::make_unique<Checked>(frame_benchmark::make_design(name), size);
   return *design;
 }
 
@@ -114,7 +84,7 @@ void draw_frames(benchmark::State& state, const Run& run) {
 
 /// What is done once per file, between the import and the first picture.
 void prepare(benchmark::State& state, const std::string& name) {
-  const Scene scene = make_design(name).scene;
+  const Scene scene = frame_benchmark::make_design(name).scene;
   Times times;
   for (auto _ : state) {
     std::unique_ptr<Solid> solid;

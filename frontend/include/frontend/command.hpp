@@ -12,6 +12,10 @@ namespace frontend {
 /// design.md §2. kDisagreement is `scadray validate`'s alone.
 enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 
+/// Runs a program, writes out what it has printed, and says on stderr what ends it instead: nothing
+/// is thrown. `smaller` is what to try where memory runs out: "a smaller …".
+ExitCode run_program(const std::function<ExitCode()>& program, const std::string& smaller);
+
 /// frontend::render, or another with its contract.
 using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,
                                               const RenderSettings&, RenderStats&)>;

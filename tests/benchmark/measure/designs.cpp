@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "frontend/design_file.hpp"
-#include "frontend/importer.hpp"
 #include "process.hpp"
 
 namespace measure {
@@ -33,15 +31,6 @@ Source scad_of(const std::string& design, const Settings& settings) {
   const std::string cutter = design.starts_with("cc") ? "cone" : "sphere";
   return {settings.examples / "cut_cylinder.scad",
           {"-Dn=" + design.substr(2), "-Dcutter=\"" + cutter + "\""}};
-}
-
-csgcore::Scene scene_of(const std::string& design, const Settings& settings, uint32_t facets) {
-  frontend::DesignFileOptions options;
-  if (facets >= 3) {
-    options.import.facets = frontend::Facets::kAll;
-    options.import.fn = facets;
-  }
-  return frontend::read_design(csg_of(design, settings), options).import.finish().scene;
 }
 
 }  // namespace measure

@@ -1,10 +1,10 @@
-// The designs that are measured, as files and as scenes.
+// The files of the designs that are measured.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "csgcore/scene.hpp"
 #include "section.hpp"
 
 namespace measure {
@@ -19,8 +19,5 @@ struct Source {
   std::vector<std::string> defines;
 };
 Source scad_of(const std::string& design, const Settings& settings);
-
-/// The design as scadray reads its .csg; with what is round in so many facets if `facets` ≥ 3.
-csgcore::Scene scene_of(const std::string& design, const Settings& settings, uint32_t facets = 0);
 
 }  // namespace measure
