@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
 #include <optional>
@@ -37,11 +38,16 @@ constexpr int kMostAxisComponent = 10;
 // Near y = ±90 degrees (cos y below this) x and z turn about the same axis, and only their sum is
 // known; such a matrix is healed as y = ±90 exactly or without looking for angles.
 constexpr double kGimbalCosine = 1e-3;
-// Turning a matrix into the digits' intervals: a step a little longer than to the interval's end
-// gets inside in a few sweeps mostly, where steps just to the ends come ever closer only.
-constexpr double kOverRelaxation = 1.5;
-constexpr int kMostSweeps = 300;
+// Turning a matrix into the digits' intervals: so far within, since a step ends at the end of one;
+// entries of finer intervals than this share of the widest count no more; after so many steps there
+// is hardly a way. What is left after one round is of second order, 1e-13 of an entry that is 0.
+constexpr double kWithin = 0.999;
+constexpr double kFinestShare = 1e-2;
+constexpr int kMostSteps = 100;
+constexpr int kMostRounds = 3;
 constexpr int kMostPolarSteps = 30;
+// The next step would change the matrix by half of this, squared.
+constexpr double kPolarChange = 1e-8;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -75,6 +81,12 @@ int decimal_exponent(double size) {
   return exponent;
 }
 
+double largest_entry(const Mat3& m) {
+  double largest = 0;
+  for_each_entry([&](int c, int r) { largest = std::max(largest, m[c][r]); });
+  return largest;
+}
+
 int64_t nearest_integer(double value) {
   return static_cast<int64_t>(value < 0 ? value - 0.5 : value + 0.5);
 }
@@ -97,42 +109,89 @@ Mat3 nearest_orthogonal(Mat3 m) {
     for_each_entry(
         [&](int c, int r) { change = std::max(change, std::abs(next[c][r] - m[c][r])); });
     m = next;
-    if (change <= kDoubleNoise) break;
+    if (change <= kPolarChange) break;
   }
   return m;
 }
 
-/// A rotation or mirror, times a factor near 1 if the scale is free, within the digits' intervals.
-/// From the nearest one on it turns by small angles w, to first order Q·(1 + [w]×), and grows, away
-/// from each interval's end that an entry has passed.
-std::optional<Mat3> similarity_within(const Mat3& file, const Mat3& half, bool free_scale) {
-  const Mat3 nearest = nearest_orthogonal(file);
-  const Mat3 rows = glm::transpose(nearest);
-  Vec3 turn(0.0);
-  double growth = 0;
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    bool inside = true;
-    for_each_entry([&](int c, int r) {
-      Vec3 axis(0.0);
-      axis[c] = 1;
-      const Vec3 slope = glm::cross(axis, rows[r]);
-      const double growing = free_scale ? nearest[c][r] : 0;
-      const double entry = nearest[c][r] + glm::dot(slope, turn) + growing * growth;
-      const double least = file[c][r] - half[c][r];
-      const double most = file[c][r] + half[c][r];
-      const double excess = entry - std::clamp(entry, least, most);
-      const double steepness = glm::dot(slope, slope) + growing * growing;
-      if (std::abs(excess) <= kDoubleNoise || steepness <= kDoubleNoise) return;
-      inside = false;
-      const double step = kOverRelaxation * excess / steepness;
-      turn -= slope * step;
-      growth -= growing * step;
-    });
-    if (inside) break;
+/// The matrix with `cross_product(w)·v = w × v`.
+Mat3 cross_product(const Vec3& w) {
+  return Mat3(Vec3(0, w.z, -w.y), Vec3(-w.z, 0, w.x), Vec3(w.y, -w.x, 0));
+}
+
+/// What brings a matrix into the digits' intervals.
+struct Correction {
+  Vec3 turn;  // by small angles
+  double growth;
+};
+
+/// That of a similarity, S·(1 + [turn]× + growth) to first order: by least squares in units of the
+/// intervals, then away from the end that is furthest passed of all intervals, as long as one is
+/// (the relaxation method of Agmon, and of Motzkin and Schoenberg, 1954).
+Correction find_correction(const Mat3& similarity, const Mat3& file, const Mat3& half,
+                           bool free_scale) {
+  // How an entry of column c changes with the turns about axis c + 1, axis c + 2, and with growth.
+  Mat3 by_next, by_second, by_growth(0.0), per_length;
+  const double finest = kFinestShare * largest_entry(half) + kDoubleNoise;
+  glm::dmat4 squares(0.0);
+  glm::dvec4 right(0.0);
+  for (int c = 0; c < 3; ++c) {
+    by_next[c] = -similarity[(c + 2) % 3];
+    by_second[c] = similarity[(c + 1) % 3];
+    if (free_scale) by_growth[c] = similarity[c];
+    for (int r = 0; r < 3; ++r) {
+      glm::dvec4 slope(0.0);
+      slope[(c + 1) % 3] = by_next[c][r];
+      slope[(c + 2) % 3] = by_second[c][r];
+      slope[3] = by_growth[c][r];
+      const double length = glm::length(slope);
+      per_length[c][r] = length <= kDoubleNoise ? 0 : 1 / length;
+      const double weight = 1 / std::max(half[c][r], finest);
+      const glm::dvec4 weighted = slope * (weight * weight);
+      squares += glm::outerProduct(slope, weighted);
+      right += weighted * (file[c][r] - similarity[c][r]);
+    }
   }
-  const Mat3 cross(Vec3(0, turn.z, -turn.y), Vec3(-turn.z, 0, turn.x), Vec3(turn.y, -turn.x, 0));
-  const Mat3 turned = nearest_orthogonal(nearest + nearest * cross) * (1 + growth);
-  if (prints_alike(turned, file, half)) return turned;
+  if (!free_scale) squares[3][3] = 1;
+  glm::dvec4 found = glm::inverse(squares) * right;
+
+  const Mat3 least = file - kWithin * half - similarity;
+  const Mat3 most = file + kWithin * half - similarity;
+  for (int step = 0; step < kMostSteps; ++step) {
+    double furthest = 0;  // in turns and growth
+    double excess = 0;
+    int column = 0, row = 0;
+    for_each_entry([&](int c, int r) {
+      const double change = by_next[c][r] * found[(c + 1) % 3] +
+                            by_second[c][r] * found[(c + 2) % 3] + by_growth[c][r] * found[3];
+      const double passed =
+          std::max(change - most[c][r], 0.0) + std::min(change - least[c][r], 0.0);
+      const double distance = std::abs(passed) * per_length[c][r];
+      if (distance <= furthest || std::abs(passed) <= kDoubleNoise) return;
+      furthest = distance;
+      excess = passed;
+      column = c;
+      row = r;
+    });
+    if (furthest == 0) break;
+    const double by = excess * per_length[column][row] * per_length[column][row];
+    found[(column + 1) % 3] -= by * by_next[column][row];
+    found[(column + 2) % 3] -= by * by_second[column][row];
+    found[3] -= by * by_growth[column][row];
+  }
+  return {Vec3(found), found[3]};
+}
+
+/// A rotation or mirror, times a factor near 1 if the scale is free, within the digits' intervals.
+std::optional<Mat3> similarity_within(const Mat3& file, const Mat3& half, bool free_scale) {
+  Mat3 unit = nearest_orthogonal(file);
+  double scale = 1;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Correction correction = find_correction(unit * scale, file, half, free_scale);
+    unit = nearest_orthogonal(unit + unit * cross_product(correction.turn));
+    scale *= 1 + correction.growth;
+    if (prints_alike(unit * scale, file, half)) return unit * scale;
+  }
   return std::nullopt;
 }
 
@@ -186,12 +245,6 @@ std::optional<Scale> uniform_scale(const Mat3& file, const Mat3& half) {
     if (std::abs(rounded * rounded - scale * scale) <= slack) return Scale{rounded, true};
   }
   return Scale{scale, false};
-}
-
-double largest_entry(const Mat3& m) {
-  double largest = 0;
-  for_each_entry([&](int c, int r) { largest = std::max(largest, m[c][r]); });
-  return largest;
 }
 
 /// A rotation that prints as the file does.
@@ -313,9 +366,8 @@ std::optional<Recognised> recognise_axis_angle(const Mat3& file, const Mat3& hal
     if (!rounded) continue;
     const double sine = sin_deg(rounded->x);
     const double cosine = cos_deg(rounded->x);
-    const Mat3 cross(Vec3(0, axis->z, -axis->y), Vec3(-axis->z, 0, axis->x),
-                     Vec3(axis->y, -axis->x, 0));
-    const Mat3 rotation = cosine * Mat3(1.0) + (1 - cosine) * projector(*axis) + sine * cross;
+    const Mat3 rotation =
+        cosine * Mat3(1.0) + (1 - cosine) * projector(*axis) + sine * cross_product(*axis);
     if (prints_alike(rotation, file, half)) return Recognised{rotation, true};
     break;
   }

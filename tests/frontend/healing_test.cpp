@@ -250,6 +250,8 @@ TEST(HealingMatrix, RandomRotationsAndMirrors) {
     Mat3 design = euler_rotation(Vec3(angle(random), angle(random), angle(random)));
     if (i % 4 == 1) design = design * Mat3(-1.0);
     if (i % 4 == 2) design = euler_rotation(Vec3(0, 0, angle(random)));
+    // An entry of 0, which the file tells exactly.
+    if (i % 4 == 3) design = euler_rotation(Vec3(0, angle(random), angle(random)));
     const Affine file = as_printed(Affine{design, {}});
     const HealedMatrix matrix = heal_matrix(file);
     // Never further from the design than the bound says.
