@@ -6,10 +6,11 @@
 
 namespace csgcore {
 
-/// Runs with as many threads as are wanted; 0: as many as there are.
+/// Runs with as many threads as are wanted; 0: as many as there are. Where the caller has so many
+/// already, they are taken: others would have to be woken.
 template <typename Work>
 void with_threads(unsigned threads, Work&& work) {
-  if (threads == 0) {
+  if (threads == 0 || static_cast<int>(threads) == tbb::this_task_arena::max_concurrency()) {
     work();
     return;
   }

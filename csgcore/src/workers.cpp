@@ -1,17 +1,27 @@
 #include "csgcore/workers.hpp"
 
-#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <system_error>
+#include <thread>
 
 namespace csgcore {
 
-std::jthread start_workers() {
+struct Workers::Started {
+  tbb::task_arena arena;
+  std::jthread thread;  // joined before the arena goes
+};
+
+Workers::Workers() : started_(std::make_unique<Started>()) {
   try {
-    return std::jthread([] { tbb::parallel_for(0, 2, [](int) {}); });
+    started_->thread = std::jthread([&arena = started_->arena] { arena.enqueue([] {}); });
   } catch (const std::system_error&) {
-    return {};  // no thread is to be had: oneTBB will say so where it matters
+    // No thread is to be had: oneTBB will say so where it matters.
   }
 }
+
+Workers::~Workers() = default;
+
+void Workers::run(const std::function<void()>& work) { started_->arena.execute(work); }
 
 }  // namespace csgcore

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/common.hpp>
-#include <thread>
+#include <optional>
 
 #include "csgcore/workers.hpp"
 #include "elapsed.hpp"
@@ -75,7 +75,7 @@ class Run {
         progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
   void execute() {
-    const std::jthread workers = start_workers();
+    if (wants_workers()) workers_.emplace();
     check_outputs();
     for (const std::string& warning : options_.warnings) say("warning: " + warning);
     std::vector<PendingOutput> outputs;
@@ -94,12 +94,11 @@ class Run {
 
  private:
   /// Small pictures are drawn by one thread.
-  std::jthread start_workers() const {
+  bool wants_workers() const {
     constexpr uint64_t kSmallPixels = 64 * 64;
     const CameraOptions& camera = options_.camera;
     const bool is_small = uint64_t{camera.width_px} * camera.height_px <= kSmallPixels;
-    if (is_small || options_.render.threads == 1) return {};
-    return csgcore::start_workers();
+    return !is_small && options_.render.threads != 1;
   }
 
   void draw_frame(std::vector<PendingOutput>& outputs) {
@@ -122,7 +121,7 @@ class Run {
     settings.measured_channels = true;
     const csgcore::Box seen = seen_box(design_.view_box, [&](const csgcore::View& view) {
       RenderStats stats;
-      return renderer_(design_.scene, view, settings, stats);
+      return render(design_.scene, view, settings, stats);
     });
     if (seen.empty()) return;
     design_.view_box = {glm::max(design_.view_box.min, seen.min),
@@ -211,6 +210,14 @@ class Run {
                        [](const Output& o) { return o.format == PictureFormat::kExr; });
   }
 
+  Image render(const csgcore::Scene& scene, const csgcore::View& view,
+               const RenderSettings& settings, RenderStats& stats) {
+    if (!workers_) return renderer_(scene, view, settings, stats);
+    Image image;
+    workers_->run([&] { image = renderer_(scene, view, settings, stats); });
+    return image;
+  }
+
   Image draw(const csgcore::Scene& scene, const csgcore::View& view) {
     RenderSettings settings = options_.render;
     const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
@@ -227,7 +234,7 @@ class Run {
       stats_.render.renderer = "none";
       stats_.render.render_ms = ms_since(start);
     } else {
-      image = renderer_(scene, view, settings, stats_.render);
+      image = render(scene, view, settings, stats_.render);
       if (settings.technique == Technique::kTiles && stats_.render.technique == "cells") {
         say("warning: more primitives lie behind each other than OpenGL can take by tiles: it has "
             "drawn cells");
@@ -268,6 +275,7 @@ class Run {
   std::vector<std::string> files_;  // that the design was read from, for any frame
   RunStats stats_;                  // of the frame
   ProgressLine progress_;
+  std::optional<csgcore::Workers> workers_;
 };
 
 void print_info() {
