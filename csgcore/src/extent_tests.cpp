@@ -150,7 +150,7 @@ ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives,
 }
 
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
-  const hn::CappedTag<float, kRectanglePadding> d;
+  const hn::CappedTag<float, kRowPadding> d;
   const auto min_x = hn::Set(d, static_cast<float>(cell.min.x));
   const auto max_x = hn::Set(d, static_cast<float>(cell.max.x));
   const auto min_y = hn::Set(d, static_cast<float>(cell.min.y));

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "csgcore/extent.hpp"
+#include "member_rows.hpp"
 
 namespace csgcore {
 
@@ -39,15 +40,6 @@ ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint
 /// are outside.
 ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
                               const Halves& cell);
-
-/// Rectangles in arrays of their own, which go kRectanglePadding beyond the last.
-struct RectangleRows {
-  const float* low_x;
-  const float* high_x;
-  const float* low_y;
-  const float* high_y;
-};
-constexpr uint32_t kRectanglePadding = 16;
 
 /// The bits of those that lie outside of the box's x and y, closed as they are. 1 ≤ count ≤ 64.
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell);

@@ -27,6 +27,8 @@ using Single = hn::CappedTag<double, 1>;
 
 constexpr size_t kLanes = HWY_MIN(size_t{8}, HWY_LANES(double));
 constexpr int kChunks = static_cast<int>(kPacketRays / kLanes);
+/// Of a packet's first four lanes.
+constexpr int kFourChunks = static_cast<int>(kLanes < 4 ? 4 / kLanes : 1);
 using WideV = hn::Vec<Wide>;
 using WideM = hn::Mask<Wide>;
 

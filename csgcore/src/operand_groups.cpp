@@ -17,7 +17,7 @@ namespace {
 /// An operation of more operands than the first has them grouped, by the second at most; fewer than
 /// the third stay by themselves.
 constexpr size_t kManyOperands = 64;
-constexpr size_t kGroupOperands = 24;
+constexpr size_t kGroupOperands = 32;
 constexpr size_t kFewOperands = 4;
 
 /// Groups are made anew once a larger share of the primitives has moved: those that hold them reach
@@ -155,6 +155,10 @@ class OperandGroups::Builder {
     if (!output_.empty())
       assign(groups_.list_, compile(std::span<const CsgToken>(output_)).literals);
     find_owners();
+    groups_.balls_.resize(4 * groups_.ball_row());
+    for (uint32_t group = groups_.first_group_; group < groups_.count(); ++group) {
+      groups_.place_members(group);
+    }
     groups_.primitive_.insert(groups_.primitive_.end(), kVectorPadding, 0);
   }
 
@@ -363,6 +367,7 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
     Box box = box_of(extent);
     box.merge(reach[group]);
     extent = extent_of_box(box);
+    result->place_members(group);
   }
   return result;
 }
@@ -372,7 +377,30 @@ OperandGroups::Members OperandGroups::members(uint32_t group) const {
   const auto part = [&](const std::vector<uint32_t>& all) {
     return std::span(all).subspan(range.first, range.count);
   };
-  return {part(primitive_), part(if_inside_), part(if_outside_), range.first, range.is_union};
+  return {part(primitive_), part(if_inside_), part(if_outside_), range.first, group,
+          range.is_union};
+}
+
+BallRows OperandGroups::balls(uint32_t group) const {
+  const float* const x = balls_.data() + members_[group - first_group_].first;
+  const size_t row = ball_row();
+  return {x, x + row, x + 2 * row, x + 3 * row};
+}
+
+void OperandGroups::place_members(uint32_t group) {
+  const Extent& whole = extents_[group];
+  const Members all = members(group);
+  float* to = balls_.data() + all.first;
+  const size_t row = ball_row();
+  for (const uint32_t entry : all.primitive) {
+    const Extent& extent = extents_[entry & kPrimitiveBits];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      to[axis * row] = static_cast<float>(extent.center[axis] - whole.center[axis]);
+    }
+    const double corner = std::hypot(extent.half[0], extent.half[1], extent.half[2]);
+    to[3 * row] = static_cast<float>(std::min(corner, std::sqrt(extent.outside2)));
+    ++to;
+  }
 }
 
 std::span<const uint32_t> OperandGroups::own(uint32_t group) const {

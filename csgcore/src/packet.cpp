@@ -46,7 +46,8 @@ HWY_INLINE WideV rebased(const ExactSum& offset, WideV base_s, WideV direction) 
                  hn::Add(hn::Mul(base_s, low), offset.lost));
 }
 
-/// pixel_ray, lane by lane and operation by operation.
+/// pixel_ray, lane by lane and operation by operation, in so many chunks.
+template <int kCount = kChunks>
 HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const PacketV& v,
                            RayPacket& rays) {
   const Wide d;
@@ -54,7 +55,7 @@ HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const Packe
   const bool is_perspective = view.projection == Projection::kPerspective;
   const WideV base_s = hn::Set(d, frame.base_s);
   PacketV length2;
-  for (int c = 0; c < kChunks; ++c) length2.chunk[c] = hn::Zero(d);
+  for (int c = 0; c < kCount; ++c) length2.chunk[c] = hn::Zero(d);
   for (int axis = 0; axis < 3; ++axis) {
     const WideV right = hn::Set(d, view.right[axis]);
     const WideV up = hn::Set(d, view.up[axis]);
@@ -62,7 +63,7 @@ HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const Packe
     const WideV eye = hn::Set(d, view.eye[axis]);
     const WideV minus_pivot = hn::Set(d, -frame.pivot[axis]);
     const ExactSum from_eye = exact_sum(eye, minus_pivot);
-    for (int c = 0; c < kChunks; ++c) {
+    for (int c = 0; c < kCount; ++c) {
       const WideV lateral = hn::Add(hn::Mul(u.chunk[c], right), hn::Mul(v.chunk[c], up));
       const WideV direction = is_perspective ? hn::Add(forward, lateral) : forward;
       const ExactSum offset =
@@ -72,7 +73,7 @@ HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const Packe
       length2.chunk[c] = hn::Add(length2.chunk[c], hn::Mul(direction, direction));
     }
   }
-  for (int c = 0; c < kChunks; ++c) {
+  for (int c = 0; c < kCount; ++c) {
     hn::Store(hn::Div(hn::Set(d, 1.0), length2.chunk[c]), d, rays.inverse_length2 + first_lane(c));
   }
 }
@@ -84,6 +85,15 @@ void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket
     v.chunk[c] = hn::Load(Wide(), laterals.v + first_lane(c));
   }
   write_rays(frame, u, v, rays);
+}
+
+void make_four_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+  PacketV u, v;
+  for (int c = 0; c < kFourChunks; ++c) {
+    u.chunk[c] = hn::Load(Wide(), laterals.u + first_lane(c));
+    v.chunk[c] = hn::Load(Wide(), laterals.v + first_lane(c));
+  }
+  write_rays<kFourChunks>(frame, u, v, rays);
 }
 
 void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
@@ -102,6 +112,11 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
   intersect_packet(frame, rays, primitive, segments);
+}
+
+void intersect_four(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, PacketSegments& segments) {
+  intersect_chunks<kFourChunks>(frame, rays, primitive, segments);
 }
 
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
@@ -455,8 +470,10 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(make_rays);
+CSGCORE_SIMD_EXPORT(make_four_rays);
 CSGCORE_SIMD_EXPORT(make_block_rays);
 CSGCORE_SIMD_EXPORT(intersect);
+CSGCORE_SIMD_EXPORT(intersect_four);
 CSGCORE_SIMD_EXPORT(find_apart);
 CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
@@ -469,6 +486,10 @@ void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket
   CSGCORE_SIMD(make_rays)(frame, laterals, rays);
 }
 
+void make_four_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+  CSGCORE_SIMD(make_four_rays)(frame, laterals, rays);
+}
+
 void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
   CSGCORE_SIMD(make_block_rays)(frame, x, y, rays);
 }
@@ -476,6 +497,11 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
   CSGCORE_SIMD(intersect)(frame, rays, primitive, segments);
+}
+
+void intersect_four(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, PacketSegments& segments) {
+  CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
 }
 
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,

@@ -135,11 +135,16 @@ struct alignas(64) PacketLaterals {
   double v[kPacketRays];
 };
 void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays);
+/// Of the first four lanes alone, at an eighth of the cost.
+void make_four_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays);
 /// Through the centres of the pixels of the block from (x, y) on.
 void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays);
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
+/// Of the first four lanes alone.
+void intersect_four(const FrameRays& frame, const RayPacket& rays,
+                    const CanonicalPrimitive& primitive, PacketSegments& segments);
 
 /// The lanes that certainly lie, at τ = t, further than `distance` (world units) away from the
 /// primitive, or, of a polyhedron, from what encloses it; told in float (NUMERICS.md,

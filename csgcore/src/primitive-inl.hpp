@@ -53,12 +53,12 @@ HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
   hwy::Prefetch(&primitive.world_to_canonical[1]);
 }
 
-/// All lanes' segments.
-HWY_NOINLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
-                                   const CanonicalPrimitive& primitive, PacketSegments& segments) {
+template <int kCount>
+HWY_INLINE void intersect_chunks(const FrameRays& frame, const RayPacket& packet,
+                                 const CanonicalPrimitive& primitive, PacketSegments& segments) {
   const Wide d;
   segments.start_on_cap = segments.end_on_cap = 0;
-  for (int c = 0; c < kChunks; ++c) {
+  for (int c = 0; c < kCount; ++c) {
     const size_t first = first_lane(c);
     const auto segment = segment_of(d, primitive, frame.pivot, load_rays(d, packet, first));
     hn::Store(segment.start, d, segments.start + first);
@@ -66,6 +66,12 @@ HWY_NOINLINE void intersect_packet(const FrameRays& frame, const RayPacket& pack
     segments.start_on_cap |= bits_of(segment.start_on_cap, c);
     segments.end_on_cap |= bits_of(segment.end_on_cap, c);
   }
+}
+
+/// All lanes' segments.
+HWY_NOINLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
+                                   const CanonicalPrimitive& primitive, PacketSegments& segments) {
+  intersect_chunks<kChunks>(frame, packet, primitive, segments);
 }
 
 }  // namespace HWY_NAMESPACE

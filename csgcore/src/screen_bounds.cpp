@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -17,6 +16,21 @@ constexpr size_t kBoundedAtOnce = 4096;
 
 /// Of what is smaller on the screen, its box tells enough.
 constexpr double kShapelessHalf_px = 4;
+
+/// As many as have bits in a word.
+constexpr uint32_t kMembersAtOnce = 64;
+
+/// If this part of a group's members meets a tile, others will: all are bounded at once.
+constexpr uint32_t kManyMembers = 4;
+
+bool meets(const Extent& screen, const Box& cell) {
+  bool meets = fate_on_screen(screen) == ScreenFate::kVisible;
+  for (const int axis : {0, 1}) {
+    meets &= screen.center[axis] - screen.half[axis] <= cell.max[axis];
+    meets &= screen.center[axis] + screen.half[axis] >= cell.min[axis];
+  }
+  return meets;
+}
 
 void prefetch(const void* object, size_t bytes) {
   constexpr size_t kLine = 64;
@@ -36,6 +50,7 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
       shapes_(std::make_unique_for_overwrite<ScreenShape[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
+      bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.member_count())),
       rectangles_(std::make_unique_for_overwrite<float[]>(4 * rectangle_row())) {
   const std::span<const uint32_t> common = groups.common();
   if (common.size() <= kBoundedAtOnce) {
@@ -52,42 +67,76 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
 bool ScreenBounds::open(uint32_t group) {
   std::atomic<uint8_t>& state = states_[group - groups_.first_group()];
   uint8_t found = state.load(std::memory_order_acquire);
-  if (found == kClosed &&
-      state.compare_exchange_strong(found, kOpening, std::memory_order_acquire)) {
-    bound(groups_.own(group));
-    found = keep_rectangles(group) ? kSeen : kUnseen;
+  if (found == kClosed && state.compare_exchange_strong(found, kBusy, std::memory_order_acquire)) {
+    found = find_rectangles_of(group) ? kSeen : kUnseen;
     state.store(found, std::memory_order_release);
   }
   // Another thread is about to have done it: some microseconds.
-  while (found == kOpening) {
+  while (found == kBusy) {
     std::this_thread::yield();
     found = state.load(std::memory_order_acquire);
   }
   return found == kSeen;
 }
 
-/// Returns whether any ray can meet any of them.
-bool ScreenBounds::keep_rectangles(uint32_t group) {
-  // Coordinates lie within far_off, 1e6, where float rounds by half of this at most.
-  constexpr float kFloatSlack_px = 0.125f;
-  constexpr float kNowhere = std::numeric_limits<float>::infinity();
+void ScreenBounds::open_wholly(uint32_t group) {
+  if (!open(group)) return;
   const OperandGroups::Members members = groups_.members(group);
-  const size_t row = rectangle_row();
-  float* to = rectangles_.get() + members.first;
-  bool any = false;
-  for (const uint32_t entry : members.primitive) {
-    const Extent& extent = screen_[entry & kPrimitiveBits];
-    const bool is_seen = fate_on_screen(extent) == ScreenFate::kVisible;
-    for (const size_t axis : {0, 1}) {
-      const float low = static_cast<float>(extent.center[axis] - extent.half[axis]);
-      const float high = static_cast<float>(extent.center[axis] + extent.half[axis]);
-      to[2 * axis * row] = is_seen ? low - kFloatSlack_px : kNowhere;
-      to[(2 * axis + 1) * row] = is_seen ? high + kFloatSlack_px : -kNowhere;
-    }
-    any |= is_seen;
-    ++to;
+  const auto count = static_cast<uint32_t>(members.primitive.size());
+  for (uint32_t first = 0; first < count; first += kMembersAtOnce) {
+    bound_members(members, first,
+                  ~uint64_t{0} >> (kMembersAtOnce - std::min(count - first, kMembersAtOnce)));
   }
-  return any;
+}
+
+/// Returns whether any ray can meet any of them.
+bool ScreenBounds::find_rectangles_of(uint32_t group) {
+  const OperandGroups::Members members = groups_.members(group);
+  const auto count = static_cast<uint32_t>(members.primitive.size());
+  // What stands elsewhere, too, was bounded with the frame.
+  const std::span<const uint32_t> own = groups_.own(group);
+  if (own.size() < count) {
+    bound(own);
+    for (uint32_t i = 0; i < count; ++i) {
+      bounded_[members.first + i].store(1, std::memory_order_relaxed);
+    }
+  }
+  const double* const center = groups_.extents()[group].center;
+  const size_t row = rectangle_row();
+  float* const from = rectangles_.get() + members.first;
+  return find_rectangles(groups_.balls(group), count, {center[0], center[1], center[2]}, frame_,
+                         {from, from + row, from + 2 * row, from + 3 * row});
+}
+
+/// Of an opened group's members from `first` on, those whose bit is set in `wanted`.
+void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t first,
+                                 uint64_t wanted) const {
+  std::atomic<uint8_t>* const bounded = bounded_.get() + members.first + first;
+  const auto find_missing = [&](uint32_t(&missing)[kMembersAtOnce]) {
+    uint32_t count = 0;
+    for (uint64_t left = wanted; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      missing[count] = static_cast<uint32_t>(i);
+      count += bounded[i].load(std::memory_order_acquire) == 0;
+    }
+    return count;
+  };
+  uint32_t missing[kMembersAtOnce];
+  if (find_missing(missing) == 0) return;
+  std::atomic<uint8_t>& state = states_[members.group - groups_.first_group()];
+  uint8_t expected = kSeen;
+  while (!state.compare_exchange_weak(expected, kBusy, std::memory_order_acquire)) {
+    std::this_thread::yield();
+    expected = kSeen;
+  }
+  const uint32_t count = find_missing(missing);
+  uint32_t indices[kMembersAtOnce];
+  for (uint32_t i = 0; i < count; ++i) {
+    indices[i] = members.primitive[first + missing[i]] & kPrimitiveBits;
+  }
+  bound({indices, count});
+  for (uint32_t i = 0; i < count; ++i) bounded[missing[i]].store(1, std::memory_order_release);
+  state.store(kSeen, std::memory_order_release);
 }
 
 void ScreenBounds::bound_all() {
@@ -109,16 +158,24 @@ std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Membe
   const float* const from = rectangles_.get() + members.first + first;
   const RectangleRows rows{from, from + row, from + 2 * row, from + 3 * row};
   uint64_t outside = find_outside(rows, count, cell);
+  const uint64_t near = ~outside & ~uint64_t{0} >> (kMembersAtOnce - count);
+  if (near == 0) return outside;
+  const bool are_many = kManyMembers * static_cast<uint32_t>(std::popcount(near)) >= count;
+  bound_members(members, first, are_many ? ~uint64_t{0} >> (kMembersAtOnce - count) : near);
   uint64_t open = 0;
-  for (uint64_t left = ~outside & ~uint64_t{0} >> (64 - count); left != 0; left &= left - 1) {
-    const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;
-    if (screen_[primitive].inside2 < 0) open |= left & -left;
+  for (uint64_t left = near; left != 0; left &= left - 1) {
+    const Extent& extent = screen_[primitives[std::countr_zero(left)] & kPrimitiveBits];
+    if (!meets(extent, cell)) {
+      outside |= left & -left;
+    } else if (extent.inside2 < 0) {
+      open |= left & -left;
+    }
   }
   if (open != 0) outside |= classify(primitives, open, cell).outside;
   return outside;
 }
 
-void ScreenBounds::bound(std::span<const uint32_t> indices) {
+void ScreenBounds::bound(std::span<const uint32_t> indices) const {
   // They lie anywhere in memory: all of them are fetched at once.
   for (const uint32_t i : indices) {
     prefetch(&groups_.extents()[i], sizeof(Extent));

@@ -204,6 +204,94 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
   }
 }
 
+/// The same in float, of coordinates: each of some ten operations rounds by 2^-24. And of pixels.
+constexpr float kFloatSlack = 0x1p-19f;
+constexpr float kFloatSlack_px = 0.125f;
+
+bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                     const FrameRays& frame, float* const (&rows)[4]) {
+  constexpr float kFar = 1e30f;
+  const hn::CappedTag<float, kRowPadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const View& view = frame.view;
+  const bool is_perspective = view.projection == Projection::kPerspective;
+  const Vec3 from_eye = center - view.eye;
+  const Vec3 axes[3] = {view.right, view.up, view.forward};
+  const float px_per_unit = static_cast<float>(0.5 * view.height_px / view.half_height);
+  const float middle[2] = {0.5f * static_cast<float>(view.width_px) - 0.5f,
+                           0.5f * static_cast<float>(view.height_px) - 0.5f};
+  const auto set = [&](double value) { return hn::Set(d, static_cast<float>(value)); };
+  const double double_slack =
+      kScreenSlack *
+      glm::dot(glm::abs(from_eye) + 0x1p-4 * (glm::abs(center) + glm::abs(view.eye)), Vec3{1.0});
+  bool any = false;
+  for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(hn::Lanes(d))) {
+    const V offset[3] = {hn::LoadU(d, balls.x + first), hn::LoadU(d, balls.y + first),
+                         hn::LoadU(d, balls.z + first)};
+    const V radius = hn::LoadU(d, balls.radius + first);
+    const V size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
+                           hn::Add(hn::Abs(offset[2]), radius));
+    V at[3], reach[3];
+    for (int i = 0; i < 3; ++i) {
+      at[i] = set(glm::dot(from_eye, axes[i]));
+      const V rounded = hn::Mul(hn::Add(size, hn::Abs(at[i])), set(kFloatSlack));
+      reach[i] = hn::Add(hn::Add(radius, set(double_slack)), rounded);
+      for (int axis = 0; axis < 3; ++axis) {
+        at[i] = hn::Add(at[i], hn::Mul(offset[axis], set(axes[i][axis])));
+      }
+    }
+    const V nearest = hn::Sub(at[2], reach[2]);
+    const V furthest = hn::Add(at[2], reach[2]);
+    const auto is_behind = hn::Le(furthest, hn::Zero(d));
+    // Who is about the eye's plane may be anywhere.
+    const auto is_about = hn::Le(nearest, hn::Mul(reach[2], set(0x1p-10)));
+    const V one = hn::Set(d, 1.0f);
+    const V scale = hn::Set(d, px_per_unit);
+    const V by_nearest = is_perspective ? hn::Mul(scale, hn::Div(one, nearest)) : scale;
+    const V by_furthest = is_perspective ? hn::Mul(scale, hn::Div(one, furthest)) : scale;
+    V bounds[4];
+    auto is_seen = hn::Eq(one, one);
+    for (int i = 0; i < 2; ++i) {
+      const V low = hn::Sub(at[i], reach[i]);
+      const V high = hn::Add(at[i], reach[i]);
+      V from = hn::Min(hn::Mul(low, by_nearest), hn::Mul(low, by_furthest));
+      V to = hn::Max(hn::Mul(high, by_nearest), hn::Mul(high, by_furthest));
+      if (i == 1) {  // the picture's y goes down
+        const V above = hn::Neg(to);
+        to = hn::Neg(from);
+        from = above;
+      }
+      const V slack = hn::Add(hn::Set(d, kFloatSlack_px),
+                              hn::Mul(hn::Max(hn::Abs(from), hn::Abs(to)), set(kFloatSlack)));
+      from = hn::Sub(hn::Add(from, hn::Set(d, middle[i])), slack);
+      to = hn::Add(hn::Add(to, hn::Set(d, middle[i])), slack);
+      if (is_perspective) {
+        from = hn::IfThenElse(is_about, set(-kFar), from);
+        to = hn::IfThenElse(is_about, set(kFar), to);
+        from = hn::IfThenElse(is_behind, set(kFar), from);
+        to = hn::IfThenElse(is_behind, set(-kFar), to);
+      }
+      const float last = static_cast<float>(i == 0 ? view.width_px : view.height_px);
+      is_seen = hn::And(is_seen, hn::And(hn::Le(from, hn::Set(d, last)), hn::Ge(to, set(-1))));
+      bounds[2 * i] = from;
+      bounds[2 * i + 1] = to;
+    }
+    const uint32_t left = count - first;
+    is_seen = hn::And(is_seen, hn::FirstN(d, left));
+    any |= !hn::AllFalse(d, is_seen);
+    for (int i = 0; i < 4; ++i) {
+      if (left >= hn::Lanes(d)) {
+        hn::StoreU(bounds[i], d, rows[i] + first);
+        continue;
+      }
+      float some[kRowPadding];  // what follows is another group's
+      hn::StoreU(bounds[i], d, some);
+      std::copy_n(some, left, rows[i] + first);
+    }
+  }
+  return any;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace csgcore
 HWY_AFTER_NAMESPACE();
@@ -212,6 +300,12 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(find_screen_extents);
+CSGCORE_SIMD_EXPORT(find_rectangles);
+
+bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                     const FrameRays& frame, float* const (&rows)[4]) {
+  return CSGCORE_SIMD(find_rectangles)(balls, count, center, frame, rows);
+}
 
 void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
                          const FrameRays& frame, const ScreenOptions& options, Extent* screen) {

@@ -94,16 +94,16 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
   std::partial_sort(covers_.begin(), covers_.begin() + static_cast<long>(kept), covers_.end(),
                     longer);
   covers_.resize(kept);
-  PacketLaterals corners;
-  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+  PacketLaterals corners{};
+  for (uint32_t lane = 0; lane < 4; ++lane) {
     corners.u[lane] = frame_.u((lane & 1) ? high_x : low_x);
     corners.v[lane] = frame_.v((lane & 2) ? high_y : low_y);
   }
   RayPacket rays;
-  make_rays(frame_, corners, rays);
+  make_four_rays(frame_, corners, rays);
   for (Cover& cover : covers_) {
     PacketSegments segments;
-    intersect(frame_, rays, primitives_[cover.primitive], segments);
+    intersect_four(frame_, rays, primitives_[cover.primitive], segments);
     const double from = *std::max_element(segments.start, segments.start + 4);
     const double to = *std::min_element(segments.end, segments.end + 4);
     const double slack = kCoverSlack * (std::abs(from) + std::abs(to) + (to - from));
@@ -236,7 +236,7 @@ void TileSimplifier::note(uint32_t index, Fate fate) {
       fates_.note(next, fate);
       continue;
     }
-    bounds_.open(next);
+    bounds_.open_wholly(next);
     const std::span<const uint32_t> members = groups_.members(next).primitive;
     noted_.insert(noted_.end(), members.begin(), members.end());
   }

@@ -325,16 +325,18 @@ const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* 
   const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
   const std::span<const Extent> screen = bounds_.extents();
   std::vector<uint8_t>& marked = workspace.marked;
+  const auto is_large_group = [&](uint32_t entry) {
+    const uint32_t index = entry & kPrimitiveBits;
+    return groups_.is_group(index) &&
+           (screen[index].half[0] >= least[0] || screen[index].half[1] >= least[1]);
+  };
   for (;;) {
-    marked.assign(list->count(), 0);
-    bool any = false;
-    for (uint32_t i = 0; i < list->count(); ++i) {
-      const uint32_t index = list->primitive[i] & kPrimitiveBits;
-      if (!groups_.is_group(index)) continue;
-      marked[i] = screen[index].half[0] >= least[0] || screen[index].half[1] >= least[1];
-      any |= marked[i] != 0;
-    }
-    if (!any) return list;
+    const std::span<const uint32_t> entries = list->primitives();
+    const auto first = std::find_if(entries.begin(), entries.end(), is_large_group);
+    if (first == entries.end()) return list;
+    marked.assign(entries.size(), 0);
+    std::transform(first, entries.end(), marked.begin() + (first - entries.begin()),
+                   is_large_group);
     list = &open_groups(tile, *list, marked, buffers, workspace);
   }
 }

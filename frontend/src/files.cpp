@@ -125,8 +125,8 @@ class TemporaryFile {
   }
 
   /// Blocks that wait to be allotted are allotted at once when their file replaces another, by ext4
-  /// (its mount option auto_da_alloc), which took a quarter of a small picture's time. A wish: other
-  /// file systems may refuse.
+  /// (its mount option auto_da_alloc), which took a quarter of a small picture's time. A wish:
+  /// other file systems may refuse.
   static void reserve(int descriptor, std::size_t size) {
     if (size > 0) (void)fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size));
   }

@@ -9,6 +9,7 @@
 #include "extent_tests.hpp"
 #include "restriction.hpp"
 #include "screen_bounds.hpp"
+#include "screen_extents.hpp"
 #include "support/models.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
@@ -170,6 +171,52 @@ TEST_P(GroupsOf, RandomTreeShowTheSame) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view, {}),
                                   checks::WholeList(solid, view).picture()));
+  }
+}
+
+/// Rectangles of balls hold what is bounded in double, and hardly more.
+TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
+  const Scene scene = random_scene(GetParam());
+  const Solid solid(canonical_primitives(scene), scene.model);
+  const OperandGroups& groups = solid.groups();
+  for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
+    SCOPED_TRACE(name);
+    const FrameRays frame = frame_rays(view, solid.bounds());
+    Extents screen(groups.count());
+    double area = 0, exact_area = 0;
+    int visible = 0;
+    for (uint32_t group = groups.first_group(); group < groups.count(); ++group) {
+      const OperandGroups::Members members = groups.members(group);
+      const auto count = static_cast<uint32_t>(members.primitive.size());
+      const double* const center = groups.extents()[group].center;
+      // What follows a group's is another's.
+      std::vector<float> rows[4];
+      for (auto& row : rows) row.assign(count + 1, 7.0f);
+      const bool any =
+          find_rectangles(groups.balls(group), count, {center[0], center[1], center[2]}, frame,
+                          {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
+      for (const auto& row : rows) ASSERT_EQ(row[count], 7.0f);
+      std::vector<uint32_t> indices;
+      for (const uint32_t entry : members.primitive) indices.push_back(entry & kPrimitiveBits);
+      find_screen_extents(groups.extents().data(), indices, frame, {false}, screen.data());
+      for (uint32_t i = 0; i < count; ++i) {
+        const Extent& exact = screen[indices[i]];
+        if (fate_on_screen(exact) != ScreenFate::kVisible) continue;
+        ++visible;
+        EXPECT_TRUE(any);
+        for (const int axis : {0, 1}) {
+          const double last = axis == 0 ? view.width_px : view.height_px;
+          ASSERT_LE(rows[2 * axis][i], std::max(exact.center[axis] - exact.half[axis], -1.0));
+          ASSERT_GE(rows[2 * axis + 1][i], std::min(exact.center[axis] + exact.half[axis], last));
+        }
+        if (groups.is_group(indices[i]) || exact.half[0] > 100) continue;
+        area += (rows[1][i] - rows[0][i]) * (rows[3][i] - rows[2][i]);
+        exact_area += 4 * exact.half[0] * exact.half[1];
+      }
+    }
+    EXPECT_GT(visible, 0);
+    // Near the eye a ball is no longer seen as one.
+    EXPECT_LT(area, (name == "FromWithin" ? 2 : 1.2) * exact_area);
   }
 }
 
