@@ -79,14 +79,15 @@ bool ScreenBounds::open(uint32_t group) {
   return found == kSeen;
 }
 
-void ScreenBounds::open_wholly(uint32_t group) {
-  if (!open(group)) return;
+bool ScreenBounds::open_wholly(uint32_t group) {
+  if (!open(group)) return false;
   const OperandGroups::Members members = groups_.members(group);
   const auto count = static_cast<uint32_t>(members.primitive.size());
   for (uint32_t first = 0; first < count; first += kMembersAtOnce) {
     bound_members(members, first,
                   ~uint64_t{0} >> (kMembersAtOnce - std::min(count - first, kMembersAtOnce)));
   }
+  return true;
 }
 
 /// Returns whether any ray can meet any of them.

@@ -26,8 +26,8 @@ class ScreenBounds final : public OpenClassifier {
   /// Finds the rectangles of what the group holds; false if no ray can meet any of it. From any
   /// thread, again and again.
   bool open(uint32_t group);
-  /// Opens the group, and bounds all that it holds.
-  void open_wholly(uint32_t group);
+  /// Bounds all that the group holds, too, unless no ray can meet any of it.
+  bool open_wholly(uint32_t group);
   /// Bounds all primitives, used or not. Not while other threads trace.
   void bound_all();
 

@@ -242,7 +242,9 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
     }
     const V nearest = hn::Sub(at[2], reach[2]);
     const V furthest = hn::Add(at[2], reach[2]);
-    const auto is_behind = hn::Le(furthest, hn::Zero(d));
+    // What overflows is neither behind nor beside.
+    const V behind = is_perspective ? furthest : set(1);
+    const auto is_behind = hn::Le(behind, hn::Zero(d));
     // Who is about the eye's plane may be anywhere.
     const auto is_about = hn::Le(nearest, hn::Mul(reach[2], set(0x1p-10)));
     const V one = hn::Set(d, 1.0f);
@@ -250,7 +252,7 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
     const V by_nearest = is_perspective ? hn::Mul(scale, hn::Div(one, nearest)) : scale;
     const V by_furthest = is_perspective ? hn::Mul(scale, hn::Div(one, furthest)) : scale;
     V bounds[4];
-    auto is_seen = hn::Eq(one, one);
+    auto is_beside = is_behind;
     for (int i = 0; i < 2; ++i) {
       const V low = hn::Sub(at[i], reach[i]);
       const V high = hn::Add(at[i], reach[i]);
@@ -268,17 +270,16 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
       if (is_perspective) {
         from = hn::IfThenElse(is_about, set(-kFar), from);
         to = hn::IfThenElse(is_about, set(kFar), to);
-        from = hn::IfThenElse(is_behind, set(kFar), from);
-        to = hn::IfThenElse(is_behind, set(-kFar), to);
       }
+      from = hn::IfThenElse(is_behind, set(kFar), from);
+      to = hn::IfThenElse(is_behind, set(-kFar), to);
       const float last = static_cast<float>(i == 0 ? view.width_px : view.height_px);
-      is_seen = hn::And(is_seen, hn::And(hn::Le(from, hn::Set(d, last)), hn::Ge(to, set(-1))));
+      is_beside = hn::Or(is_beside, hn::Or(hn::Gt(from, hn::Set(d, last)), hn::Lt(to, set(-1))));
       bounds[2 * i] = from;
       bounds[2 * i + 1] = to;
     }
     const uint32_t left = count - first;
-    is_seen = hn::And(is_seen, hn::FirstN(d, left));
-    any |= !hn::AllFalse(d, is_seen);
+    any |= !hn::AllFalse(d, hn::AndNot(is_beside, hn::FirstN(d, left)));
     for (int i = 0; i < 4; ++i) {
       if (left >= hn::Lanes(d)) {
         hn::StoreU(bounds[i], d, rows[i] + first);

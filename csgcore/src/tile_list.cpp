@@ -236,7 +236,7 @@ void TileSimplifier::note(uint32_t index, Fate fate) {
       fates_.note(next, fate);
       continue;
     }
-    bounds_.open_wholly(next);
+    if (!bounds_.open_wholly(next)) continue;
     const std::span<const uint32_t> members = groups_.members(next).primitive;
     noted_.insert(noted_.end(), members.begin(), members.end());
   }

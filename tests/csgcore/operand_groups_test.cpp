@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "checks.hpp"
@@ -221,6 +222,26 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GroupsOf, testing::Range(1u, 7u));
+
+TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
+  constexpr float kOverflown = std::numeric_limits<float>::infinity();
+  constexpr uint32_t kCount = 3;
+  std::vector<float> x(kCount + kRowPadding), radius(kCount + kRowPadding, 1.0f);
+  const std::vector<float> zeros(kCount + kRowPadding);
+  x[1] = kOverflown;
+  radius[2] = kOverflown;
+  for (const auto& [name, view] : checks::trace_views(kSpace, 64, 48)) {
+    SCOPED_TRACE(name);
+    std::vector<float> rows[4];
+    for (auto& row : rows) row.resize(kCount + kRowPadding);
+    const BallRows balls{x.data(), zeros.data(), zeros.data(), radius.data()};
+    EXPECT_TRUE(find_rectangles(balls, kCount, Vec3(0.0), frame_rays(view, kSpace),
+                                {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()}));
+    const Box corner{Vec3(-1, -1, 0), Vec3(0, 0, 0)};
+    const RectangleRows rectangles{rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()};
+    EXPECT_EQ(find_outside(rectangles, kCount, corner) & 0b110u, 0u);
+  }
+}
 
 Solid solid_of(std::vector<Primitive> primitives,
                const std::function<void(CsgTreeBuilder&)>& build) {

@@ -18,7 +18,9 @@
 //  "ratios": [{"what", "design", "time_ms", "scadray_ms", "ratio", "at_least"}],
 //  "left_out": ["what: why"]}
 #include <algorithm>
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "peers/candidate.hpp"
 #include "section.hpp"
@@ -35,6 +37,9 @@ constexpr size_t kSlowRuns = 3;
 /// What takes longer than this is run once, if no bar asks for it.
 constexpr double kVerySlow_ms = 6'000;
 constexpr Repetitions kInTurn{5, 9, 500};
+/// Before each run: what the one before leaves to do is not this one's (an X server starts over
+/// when OpenSCAD has gone, for some 50 ms).
+constexpr std::chrono::milliseconds kPause{100};
 /// Twice the fragments take an exact solid about this many times as long.
 constexpr double kGrowth = 3.5;
 
@@ -157,6 +162,7 @@ class SceneMeasurement {
   }
 
   static double run(Point& point) {
+    std::this_thread::sleep_for(kPause);
     const Run result = point.candidate.run();
     if (!result.failure.empty()) {
       throw std::runtime_error(point.candidate.series + ": " + result.failure);
