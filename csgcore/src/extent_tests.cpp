@@ -255,7 +255,7 @@ namespace {
 
 /// Vectors read past the last primitive.
 ExtentAnswers of_first(uint32_t count, ExtentAnswers answers) {
-  const uint64_t wanted = ~uint64_t{0} >> (64 - count);
+  const uint64_t wanted = first_bits(count);
   answers.open &= wanted;
   for (const int side : {0, 1}) {
     answers.outside[side] &= wanted;

@@ -14,6 +14,9 @@ namespace csgcore {
 constexpr uint32_t kVectorPadding = 8;
 constexpr uint32_t kPrimitiveBits = 0x7FFFFFFFu;
 
+/// The lowest bits of a word; 1 ≤ count ≤ 64.
+constexpr uint64_t first_bits(uint32_t count) { return ~uint64_t{0} >> (64 - count); }
+
 /// The two sides of a cell that is divided; they differ in one axis only.
 struct Halves {
   Box below, above;

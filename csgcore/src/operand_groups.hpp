@@ -57,6 +57,8 @@ class OperandGroups {
   Members members(uint32_t group) const;
   /// Of all groups together.
   uint32_t member_count() const { return static_cast<uint32_t>(if_inside_.size()); }
+  /// How far rows of what is kept for each member lie apart.
+  size_t member_row() const { return member_count() + size_t{kRowPadding}; }
   /// Balls that hold the group's members, their centres counted from that of its extent, rounded to
   /// float. Side by side they are read much faster than extents, which lie all over memory.
   BallRows balls(uint32_t group) const;
@@ -68,7 +70,6 @@ class OperandGroups {
  private:
   class Builder;
   void place_members(uint32_t group);
-  size_t ball_row() const { return member_count() + size_t{kRowPadding}; }
   struct Range {
     uint32_t first = 0, count = 0;
     bool is_union = false;  // of members

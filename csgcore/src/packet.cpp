@@ -47,7 +47,7 @@ HWY_INLINE WideV rebased(const ExactSum& offset, WideV base_s, WideV direction) 
 }
 
 /// pixel_ray, lane by lane and operation by operation, in so many chunks.
-template <int kCount = kChunks>
+template <int kCount>
 HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const PacketV& v,
                            RayPacket& rays) {
   const Wide d;
@@ -78,22 +78,23 @@ HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const Packe
   }
 }
 
-void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+template <int kCount>
+HWY_INLINE void write_rays_through(const FrameRays& frame, const PacketLaterals& laterals,
+                                   RayPacket& rays) {
   PacketV u, v;
-  for (int c = 0; c < kChunks; ++c) {
+  for (int c = 0; c < kCount; ++c) {
     u.chunk[c] = hn::Load(Wide(), laterals.u + first_lane(c));
     v.chunk[c] = hn::Load(Wide(), laterals.v + first_lane(c));
   }
-  write_rays(frame, u, v, rays);
+  write_rays<kCount>(frame, u, v, rays);
+}
+
+void make_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
+  write_rays_through<kChunks>(frame, laterals, rays);
 }
 
 void make_four_rays(const FrameRays& frame, const PacketLaterals& laterals, RayPacket& rays) {
-  PacketV u, v;
-  for (int c = 0; c < kFourChunks; ++c) {
-    u.chunk[c] = hn::Load(Wide(), laterals.u + first_lane(c));
-    v.chunk[c] = hn::Load(Wide(), laterals.v + first_lane(c));
-  }
-  write_rays<kFourChunks>(frame, u, v, rays);
+  write_rays_through<kFourChunks>(frame, laterals, rays);
 }
 
 void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& rays) {
@@ -106,7 +107,7 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
     u.chunk[c] = hn::LoadU(d, frame.u_of_column.data() + x + column);
     v.chunk[c] = hn::Set(d, frame.v_of_row[y + row]);
   }
-  write_rays(frame, u, v, rays);
+  write_rays<kChunks>(frame, u, v, rays);
 }
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,

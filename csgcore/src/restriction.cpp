@@ -120,7 +120,7 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
       for (uint32_t first = 0; first < count; first += kBlock) {
         const uint32_t size = std::min(count - first, kBlock);
         const ExtentAnswers answers = answers_of_members(members, first, size, cell);
-        uint64_t left = ~answers.outside[0] & ~uint64_t{0} >> (kBlock - size);
+        uint64_t left = ~answers.outside[0] & first_bits(size);
         for (; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
           outer = pass.put(members.primitive[first + static_cast<uint32_t>(bit)] ^ complement,

@@ -51,7 +51,7 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       shapes_(std::make_unique_for_overwrite<ScreenShape[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
       bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.member_count())),
-      rectangles_(std::make_unique_for_overwrite<float[]>(4 * rectangle_row())) {
+      rectangles_(std::make_unique_for_overwrite<float[]>(4 * groups.member_row())) {
   const std::span<const uint32_t> common = groups.common();
   if (common.size() <= kBoundedAtOnce) {
     bound(common);
@@ -84,8 +84,7 @@ bool ScreenBounds::open_wholly(uint32_t group) {
   const OperandGroups::Members members = groups_.members(group);
   const auto count = static_cast<uint32_t>(members.primitive.size());
   for (uint32_t first = 0; first < count; first += kMembersAtOnce) {
-    bound_members(members, first,
-                  ~uint64_t{0} >> (kMembersAtOnce - std::min(count - first, kMembersAtOnce)));
+    bound_members(members, first, first_bits(std::min(count - first, kMembersAtOnce)));
   }
   return true;
 }
@@ -103,7 +102,7 @@ bool ScreenBounds::find_rectangles_of(uint32_t group) {
     }
   }
   const double* const center = groups_.extents()[group].center;
-  const size_t row = rectangle_row();
+  const size_t row = groups_.member_row();
   float* const from = rectangles_.get() + members.first;
   return find_rectangles(groups_.balls(group), count, {center[0], center[1], center[2]}, frame_,
                          {from, from + row, from + 2 * row, from + 3 * row});
@@ -155,14 +154,14 @@ std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Membe
                                                       uint32_t first, uint32_t count,
                                                       const Box& cell) const {
   const uint32_t* const primitives = members.primitive.data() + first;
-  const size_t row = rectangle_row();
+  const size_t row = groups_.member_row();
   const float* const from = rectangles_.get() + members.first + first;
   const RectangleRows rows{from, from + row, from + 2 * row, from + 3 * row};
   uint64_t outside = find_outside(rows, count, cell);
-  const uint64_t near = ~outside & ~uint64_t{0} >> (kMembersAtOnce - count);
+  const uint64_t near = ~outside & first_bits(count);
   if (near == 0) return outside;
   const bool are_many = kManyMembers * static_cast<uint32_t>(std::popcount(near)) >= count;
-  bound_members(members, first, are_many ? ~uint64_t{0} >> (kMembersAtOnce - count) : near);
+  bound_members(members, first, are_many ? first_bits(count) : near);
   uint64_t open = 0;
   for (uint64_t left = near; left != 0; left &= left - 1) {
     const Extent& extent = screen_[primitives[std::countr_zero(left)] & kPrimitiveBits];

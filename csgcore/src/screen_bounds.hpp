@@ -40,8 +40,6 @@ class ScreenBounds final : public OpenClassifier {
  private:
   bool find_rectangles_of(uint32_t group);
   void bound_members(const OperandGroups::Members& members, uint32_t first, uint64_t wanted) const;
-  /// How far the rows of rectangles_ lie apart.
-  size_t rectangle_row() const { return groups_.member_count() + size_t{kRowPadding}; }
   void bound(std::span<const uint32_t> indices) const;
 
   /// Of a group. kBusy: some thread writes what belongs to it.

@@ -27,6 +27,10 @@ namespace HWY_NAMESPACE {
 /// coordinates: far above what is rounded here (some 20 operations of 2^-53), far below a pixel.
 constexpr double kScreenSlack = 0x1p-44;
 
+/// The view's own coordinates, and those of a group, are rounded once or twice only: this share of
+/// kScreenSlack is theirs.
+constexpr double kRoundedOnce = 0x1p-4;
+
 /// Nearer to the eye's plane than this share of its own depth, a primitive may be anywhere on the
 /// screen: so far out that no picture shows it.
 constexpr double kNearestDepth = 0x1p-20;
@@ -187,7 +191,7 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
   const Projector projector{frame,
                             view.projection == Projection::kPerspective,
                             options.centers_only,
-                            kScreenSlack * 0x1p-4 * scale,
+                            kScreenSlack * kRoundedOnce * scale,
                             0.5 * view.height_px / view.half_height,
                             {0.5 * view.width_px - 0.5, 0.5 * view.height_px - 0.5}};
   const size_t lanes = hn::Lanes(Wide());
@@ -208,6 +212,9 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
 constexpr float kFloatSlack = 0x1p-19f;
 constexpr float kFloatSlack_px = 0.125f;
 
+/// As kNearestDepth, of a ball's reach: float has half the digits.
+constexpr float kNearestDepthInFloat = 0x1p-10f;
+
 bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
                      const FrameRays& frame, float* const (&rows)[4]) {
   constexpr float kFar = 1e30f;
@@ -223,7 +230,8 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
   const auto set = [&](double value) { return hn::Set(d, static_cast<float>(value)); };
   const double double_slack =
       kScreenSlack *
-      glm::dot(glm::abs(from_eye) + 0x1p-4 * (glm::abs(center) + glm::abs(view.eye)), Vec3{1.0});
+      glm::dot(glm::abs(from_eye) + kRoundedOnce * (glm::abs(center) + glm::abs(view.eye)),
+               Vec3{1.0});
   bool any = false;
   for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(hn::Lanes(d))) {
     const V offset[3] = {hn::LoadU(d, balls.x + first), hn::LoadU(d, balls.y + first),
@@ -246,7 +254,7 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
     const V behind = is_perspective ? furthest : set(1);
     const auto is_behind = hn::Le(behind, hn::Zero(d));
     // Who is about the eye's plane may be anywhere.
-    const auto is_about = hn::Le(nearest, hn::Mul(reach[2], set(0x1p-10)));
+    const auto is_about = hn::Le(nearest, hn::Mul(reach[2], set(kNearestDepthInFloat)));
     const V one = hn::Set(d, 1.0f);
     const V scale = hn::Set(d, px_per_unit);
     const V by_nearest = is_perspective ? hn::Mul(scale, hn::Div(one, nearest)) : scale;
