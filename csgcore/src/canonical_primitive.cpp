@@ -37,6 +37,18 @@ CanonicalPrimitive canonicalize_shape(const Primitive& primitive) {
   return polyhedron::canonicalize(primitive);
 }
 
+Vec3 support_canonical(const CanonicalPrimitive& primitive, const Vec3& direction) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::support(direction);
+    case Shape::kFrustum:
+      return frustum::support(primitive, direction);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->support(direction);
+}
+
 /// A ball against a box, by the exact distances of the box's nearest and furthest points.
 Classification classify_ball(const Vec3& center, double radius, const Box& cell) {
   double nearest2 = 0;
@@ -140,6 +152,61 @@ CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell)
   canonical.slack =
       canonical_slack(primitive, canonical, glm::abs(offset) + half + glm::abs(middle));
   return canonical;
+}
+
+Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world) {
+  const Vec3 direction = direction_world * primitive.canonical_to_world;
+  return primitive.center + primitive.canonical_to_world * support_canonical(primitive, direction);
+}
+
+/// A separating direction is sought by reflections, as in frustum::classify; from that between the
+/// centres on, which is the one for balls.
+bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
+  constexpr int kSteps = 12;
+  const Vec3 between = b.center - a.center;
+  const double distance = glm::length(between);
+  if (!(distance > 0)) return false;
+  Vec3 direction = between / distance;
+  for (int step = 0; step < kSteps; ++step) {
+    const Vec3 furthest = furthest_point(a, direction);
+    const Vec3 nearest = furthest_point(b, -direction);
+    const Vec3 gap = nearest - furthest;
+    const double along = glm::dot(gap, direction);
+    if (along > margin) return true;
+    if (contains(a, nearest) || contains(b, furthest)) return false;
+    direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
+  }
+  return false;
+}
+
+double reach(const CanonicalPrimitive& primitive) {
+  if (primitive.ball_radius > 0) return primitive.ball_radius;
+  const Mat3& map = primitive.canonical_to_world;
+  const Mat3 gram = absolute(glm::transpose(map) * map);
+  if (primitive.shape == Shape::kSphere || primitive.enclosure == Shape::kSphere) {
+    return std::sqrt(largest_row_sum(gram));
+  }
+  // The rims, (r cos φ, r sin φ, ±1).
+  const double lateral2 = std::max(gram[0][0], gram[1][1]) + gram[0][1];
+  const double r = primitive.radius_mid + std::abs(primitive.radius_slope);
+  return std::sqrt(r * r * lateral2 + gram[2][2] + 2 * r * std::hypot(gram[2][0], gram[2][1]));
+}
+
+bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius) {
+  const Vec3 center = primitive.world_to_canonical * (center_world - primitive.center);
+  const double canonical_radius = radius * primitive.canonical_stretch;
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      // Tighter for a ball, which is stretched alike everywhere.
+      return primitive.ball_radius > 0
+                 ? glm::length(center_world - primitive.center) < primitive.ball_radius - radius
+                 : glm::length(center) < 1 - canonical_radius;
+    case Shape::kFrustum:
+      return frustum::holds_ball(primitive, center, canonical_radius);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->contains(center, canonical_radius);
 }
 
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world) {

@@ -8,21 +8,6 @@
 #include "shapes.hpp"
 
 namespace csgcore::frustum {
-namespace {
-
-/// The point of the frustum furthest along `direction`.
-Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) {
-  const double top = primitive.radius_mid + primitive.radius_slope;
-  const double bottom = primitive.radius_mid - primitive.radius_slope;
-  const double lateral = std::sqrt(direction.x * direction.x + direction.y * direction.y);
-  const bool at_top = direction.z + lateral * top >= -direction.z + lateral * bottom;
-  const double radius = at_top ? top : bottom;
-  const double scale = lateral > 0 ? radius / lateral : 0.0;
-  return {direction.x * scale, direction.y * scale, at_top ? 1.0 : -1.0};
-}
-
-}  // namespace
-
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
   CanonicalPrimitive result;
   result.shape = result.enclosure = Shape::kFrustum;
@@ -48,6 +33,21 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
     result.bounds.merge(Box{disc_center - extent, disc_center + extent});
   }
   return result;
+}
+
+bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& p, double r) {
+  const double depth = primitive.radius_mid + primitive.radius_slope * p.z - std::hypot(p.x, p.y);
+  return std::abs(p.z) < 1 - r && depth > r * std::hypot(1.0, primitive.radius_slope);
+}
+
+Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) {
+  const double top = primitive.radius_mid + primitive.radius_slope;
+  const double bottom = primitive.radius_mid - primitive.radius_slope;
+  const double lateral = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+  const bool at_top = direction.z + lateral * top >= -direction.z + lateral * bottom;
+  const double radius = at_top ? top : bottom;
+  const double scale = lateral > 0 ? radius / lateral : 0.0;
+  return {direction.x * scale, direction.y * scale, at_top ? 1.0 : -1.0};
 }
 
 bool contains(const CanonicalPrimitive& primitive, const Vec3& p) {

@@ -20,6 +20,9 @@ constexpr size_t kManyOperands = 64;
 constexpr size_t kGroupOperands = 32;
 constexpr size_t kFewOperands = 4;
 
+/// An intersection's operand is compared with so many of those that follow it.
+constexpr size_t kPairedOperands = 8;
+
 /// Groups are made anew once a larger share of the primitives has moved: those that hold them reach
 /// further than they need to.
 constexpr double kMostMoved = 1.0 / 32;
@@ -135,17 +138,21 @@ void radix_sort(std::vector<Keyed>& values) {
 /// Rewrites a tree's tokens, with groups in place of operands.
 class OperandGroups::Builder {
  public:
-  Builder(OperandGroups& groups, std::span<const CsgToken> tokens)
-      : groups_(groups), tokens_(tokens) {}
+  Builder(OperandGroups& groups, std::span<const CsgToken> tokens,
+          std::span<const CanonicalPrimitive> primitives, double margin)
+      : groups_(groups), tokens_(tokens), primitives_(primitives), margin_(margin) {}
 
   void build() {
     const std::vector<Box> boxes = relevant_boxes(tokens_, groups_.extents_);
+    std::vector<uint8_t> is_hidden(groups_.extents_.size());
+    for (const uint32_t primitive : groups_.hidden_.inside) is_hidden[primitive] = 1;
+    for (const uint32_t primitive : groups_.hidden_.cancelled) is_hidden[primitive] = 1;
     for (size_t i = 0; i < tokens_.size(); ++i) {
       const CsgToken& token = tokens_[i];
       const uint32_t end = static_cast<uint32_t>(output_.size());
       if (!token.is_primitive) {
         close(token, boxes[i]);
-      } else if (boxes[i].empty()) {
+      } else if (boxes[i].empty() || is_hidden[token.value]) {
         operands_.push_back({end, end, boxes[i]});
       } else {
         output_.push_back(token);
@@ -180,7 +187,8 @@ class OperandGroups::Builder {
     const bool has_empty = std::any_of(operands, operands_.end(),
                                        [](const Operand& operand) { return operand.is_empty(); });
     const bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
-                          (operation.op == Op::kDifference && operands->is_empty());
+                          (operation.op == Op::kDifference && operands->is_empty()) ||
+                          (operation.op == Op::kIntersection && are_some_apart(from));
     if (is_empty) output_.resize(first);
     operands_.erase(std::remove_if(operands, operands_.end(),
                                    [&](const Operand& o) { return is_empty || o.is_empty(); }),
@@ -192,6 +200,30 @@ class OperandGroups::Builder {
     if (count > 1) output_.push_back({false, operation.op, count});
     operands_.resize(from);
     operands_.push_back({first, static_cast<uint32_t>(output_.size()), box});
+  }
+
+  /// Whether two of the operands from there on are primitives, and apart.
+  bool are_some_apart(size_t from) {
+    for (size_t i = from; i < operands_.size(); ++i) {
+      const CanonicalPrimitive* const a = primitive_of(operands_[i]);
+      const size_t end = std::min(operands_.size(), i + 1 + kPairedOperands);
+      for (size_t k = i + 1; a && k < end; ++k) {
+        const CanonicalPrimitive* const b = primitive_of(operands_[k]);
+        if (!b || !are_apart(*a, *b, margin_)) continue;
+        const uint32_t pair[] = {output_[operands_[i].first].value,
+                                 output_[operands_[k].first].value};
+        groups_.apart_.insert(groups_.apart_.end(), std::begin(pair), std::end(pair));
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Null if the operand is none.
+  const CanonicalPrimitive* primitive_of(const Operand& operand) const {
+    const bool is_one = operand.end - operand.first == 1;
+    const uint32_t index = is_one ? output_[operand.first].value : groups_.first_group_;
+    return groups_.is_group(index) ? nullptr : &primitives_[index];
   }
 
   /// Groups the operands from there on, of which a union is made, until they are not many. Those
@@ -316,6 +348,8 @@ class OperandGroups::Builder {
 
   OperandGroups& groups_;
   std::span<const CsgToken> tokens_;
+  std::span<const CanonicalPrimitive> primitives_;
+  double margin_;
   std::vector<CsgToken> output_;
   std::vector<Operand> operands_;  // that wait for their operation
   // While operands are grouped:
@@ -326,9 +360,12 @@ class OperandGroups::Builder {
   CellList list_;
 };
 
-OperandGroups::OperandGroups(const CsgTree& tree, Extents extents)
-    : extents_(std::move(extents)), first_group_(static_cast<uint32_t>(extents_.size())) {
-  Builder(*this, tree.tokens()).build();
+OperandGroups::OperandGroups(const CsgTree& tree, std::span<const CanonicalPrimitive> primitives,
+                             Extents extents, double margin, HiddenOperands hidden)
+    : extents_(std::move(extents)),
+      hidden_(std::move(hidden)),
+      first_group_(static_cast<uint32_t>(extents_.size())) {
+  Builder(*this, tree.tokens(), primitives, margin).build();
 }
 
 std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
@@ -338,6 +375,9 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
   if (earlier->moved_ + moved.size() > kMostMoved * count) return nullptr;
   std::vector<uint8_t> has_moved(count);
   for (const uint32_t primitive : moved) has_moved[primitive] = 1;
+  if (std::ranges::any_of(earlier->apart_, [&](uint32_t i) { return has_moved[i] != 0; })) {
+    return nullptr;
+  }
 
   // Only the boxes of the moved primitives' own tokens may differ.
   const std::span<const CsgToken> tokens = tree.tokens();

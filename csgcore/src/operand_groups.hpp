@@ -8,6 +8,7 @@
 #include "cell_list.hpp"
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/extent.hpp"
+#include "hidden_operands.hpp"
 #include "member_rows.hpp"
 
 namespace csgcore {
@@ -23,8 +24,10 @@ namespace csgcore {
 class OperandGroups {
  public:
   OperandGroups() = default;
-  /// `extents`: of the primitives, index for index.
-  OperandGroups(const CsgTree& tree, Extents extents);
+  /// `extents`: of the primitives, index for index. An intersection is empty if two of its
+  /// primitives are more than `margin` apart (are_apart). `hidden` are taken for empty.
+  OperandGroups(const CsgTree& tree, std::span<const CanonicalPrimitive> primitives,
+                Extents extents, double margin, HiddenOperands hidden = {});
 
   /// For the same tree, of whose primitives only `moved` have other extents: groups keep what they
   /// hold, and grow where that reaches further. Null if the groups would have to hold others, or
@@ -40,6 +43,10 @@ class OperandGroups {
   /// Indices below are primitives'.
   uint32_t first_group() const { return first_group_; }
   bool is_group(uint32_t index) const { return index >= first_group_; }
+  /// Whether it is a group, and its members' operation no other than its own.
+  bool is_union(uint32_t index) const {
+    return is_group(index) && members_[index - first_group_].is_union;
+  }
   /// How many primitives and groups there are.
   uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
 
@@ -66,6 +73,8 @@ class OperandGroups {
   std::span<const uint32_t> own(uint32_t group) const;
   /// All others: what is in no group, or stands in the tree more than once.
   std::span<const uint32_t> common() const { return common_; }
+  /// What was left out.
+  const HiddenOperands& hidden() const { return hidden_; }
 
  private:
   class Builder;
@@ -77,6 +86,8 @@ class OperandGroups {
 
   CellList list_;
   Extents extents_;
+  HiddenOperands hidden_;
+  std::vector<uint32_t> apart_;  // from another, for which an intersection was left out
   uint32_t first_group_ = 0;
   uint32_t moved_ = 0;                  // primitives that moved since the groups were made
   std::vector<Range> members_, owned_;  // by group

@@ -34,12 +34,17 @@ CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell)
 namespace sphere {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const Vec3& point_canonical);
+/// The point furthest along a canonical direction.
+Vec3 support(const Vec3& direction_canonical);
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 }  // namespace sphere
 
 namespace frustum {
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_canonical);
+Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction_canonical);
+/// A ball in canonical space.
+bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center, double radius);
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 }  // namespace frustum
 

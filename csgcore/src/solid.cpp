@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cell_list.hpp"
+#include "csgcore/subdivision.hpp"
 #include "operand_groups.hpp"
 #include "subtree_boxes.hpp"
 
@@ -70,7 +71,7 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
       list_(compile(tree)),
       bounds_(bounds_of(*primitives_, tree)) {
   if (tree.empty()) {
-    groups_ = std::make_shared<const OperandGroups>();
+    groups_ = outer_groups_ = std::make_shared<const OperandGroups>();
     return;
   }
   auto list = std::make_shared<CellList>();
@@ -78,7 +79,8 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   cell_list_ = std::move(list);
   Extents extents(primitives_->size());
   for_each_part(extents.size(), [&](size_t i) { extents[i] = extent_of((*primitives_)[i]); });
-  groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
+  make_groups(tree, std::move(extents));
+  find_outer_groups(tree);
 }
 
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
@@ -93,6 +95,7 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   cell_list_ = earlier.cell_list_;
   if (edit.added.empty()) {
     groups_ = earlier.groups_;
+    outer_groups_ = earlier.outer_groups_;
     bounds_ = earlier.bounds_;
     return;
   }
@@ -101,7 +104,23 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   Extents extents(extents_before.begin(), extents_before.end());
   for (const uint32_t i : edit.added) extents[i] = extent_of((*primitives_)[i]);
   groups_ = OperandGroups::with_moved(earlier.groups_, tree, extents, edit.added);
-  if (!groups_) groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
+  if (!groups_) make_groups(tree, std::move(extents));
+  find_outer_groups(tree);
+}
+
+void Solid::make_groups(const CsgTree& tree, Extents extents) {
+  groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(extents),
+                                                  cell_overlap(bounds_));
+}
+
+void Solid::find_outer_groups(const CsgTree& tree) {
+  outer_groups_ = groups_;
+  const double margin = cell_overlap(bounds_);
+  HiddenOperands hidden = find_hidden_operands(*groups_, *primitives_, margin);
+  if (hidden.count() == 0) return;
+  Extents same(extents().begin(), extents().end());
+  outer_groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(same), margin,
+                                                        std::move(hidden));
 }
 
 std::span<const Extent> Solid::extents() const {

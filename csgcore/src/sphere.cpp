@@ -44,6 +44,11 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
 
 bool contains(const Vec3& p) { return glm::dot(p, p) <= 1.0; }
 
+Vec3 support(const Vec3& direction) {
+  const double length = glm::length(direction);
+  return length > 0 ? direction / length : Vec3{1, 0, 0};
+}
+
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
   const CanonicalCell cell = to_canonical(primitive, cell_world);
   // By convexity, a cell whose 8 corners are inside is inside.

@@ -139,51 +139,74 @@ class TileTracer::Lease {
   Workspace* workspace_;
 };
 
-TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-                       const TileRules& rules, Fates& fates)
-    : solid_(solid),
-      groups_(solid.groups()),
-      frame_(frame),
-      subject_(subject),
-      rules_(rules),
-      fates_(fates),
-      bounds_(solid.primitives(), groups_, frame, rules.centers_only) {
-  last_value_ = find_last_value();
+namespace {
+
+/// Whether any of the list is a group.
+bool has_groups(const OperandGroups& groups, const CellList& list) {
+  return std::ranges::any_of(list.primitives(), [&groups](uint32_t entry) {
+    return groups.is_group(entry & kPrimitiveBits);
+  });
 }
 
-TileTracer::~TileTracer() = default;
-
 /// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
-std::optional<bool> TileTracer::find_last_value() const {
-  if (subject_.boundary == Boundary::kBehind || groups_.list().is_constant()) return std::nullopt;
-  if (frame_.view.projection == Projection::kOrthographic) return true;
+std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
+                                    const FrameRays& frame, const TraceSubject& subject) {
+  if (subject.boundary == Boundary::kBehind || groups.list().is_constant()) return std::nullopt;
+  if (frame.view.projection == Projection::kOrthographic) return true;
   // Rays start up to a few tolerances from the eye: further in the picture's corners.
   constexpr double kEyeTolerances = 64;
-  const Vec3 reach{kEyeTolerances * subject_.thinnest_piece};
-  const Box& bounds = solid_.bounds();
+  const Vec3 reach{kEyeTolerances * subject.thinnest_piece};
+  const Box& bounds = solid.bounds();
   for (int axis = 0; axis < 3; ++axis) {
-    const double eye = frame_.view.eye[axis];
+    const double eye = frame.view.eye[axis];
     if (eye + reach[axis] < bounds.min[axis] || eye - reach[axis] > bounds.max[axis]) return true;
   }
-  const WorldClassifier classifier(solid_.primitives());
-  Restrictor restrictor(groups_.extents(), classifier);
-  const Box cell{frame_.view.eye - reach, frame_.view.eye + reach};
+  const WorldClassifier classifier(solid.primitives());
+  Restrictor restrictor(groups.extents(), classifier);
+  const Box cell{frame.view.eye - reach, frame.view.eye + reach};
   CellList at_eye, closed;
   using Opening = Restrictor::Opening;
   std::vector<Opening> openings;
-  restrictor.restrict(groups_.list(), cell, at_eye);
-  while (has_groups(at_eye)) {
+  restrictor.restrict(groups.list(), cell, at_eye);
+  while (has_groups(groups, at_eye)) {
     openings.clear();
     for (const uint32_t entry : at_eye.primitives()) {
-      const bool is_group = groups_.is_group(entry & kPrimitiveBits);
+      const bool is_group = groups.is_group(entry & kPrimitiveBits);
       openings.push_back(is_group ? Opening::kMembers : Opening::kNone);
     }
     std::swap(at_eye, closed);
-    restrictor.open(closed, groups_, openings, cell, at_eye);
+    restrictor.open(closed, groups, openings, cell, at_eye);
   }
   if (!at_eye.is_constant()) return std::nullopt;
   return at_eye.root == CellList::kFalse;
 }
+
+}  // namespace
+
+TileTracer::Seen TileTracer::find_seen(const Solid& solid, const FrameRays& frame,
+                                       const TraceSubject& subject) {
+  const OperandGroups& outer = solid.outer_groups();
+  const std::optional<bool> last_value = find_last_value(solid, outer, frame, subject);
+  if (&outer == &solid.groups() || last_value == true) return {outer, last_value};
+  return {solid.groups(), find_last_value(solid, solid.groups(), frame, subject)};
+}
+
+TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
+                       const TileRules& rules, Fates& fates)
+    : TileTracer(solid, find_seen(solid, frame, subject), frame, subject, rules, fates) {}
+
+TileTracer::TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
+                       const TraceSubject& subject, const TileRules& rules, Fates& fates)
+    : solid_(solid),
+      groups_(seen.groups),
+      frame_(frame),
+      subject_(subject),
+      rules_(rules),
+      fates_(fates),
+      last_value_(seen.last_value),
+      bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
+
+TileTracer::~TileTracer() = default;
 
 Box TileTracer::box_of(const Tile& tile) const {
   constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
@@ -226,7 +249,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
   };
   // Groups that are left of a list that was cut are mostly seen.
-  simplify_list(!cut.uncut && has_groups(*list));
+  simplify_list(!cut.uncut && has_groups(groups_, *list));
   const CellList* const closed = list;
   const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
@@ -293,13 +316,6 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
     }
   }
   return list;
-}
-
-/// Whether any of the list is a group.
-bool TileTracer::has_groups(const CellList& list) const {
-  const auto primitives = list.primitives();
-  return std::any_of(primitives.begin(), primitives.end(),
-                     [&](uint32_t entry) { return groups_.is_group(entry & kPrimitiveBits); });
 }
 
 /// The list with the groups opened whose indices in the list are marked.
@@ -424,6 +440,9 @@ TileTracer::Counts TileTracer::counts() const {
 }
 
 void TileTracer::note_screen_fates() {
+  for (const uint32_t primitive : groups_.hidden().inside) {
+    fates_.note(primitive, Fate::kInside);
+  }
   bounds_.bound_all();
   for (uint32_t primitive = 0; primitive < solid_.primitives().size(); ++primitive) {
     const ScreenFate fate = fate_on_screen(bounds_.extents()[primitive]);

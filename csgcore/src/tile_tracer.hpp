@@ -117,20 +117,28 @@ class TileTracer {
     double t = std::numeric_limits<double>::infinity();  // TileRays::Met::cut_t
   };
 
+  /// What rays can get to.
+  struct Seen {
+    const OperandGroups& groups;
+    std::optional<bool> last_value;  // as TileSimplifier's
+  };
+  static Seen find_seen(const Solid& solid, const FrameRays& frame, const TraceSubject& subject);
+
+  TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
+             const TraceSubject& subject, const TileRules& rules, Fates& fates);
+
   void divide(const Tile& tile, const CellList& list, Cut cut, size_t level, Workspace& workspace,
               TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const Cut& cut, Workspace& workspace,
                   TileVisitor& visitor);
   const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                            Level& level, Workspace& workspace, bool& cuts);
-  bool has_groups(const CellList& list) const;
   const CellList& open_groups(const Tile& tile, const CellList& list,
                               std::span<const uint8_t> marked, CellList (&buffers)[2],
                               Workspace& workspace);
   const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
                                     CellList (&buffers)[2], Workspace& workspace);
   Box box_of(const Tile& tile) const;
-  std::optional<bool> find_last_value() const;
 
   const Solid& solid_;
   const OperandGroups& groups_;
@@ -138,7 +146,7 @@ class TileTracer {
   const TraceSubject subject_;
   const TileRules rules_;
   Fates& fates_;
-  std::optional<bool> last_value_;
+  const std::optional<bool> last_value_;
   ScreenBounds bounds_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> workspaces_;

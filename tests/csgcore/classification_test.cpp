@@ -192,6 +192,91 @@ TEST_P(ClassificationOf, IsNeverWrongAndTight) {
   expect_tight(tally);
 }
 
+TEST_P(ClassificationOf, ReachIsNeverTooShort) {
+  const auto [make_shape, make_map] = GetParam();
+  std::mt19937 random(6);
+  for (int i = 0; i < 50; ++i) {
+    const Primitive primitive = make_shape(random, make_map(random));
+    const CanonicalPrimitive canonical = canonicalize(primitive);
+    double furthest = 0;
+    for (const Vec3& point : points_of(primitive, 20)) {
+      furthest = std::max(furthest, glm::length(point - canonical.center));
+    }
+    ASSERT_LE(furthest, reach(canonical) * (1 + 1e-12));
+    if (make_map != affine) {
+      ASSERT_GT(furthest, 0.5 * reach(canonical));
+    }
+  }
+}
+
+TEST_P(ClassificationOf, HoldsBallsThatLieInside) {
+  const auto [make_shape, make_map] = GetParam();
+  std::mt19937 random(7);
+  int held = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Primitive primitive = make_shape(random, make_map(random));
+    const CanonicalPrimitive canonical = canonicalize(primitive);
+    const Vec3 size = canonical.bounds.size();
+    const double smallest = std::min({size.x, size.y, size.z});
+    for (int k = 0; k < 100; ++k) {
+      const Vec3 center = checks::random_point(random, canonical.bounds);
+      const double radius = smallest * checks::uniform(random, 0.001, 0.3);
+      if (!holds_ball(canonical, center, radius)) continue;
+      ++held;
+      for (int on_ball = 0; on_ball < 100; ++on_ball) {
+        ASSERT_TRUE(checks::holds(primitive, center + radius * checks::random_direction(random)));
+      }
+    }
+  }
+  EXPECT_GT(held, 50);
+}
+
+TEST_P(ClassificationOf, KnowsWhatIsApart) {
+  const auto [make_shape, make_map] = GetParam();
+  std::mt19937 random(8);
+  constexpr int kPairs = 300;
+  int apart = 0, overlapping = 0, missed = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    const Primitive a = make_shape(random, make_map(random));
+    Primitive b = checks::random_primitive(random);
+    const CanonicalPrimitive canonical_a = canonicalize(a);
+    // From the plane in which a ends along some direction, b begins so far beyond.
+    const Vec3 direction = checks::random_direction(random);
+    const auto shift = [&](double gap) {
+      const CanonicalPrimitive canonical_b = canonicalize(b);
+      const Vec3 end = furthest_point(canonical_a, direction);
+      const Vec3 start = furthest_point(canonical_b, -direction);
+      b.local_to_world.translation += end + gap * direction - start;
+      return canonicalize(b);
+    };
+    const double size = glm::length(canonical_a.bounds.size());
+    const double gap = size * checks::uniform(random, 0.01, 0.1);
+    missed += !are_apart(canonical_a, shift(gap), 0.01 * gap);
+    // They may or may not be, or overlap.
+    b.local_to_world.translation +=
+        size * (0.2 * checks::random_direction(random) - 0.15 * direction);
+    const CanonicalPrimitive near = canonicalize(b);
+    const auto any_in = [](const Primitive& of, const Primitive& in) {
+      const std::vector<Vec3> points = points_of(of, 20);
+      return std::any_of(points.begin(), points.end(),
+                         [&](const Vec3& point) { return checks::holds(in, point); });
+    };
+    const bool overlap = any_in(a, b) || any_in(b, a);
+    const bool is_apart = are_apart(canonical_a, near, 0);
+    ASSERT_FALSE(overlap && is_apart);
+    overlapping += overlap;
+    apart += is_apart;
+  }
+  EXPECT_LT(missed, kPairs / 50);
+  EXPECT_GT(apart, 5);
+  EXPECT_GT(overlapping, 5);
+}
+
+TEST(Classification, SharedCentersAreNotApart) {
+  const CanonicalPrimitive ball = canonicalize(make_sphere(1));
+  EXPECT_FALSE(are_apart(ball, ball, 0));
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryShapeAndMap, ClassificationOf,
                          testing::Combine(testing::Values(sphere, cylinder, frustum, cone_up,
                                                           cone_down, box, octahedron, nut,

@@ -48,6 +48,21 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 /// The same for what is no true ball and a cell that meets the bounds.
 Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell);
 
+/// The point furthest along a direction, in world space but for rounding.
+Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world);
+
+/// Whether the two are certainly more than `margin` apart, in world units: a plane was found
+/// between them. `margin` is above what rounding displaces them by.
+bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin);
+
+/// Upper bound of how far from its centre the primitive reaches, in world units; tight for what is
+/// not sheared.
+double reach(const CanonicalPrimitive& primitive);
+
+/// Whether the ball certainly lies in the primitive. Of `radius`, in world units, more than what
+/// rounding displaces surfaces by is not needed.
+bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius);
+
 /// Membership in the closed solid, as exact as double evaluates it.
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world);
 
