@@ -105,7 +105,7 @@ bool ScreenBounds::find_rectangles_of(uint32_t group) {
   const size_t row = groups_.member_row();
   float* const from = rectangles_.get() + members.first;
   return find_rectangles(groups_.balls(group), count, {center[0], center[1], center[2]}, frame_,
-                         {from, from + row, from + 2 * row, from + 3 * row});
+                         options_, {from, from + row, from + 2 * row, from + 3 * row});
 }
 
 /// Of an opened group's members from `first` on, those whose bit is set in `wanted`.

@@ -216,7 +216,8 @@ constexpr float kFloatSlack_px = 0.125f;
 constexpr float kNearestDepthInFloat = 0x1p-10f;
 
 bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, float* const (&rows)[4]) {
+                     const FrameRays& frame, const ScreenOptions& options,
+                     float* const (&rows)[4]) {
   constexpr float kFar = 1e30f;
   const hn::CappedTag<float, kRowPadding> d;
   using V = hn::Vec<decltype(d)>;
@@ -261,6 +262,7 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
     const V by_furthest = is_perspective ? hn::Mul(scale, hn::Div(one, furthest)) : scale;
     V bounds[4];
     auto is_beside = is_behind;
+    auto is_between = is_behind;
     for (int i = 0; i < 2; ++i) {
       const V low = hn::Sub(at[i], reach[i]);
       const V high = hn::Add(at[i], reach[i]);
@@ -279,16 +281,21 @@ bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
         from = hn::IfThenElse(is_about, set(-kFar), from);
         to = hn::IfThenElse(is_about, set(kFar), to);
       }
-      from = hn::IfThenElse(is_behind, set(kFar), from);
-      to = hn::IfThenElse(is_behind, set(-kFar), to);
+      // A pixel's centre has the pixel's number for its coordinate.
+      if (options.centers_only) {
+        from = hn::Ceil(from);
+        to = hn::Floor(to);
+        is_between = hn::Or(is_between, hn::Gt(from, to));
+      }
       const float last = static_cast<float>(i == 0 ? view.width_px : view.height_px);
       is_beside = hn::Or(is_beside, hn::Or(hn::Gt(from, hn::Set(d, last)), hn::Lt(to, set(-1))));
       bounds[2 * i] = from;
       bounds[2 * i + 1] = to;
     }
     const uint32_t left = count - first;
-    any |= !hn::AllFalse(d, hn::AndNot(is_beside, hn::FirstN(d, left)));
+    any |= !hn::AllFalse(d, hn::AndNot(hn::Or(is_beside, is_between), hn::FirstN(d, left)));
     for (int i = 0; i < 4; ++i) {
+      bounds[i] = hn::IfThenElse(is_between, set(i % 2 == 0 ? kFar : -kFar), bounds[i]);
       if (left >= hn::Lanes(d)) {
         hn::StoreU(bounds[i], d, rows[i] + first);
         continue;
@@ -312,8 +319,9 @@ CSGCORE_SIMD_EXPORT(find_screen_extents);
 CSGCORE_SIMD_EXPORT(find_rectangles);
 
 bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, float* const (&rows)[4]) {
-  return CSGCORE_SIMD(find_rectangles)(balls, count, center, frame, rows);
+                     const FrameRays& frame, const ScreenOptions& options,
+                     float* const (&rows)[4]) {
+  return CSGCORE_SIMD(find_rectangles)(balls, count, center, frame, options, rows);
 }
 
 void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,

@@ -25,9 +25,9 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
 
 /// Rectangles of balls, in float: conservative ones. `center`: of the world, what the balls count
 /// from; `rows`: of `count` floats each, low x, high x, low y, high y. Returns whether any may be
-/// seen; those that are behind the eye are empty.
+/// seen; those that are behind the eye, or between the rays, are empty.
 bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, float* const (&rows)[4]);
+                     const FrameRays& frame, const ScreenOptions& options, float* const (&rows)[4]);
 
 /// Sets x and y, and what tells the fate, to a rectangle; empty ones (low > high) are seen by none.
 struct Rectangle {

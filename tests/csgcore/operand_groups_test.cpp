@@ -8,6 +8,7 @@
 
 #include "checks.hpp"
 #include "extent_tests.hpp"
+#include "made.hpp"
 #include "restriction.hpp"
 #include "screen_bounds.hpp"
 #include "screen_extents.hpp"
@@ -193,9 +194,9 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       // What follows a group's is another's.
       std::vector<float> rows[4];
       for (auto& row : rows) row.assign(count + 1, 7.0f);
-      const bool any =
-          find_rectangles(groups.balls(group), count, {center[0], center[1], center[2]}, frame,
-                          {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
+      const bool any = find_rectangles(
+          groups.balls(group), count, {center[0], center[1], center[2]}, frame, {false},
+          {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
       for (const auto& row : rows) ASSERT_EQ(row[count], 7.0f);
       std::vector<uint32_t> indices;
       for (const uint32_t entry : members.primitive) indices.push_back(entry & kPrimitiveBits);
@@ -223,6 +224,47 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GroupsOf, testing::Range(1u, 7u));
 
+/// Who lies between the rays is nowhere, and nobody else.
+TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
+  std::mt19937 random(GetParam());
+  constexpr uint32_t kCount = 4000;
+  std::vector<float> x, y, z, radius;
+  Extents extents;
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const Vec3 place = checks::random_point(random, kSpace);
+    const double r = uniform(random, 0.001, 0.2);
+    for (auto* row : {&x, &y, &z}) {
+      row->push_back(static_cast<float>(place[row == &x ? 0 : row == &y ? 1 : 2]));
+    }
+    radius.push_back(static_cast<float>(r));
+    const Primitive ball =
+        make_sphere(radius.back(), checks::moved({x.back(), y.back(), z.back()}));
+    extents.push_back(extent_of(canonicalize(ball)));
+    indices.push_back(i);
+  }
+  for (auto* row : {&x, &y, &z, &radius}) row->resize(kCount + kRowPadding);
+  for (const auto& [name, view] : checks::trace_views(kSpace, 64, 48)) {
+    SCOPED_TRACE(name);
+    const FrameRays frame = frame_rays(view, kSpace);
+    std::vector<float> rows[4];
+    for (auto& row : rows) row.resize(kCount + kRowPadding);
+    find_rectangles({x.data(), y.data(), z.data(), radius.data()}, kCount, Vec3(0.0), frame, {true},
+                    {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
+    Extents screen(kCount);
+    find_screen_extents(extents.data(), indices, frame, {true}, screen.data());
+    uint32_t nowhere = 0, between = 0;
+    for (uint32_t i = 0; i < kCount; ++i) {
+      const ScreenFate fate = fate_on_screen(screen[i]);
+      const bool is_nowhere = rows[0][i] > rows[1][i];
+      nowhere += is_nowhere;
+      between += fate == ScreenFate::kSubPixel;
+      ASSERT_FALSE(is_nowhere && fate == ScreenFate::kVisible);
+    }
+    EXPECT_GE(nowhere, between / 4);
+  }
+}
+
 TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
   constexpr float kOverflown = std::numeric_limits<float>::infinity();
   constexpr uint32_t kCount = 3;
@@ -235,7 +277,7 @@ TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
     std::vector<float> rows[4];
     for (auto& row : rows) row.resize(kCount + kRowPadding);
     const BallRows balls{x.data(), zeros.data(), zeros.data(), radius.data()};
-    EXPECT_TRUE(find_rectangles(balls, kCount, Vec3(0.0), frame_rays(view, kSpace),
+    EXPECT_TRUE(find_rectangles(balls, kCount, Vec3(0.0), frame_rays(view, kSpace), {false},
                                 {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()}));
     const Box corner{Vec3(-1, -1, 0), Vec3(0, 0, 0)};
     const RectangleRows rectangles{rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()};
@@ -311,6 +353,56 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
   });
   EXPECT_TRUE(less.groups().list().is_constant());
   EXPECT_EQ(less.groups().list().root, CellList::kFalse);
+}
+
+/// Their boxes meet.
+TEST(OperandGroups, LeaveOutIntersectionsOfWhatIsApart) {
+  const auto intersect = [](CsgTreeBuilder& builder) {
+    builder.open(Op::kIntersection);
+    builder.primitive(0);
+    builder.primitive(1);
+    builder.close();
+  };
+  const auto cone_at = [](double x) {
+    return make_frustum(0, 2, 1, 0, checks::moved({x, 1, 0.2}));
+  };
+  const Primitive ball = make_sphere(1);
+  EXPECT_TRUE(solid_of({ball, cone_at(1.75)}, intersect).groups().list().is_constant());
+  EXPECT_FALSE(solid_of({ball, cone_at(0.1)}, intersect).groups().list().is_constant());
+}
+
+/// A primitive that moves on to another which it was apart from, while no box of an operation
+/// changes.
+TEST(OperandGroups, FindWhatIsNoLongerApart) {
+  const auto scene_with = [](double z) {
+    Scene scene;
+    CsgTreeBuilder builder;
+    builder.open(Op::kUnion);
+    for (uint32_t i = 0; i < 150; ++i) {
+      scene.primitives.push_back(make_sphere(0.1, checks::moved({3, 0.3 * (i % 12), 0.3 * i})));
+      builder.primitive(i);
+    }
+    builder.open(Op::kIntersection);
+    // Of the long one's box, all holds that of the ball.
+    const double angle = std::acos(-1.0) / 4;
+    Affine turned = checks::moved({-20, 0, z});
+    turned.linear = {
+        {std::cos(angle), 0, std::sin(angle)}, {0, 1, 0}, {-std::sin(angle), 0, std::cos(angle)}};
+    scene.primitives.push_back(make_frustum(-20, 20, 1, 1, turned));
+    scene.primitives.push_back(make_sphere(1, checks::moved({-20, 0, 8})));
+    builder.primitive(150);
+    builder.primitive(151);
+    builder.close();
+    builder.close();
+    scene.model = builder.finish();
+    return scene;
+  };
+  const checks::Made before(scene_with(0));
+  const Scene later = scene_with(8);
+  const checks::Made after(later, before, compare(before.scene, later));
+  EXPECT_EQ(after.solid.groups().list().count(), before.solid.groups().list().count() + 2);
+  EXPECT_FALSE(before.solid.contains({-20, 0, 8}));
+  EXPECT_TRUE(after.solid.contains({-20, 0, 8}));
 }
 
 TEST(OperandGroups, ManyOperandsAreFewLiterals) {
