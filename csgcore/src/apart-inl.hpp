@@ -57,15 +57,11 @@ HWY_NOINLINE void find_points(const RayPacket& rays, const PacketV& t, double di
   }
 }
 
-/// The lanes whose points lie further away from the primitive (of a polyhedron: from what encloses
-/// it) than `distance`, as far as float tells.
-HWY_NOINLINE LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec3& pivot,
-                                  const PacketPoints& points, double distance) {
+/// `center`: relative to the pivot; `reach`: in canonical space.
+template <Shape kEnclosure>
+HWY_INLINE LaneMask lanes_apart_from(const CanonicalPrimitive& primitive, const Vec3& center,
+                                     const PacketPoints& points, double reach) {
   const Floats d;
-  const Vec3 center = primitive.center - pivot;
-  const double reach = kApartAsked * distance * primitive.canonical_stretch;
-  const double furthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-  if (!(reach >= kApartLeastReach && furthest <= kApartFurthest * distance)) return 0;
   const Lanes3<Floats> from = broadcast(d, center);
   LaneMask result = 0;
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
@@ -73,7 +69,7 @@ HWY_NOINLINE LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec
                                                 hn::Load(d, points.coordinate[1] + first),
                                                 hn::Load(d, points.coordinate[2] + first)} -
                                  from;
-    const auto apart = primitive.enclosure == Shape::kSphere
+    const auto apart = kEnclosure == Shape::kSphere
                            ? sphere_rays::lies_apart(d, primitive, point, reach)
                            : frustum_rays::lies_apart(d, primitive, point, reach);
     uint8_t bytes[8] = {};
@@ -81,6 +77,19 @@ HWY_NOINLINE LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec
     result |= (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
   }
   return result;
+}
+
+/// The lanes whose points lie further away from the primitive (of a polyhedron: from what encloses
+/// it) than `distance`, as far as float tells.
+HWY_NOINLINE LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec3& pivot,
+                                  const PacketPoints& points, double distance) {
+  const Vec3 center = primitive.center - pivot;
+  const double reach = kApartAsked * distance * primitive.canonical_stretch;
+  const double furthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+  if (!(reach >= kApartLeastReach && furthest <= kApartFurthest * distance)) return 0;
+  return primitive.enclosure == Shape::kSphere
+             ? lanes_apart_from<Shape::kSphere>(primitive, center, points, reach)
+             : lanes_apart_from<Shape::kFrustum>(primitive, center, points, reach);
 }
 
 }  // namespace HWY_NAMESPACE

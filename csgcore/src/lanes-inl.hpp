@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <limits>
 
 #include "csgcore/geometry.hpp"
@@ -51,6 +52,34 @@ HWY_INLINE hn::Mask<D> mask_from(D d, LaneMask lanes) {
 HWY_INLINE WideM mask_of(LaneMask lanes, int chunk) {
   return mask_from(Wide(), lanes >> first_lane(chunk));
 }
+
+HWY_INLINE LaneMask chunk_lanes(int chunk) {
+  return ((LaneMask{1} << kLanes) - 1) << first_lane(chunk);
+}
+
+/// The chunks that hold any of the lanes, for a loop over them.
+class ChunksOf {
+ public:
+  class Iterator {
+   public:
+    HWY_INLINE explicit Iterator(LaneMask left) : left_(left) {}
+    HWY_INLINE int operator*() const { return std::countr_zero(left_) / static_cast<int>(kLanes); }
+    HWY_INLINE Iterator& operator++() {
+      left_ &= ~chunk_lanes(**this);
+      return *this;
+    }
+    HWY_INLINE bool operator!=(const Iterator& other) const { return left_ != other.left_; }
+
+   private:
+    LaneMask left_;
+  };
+  HWY_INLINE explicit ChunksOf(LaneMask lanes) : lanes_(lanes) {}
+  HWY_INLINE Iterator begin() const { return Iterator(lanes_); }
+  HWY_INLINE Iterator end() const { return Iterator(0); }
+
+ private:
+  LaneMask lanes_;
+};
 
 HWY_INLINE void fill_lanes(LaneMask lanes, uint32_t value, uint32_t (&all)[kPacketRays]) {
   const hn::CappedTag<uint32_t, kPacketRays> d;

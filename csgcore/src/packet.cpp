@@ -112,12 +112,48 @@ void make_block_rays(const FrameRays& frame, uint32_t x, uint32_t y, RayPacket& 
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
-  intersect_packet(frame, rays, primitive, segments);
+  intersect_lanes(frame, rays, kAllLanes, primitive, segments);
 }
 
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
-  intersect_chunks<kFourChunks>(frame, rays, primitive, segments);
+  intersect_lanes(frame, rays, 0xF, primitive, segments);
+}
+
+/// The lanes of a block that are in these columns and rows, by bits.
+HWY_INLINE LaneMask lanes_in(uint32_t columns, uint32_t rows) {
+  static_assert(kPacketWidth_px == 8 && kPacketHeight_px == 4);
+  constexpr uint32_t kFirstOfRow = 0x01010101u;
+  constexpr uint32_t kBitToRow = 0x00204081u;  // bit i goes to bit 8·i, among others
+  const LaneMask whole_rows = ((rows & 0xFu) * kBitToRow & kFirstOfRow) * 0xFFu;
+  return columns * kFirstOfRow & whole_rows;
+}
+
+void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
+                  uint32_t y, LaneMask* above, LaneMask* below) {
+  static_assert(kPacketWidth_px == 2 * kPacketHeight_px);
+  const hn::CappedTag<double, 2> d;
+  const hn::Rebind<int32_t, decltype(d)> integers;
+  const hn::Rebind<uint32_t, decltype(d)> bits;
+  const double origin[] = {static_cast<double>(x), static_cast<double>(y)};
+  for (size_t i = 0; i < primitives.size(); ++i) {
+    const Extent& extent = screen[primitives[i] & kPrimitiveBits];
+    uint32_t inside[2];  // by column and row
+    for (size_t axis = 0; axis < 2; axis += hn::Lanes(d)) {
+      const auto center = hn::Sub(hn::LoadU(d, extent.center + axis), hn::LoadU(d, origin + axis));
+      const auto half = hn::LoadU(d, extent.half + axis);
+      const auto bit_of = [&](auto pixel) {
+        const auto last = hn::Set(d, double{kPacketWidth_px});
+        const auto limited = hn::Min(hn::Max(pixel, hn::Zero(d)), last);
+        return hn::Shl(hn::Set(bits, 1u), hn::BitCast(bits, hn::DemoteTo(integers, limited)));
+      };
+      const auto low = bit_of(hn::Sub(center, half));
+      const auto end = bit_of(hn::Add(hn::Add(center, half), hn::Set(d, 1.0)));
+      hn::StoreU(hn::Sub(end, low), bits, inside + axis);
+    }
+    above[i] = lanes_in(inside[0], inside[1]);
+    below[i] = lanes_in(inside[0], inside[1] >> kPacketHeight_px);
+  }
 }
 
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
@@ -169,21 +205,25 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
   LaneMask found = 0;
   LaneMask several = 0;
   bool any_apart = false;
-  double next_nearest_t = kInfinity;
   for (uint32_t index = 0; index < trace.list->count(); ++index) {
-    if (segments.is_missed(index)) continue;
-    if (segments.is_unknown(index)) {
+    LaneMask reached = lanes & segments.reached(index);
+    if (reached == 0) continue;
+    if (!segments.are_known(index, reached)) {
       const double nearest_t = trace.nearest_t[index];
-      if ((lanes_from(walk.t, nearest_t) & lanes) == 0) {
-        next_nearest_t = std::min(next_nearest_t, nearest_t);
+      if ((lanes_from(walk.t, nearest_t) & reached) == 0) {
+        for (int c = 0; c < kChunks; ++c) {
+          const WideV ahead = hn::Sub(hn::Set(d, nearest_t), walk.t.chunk[c]);
+          WideV& own = gap.chunk[c];
+          own = hn::IfThenElse(mask_of(reached, c), hn::Min(own, ahead), own);
+        }
         continue;
       }
-      if (segments.are_apart(index, walk.t, lanes)) {
-        any_apart = true;
-        continue;
-      }
+      const LaneMask apart = segments.apart(index, walk.t, reached);
+      any_apart |= apart != 0;
+      reached &= ~apart;
+      if (reached == 0) continue;
     }
-    const PacketSegments& segment = segments.compute(index);
+    const PacketSegments& segment = segments.compute(index, reached);
     LaneMask at_start = 0;
     LaneMask at_end = 0;
     for (int c = 0; c < kChunks; ++c) {
@@ -197,27 +237,24 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
       at_start |= bits_of(is_start, c);
       at_end |= bits_of(is_end, c);
     }
-    const LaneMask own = (at_start | at_end) & lanes;
+    const LaneMask own = (at_start | at_end) & reached;
     if (own == 0) continue;
     several |= own & found;
     found |= own;
     const LaneMask on_cap = (at_start & segment.start_on_cap) | (at_end & segment.end_on_cap);
     hits.on_cap |= on_cap & own;
     fill_lanes(own, index, hits.index);
-    for (int c = 0; c < kChunks; ++c) {
-      const WideM shown = mask_of(own, c);
-      if (hn::AllFalse(d, shown)) continue;
+    for (const int c : ChunksOf(own)) {
       const Lanes3<Wide> normal =
           outward_normal(frame, rays, trace, index, walk.t.chunk[c], on_cap, c);
-      result.normal[c] = if_then_else(shown, normal, result.normal[c]);
+      result.normal[c] = if_then_else(mask_of(own, c), normal, result.normal[c]);
     }
   }
   LaneMask together = 0;
   for (int c = 0; c < kChunks; ++c) {
     const Lanes3<Wide> direction = load3(d, rays.direction, first_lane(c));
     const WideV facing = hn::Abs(dot(d, result.normal[c], direction));
-    const WideV ahead = hn::Sub(hn::Set(d, next_nearest_t), walk.t.chunk[c]);
-    const WideV thickness = hn::Mul(hn::Min(gap.chunk[c], ahead), facing);
+    const WideV thickness = hn::Mul(gap.chunk[c], facing);
     together |= bits_of(hn::Le(thickness, hn::Set(d, subject.thinnest_piece)), c);
     if (any_apart) {
       // The cosine at which kApart is the thinnest piece.
@@ -254,7 +291,7 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
                               ListSegments& segments, PacketWorkspace& workspace,
                               PacketHits& hits) {
   if (lanes == 0) return;
-  segments.compute_all();
+  segments.compute_all(lanes);
   LaneMask found = 0;
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
@@ -475,6 +512,7 @@ CSGCORE_SIMD_EXPORT(make_four_rays);
 CSGCORE_SIMD_EXPORT(make_block_rays);
 CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(intersect_four);
+CSGCORE_SIMD_EXPORT(find_reached);
 CSGCORE_SIMD_EXPORT(find_apart);
 CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
@@ -503,6 +541,11 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
+}
+
+void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
+                  uint32_t y, LaneMask* above, LaneMask* below) {
+  CSGCORE_SIMD(find_reached)(screen, primitives, x, y, above, below);
 }
 
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,

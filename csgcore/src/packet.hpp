@@ -75,8 +75,8 @@ struct TraceList {
   /// By index in the list: no crossing of the primitive lies at a smaller τ.
   const double* nearest_t = nullptr;
   double earliest_t = 0;  // the least of them
-  /// By index in the list: true for primitives that no ray of the packet meets. None: nobody knows.
-  const uint8_t* is_missed = nullptr;
+  /// By index in the list: the lanes that may meet the primitive. None: nobody knows.
+  const LaneMask* reached = nullptr;
 };
 
 /// What the solid is, beyond its list.
@@ -88,14 +88,15 @@ struct TraceSubject {
 
 /// Working memory of one thread, for packets of one list after the other.
 struct PacketWorkspace {
-  std::vector<PacketSegments> segments;  // by index in the list
-  enum State : uint8_t { kUnknown, kComputed, kMissed };
-  std::vector<uint8_t> states;        // of the segments
-  std::vector<LaneMask> apart;        // by index in the list: lanes that stand away from it
+  // By index in the list:
+  std::vector<PacketSegments> segments;
+  std::vector<LaneMask> computed;     // lanes whose segments are known
+  std::vector<LaneMask> reached;      // TraceList::reached
+  std::vector<LaneMask> apart;        // lanes that stand away from it
   std::vector<LaneMask> standing;     // of an evaluation, by a literal's number
   std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
   uint64_t rays = 0;                  // traced along their whole length
-  uint64_t intersections = 0;         // of packets with primitives, × the lanes
+  uint64_t intersections = 0;         // of rays with primitives
   uint64_t resolved_rays = 0;
 
   // The resolver's.
@@ -145,6 +146,11 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 /// Of the first four lanes alone.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
+
+/// Of the primitives (indices, the top bit ignored), the lanes that may meet them in the block from
+/// the pixel (x, y) on and in that below it, by their extents on the screen.
+void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
+                  uint32_t y, LaneMask* above, LaneMask* below);
 
 /// The lanes that certainly lie, at τ = t, further than `distance` (world units) away from the
 /// primitive, or, of a polyhedron, from what encloses it; told in float (NUMERICS.md,

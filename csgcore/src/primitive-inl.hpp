@@ -53,25 +53,24 @@ HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
   hwy::Prefetch(&primitive.world_to_canonical[1]);
 }
 
-template <int kCount>
-HWY_INLINE void intersect_chunks(const FrameRays& frame, const RayPacket& packet,
-                                 const CanonicalPrimitive& primitive, PacketSegments& segments) {
+/// The segments of all chunks that hold any of the lanes; those of the others stay.
+HWY_NOINLINE void intersect_lanes(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
+                                  const CanonicalPrimitive& primitive, PacketSegments& segments) {
   const Wide d;
-  segments.start_on_cap = segments.end_on_cap = 0;
-  for (int c = 0; c < kCount; ++c) {
+  LaneMask start_on_cap = 0;
+  LaneMask end_on_cap = 0;
+  LaneMask done = 0;
+  for (const int c : ChunksOf(lanes)) {
     const size_t first = first_lane(c);
     const auto segment = segment_of(d, primitive, frame.pivot, load_rays(d, packet, first));
     hn::Store(segment.start, d, segments.start + first);
     hn::Store(segment.end, d, segments.end + first);
-    segments.start_on_cap |= bits_of(segment.start_on_cap, c);
-    segments.end_on_cap |= bits_of(segment.end_on_cap, c);
+    start_on_cap |= bits_of(segment.start_on_cap, c);
+    end_on_cap |= bits_of(segment.end_on_cap, c);
+    done |= chunk_lanes(c);
   }
-}
-
-/// All lanes' segments.
-HWY_NOINLINE void intersect_packet(const FrameRays& frame, const RayPacket& packet,
-                                   const CanonicalPrimitive& primitive, PacketSegments& segments) {
-  intersect_chunks<kChunks>(frame, packet, primitive, segments);
+  segments.start_on_cap = (segments.start_on_cap & ~done) | start_on_cap;
+  segments.end_on_cap = (segments.end_on_cap & ~done) | end_on_cap;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,7 +27,7 @@ class RayResolver {
   static constexpr uint32_t kNone = 0xFFFFFFFFu;
 
  public:
-  /// All of the list's segments are computed.
+  /// All of the list's segments are computed for the lane.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
               const TraceList& trace, const TraceSubject& subject, PacketWorkspace& workspace)
       : frame_(frame),

@@ -62,23 +62,22 @@ void TileList::assign(std::span<const CanonicalPrimitive> primitives,
   const uint32_t count = list.count();
   tile_ = tile;
   nearest_.resize(count);
-  for (auto& is_missed : is_missed_) is_missed.resize(count);
-  const double middle_y = tile.y + kPacketHeight_px - 0.5;
+  for (auto& reached : reached_) reached.resize(count);
   double earliest = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < count; ++i) {
     const Extent& extent = screen[list.primitive[i] & kPrimitiveBits];
     nearest_[i] = nearest_t(extent);
     earliest = std::min(earliest, nearest_[i]);
-    is_missed_[0][i] = extent.center[1] - extent.half[1] > middle_y;
-    is_missed_[1][i] = extent.center[1] + extent.half[1] < middle_y;
   }
+  find_reached(screen.data(), list.primitives(), tile.x, tile.y, reached_[0].data(),
+               reached_[1].data());
   trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
 }
 
 TraceList TileList::trace_list(const PacketBlock& block) const {
   TraceList trace = trace_;
   if (std::max(tile_.width, tile_.height) <= kTileSide_px) {
-    trace.is_missed = is_missed_[block.y > tile_.y ? 1 : 0].data();
+    trace.reached = reached_[block.y > tile_.y ? 1 : 0].data();
   }
   return trace;
 }

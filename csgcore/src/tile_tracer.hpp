@@ -23,14 +23,14 @@ class TileList {
               const Tile& tile, const CellList& list);
   /// For rays of any pixels of the tile.
   const TraceList& trace_list() const { return trace_; }
-  /// For the block, which is one of a tile of two.
+  /// For rays through the centres of the block's pixels, which is one of a tile of two.
   TraceList trace_list(const PacketBlock& block) const;
 
  private:
   static constexpr size_t kBlocks = 2;
   Tile tile_;
   std::vector<double> nearest_;
-  std::vector<uint8_t> is_missed_[kBlocks];
+  std::vector<LaneMask> reached_[kBlocks];
   TraceList trace_;
 };
 

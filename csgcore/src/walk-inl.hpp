@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "apart-inl.hpp"
@@ -17,10 +18,17 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// The segments of a list's primitives, computed where first needed.
-class ListSegments {
-  using State = PacketWorkspace::State;
+/// The lanes that are intersected with any of these: four at a time, so that whose segments are
+/// known does not depend on the vectors' width.
+HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
+  lanes |= lanes >> 1;
+  lanes |= lanes >> 2;
+  return (lanes & 0x11111111u) * 0xFu;
+}
 
+/// The segments of a list's primitives, computed where first needed; those of lanes that are not
+/// known are empty.
+class ListSegments {
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
                const TraceSubject& subject, PacketWorkspace& workspace)
@@ -32,45 +40,50 @@ class ListSegments {
     const uint32_t count = list.list->count();
     if (workspace.standing.size() < count + CellList::kFirst) {
       workspace.segments.resize(count);
-      workspace.states.resize(count);
+      workspace.computed.resize(count);
+      workspace.reached.resize(count);
       workspace.apart.resize(count);
       workspace.standing.resize(count + CellList::kFirst, 0);
     }
     for (uint32_t i = 0; i < count; ++i) {
-      const bool missed = list.is_missed && list.is_missed[i];
-      workspace.states[i] = missed ? State::kMissed : State::kUnknown;
-      workspace.apart[i] = 0;
+      const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
+      workspace.reached[i] = reached;
+      workspace.computed[i] = workspace.apart[i] = 0;
       // Of a large scene, they come from far away.
-      if (!missed) prefetch_rays_part(primitive(i));
+      if (reached != 0) prefetch_rays_part(primitive(i));
     }
   }
-  HWY_INLINE bool is_missed(uint32_t index) const {
-    return workspace_.states[index] == State::kMissed;
+  /// The lanes that may meet the primitive: the others are outside of it all along.
+  HWY_INLINE LaneMask reached(uint32_t index) const { return workspace_.reached[index]; }
+  /// Whether their segments are computed.
+  HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
+    return (lanes & ~workspace_.computed[index]) == 0;
   }
-  HWY_INLINE bool is_unknown(uint32_t index) const {
-    return workspace_.states[index] == State::kUnknown;
-  }
-  HWY_INLINE const PacketSegments& compute(uint32_t index) {
+  /// Those of the lanes.
+  HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
     PacketSegments& segments = workspace_.segments[index];
-    if (is_unknown(index)) {
-      intersect_packet(frame_, rays_, primitive(index), segments);
-      workspace_.states[index] = State::kComputed;
+    if (!are_known(index, lanes)) {
+      LaneMask& computed = workspace_.computed[index];
+      const LaneMask missing = whole_fours(lanes & ~computed);
+      if (computed == 0 && missing != kAllLanes) clear(segments);
+      intersect_lanes(frame_, rays_, missing, primitive(index), segments);
+      computed |= missing;
       if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
-      workspace_.intersections += kPacketRays;
+      workspace_.intersections += static_cast<uint64_t>(std::popcount(missing));
     }
     return segments;
   }
-  /// Whether all of `lanes`, which stand at t, are kApart from the primitive. Of a ball it takes as
+  /// Those of `lanes`, which stand at t, that are kApart from the primitive. Of a ball it takes as
   /// long to tell as to intersect it: nobody knows.
-  HWY_INLINE bool are_apart(uint32_t index, const PacketV& t, LaneMask lanes) {
-    if (primitive(index).ball_radius > 0) return false;
+  HWY_INLINE LaneMask apart(uint32_t index, const PacketV& t, LaneMask lanes) {
+    if (primitive(index).ball_radius > 0) return 0;
     LaneMask& known = workspace_.apart[index];
     if ((lanes & ~known) != 0) {
       if (!has_points_) find_points(rays_, t, apart_, points_);
       known |= lanes_apart(primitive(index), frame_.pivot, points_, apart_);
       has_points_ = any_apart_ = true;
     }
-    return (lanes & ~known) == 0;
+    return lanes & known;
   }
   /// The lanes have gone on.
   HWY_INLINE void forget_apart(LaneMask lanes) {
@@ -79,15 +92,15 @@ class ListSegments {
     for (uint32_t i = 0; i < list_.list->count(); ++i) workspace_.apart[i] &= ~lanes;
   }
 
-  /// For who reads them all: what is missed has segments too.
-  void compute_all() {
+  /// For who reads all of the lanes': what they miss has segments too.
+  void compute_all(LaneMask lanes) {
     for (uint32_t i = 0; i < list_.list->count(); ++i) {
-      if (!is_missed(i)) {
-        compute(i);
-        continue;
+      const LaneMask wanted = lanes & reached(i);
+      if (wanted != 0) {
+        compute(i, wanted);
+      } else if (workspace_.computed[i] == 0) {
+        clear(workspace_.segments[i]);
       }
-      std::fill_n(workspace_.segments[i].start, kPacketRays, kInfinity);
-      std::fill_n(workspace_.segments[i].end, kPacketRays, -kInfinity);
     }
   }
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
@@ -98,6 +111,14 @@ class ListSegments {
   HWY_INLINE LaneMask* standing() { return workspace_.standing.data(); }
 
  private:
+  static HWY_INLINE void clear(PacketSegments& segments) {
+    const Wide d;
+    for (int c = 0; c < kChunks; ++c) {
+      hn::Store(hn::Set(d, kInfinity), d, segments.start + first_lane(c));
+      hn::Store(hn::Set(d, -kInfinity), d, segments.end + first_lane(c));
+    }
+  }
+
   const FrameRays& frame_;
   const RayPacket& rays_;
   const TraceList& list_;
@@ -157,17 +178,16 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   };
   for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
   for (uint32_t index = list.count(); index-- > 0;) {
-    const LaneMask active = standing[index + CellList::kFirst];
-    if (active == 0) continue;
+    const LaneMask standing_here = standing[index + CellList::kFirst];
+    if (standing_here == 0) continue;
     standing[index + CellList::kFirst] = 0;
     LaneMask& outer = standing[list.if_outside[index]];
-    if (segments.is_missed(index)) {
-      outer |= active;
-      continue;
-    }
+    LaneMask active = standing_here & segments.reached(index);
+    outer |= standing_here & ~active;
+    if (active == 0) continue;
     const LaneMask may_enter = active & changing(list.if_inside[index]);
     WideV ahead[kChunks];
-    if (segments.is_unknown(index)) {
+    if (!segments.are_known(index, active)) {
       const double nearest_t = trace.nearest_t[index];
       if ((lanes_from(walk.t, nearest_t) & active) == 0) {
         // Outside as yet, until there at the earliest.
@@ -176,12 +196,14 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
         outer |= active;
         continue;
       }
-      if (may_enter == 0 && segments.are_apart(index, walk.t, active)) {
-        outer |= active;
-        continue;
+      if (may_enter == 0) {
+        const LaneMask apart = segments.apart(index, walk.t, active);
+        outer |= apart;
+        active &= ~apart;
+        if (active == 0) continue;
       }
     }
-    const PacketSegments& segment = segments.compute(index);
+    const PacketSegments& segment = segments.compute(index, active);
     const LaneMask may_leave = active & changing(list.if_outside[index]);
     LaneMask inside = 0;
     for (int c = 0; c < kChunks; ++c) {
@@ -213,9 +235,9 @@ HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   while (number >= CellList::kFirst) {
     const uint32_t index = number - CellList::kFirst;
     number = list.if_outside[index];
-    if (segments.is_missed(index)) continue;
-    if ((lanes_from(walk.t, trace.nearest_t[index]) & walk.live) == 0) continue;
-    const PacketSegments& segment = segments.compute(index);
+    const LaneMask lanes = walk.live & segments.reached(index);
+    if ((lanes_from(walk.t, trace.nearest_t[index]) & lanes) == 0) continue;
+    const PacketSegments& segment = segments.compute(index, lanes);
     for (int c = 0; c < kChunks; ++c) {
       const WideV start = hn::Load(d, segment.start + first_lane(c));
       walk.t.chunk[c] = hn::Min(start, walk.t.chunk[c]);

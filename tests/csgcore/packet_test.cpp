@@ -389,8 +389,12 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
 }
 
 /// Rays, 4e-5 from the first to the last, straight down onto a plate with a pocket whose wall
-/// stands `aside` of them. Returns how many intersections they took.
-uint64_t trace_beside_a_pocket(double aside, double& hit_z) {
+/// stands `aside` of them, and that only some may reach.
+struct PocketTrace {
+  uint64_t intersections;
+  double z[kPacketRays];
+};
+PocketTrace trace_beside_a_pocket(double aside, LaneMask may_reach = kAllLanes) {
   const CanonicalPrimitive primitives[] = {
       canonicalize(make_frustum(-1, 1, 10, 10)),
       canonicalize(make_frustum(0, 5, 1, 1, {Mat3{1.0}, {0, 1 + aside, 0}}))};
@@ -414,25 +418,85 @@ uint64_t trace_beside_a_pocket(double aside, double& hit_z) {
   list.list = &cells;
   list.nearest_t = nearest_t;
   list.earliest_t = -20;
+  const LaneMask reached[] = {may_reach, kAllLanes};  // the last literal comes first
+  list.reached = reached;
   TraceSubject subject;
   subject.thinnest_piece = 1e-9;
   PacketWorkspace workspace;
   PacketHits hits;
   trace_packet(frame, rays, kAllLanes, list, subject, workspace, hits);
   EXPECT_EQ(hits.hits, kAllLanes);
-  hit_z = view.eye.z - (frame.base_s + hits.t[0]);
-  return workspace.intersections;
+  PocketTrace trace{workspace.intersections, {}};
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    trace.z[lane] = view.eye.z - (frame.base_s + hits.t[lane]);
+  }
+  return trace;
 }
 
 TEST(Hits, DoNotIntersectWhatTheyLieBeside) {
-  double z = 0;
-  EXPECT_EQ(trace_beside_a_pocket(0.1, z), kPacketRays);
-  EXPECT_NEAR(z, 1, 1e-12);
+  const auto expect = [](double aside, uint64_t intersections, double z) {
+    const PocketTrace trace = trace_beside_a_pocket(aside);
+    EXPECT_EQ(trace.intersections, intersections);
+    EXPECT_NEAR(trace.z[0], z, 1e-12);
+  };
+  expect(0.1, kPacketRays, 1);
   // Nearly on its wall, and within it.
-  EXPECT_EQ(trace_beside_a_pocket(3e-5, z), 2 * kPacketRays);
-  EXPECT_NEAR(z, 1, 1e-12);
-  EXPECT_EQ(trace_beside_a_pocket(-0.1, z), 2 * kPacketRays);
-  EXPECT_NEAR(z, 0, 1e-12);
+  expect(3e-5, 2 * kPacketRays, 1);
+  expect(-0.1, 2 * kPacketRays, 0);
+}
+
+TEST(Hits, IntersectLanesThatMayMeetOnly) {
+  checks::for_each_simd_level([](SimdLevel level) {
+    SCOPED_TRACE(checks::name_of(level));
+    const LaneMask may_reach = 1u << 1 | 1u << 6 | 1u << 31;
+    const PocketTrace trace = trace_beside_a_pocket(-0.1, may_reach);
+    EXPECT_EQ(trace.intersections, kPacketRays + 3 * 4);  // four lanes at a time
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      EXPECT_NEAR(trace.z[lane], may_reach >> lane & 1 ? 0 : 1, 1e-12) << lane;
+    }
+  });
+}
+
+TEST(FindReached, TellsThePixelsOfTwoBlocks) {
+  std::mt19937 random(12);
+  const uint32_t x = 40, y = 24;
+  std::vector<Extent> extents;
+  std::vector<uint32_t> primitives;
+  const auto add = [&](double low_x, double high_x, double low_y, double high_y) {
+    const double half[] = {0.5 * (high_x - low_x), 0.5 * (high_y - low_y), 0};
+    extents.push_back(
+        {{low_x + half[0], low_y + half[1], 0}, {half[0], half[1], half[2]}, kInfinity, 0});
+    primitives.push_back(static_cast<uint32_t>(primitives.size()) | CellList::kComplementBit);
+  };
+  add(-1e6, 1e6, -1e6, 1e6);
+  add(x, x, y, y);
+  add(x + 7, 1e6, y + 7, 1e6);
+  add(-1e6, x - 1, y, y + 7);
+  add(x, x + 7, y + 8, 1e6);
+  for (int i = 0; i < 2000; ++i) {
+    const double from_x = std::floor(uniform(random, x - 10, x + 10));
+    const double from_y = std::floor(uniform(random, y - 10, y + 10));
+    add(from_x, from_x + std::floor(uniform(random, 0, 12)), from_y,
+        from_y + std::floor(uniform(random, 0, 12)));
+  }
+  const auto holds = [](const Extent& extent, double pixel_x, double pixel_y) {
+    return std::abs(pixel_x - extent.center[0]) <= extent.half[0] &&
+           std::abs(pixel_y - extent.center[1]) <= extent.half[1];
+  };
+  checks::for_each_simd_level([&](SimdLevel level) {
+    SCOPED_TRACE(checks::name_of(level));
+    std::vector<LaneMask> blocks[2];
+    for (auto& block : blocks) block.resize(primitives.size());
+    find_reached(extents.data(), primitives, x, y, blocks[0].data(), blocks[1].data());
+    for (size_t i = 0; i < extents.size(); ++i) {
+      for (uint32_t lane = 0; lane < 2 * kPacketRays; ++lane) {
+        const LaneMask lanes = blocks[lane / kPacketRays][i];
+        ASSERT_EQ((lanes >> lane % kPacketRays & 1) != 0,
+                  holds(extents[i], x + lane % kPacketWidth_px, y + lane / kPacketWidth_px))
+            << i << ' ' << lane;
+      }
+    }
+  });
 }
 
 // --- Instruction sets ---
