@@ -205,12 +205,14 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
   LaneMask found = 0;
   LaneMask several = 0;
   bool any_apart = false;
-  for (uint32_t index = 0; index < trace.list->count(); ++index) {
+  const double furthest_t = furthest_of(walk.t, lanes);
+  const uint32_t count = trace.list->count();
+  for (uint32_t index = 0; index < count; ++index) {
     LaneMask reached = lanes & segments.reached(index);
     if (reached == 0) continue;
     if (!segments.are_known(index, reached)) {
       const double nearest_t = trace.nearest_t[index];
-      if ((lanes_from(walk.t, nearest_t) & reached) == 0) {
+      if (furthest_t < nearest_t) {
         for (int c = 0; c < kChunks; ++c) {
           const WideV ahead = hn::Sub(hn::Set(d, nearest_t), walk.t.chunk[c]);
           WideV& own = gap.chunk[c];

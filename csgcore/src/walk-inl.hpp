@@ -45,25 +45,30 @@ class ListSegments {
       workspace.apart.resize(count);
       workspace.standing.resize(count + CellList::kFirst, 0);
     }
+    entries_ = list.list->primitive.data();
+    segments_ = workspace.segments.data();
+    computed_ = workspace.computed.data();
+    reached_ = workspace.reached.data();
+    apart_of_ = workspace.apart.data();
     for (uint32_t i = 0; i < count; ++i) {
       const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
-      workspace.reached[i] = reached;
-      workspace.computed[i] = workspace.apart[i] = 0;
+      reached_[i] = reached;
+      computed_[i] = apart_of_[i] = 0;
       // Of a large scene, they come from far away.
       if (reached != 0) prefetch_rays_part(primitive(i));
     }
   }
   /// The lanes that may meet the primitive: the others are outside of it all along.
-  HWY_INLINE LaneMask reached(uint32_t index) const { return workspace_.reached[index]; }
+  HWY_INLINE LaneMask reached(uint32_t index) const { return reached_[index]; }
   /// Whether their segments are computed.
   HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
-    return (lanes & ~workspace_.computed[index]) == 0;
+    return (lanes & ~computed_[index]) == 0;
   }
   /// Those of the lanes.
   HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
-    PacketSegments& segments = workspace_.segments[index];
+    PacketSegments& segments = segments_[index];
     if (!are_known(index, lanes)) {
-      LaneMask& computed = workspace_.computed[index];
+      LaneMask& computed = computed_[index];
       const LaneMask missing = whole_fours(lanes & ~computed);
       if (computed == 0 && missing != kAllLanes) clear(segments);
       intersect_lanes(frame_, rays_, missing, primitive(index), segments);
@@ -77,7 +82,7 @@ class ListSegments {
   /// long to tell as to intersect it: nobody knows.
   HWY_INLINE LaneMask apart(uint32_t index, const PacketV& t, LaneMask lanes) {
     if (primitive(index).ball_radius > 0) return 0;
-    LaneMask& known = workspace_.apart[index];
+    LaneMask& known = apart_of_[index];
     if ((lanes & ~known) != 0) {
       if (!has_points_) find_points(rays_, t, apart_, points_);
       known |= lanes_apart(primitive(index), frame_.pivot, points_, apart_);
@@ -89,7 +94,7 @@ class ListSegments {
   HWY_INLINE void forget_apart(LaneMask lanes) {
     has_points_ = false;
     if (!any_apart_) return;
-    for (uint32_t i = 0; i < list_.list->count(); ++i) workspace_.apart[i] &= ~lanes;
+    for (uint32_t i = 0; i < list_.list->count(); ++i) apart_of_[i] &= ~lanes;
   }
 
   /// For who reads all of the lanes': what they miss has segments too.
@@ -98,13 +103,13 @@ class ListSegments {
       const LaneMask wanted = lanes & reached(i);
       if (wanted != 0) {
         compute(i, wanted);
-      } else if (workspace_.computed[i] == 0) {
-        clear(workspace_.segments[i]);
+      } else if (computed_[i] == 0) {
+        clear(segments_[i]);
       }
     }
   }
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
-    return list_.primitives[list_.list->primitive[index] & kPrimitiveBits];
+    return list_.primitives[entries_[index] & kPrimitiveBits];
   }
   /// By a literal's number, or a constant: the lanes whose evaluation stands there. Between
   /// evaluations, none stand at literals.
@@ -123,6 +128,13 @@ class ListSegments {
   const RayPacket& rays_;
   const TraceList& list_;
   const double apart_;
+  // What the vectors of the list and the workspace hold, whose own pointers the compiler would read
+  // again after every store of a mask:
+  const uint32_t* entries_;
+  PacketSegments* segments_;
+  LaneMask* computed_;
+  LaneMask* reached_;
+  LaneMask* apart_of_;
   bool any_apart_ = false;
   bool has_points_ = false;
   PacketPoints points_;  // where the lanes stand
@@ -150,6 +162,16 @@ HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
   return result;
 }
 
+/// The largest value of any of the lanes; −∞ of none.
+HWY_INLINE double furthest_of(const PacketV& v, LaneMask lanes) {
+  const Wide d;
+  WideV furthest = hn::Set(d, -kInfinity);
+  for (int c = 0; c < kChunks; ++c) {
+    furthest = hn::Max(furthest, hn::IfThenElse(mask_of(lanes, c), v.chunk[c], furthest));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, furthest));
+}
+
 /// Lowers `next_t` of `lanes` to what lies ahead of them.
 HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const PacketV& t,
                         PacketV& next_t) {
@@ -169,6 +191,8 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
                          LaneMask before, Evaluation& result) {
   const Wide d;
   const CellList& list = *trace.list;
+  const uint32_t* const if_inside = list.if_inside.data();
+  const uint32_t* const if_outside = list.if_outside.data();
   LaneMask* const standing = segments.standing();
   standing[CellList::kFalse] = standing[CellList::kTrue] = 0;
   standing[list.root] = walk.live;
@@ -177,19 +201,20 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
     return number < CellList::kFirst ? other[number] : kAllLanes;
   };
   for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
+  const double furthest_t = furthest_of(walk.t, walk.live);
   for (uint32_t index = list.count(); index-- > 0;) {
     const LaneMask standing_here = standing[index + CellList::kFirst];
     if (standing_here == 0) continue;
     standing[index + CellList::kFirst] = 0;
-    LaneMask& outer = standing[list.if_outside[index]];
+    LaneMask& outer = standing[if_outside[index]];
     LaneMask active = standing_here & segments.reached(index);
     outer |= standing_here & ~active;
     if (active == 0) continue;
-    const LaneMask may_enter = active & changing(list.if_inside[index]);
+    const LaneMask may_enter = active & changing(if_inside[index]);
     WideV ahead[kChunks];
     if (!segments.are_known(index, active)) {
       const double nearest_t = trace.nearest_t[index];
-      if ((lanes_from(walk.t, nearest_t) & active) == 0) {
+      if (furthest_t < nearest_t) {
         // Outside as yet, until there at the earliest.
         for (int c = 0; c < kChunks; ++c) ahead[c] = hn::Set(d, nearest_t);
         if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
@@ -204,7 +229,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
       }
     }
     const PacketSegments& segment = segments.compute(index, active);
-    const LaneMask may_leave = active & changing(list.if_outside[index]);
+    const LaneMask may_leave = active & changing(if_outside[index]);
     LaneMask inside = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV start = hn::Load(d, segment.start + first_lane(c));
@@ -218,7 +243,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
       inside |= bits_of(is_inside, c);
     }
     if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
-    standing[list.if_inside[index]] |= active & inside;
+    standing[if_inside[index]] |= active & inside;
     outer |= active & ~inside;
   }
   result.value = standing[CellList::kTrue];
