@@ -412,15 +412,6 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
   return result;
 }
 
-OperandGroups::Members OperandGroups::members(uint32_t group) const {
-  const Range range = members_[group - first_group_];
-  const auto part = [&](const std::vector<uint32_t>& all) {
-    return std::span(all).subspan(range.first, range.count);
-  };
-  return {part(primitive_), part(if_inside_), part(if_outside_), range.first, group,
-          range.is_union};
-}
-
 BallRows OperandGroups::balls(uint32_t group) const {
   const float* const x = balls_.data() + members_[group - first_group_].first;
   const size_t row = member_row();

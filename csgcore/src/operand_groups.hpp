@@ -61,7 +61,14 @@ class OperandGroups {
     /// Each member holds the group, and the next is asked otherwise: any of them may be left out.
     bool is_union;
   };
-  Members members(uint32_t group) const;
+  Members members(uint32_t group) const {
+    const Range& range = members_[group - first_group_];
+    const auto part = [&range](const std::vector<uint32_t>& all) {
+      return std::span(all.data() + range.first, range.count);
+    };
+    return {part(primitive_), part(if_inside_), part(if_outside_), range.first, group,
+            range.is_union};
+  }
   /// Of all groups together.
   uint32_t member_count() const { return static_cast<uint32_t>(if_inside_.size()); }
   /// How far rows of what is kept for each member lie apart.

@@ -348,10 +348,5 @@ void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
   }
 }
 
-ScreenFate fate_on_screen(const Extent& screen) {
-  if (screen.half[0] < 0 && std::isinf(screen.half[0])) return ScreenFate::kOffScreen;
-  return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
-}
-
 }  // namespace csgcore
 #endif  // HWY_ONCE

@@ -2,6 +2,7 @@
 // by.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "csgcore/extent.hpp"
@@ -36,7 +37,10 @@ struct Rectangle {
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
 
 enum class ScreenFate : uint8_t { kVisible, kOffScreen, kSubPixel };
-ScreenFate fate_on_screen(const Extent& screen);
+inline ScreenFate fate_on_screen(const Extent& screen) {
+  if (screen.half[0] == -std::numeric_limits<double>::infinity()) return ScreenFate::kOffScreen;
+  return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
+}
 
 inline double nearest_t(const Extent& screen) { return screen.center[2] - screen.half[2]; }
 inline double furthest_t(const Extent& screen) { return screen.center[2] + screen.half[2]; }
