@@ -26,8 +26,8 @@ HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
   return (lanes & 0x11111111u) * 0xFu;
 }
 
-/// The segments of a list's primitives, computed where first needed; those of lanes that are not
-/// known are empty.
+/// The segments of a list's primitives, computed where first needed. Once any lane's is known,
+/// those of the others are empty; or right, where a vector holds more than four.
 class ListSegments {
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
