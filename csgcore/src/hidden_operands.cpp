@@ -20,6 +20,10 @@ constexpr double kLeastHidden = 0.25;
 /// As many as have bits in a word.
 constexpr size_t kAtOnce = 64;
 
+/// To find who reaches into what is sealed takes so many steps at most for each operand: where much
+/// is connected with the outside, it may take a thousand.
+constexpr size_t kMostSteps = 4;
+
 /// Groups nested deeper are not judged.
 constexpr size_t kDeepest = 32;
 
@@ -328,8 +332,9 @@ class HiddenSearch {
           groups_.members(index).primitive,
           [this](uint32_t entry) { return holds_sealed_[entry & kPrimitiveBits] != 0; });
     }
+    steps_left_ = kMostSteps * groups_.member_count();
     std::vector<uint32_t> seen = seen_near_sealed();
-    while (!seen.empty()) {
+    while (!seen.empty() && steps_left_ > 0) {
       const uint32_t operand = seen.back();
       seen.pop_back();
       for (const uint32_t other : sealed_near(operand)) {
@@ -338,6 +343,7 @@ class HiddenSearch {
         seen.push_back(other);
       }
     }
+    if (steps_left_ == 0) std::ranges::replace(standings_, Standing::kSealed, Standing::kSeen);
   }
 
   /// Operands that are seen and may reach into what is sealed.
@@ -359,23 +365,27 @@ class HiddenSearch {
     return seen;
   }
 
-  /// The sealed operands within the margin of this one's reach. Valid until the next call.
+  /// The sealed operands within the margin of this one's reach, as far as there are steps left.
+  /// Valid until the next call.
   std::span<const uint32_t> sealed_near(uint32_t operand) {
     near_.clear();
     const Extent* const extents = groups_.extents().data();
     const Box box = box_of(extents[operand], margin_);
     pending_.assign(1, outermost());
-    while (!pending_.empty()) {
+    while (!pending_.empty() && steps_left_ > 0) {
       // Behind all of these vectors may read.
       const std::span<const uint32_t> operands = pending_.back();
       pending_.pop_back();
       for (size_t first = 0; first < operands.size(); first += kAtOnce) {
         const uint32_t* const part = operands.data() + first;
         const auto count = static_cast<uint32_t>(std::min(operands.size() - first, kAtOnce));
+        steps_left_ -= std::min<size_t>(steps_left_, 1);
         uint64_t near = ~test_extents(extents, part, count, {box, box, 0}).outside[0];
         for (near &= first_bits(count); near != 0; near &= near - 1) {
           const uint32_t other = part[std::countr_zero(near)] & kPrimitiveBits;
-          if (!holds_sealed_[other] || are_apart(operand, other)) continue;
+          if (!holds_sealed_[other]) continue;
+          steps_left_ -= std::min<size_t>(steps_left_, 1);
+          if (are_apart(operand, other)) continue;
           if (groups_.is_union(other)) {
             pending_.push_back(groups_.members(other).primitive);
           } else {
@@ -404,6 +414,7 @@ class HiddenSearch {
   std::vector<uint8_t> holds_sealed_;  // is sealed, or is a union of which some member does
   std::vector<uint32_t> outermost_;    // of the whole list; and the vectors' padding
   size_t outermost_count_ = 0;
+  size_t steps_left_ = 0;       // of unseal
   std::vector<uint32_t> near_;  // sealed_near
   std::vector<std::span<const uint32_t>> pending_;
 };

@@ -170,6 +170,26 @@ TEST(HiddenOperands, WhatIsWhollyTakenAway) {
   expect_the_whole_picture(solid);
 }
 
+/// Voids in a crowd, each of which reaches into hundreds, and some into the open: to find that all
+/// of them are seen would take longer than many pictures. Others are not looked for, then.
+TEST(HiddenOperands, ConnectedCrowdsAreGivenUp) {
+  Designer design;
+  design.open(Op::kDifference);
+  design.add(make_block({kHalf, kHalf, 4 * kHalf}));
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const double room = i < 20 ? kHalf : kHalf - 2.1;
+    const Vec3 place = checks::random_point(random, {Vec3(-room), Vec3(room)});
+    design.add(make_sphere(2, moved(place)));
+  }
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 place(i % 10 - 4.5, i / 10 % 10 - 4.5, kHalf + 4 + i / 100);
+    design.add(make_sphere(0.3, moved(place)));
+  }
+  design.close();
+  EXPECT_EQ(hidden_in(solid_of(design.finish())).count(), 0u);
+}
+
 TEST(HiddenOperands, WhatStandsTwiceStays) {
   Designer design;
   design.open(Op::kUnion);
