@@ -154,6 +154,14 @@ CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell)
   return canonical;
 }
 
+namespace {
+
+double largest_coordinate(const CanonicalPrimitive& primitive) {
+  return largest(glm::max(glm::abs(primitive.bounds.min), glm::abs(primitive.bounds.max)));
+}
+
+}  // namespace
+
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world) {
   const Vec3 direction = direction_world * primitive.canonical_to_world;
   return primitive.center + primitive.canonical_to_world * support_canonical(primitive, direction);
@@ -163,6 +171,7 @@ Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_w
 /// centres on, which is the one for balls.
 bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
   constexpr int kSteps = 12;
+  margin += kTermRounding * (largest_coordinate(a) + largest_coordinate(b));
   const Vec3 between = b.center - a.center;
   const double distance = glm::length(between);
   if (!(distance > 0)) return false;
@@ -193,14 +202,19 @@ double reach(const CanonicalPrimitive& primitive) {
 }
 
 bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius) {
-  const Vec3 center = primitive.world_to_canonical * (center_world - primitive.center);
-  const double canonical_radius = radius * primitive.canonical_stretch;
+  const Vec3 offset = center_world - primitive.center;
+  if (primitive.ball_radius > 0) {
+    const double rounding =
+        kTermRounding * (largest_coordinate(primitive) + largest(glm::abs(center_world)));
+    return glm::length(offset) < primitive.ball_radius - radius - rounding;
+  }
+  const Vec3 center = primitive.world_to_canonical * offset;
+  const double terms = largest(glm::abs(offset) + glm::abs(center_world));
+  const double canonical_radius =
+      radius * primitive.canonical_stretch + kCanonicalSlack + primitive.canonical_error * terms;
   switch (primitive.shape) {
     case Shape::kSphere:
-      // Tighter for a ball, which is stretched alike everywhere.
-      return primitive.ball_radius > 0
-                 ? glm::length(center_world - primitive.center) < primitive.ball_radius - radius
-                 : glm::length(center) < 1 - canonical_radius;
+      return glm::length(center) < 1 - canonical_radius;
     case Shape::kFrustum:
       return frustum::holds_ball(primitive, center, canonical_radius);
     case Shape::kPolyhedron:

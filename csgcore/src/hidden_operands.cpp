@@ -1,3 +1,19 @@
+// Operands are what may be left out: what stands in groups, or takes away, once. Walls are the
+// other primitives of the whole list. By f the solid's value is meant, as a function of who holds a
+// point.
+//
+// Cancelled is who changes f nowhere in its reach, whatever the operands do that reach in there. It
+// may go, and so may all of them: if one is cancelled because another holds it, that other, should
+// it be cancelled too, changes nothing there either.
+//
+// Sealed is who stands where f is true if no operand holds, and into whom no operand reaches that
+// is not sealed itself. About all the sealed together runs a border that none of them gets to. No
+// other operand does: there f is as if none held, and so the solid holds. A ray from outside has
+// ended when it gets there. Without the sealed, f is true throughout within, and as before
+// elsewhere. (Who takes away and holds all of a sealed one's place counts with what it is there. If
+// it is sealed itself, then f is true there without it, too.)
+//
+// Reach means the primitive, or the box of a group, and the margin about it.
 #include "hidden_operands.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -23,6 +39,9 @@ constexpr size_t kAtOnce = 64;
 /// To find who reaches into what is sealed takes so many steps at most for each operand: where much
 /// is connected with the outside, it may take a thousand.
 constexpr size_t kMostSteps = 4;
+
+/// In a longer list nobody is judged: for each group and operand of the list, all of it is asked.
+constexpr uint32_t kLongestList = 1024;
 
 /// Groups nested deeper are not judged.
 constexpr size_t kDeepest = 32;
@@ -67,7 +86,7 @@ bool is_ball_apart(const Extent& ball, const Extent& other, double margin) {
   return distance2 > ball.outside2;
 }
 
-/// Judges operands against the primitives of the whole list. Walls, of these, are all but operands.
+/// Judges operands by the primitives of the whole list.
 class Judge {
  public:
   Judge(const OperandGroups& groups, std::span<const CanonicalPrimitive> primitives, double margin,
@@ -89,7 +108,7 @@ class Judge {
     judge(operand, groups_.list(), 0, Effort::kShapes);
   }
 
-  /// Asks the members that were not asked.
+  /// Asks the members that were not asked, of groups of primitives.
   void judge_rest(uint32_t operand) {
     role_ = operand;
     judge_rest_of(operand);
@@ -239,7 +258,7 @@ class HiddenSearch {
         parts_(groups.count(), Part::kRepeated),
         holds_sealed_(groups.count()) {
     find_parts();
-    outermost_count_ = static_cast<uint32_t>(outermost_.size());
+    outermost_count_ = outermost_.size();
     outermost_.resize(outermost_.size() + kVectorPadding);
   }
 
@@ -267,16 +286,16 @@ class HiddenSearch {
       uint8_t& number = uses[entry & kPrimitiveBits];
       number = static_cast<uint8_t>(std::min(number + 1, 2));
     }
-    std::vector<uint8_t> is_common(groups_.count());
+    std::vector<uint8_t> is_grouped(groups_.count());
     for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
       for (const uint32_t own : groups_.own(group)) parts_[own] = Part::kOperand;
       for (const uint32_t entry : groups_.members(group).primitive) {
-        is_common[entry & kPrimitiveBits] = 1;
+        is_grouped[entry & kPrimitiveBits] = 1;
       }
     }
     for (const uint32_t entry : in_list) {
       const uint32_t index = entry & kPrimitiveBits;
-      if (uses[index] != 1 || is_common[index]) continue;
+      if (uses[index] != 1 || is_grouped[index]) continue;
       const bool is_complement = (entry & CellList::kComplementBit) != 0;
       parts_[index] = groups_.is_group(index) || is_complement ? Part::kOperand : Part::kWall;
       outermost_.push_back(index);
@@ -402,7 +421,13 @@ class HiddenSearch {
     if (groups_.is_group(a)) return false;
     const Extents& extents = groups_.extents();
     if (groups_.is_group(b)) return is_ball_apart(extents[a], extents[b], margin_);
-    return csgcore::are_apart(primitives_[a], primitives_[b], margin_);
+    // Of what is long and thin, boxes tell more.
+    const auto is_beside = [&](uint32_t one, uint32_t other) {
+      const Box box = box_of(extents[other], margin_);
+      return classify(primitives_[one], box) == Classification::kOutside;
+    };
+    return csgcore::are_apart(primitives_[a], primitives_[b], margin_) || is_beside(a, b) ||
+           is_beside(b, a);
   }
 
   const OperandGroups& groups_;
@@ -423,7 +448,8 @@ class HiddenSearch {
 
 HiddenOperands find_hidden_operands(const OperandGroups& groups,
                                     std::span<const CanonicalPrimitive> primitives, double margin) {
-  if (groups.count() == groups.first_group()) return {};
+  const bool has_groups = groups.count() > groups.first_group();
+  if (!has_groups || groups.list().count() > kLongestList) return {};
   return HiddenSearch(groups, primitives, margin).find();
 }
 

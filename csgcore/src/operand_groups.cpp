@@ -186,9 +186,9 @@ class OperandGroups::Builder {
     const auto operands = operands_.begin() + static_cast<long>(from);
     const bool has_empty = std::any_of(operands, operands_.end(),
                                        [](const Operand& operand) { return operand.is_empty(); });
-    const bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
-                          (operation.op == Op::kDifference && operands->is_empty()) ||
-                          (operation.op == Op::kIntersection && are_some_apart(from));
+    bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
+                    (operation.op == Op::kDifference && operands->is_empty());
+    if (!is_empty && operation.op == Op::kIntersection) is_empty = find_apart(from);
     if (is_empty) output_.resize(first);
     operands_.erase(std::remove_if(operands, operands_.end(),
                                    [&](const Operand& o) { return is_empty || o.is_empty(); }),
@@ -202,8 +202,8 @@ class OperandGroups::Builder {
     operands_.push_back({first, static_cast<uint32_t>(output_.size()), box});
   }
 
-  /// Whether two of the operands from there on are primitives, and apart.
-  bool are_some_apart(size_t from) {
+  /// Whether two of the operands from there on are primitives, and apart; notes them.
+  bool find_apart(size_t from) {
     for (size_t i = from; i < operands_.size(); ++i) {
       const CanonicalPrimitive* const a = primitive_of(operands_[i]);
       const size_t end = std::min(operands_.size(), i + 1 + kPairedOperands);

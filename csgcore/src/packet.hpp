@@ -64,8 +64,8 @@ struct alignas(64) RayPacket {
 struct alignas(64) PacketSegments {
   double start[kPacketRays];
   double end[kPacketRays];
-  LaneMask start_on_cap;
-  LaneMask end_on_cap;
+  LaneMask start_on_cap = 0;
+  LaneMask end_on_cap = 0;
 };
 
 /// What is to be traced: a list, and what is known about its literals.
@@ -148,7 +148,8 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
 
 /// Of the primitives (indices, the top bit ignored), the lanes that may meet them in the block from
-/// the pixel (x, y) on and in that below it, by their extents on the screen.
+/// the pixel (x, y) on and in that below it, by their extents on the screen, which are no nan. Of
+/// rays through pixels' centres only.
 void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
                   uint32_t y, LaneMask* above, LaneMask* below);
 

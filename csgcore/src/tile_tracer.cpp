@@ -150,7 +150,7 @@ bool has_groups(const OperandGroups& groups, const CellList& list) {
 /// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
 std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
                                     const FrameRays& frame, const TraceSubject& subject) {
-  if (subject.boundary == Boundary::kBehind || groups.list().is_constant()) return std::nullopt;
+  if (groups.list().is_constant()) return std::nullopt;
   if (frame.view.projection == Projection::kOrthographic) return true;
   // Rays start up to a few tolerances from the eye: further in the picture's corners.
   constexpr double kEyeTolerances = 64;
@@ -185,6 +185,7 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
 TileTracer::Seen TileTracer::find_seen(const Solid& solid, const FrameRays& frame,
                                        const TraceSubject& subject) {
   const OperandGroups& outer = solid.outer_groups();
+  if (subject.boundary == Boundary::kBehind) return {solid.groups(), std::nullopt};
   const std::optional<bool> last_value = find_last_value(solid, outer, frame, subject);
   if (&outer == &solid.groups() || last_value == true) return {outer, last_value};
   return {solid.groups(), find_last_value(solid, solid.groups(), frame, subject)};

@@ -190,6 +190,70 @@ TEST(HiddenOperands, ConnectedCrowdsAreGivenUp) {
   EXPECT_EQ(hidden_in(solid_of(design.finish())).count(), 0u);
 }
 
+/// Holes from side to side, between rows of voids.
+TEST(HiddenOperands, LongHolesHideWhatTheyDoNotReach) {
+  Designer design;
+  design.open(Op::kDifference);
+  design.add(make_block(Vec3(kHalf)));
+  add_lattice(design);
+  const Mat3 along_x{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
+  for (int i = 0; i < kSide - 1; ++i) {
+    const Vec3 place(0, 2.5 * (i - 0.5 * (kSide - 2)), 1.25);
+    design.add(make_frustum(-2 * kHalf, 2 * kHalf, 0.1, 0.1, {along_x, place}));
+  }
+  design.close();
+  const Solid solid = solid_of(design.finish());
+  EXPECT_EQ(hidden_in(solid).inside.size(), kLattice);
+  expect_the_whole_picture(solid);
+}
+
+/// A wall so large that its coordinates say little of where it ends.
+TEST(HiddenOperands, HugeWallsHideWhatIsCertain) {
+  std::mt19937 random(1);
+  for (const double huge : {1e9, 1e13}) {
+    Designer design;
+    design.open(Op::kIntersection);
+    design.open(Op::kDifference);
+    const Vec3 up = glm::normalize(Vec3(1, 2, 3));
+    const Vec3 side = glm::normalize(glm::cross(up, Vec3(1, 0, 0)));
+    const Affine placed{Mat3{side, glm::cross(up, side), up}, -huge * up};
+    design.add(make_block(Vec3(huge), placed));
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 place = checks::random_point(random, {Vec3(-kHalf), Vec3(kHalf)});
+      design.add(make_sphere(0.3, moved(place - (glm::dot(place, up) + 0.3) * up)));
+    }
+    design.close();
+    design.add(make_block(Vec3(2 * kHalf)));
+    design.close();
+    const Solid solid = solid_of(design.finish());
+    EXPECT_EQ(hidden_in(solid).count(), 0u);
+  }
+}
+
+/// Operations of a few operands, one in another, and one of many.
+TEST(HiddenOperands, LongListsAreLeftAsTheyAre) {
+  Designer design;
+  design.open(Op::kUnion);
+  const auto add_nested = [&](uint32_t depth) {
+    for (uint32_t i = 0; i < depth; ++i) {
+      design.open(Op::kDifference);
+      design.add(make_sphere(1, moved({0, 30, 0})));
+      design.open(Op::kUnion);
+      design.add(make_sphere(0.5, moved({0, 30.7, 0})));
+    }
+    for (uint32_t i = 0; i < 2 * depth; ++i) design.close();
+  };
+  add_nested(test_support::full_run() ? 20'000 : 2000);
+  design.open(Op::kDifference);
+  design.add(make_block(Vec3(kHalf)));
+  add_lattice(design);
+  design.close();
+  design.close();
+  const Solid solid = solid_of(design.finish());
+  EXPECT_GT(solid.groups().list().count(), 1024u);
+  EXPECT_EQ(hidden_in(solid).count(), 0u);
+}
+
 TEST(HiddenOperands, WhatStandsTwiceStays) {
   Designer design;
   design.open(Op::kUnion);

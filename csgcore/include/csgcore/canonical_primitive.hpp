@@ -52,15 +52,14 @@ Classification classify_within_bounds(const CanonicalPrimitive& primitive, const
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
 /// Whether the two are certainly more than `margin` apart, in world units: a plane was found
-/// between them. `margin` is above what rounding displaces them by.
+/// between them. Of what is long and thin, it often is not.
 bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin);
 
 /// Upper bound of how far from its centre the primitive reaches, in world units; tight for what is
 /// not sheared.
 double reach(const CanonicalPrimitive& primitive);
 
-/// Whether the ball certainly lies in the primitive. Of `radius`, in world units, more than what
-/// rounding displaces surfaces by is not needed.
+/// Whether the ball, of a radius in world units, certainly lies in the primitive.
 bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius);
 
 /// Membership in the closed solid, as exact as double evaluates it.

@@ -59,12 +59,12 @@ class Solid {
   bool contains(const Vec3& point) const;
 
  private:
-  std::shared_ptr<const CanonicalPrimitives> primitives_;
-  ShortCircuitList list_;
-  std::shared_ptr<const CellList> cell_list_;
   void make_groups(const CsgTree& tree, Extents extents);
   void find_outer_groups(const CsgTree& tree);
 
+  std::shared_ptr<const CanonicalPrimitives> primitives_;
+  ShortCircuitList list_;
+  std::shared_ptr<const CellList> cell_list_;
   std::shared_ptr<const OperandGroups> groups_, outer_groups_;
   Box bounds_;
 };
