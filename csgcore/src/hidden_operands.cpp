@@ -39,6 +39,7 @@ constexpr size_t kAtOnce = 64;
 /// To find who reaches into what is sealed takes so many steps at most for each operand: where much
 /// is connected with the outside, it may take a thousand.
 constexpr size_t kMostSteps = 4;
+constexpr size_t kStepsInAnyCase = size_t{1} << 14;
 
 /// In a longer list nobody is judged: for each group and operand of the list, all of it is asked.
 constexpr uint32_t kLongestList = 1024;
@@ -351,7 +352,7 @@ class HiddenSearch {
           groups_.members(index).primitive,
           [this](uint32_t entry) { return holds_sealed_[entry & kPrimitiveBits] != 0; });
     }
-    steps_left_ = kMostSteps * groups_.member_count();
+    steps_left_ = kMostSteps * groups_.member_count() + kStepsInAnyCase;
     std::vector<uint32_t> seen = seen_near_sealed();
     while (!seen.empty() && steps_left_ > 0) {
       const uint32_t operand = seen.back();

@@ -210,7 +210,7 @@ TEST(HiddenOperands, LongHolesHideWhatTheyDoNotReach) {
 /// A wall so large that its coordinates say little of where it ends.
 TEST(HiddenOperands, HugeWallsHideWhatIsCertain) {
   std::mt19937 random(1);
-  for (const double huge : {1e9, 1e13}) {
+  for (const double huge : {1e9, 1e12}) {
     Designer design;
     design.open(Op::kIntersection);
     design.open(Op::kDifference);
@@ -218,15 +218,20 @@ TEST(HiddenOperands, HugeWallsHideWhatIsCertain) {
     const Vec3 side = glm::normalize(glm::cross(up, Vec3(1, 0, 0)));
     const Affine placed{Mat3{side, glm::cross(up, side), up}, -huge * up};
     design.add(make_block(Vec3(huge), placed));
-    for (int i = 0; i < 300; ++i) {
-      const Vec3 place = checks::random_point(random, {Vec3(-kHalf), Vec3(kHalf)});
-      design.add(make_sphere(0.3, moved(place - (glm::dot(place, up) + 0.3) * up)));
+    for (const double deepest : {0.3, 5.0}) {
+      for (int i = 0; i < 300; ++i) {
+        const double depth = deepest - uniform(random, 1e-4, 1e-3);  // the first ones reach out
+        const Vec3 place = checks::random_point(random, {Vec3(-kHalf), Vec3(kHalf)});
+        design.add(make_sphere(0.3, moved(place - (glm::dot(place, up) + depth) * up)));
+      }
     }
     design.close();
     design.add(make_block(Vec3(2 * kHalf)));
     design.close();
     const Solid solid = solid_of(design.finish());
-    EXPECT_EQ(hidden_in(solid).count(), 0u);
+    const std::vector<uint32_t>& inside = hidden_in(solid).inside;
+    ASSERT_GT(inside.size(), 200u);
+    EXPECT_GT(inside.front(), 300u);
   }
 }
 
@@ -236,14 +241,14 @@ TEST(HiddenOperands, LongListsAreLeftAsTheyAre) {
   design.open(Op::kUnion);
   const auto add_nested = [&](uint32_t depth) {
     for (uint32_t i = 0; i < depth; ++i) {
-      design.open(Op::kDifference);
+      design.open(Op::kIntersection);
       design.add(make_sphere(1, moved({0, 30, 0})));
       design.open(Op::kUnion);
       design.add(make_sphere(0.5, moved({0, 30.7, 0})));
     }
     for (uint32_t i = 0; i < 2 * depth; ++i) design.close();
   };
-  add_nested(test_support::full_run() ? 20'000 : 2000);
+  add_nested(2000);
   design.open(Op::kDifference);
   design.add(make_block(Vec3(kHalf)));
   add_lattice(design);
