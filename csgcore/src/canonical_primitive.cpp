@@ -192,9 +192,7 @@ double reach(const CanonicalPrimitive& primitive) {
   if (primitive.ball_radius > 0) return primitive.ball_radius;
   const Mat3& map = primitive.canonical_to_world;
   const Mat3 gram = absolute(glm::transpose(map) * map);
-  if (primitive.shape == Shape::kSphere || primitive.enclosure == Shape::kSphere) {
-    return std::sqrt(largest_row_sum(gram));
-  }
+  if (primitive.enclosure == Shape::kSphere) return std::sqrt(largest_row_sum(gram));
   // The rims, (r cos φ, r sin φ, ±1).
   const double lateral2 = std::max(gram[0][0], gram[1][1]) + gram[0][1];
   const double r = primitive.radius_mid + std::abs(primitive.radius_slope);

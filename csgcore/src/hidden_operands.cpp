@@ -21,11 +21,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <memory>
 
 #include "operand_groups.hpp"
 #include "restriction.hpp"
+#include "subtree_boxes.hpp"
 
 namespace csgcore {
 namespace {
@@ -68,23 +68,10 @@ bool is_hidden(Standing standing) {
   return standing == Standing::kSealed || standing == Standing::kCancelled;
 }
 
+/// And the margin about it.
 Box box_of(const Extent& extent, double margin) {
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = extent.center[axis] - extent.half[axis] - margin;
-    box.max[axis] = extent.center[axis] + extent.half[axis] + margin;
-  }
-  return box;
-}
-
-/// Whether what is a ball stays further than the margin from the other's box.
-bool is_ball_apart(const Extent& ball, const Extent& other, double margin) {
-  double distance2 = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::abs(ball.center[axis] - other.center[axis]) - other.half[axis] - margin;
-    if (gap > 0) distance2 += gap * gap;
-  }
-  return distance2 > ball.outside2;
+  const Box box = box_of(extent);
+  return {box.min - margin, box.max + margin};
 }
 
 /// Judges operands by the primitives of the whole list.
@@ -282,23 +269,25 @@ class HiddenSearch {
  private:
   void find_parts() {
     std::vector<uint8_t> uses(groups_.count());
-    const auto in_list = groups_.list().primitives();
-    for (const uint32_t entry : in_list) {
-      uint8_t& number = uses[entry & kPrimitiveBits];
-      number = static_cast<uint8_t>(std::min(number + 1, 2));
-    }
-    std::vector<uint8_t> is_grouped(groups_.count());
-    for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
-      for (const uint32_t own : groups_.own(group)) parts_[own] = Part::kOperand;
-      for (const uint32_t entry : groups_.members(group).primitive) {
-        is_grouped[entry & kPrimitiveBits] = 1;
+    const auto count = [&uses](std::span<const uint32_t> entries) {
+      for (const uint32_t entry : entries) {
+        uint8_t& number = uses[entry & kPrimitiveBits];
+        number = static_cast<uint8_t>(std::min(number + 1, 2));
       }
+    };
+    const std::span<const uint32_t> in_list = groups_.list().primitives();
+    count(in_list);
+    for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
+      count(groups_.members(group).primitive);
+    }
+    for (uint32_t index = 0; index < groups_.count(); ++index) {
+      if (uses[index] == 1) parts_[index] = Part::kOperand;
     }
     for (const uint32_t entry : in_list) {
       const uint32_t index = entry & kPrimitiveBits;
-      if (uses[index] != 1 || is_grouped[index]) continue;
+      if (uses[index] != 1) continue;
       const bool is_complement = (entry & CellList::kComplementBit) != 0;
-      parts_[index] = groups_.is_group(index) || is_complement ? Part::kOperand : Part::kWall;
+      if (!groups_.is_group(index) && !is_complement) parts_[index] = Part::kWall;
       outermost_.push_back(index);
     }
     // Groups come after what they hold.
@@ -347,7 +336,7 @@ class HiddenSearch {
         holds_sealed_[index] = standings_[index] == Standing::kSealed;
         continue;
       }
-      standings_[index] = Standing::kMixed;
+      standings_[index] = Standing::kMixed;  // its own was handed on
       holds_sealed_[index] = std::ranges::any_of(
           groups_.members(index).primitive,
           [this](uint32_t entry) { return holds_sealed_[entry & kPrimitiveBits] != 0; });
@@ -399,12 +388,12 @@ class HiddenSearch {
       for (size_t first = 0; first < operands.size(); first += kAtOnce) {
         const uint32_t* const part = operands.data() + first;
         const auto count = static_cast<uint32_t>(std::min(operands.size() - first, kAtOnce));
-        steps_left_ -= std::min<size_t>(steps_left_, 1);
+        take_step();
         uint64_t near = ~test_extents(extents, part, count, {box, box, 0}).outside[0];
         for (near &= first_bits(count); near != 0; near &= near - 1) {
           const uint32_t other = part[std::countr_zero(near)] & kPrimitiveBits;
           if (!holds_sealed_[other]) continue;
-          steps_left_ -= std::min<size_t>(steps_left_, 1);
+          take_step();
           if (are_apart(operand, other)) continue;
           if (groups_.is_union(other)) {
             pending_.push_back(groups_.members(other).primitive);
@@ -417,18 +406,21 @@ class HiddenSearch {
     return near_;
   }
 
-  /// Of boxes that are not.
+  void take_step() { steps_left_ -= steps_left_ > 0; }
+
+  /// Of groups that only their boxes are, if at all.
   bool are_apart(uint32_t a, uint32_t b) const {
     if (groups_.is_group(a)) return false;
-    const Extents& extents = groups_.extents();
-    if (groups_.is_group(b)) return is_ball_apart(extents[a], extents[b], margin_);
+    if (groups_.is_group(b)) return is_beside(a, b);
     // Of what is long and thin, boxes tell more.
-    const auto is_beside = [&](uint32_t one, uint32_t other) {
-      const Box box = box_of(extents[other], margin_);
-      return classify(primitives_[one], box) == Classification::kOutside;
-    };
     return csgcore::are_apart(primitives_[a], primitives_[b], margin_) || is_beside(a, b) ||
            is_beside(b, a);
+  }
+
+  /// Whether the primitive is apart from the other's box.
+  bool is_beside(uint32_t primitive, uint32_t other) const {
+    const Box box = box_of(groups_.extents()[other], margin_);
+    return classify(primitives_[primitive], box) == Classification::kOutside;
   }
 
   const OperandGroups& groups_;

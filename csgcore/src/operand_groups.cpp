@@ -27,12 +27,6 @@ constexpr size_t kPairedOperands = 8;
 /// further than they need to.
 constexpr double kMostMoved = 1.0 / 32;
 
-Box box_of(const Extent& extent) {
-  const Vec3 center{extent.center[0], extent.center[1], extent.center[2]};
-  const Vec3 half{extent.half[0], extent.half[1], extent.half[2]};
-  return {center - half, center + half};
-}
-
 /// As if of a ball of infinite radius, and nothing inside: nobody asks more than the box.
 Extent extent_of_box(const Box& box) {
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
+#include "csgcore/extent.hpp"
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {
@@ -13,6 +14,12 @@ namespace csgcore {
 inline Box intersection(const Box& a, const Box& b) {
   const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
   return box.empty() ? Box{} : box;
+}
+
+inline Box box_of(const Extent& extent) {
+  const Vec3 center{extent.center[0], extent.center[1], extent.center[2]};
+  const Vec3 half{extent.half[0], extent.half[1], extent.half[2]};
+  return {center - half, center + half};
 }
 
 /// For each token of a tree in postfix order the box of its subtree: a union's is that of its

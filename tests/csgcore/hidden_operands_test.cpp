@@ -79,27 +79,26 @@ void expect_the_whole_picture(const Solid& solid) {
 
 Solid solid_of(const Scene& scene) { return Solid(canonical_primitives(scene), scene.model); }
 
-const HiddenOperands& hidden_in(const Solid& solid) { return solid.outer_groups().hidden(); }
-
-TEST(HiddenOperands, VoidsInASolid) {
+Solid block_and_lattice(Op op) {
   Designer design;
-  design.open(Op::kDifference);
+  design.open(op);
   design.add(make_block(Vec3(kHalf)));
   add_lattice(design);
   design.close();
-  const Solid solid = solid_of(design.finish());
+  return solid_of(design.finish());
+}
+
+const HiddenOperands& hidden_in(const Solid& solid) { return solid.outer_groups().hidden(); }
+
+TEST(HiddenOperands, VoidsInASolid) {
+  const Solid solid = block_and_lattice(Op::kDifference);
   EXPECT_EQ(hidden_in(solid).inside.size(), kLattice);
   EXPECT_EQ(solid.outer_groups().list().count(), 1u);
   expect_the_whole_picture(solid);
 }
 
 TEST(HiddenOperands, PartsInASolid) {
-  Designer design;
-  design.open(Op::kUnion);
-  design.add(make_block(Vec3(kHalf)));
-  add_lattice(design);
-  design.close();
-  const Solid solid = solid_of(design.finish());
+  const Solid solid = block_and_lattice(Op::kUnion);
   EXPECT_EQ(hidden_in(solid).cancelled.size(), kLattice);
   EXPECT_EQ(solid.outer_groups().list().count(), 1u);
   expect_the_whole_picture(solid);
@@ -280,12 +279,7 @@ TEST(HiddenOperands, WhatStandsTwiceStays) {
 }
 
 TEST(HiddenOperands, AreSeenByAnEyeAmongThem) {
-  Designer design;
-  design.open(Op::kDifference);
-  design.add(make_block(Vec3(kHalf)));
-  add_lattice(design);
-  design.close();
-  const Solid solid = solid_of(design.finish());
+  const Solid solid = block_and_lattice(Op::kDifference);
   View view = checks::trace_views(solid.bounds(), 64, 48)[0].view;
   view.half_height = 1;
   // In a void; in the solid, from which a ray ends where that does; in the wall about the voids.
