@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "screen_outline.hpp"
 #include "simd.hpp"
 
 // Vectors whose length is not known to the compiler cannot stand in arrays.
@@ -129,8 +130,37 @@ HWY_INLINE LaneMask lanes_in(uint32_t columns, uint32_t rows) {
   return columns * kFirstOfRow & whole_rows;
 }
 
-void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
-                  uint32_t y, LaneMask* above, LaneMask* below) {
+/// The pixels of two blocks, one below the other from (x, y) on, that no line has beyond it.
+HWY_INLINE uint64_t pixels_between(const ScreenOutline& outline, float x, float y) {
+  static_assert(kPacketWidth_px == 8);
+  const hn::CappedTag<float, kPacketWidth_px> d;
+  uint64_t beyond = 0;
+  for (size_t column = 0; column < kPacketWidth_px; column += hn::Lanes(d)) {
+    const auto along = hn::Iota(d, static_cast<float>(column));
+    const auto at_row = [&](int line) {
+      const float first = outline.x[line] * x + outline.y[line] * y - outline.limit[line];
+      return hn::Add(hn::Set(d, first), hn::Mul(hn::Set(d, outline.x[line]), along));
+    };
+    const auto first0 = at_row(0);
+    const auto first1 = at_row(1);
+    for (uint32_t row = 0; row < 2 * kPacketHeight_px; ++row) {
+      const auto down = [&](int line) {
+        return hn::Set(d, outline.y[line] * static_cast<float>(row));
+      };
+      const auto zero = hn::Zero(d);
+      const auto out =
+          hn::Or(hn::Gt(hn::Add(first0, down(0)), zero), hn::Gt(hn::Add(first1, down(1)), zero));
+      uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d, out, bytes);
+      beyond |= uint64_t{bytes[0]} << (kPacketWidth_px * row + column);
+    }
+  }
+  return ~beyond;
+}
+
+void find_reached(const Extent* screen, const ScreenOutline* outlines,
+                  std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
+                  LaneMask* below) {
   static_assert(kPacketWidth_px == 2 * kPacketHeight_px);
   const hn::CappedTag<double, 2> d;
   const hn::Rebind<int32_t, decltype(d)> integers;
@@ -153,6 +183,11 @@ void find_reached(const Extent* screen, std::span<const uint32_t> primitives, ui
     }
     above[i] = lanes_in(inside[0], inside[1]);
     below[i] = lanes_in(inside[0], inside[1] >> kPacketHeight_px);
+    if (extent.inside2 >= 0 || (above[i] | below[i]) == 0) continue;
+    const uint64_t between = pixels_between(outlines[primitives[i] & kPrimitiveBits],
+                                            static_cast<float>(x), static_cast<float>(y));
+    above[i] &= static_cast<LaneMask>(between);
+    below[i] &= static_cast<LaneMask>(between >> kPacketRays);
   }
 }
 
@@ -545,9 +580,10 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
   CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
 }
 
-void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
-                  uint32_t y, LaneMask* above, LaneMask* below) {
-  CSGCORE_SIMD(find_reached)(screen, primitives, x, y, above, below);
+void find_reached(const Extent* screen, const ScreenOutline* outlines,
+                  std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
+                  LaneMask* below) {
+  CSGCORE_SIMD(find_reached)(screen, outlines, primitives, x, y, above, below);
 }
 
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,

@@ -16,6 +16,8 @@
 
 namespace csgcore {
 
+struct ScreenOutline;
+
 /// Rays in a packet, on every machine: nothing that bears results depends on the vectors' width.
 constexpr uint32_t kPacketRays = 32;
 /// Where a packet is a block of pixels, its sides. Lane = 8·row + column.
@@ -148,10 +150,11 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
 
 /// Of the primitives (indices, the top bit ignored), the lanes that may meet them in the block from
-/// the pixel (x, y) on and in that below it, by their extents on the screen, which are no nan. Of
-/// rays through pixels' centres only.
-void find_reached(const Extent* screen, std::span<const uint32_t> primitives, uint32_t x,
-                  uint32_t y, LaneMask* above, LaneMask* below);
+/// the pixel (x, y) on and in that below it, by their extents on the screen, which are no nan, and
+/// the outlines of those whose inside2 < 0. Of rays through pixels' centres only.
+void find_reached(const Extent* screen, const ScreenOutline* outlines,
+                  std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
+                  LaneMask* below);
 
 /// The lanes that certainly lie, at τ = t, further than `distance` (world units) away from the
 /// primitive, or, of a polyhedron, from what encloses it; told in float (NUMERICS.md,

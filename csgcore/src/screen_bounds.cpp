@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kBoundedAtOnce = 4096;
 
 /// Of what is smaller on the screen, its box tells enough.
-constexpr double kShapelessHalf_px = 4;
+constexpr double kOutlinelessHalf_px = 1;
 
 /// As many as have bits in a word.
 constexpr uint32_t kMembersAtOnce = 64;
@@ -48,7 +48,7 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       frame_(frame),
       options_{centers_only},
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
-      shapes_(std::make_unique_for_overwrite<ScreenShape[]>(primitives.size())),
+      outlines_(std::make_unique_for_overwrite<ScreenOutline[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
       bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.member_count())),
       rectangles_(std::make_unique_for_overwrite<float[]>(4 * groups.member_row())) {
@@ -147,7 +147,12 @@ void ScreenBounds::bound_all() {
 
 OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint64_t open,
                                                const Box& cell) const {
-  return {find_misses(shapes_.get(), screen_.get(), primitives, open, frame_, cell), 0};
+  uint64_t outside = 0;
+  for (uint64_t left = open; left != 0; left &= left - 1) {
+    const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;
+    if (misses(outlines_[primitive], cell)) outside |= left & -left;
+  }
+  return {outside, 0};
 }
 
 std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Members& members,
@@ -182,24 +187,27 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
     prefetch(&screen_[i], sizeof(Extent));
   }
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
-  const auto needs_shape = [&](uint32_t i) {
+  const auto needs_outline = [&](uint32_t i) {
     const Extent& extent = screen_[i];
     return extent.inside2 < 0 && fate_on_screen(extent) == ScreenFate::kVisible &&
-           std::max(extent.half[0], extent.half[1]) >= kShapelessHalf_px;
+           std::max(extent.half[0], extent.half[1]) >= kOutlinelessHalf_px;
   };
+  uint32_t outlined[kMembersAtOnce];
+  uint32_t count = 0;
   for (const uint32_t i : indices) {
-    if (needs_shape(i)) {
-      prefetch(&primitives_[i], sizeof(CanonicalPrimitive));
-      prefetch(&shapes_[i], sizeof(ScreenShape));
-    } else {
+    if (!needs_outline(i)) {
       screen_[i].inside2 = 0;
+      continue;
     }
+    prefetch(&primitives_[i], sizeof(CanonicalPrimitive));
+    prefetch(&outlines_[i], sizeof(ScreenOutline));
+    outlined[count++] = i;
+    if (count < kMembersAtOnce) continue;
+    find_outlines(primitives_.data(), outlined, frame_, options_, screen_.get(), outlines_.get());
+    count = 0;
   }
-  for (const uint32_t i : indices) {
-    if (screen_[i].inside2 >= 0) continue;
-    shapes_[i] = screen_shape(primitives_[i], frame_);
-    narrow_extent(primitives_[i], shapes_[i], frame_, options_, screen_[i]);
-  }
+  find_outlines(primitives_.data(), {outlined, count}, frame_, options_, screen_.get(),
+                outlines_.get());
 }
 
 }  // namespace csgcore

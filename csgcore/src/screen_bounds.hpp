@@ -7,7 +7,7 @@
 
 #include "operand_groups.hpp"
 #include "restriction.hpp"
-#include "screen_shape.hpp"
+#include "screen_outline.hpp"
 
 namespace csgcore {
 
@@ -22,6 +22,9 @@ class ScreenBounds final : public OpenClassifier {
 
   /// Indices as in OperandGroups; only those of what was bounded hold anything.
   std::span<const Extent> extents() const { return {screen_.get(), groups_.count()}; }
+
+  /// Of those whose inside2 < 0.
+  const ScreenOutline* outlines() const { return outlines_.get(); }
 
   /// Finds the rectangles of what the group holds; false if no ray can meet any of it. From any
   /// thread, again and again.
@@ -49,7 +52,7 @@ class ScreenBounds final : public OpenClassifier {
   const FrameRays& frame_;
   const ScreenOptions options_;
   std::unique_ptr<Extent[]> screen_;
-  std::unique_ptr<ScreenShape[]> shapes_;  // of what fills its box badly and is on the screen
+  std::unique_ptr<ScreenOutline[]> outlines_;  // of what fills its box badly and is on the screen
   std::unique_ptr<std::atomic<uint8_t>[]> states_;   // of the groups
   std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // of members: whether screen_ holds them
   /// Of opened groups' members, side by side: what tiles tell them apart by. Low x of all, then

@@ -57,8 +57,9 @@ void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& ray
   sink.store(block, packet, list, hits);
 }
 
-void TileList::assign(std::span<const CanonicalPrimitive> primitives,
-                      std::span<const Extent> screen, const Tile& tile, const CellList& list) {
+void TileList::assign(std::span<const CanonicalPrimitive> primitives, const ScreenBounds& bounds,
+                      const Tile& tile, const CellList& list) {
+  const std::span<const Extent> screen = bounds.extents();
   const uint32_t count = list.count();
   tile_ = tile;
   nearest_.resize(count);
@@ -69,8 +70,8 @@ void TileList::assign(std::span<const CanonicalPrimitive> primitives,
     nearest_[i] = nearest_t(extent);
     earliest = std::min(earliest, nearest_[i]);
   }
-  find_reached(screen.data(), list.primitives(), tile.x, tile.y, reached_[0].data(),
-               reached_[1].data());
+  find_reached(screen.data(), bounds.outlines(), list.primitives(), tile.x, tile.y,
+               reached_[0].data(), reached_[1].data());
   trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
 }
 
@@ -362,7 +363,7 @@ class TileTracer::LeafRays final : public TileRays {
   LeafRays(TileTracer& owner, const Tile& tile, const CellList& list, const Cut& cut,
            Workspace& workspace)
       : owner_(owner), tile_(tile), cut_(cut), workspace_(workspace) {
-    workspace.list.assign(owner.solid_.primitives(), owner.bounds_.extents(), tile, list);
+    workspace.list.assign(owner.solid_.primitives(), owner.bounds_, tile, list);
   }
 
   Met met() override {
@@ -402,8 +403,7 @@ class TileTracer::LeafRays final : public TileRays {
     workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
     const CellList* list =
         owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
-    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_.extents(), tile_,
-                                 *list);
+    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
   }
 
   TileTracer& owner_;

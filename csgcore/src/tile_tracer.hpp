@@ -19,7 +19,7 @@ constexpr uint32_t kTileSide_px = 8;
 /// A list with what tracing needs to know of it.
 class TileList {
  public:
-  void assign(std::span<const CanonicalPrimitive> primitives, std::span<const Extent> screen,
+  void assign(std::span<const CanonicalPrimitive> primitives, const ScreenBounds& bounds,
               const Tile& tile, const CellList& list);
   /// For rays of any pixels of the tile.
   const TraceList& trace_list() const { return trace_; }

@@ -12,6 +12,7 @@
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "screen_outline.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
 #include "support/full_run.hpp"
@@ -461,11 +462,13 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
   std::mt19937 random(12);
   const uint32_t x = 40, y = 24;
   std::vector<Extent> extents;
+  std::vector<ScreenOutline> outlines;
   std::vector<uint32_t> primitives;
   const auto add = [&](double low_x, double high_x, double low_y, double high_y) {
     const double half[] = {0.5 * (high_x - low_x), 0.5 * (high_y - low_y), 0};
     extents.push_back(
         {{low_x + half[0], low_y + half[1], 0}, {half[0], half[1], half[2]}, kInfinity, 0});
+    outlines.push_back({});
     primitives.push_back(static_cast<uint32_t>(primitives.size()) | CellList::kComplementBit);
   };
   add(-1e6, 1e6, -1e6, 1e6);
@@ -478,7 +481,29 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
     const double from_y = std::floor(uniform(random, y - 10, y + 10));
     add(from_x, from_x + std::floor(uniform(random, 0, 12)), from_y,
         from_y + std::floor(uniform(random, 0, 12)));
+    if (i % 2 == 0) continue;
+    extents.back().inside2 = -1;
+    for (const int line : {0, 1}) {
+      const double angle = uniform(random, 0, 7), at = uniform(random, -3, 8);
+      const double along[] = {std::cos(angle), std::sin(angle)};
+      outlines.back().x[line] = static_cast<float>(along[0]);
+      outlines.back().y[line] = static_cast<float>(along[1]);
+      outlines.back().limit[line] =
+          i % 8 == 1 && line == 0
+              ? std::numeric_limits<float>::infinity()
+              : static_cast<float>(along[0] * (x + 4) + along[1] * (y + 4) + at);
+    }
   }
+  // How far beyond the lines.
+  const auto beyond = [&](size_t i, double pixel_x, double pixel_y) {
+    double furthest = -kInfinity;
+    for (const int line : {0, 1}) {
+      const ScreenOutline& outline = outlines[i];
+      furthest = std::max(
+          furthest, outline.x[line] * pixel_x + outline.y[line] * pixel_y - outline.limit[line]);
+    }
+    return extents[i].inside2 < 0 ? furthest : -kInfinity;
+  };
   const auto holds = [](const Extent& extent, double pixel_x, double pixel_y) {
     return std::abs(pixel_x - extent.center[0]) <= extent.half[0] &&
            std::abs(pixel_y - extent.center[1]) <= extent.half[1];
@@ -487,12 +512,17 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
     SCOPED_TRACE(checks::name_of(level));
     std::vector<LaneMask> blocks[2];
     for (auto& block : blocks) block.resize(primitives.size());
-    find_reached(extents.data(), primitives, x, y, blocks[0].data(), blocks[1].data());
+    find_reached(extents.data(), outlines.data(), primitives, x, y, blocks[0].data(),
+                 blocks[1].data());
     for (size_t i = 0; i < extents.size(); ++i) {
       for (uint32_t lane = 0; lane < 2 * kPacketRays; ++lane) {
         const LaneMask lanes = blocks[lane / kPacketRays][i];
+        const double pixel[] = {static_cast<double>(x + lane % kPacketWidth_px),
+                                static_cast<double>(y + lane / kPacketWidth_px)};
+        const double past = beyond(i, pixel[0], pixel[1]);
+        if (std::abs(past) < 1e-4) continue;  // float
         ASSERT_EQ((lanes >> lane % kPacketRays & 1) != 0,
-                  holds(extents[i], x + lane % kPacketWidth_px, y + lane / kPacketWidth_px))
+                  holds(extents[i], pixel[0], pixel[1]) && past < 0)
             << i << ' ' << lane;
       }
     }

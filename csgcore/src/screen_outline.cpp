@@ -1,0 +1,464 @@
+// Compiled once per instruction set by Highway. Multiplications and additions are never fused, so
+// that every instruction set gives the same bits.
+#include "screen_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "canonical_slack.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "simd.hpp"
+
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "screen_outline.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for every instruction set
+#include <hwy/highway.h>
+
+#include "lanes-inl.hpp"
+
+#ifndef CSGCORE_SCREEN_OUTLINE_COMMON
+#define CSGCORE_SCREEN_OUTLINE_COMMON
+namespace csgcore {
+namespace {
+
+/// As kScreenSlack, of somewhat larger terms.
+constexpr double kPlaneSlack = 0x1p-40;
+
+/// As kNearestDepth of the extents: what is nearer to the eye's plane is so far out that no picture
+/// shows it. And an eye nearer to a wall, in canonical space, is told nothing of its sides.
+constexpr double kNearest = 0x1p-20;
+
+/// What float rounds of a line, and of a point's distance from it, as a share of the coordinates:
+/// some five operations of 2^-24.
+constexpr double kLineSlack = 0x1p-20;
+
+/// The picture's plane.
+struct Picture {
+  const View& view;
+  bool is_perspective;
+  double px_per_unit;  // of u and v
+  double middle_px[2];
+  double largest_u, largest_v;  // of any point on it
+
+  explicit Picture(const View& of)
+      : view(of),
+        is_perspective(of.projection == Projection::kPerspective),
+        px_per_unit(0.5 * of.height_px / of.half_height),
+        middle_px{0.5 * of.width_px - 0.5, 0.5 * of.height_px - 0.5},
+        largest_u(0.5 * of.width_px / px_per_unit),
+        largest_v(of.half_height) {}
+
+  /// Sets a line: beyond it is where x·p.x + y·p.y > limit.
+  void set_line(double x, double y, double limit, int line, ScreenOutline& outline) const {
+    const double rounded = kLineSlack * (middle_px[0] + middle_px[1] + 1 + std::abs(limit));
+    const bool is_line = rounded < kLineSlack * 1e9;  // no nan
+    outline.x[line] = is_line ? static_cast<float>(x) : 0;
+    outline.y[line] = is_line ? static_cast<float>(y) : 0;
+    outline.limit[line] =
+        is_line ? static_cast<float>(limit + rounded) : std::numeric_limits<float>::infinity();
+  }
+};
+
+/// Narrows an extent to a rectangle, in pixels.
+void narrow(Rectangle to, const Picture& picture, const ScreenOptions& options, Extent& screen) {
+  if (options.centers_only) {
+    to = {std::ceil(to.low_x), std::floor(to.high_x), std::ceil(to.low_y), std::floor(to.high_y)};
+  }
+  // Never wider than the box was.
+  to.low_x = std::max(to.low_x, screen.center[0] - screen.half[0]);
+  to.high_x = std::min(to.high_x, screen.center[0] + screen.half[0]);
+  to.low_y = std::max(to.low_y, screen.center[1] - screen.half[1]);
+  to.high_y = std::min(to.high_y, screen.center[1] + screen.half[1]);
+  set_rectangle(to, picture.view, screen);
+}
+
+}  // namespace
+}  // namespace csgcore
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+constexpr size_t kMostLanes = 8;
+
+/// Some primitives' fields, side by side. What encloses a polyhedron stands for it.
+struct Columns {
+  alignas(64) double to_canonical[9][kMostLanes];  // by column and row
+  alignas(64) double to_world[9][kMostLanes];
+  alignas(64) double center[3][kMostLanes];
+  alignas(64) double mid[kMostLanes], slope[kMostLanes];
+  alignas(64) double height[kMostLanes];  // of a frustum's ends, 1; of a ball 0
+  alignas(64) double error[kMostLanes];
+  alignas(64) double depth_reach[kMostLanes];
+
+  HWY_INLINE void set(size_t lane, const CanonicalPrimitive& primitive, const Extent& screen) {
+    for (int i = 0; i < 9; ++i) {
+      to_canonical[i][lane] = primitive.world_to_canonical[i / 3][i % 3];
+      to_world[i][lane] = primitive.canonical_to_world[i / 3][i % 3];
+    }
+    for (int i = 0; i < 3; ++i) center[i][lane] = primitive.center[i];
+    const bool is_frustum = primitive.enclosure == Shape::kFrustum;
+    mid[lane] = is_frustum ? primitive.radius_mid : 1;
+    slope[lane] = is_frustum ? primitive.radius_slope : 0;
+    height[lane] = is_frustum ? 1 : 0;
+    error[lane] = primitive.canonical_error;
+    depth_reach[lane] = screen.half[2];
+  }
+};
+
+using V3 = Lanes3<Wide>;
+
+HWY_INLINE WideV load(const double (&column)[kMostLanes]) { return hn::Load(Wide(), column); }
+HWY_INLINE V3 load_column(const double (&matrix)[9][kMostLanes], int column) {
+  return {load(matrix[3 * column]), load(matrix[3 * column + 1]), load(matrix[3 * column + 2])};
+}
+/// m · v
+HWY_INLINE V3 times(const double (&m)[9][kMostLanes], const V3& v) {
+  return (scaled(load_column(m, 0), v.x) + scaled(load_column(m, 1), v.y)) +
+         scaled(load_column(m, 2), v.z);
+}
+HWY_INLINE V3 times(const double (&m)[9][kMostLanes], const Vec3& v) {
+  return times(m, broadcast(Wide(), v));
+}
+/// mᵀ · v
+HWY_INLINE V3 transposed_times(const double (&m)[9][kMostLanes], const Vec3& v) {
+  const Wide d;
+  const V3 lanes = broadcast(d, v);
+  return {dot(d, load_column(m, 0), lanes), dot(d, load_column(m, 1), lanes),
+          dot(d, load_column(m, 2), lanes)};
+}
+HWY_INLINE WideV sum_of_sizes(const V3& v) {
+  return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
+struct Limits {
+  WideV low, high;
+};
+
+/// A disc, or a ball, as the screen sees it: its centre and the vectors that span it, along right
+/// or up (`across`) and along the view axis.
+struct Span {
+  WideV center, center_depth;
+  V3 across, depth;
+};
+
+/// The u (or v) of the planes through the eye that touch the span: the roots of
+/// (center − u·center_depth)² = |across − u·depth|². `is_known`: not of a span that the eye's plane
+/// meets.
+HWY_INLINE Limits perspective_limits(const Span& s, WideV slack, WideM& is_known) {
+  const Wide d;
+  const WideV zero = hn::Zero(d);
+  const WideV depth2 = dot(d, s.depth, s.depth);
+  const WideV a = hn::Sub(hn::Mul(s.center_depth, s.center_depth), depth2);
+  is_known = hn::And(is_known, hn::And(hn::Gt(s.center_depth, zero),
+                                       hn::Gt(a, hn::Mul(hn::Set(d, kNearest), depth2))));
+  // The discriminant is the difference of two squares of the primitive's own size.
+  const V3 lean = scaled(s.across, s.center_depth) - scaled(s.depth, s.center);
+  const auto cross = [](WideV a0, WideV b1, WideV a1, WideV b0) {
+    return hn::Sub(hn::Mul(a0, b1), hn::Mul(a1, b0));
+  };
+  const V3 normal = {cross(s.across.y, s.depth.z, s.across.z, s.depth.y),
+                     cross(s.across.z, s.depth.x, s.across.x, s.depth.z),
+                     cross(s.across.x, s.depth.y, s.across.y, s.depth.x)};
+  const WideV discriminant = hn::Sub(dot(d, lean, lean), dot(d, normal, normal));
+  const WideV half = hn::Sqrt(hn::Max(zero, discriminant));
+  const WideV middle = hn::Sub(hn::Mul(s.center, s.center_depth), dot(d, s.across, s.depth));
+  const WideV inverse = hn::Div(hn::Set(d, 1.0), a);
+  const WideV margin = hn::Mul(hn::Mul(slack, hn::Add(s.center_depth, hn::Abs(s.center))), inverse);
+  return {hn::Sub(hn::Mul(hn::Sub(middle, half), inverse), margin),
+          hn::Add(hn::Mul(hn::Add(middle, half), inverse), margin)};
+}
+
+HWY_INLINE Limits orthographic_limits(const Span& s, WideV slack) {
+  const WideV reach = hn::Add(hn::Sqrt(dot(Wide(), s.across, s.across)), slack);
+  return {hn::Sub(s.center, reach), hn::Add(s.center, reach)};
+}
+
+/// What the screen shows of the enclosing quadrics.
+struct Seen {
+  WideV low[2], high[2];  // of u and of v
+  WideM is_known;         // whether these are
+  /// Two lines: where at + u·by_u + v·by_v > slack.
+  WideM has_lines;
+  WideV at[2], by_u[2], by_v[2], slack;
+};
+
+/// u and v: those of a frustum's two ends, or twice those of a ball.
+HWY_INLINE void find_limits(const Columns& columns, const Picture& picture, Seen& seen) {
+  const Wide d;
+  const View& view = picture.view;
+  const V3 center = {load(columns.center[0]), load(columns.center[1]), load(columns.center[2])};
+  const V3 from_eye = center - broadcast(d, view.eye);
+  const V3 forward = transposed_times(columns.to_world, view.forward);
+  const WideV depth = dot(d, from_eye, broadcast(d, view.forward));
+  WideV size = hn::Add(sum_of_sizes(from_eye), hn::Set(d, glm::dot(glm::abs(view.eye), Vec3{1.0})));
+  for (int column = 0; column < 3; ++column) {
+    size = hn::Add(size, sum_of_sizes(load_column(columns.to_world, column)));
+  }
+  const WideV slack = hn::Mul(hn::Set(d, kPlaneSlack), size);
+  const WideV height = load(columns.height);
+  const WideV thickness = hn::Sub(hn::Set(d, 1.0), height);
+  seen.is_known = hn::Eq(height, height);
+  for (const int axis : {0, 1}) {
+    const Vec3& along = axis == 0 ? view.right : view.up;
+    const V3 across = transposed_times(columns.to_world, along);
+    const WideV offset = dot(d, from_eye, broadcast(d, along));
+    Limits limits[2];
+    for (const int end : {0, 1}) {
+      const WideV z = end == 0 ? height : hn::Neg(height);
+      const WideV radius = hn::Add(load(columns.mid), hn::Mul(load(columns.slope), z));
+      const auto spanning = [&](const V3& axes) {
+        return V3{hn::Mul(axes.x, radius), hn::Mul(axes.y, radius), hn::Mul(axes.z, thickness)};
+      };
+      const Span span{hn::Add(offset, hn::Mul(z, across.z)), hn::Add(depth, hn::Mul(z, forward.z)),
+                      spanning(across), spanning(forward)};
+      limits[end] = picture.is_perspective ? perspective_limits(span, slack, seen.is_known)
+                                           : orthographic_limits(span, slack);
+    }
+    seen.low[axis] = hn::Min(limits[0].low, limits[1].low);
+    seen.high[axis] = hn::Max(limits[0].high, limits[1].high);
+  }
+}
+
+/// Lines: the planes that touch the wall and hold the eye or, in orthographic views, the view axis;
+/// in canonical space x·cos φ + y·sin φ − slope·z = mid, beyond which no point of a frustum lies,
+/// whatever φ is, nor one of the ball, of which mid is 1 and slope 0.
+HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen& seen) {
+  const Wide d;
+  const View& view = picture.view;
+  const bool is_perspective = picture.is_perspective;
+  const WideV mid = load(columns.mid);
+  const WideV slope = load(columns.slope);
+  const V3 center = {load(columns.center[0]), load(columns.center[1]), load(columns.center[2])};
+  const V3 right = times(columns.to_canonical, view.right);
+  const V3 up = times(columns.to_canonical, view.up);
+  const V3 forward = times(columns.to_canonical, view.forward);
+  V3 from_center = broadcast(d, view.eye) - center;
+  if (!is_perspective) {
+    // Where the ray is next to the centre.
+    const V3 axis = broadcast(d, view.forward);
+    from_center = from_center - scaled(axis, dot(d, from_center, axis));
+  }
+  const V3 eye = times(columns.to_canonical, from_center);
+  const V3& held = is_perspective ? eye : forward;
+  const WideV tilt = hn::Mul(slope, held.z);
+  const WideV level = is_perspective ? hn::Add(mid, tilt) : tilt;
+  const WideV across2 = hn::Add(hn::Mul(held.x, held.x), hn::Mul(held.y, held.y));
+  const WideV tangent2 = hn::Sub(across2, hn::Mul(level, level));
+  const WideV distance = hn::Sub(hn::Sqrt(across2), level);  // of the eye from the wall, at least
+  const auto is_far = hn::Gt(distance, hn::Mul(hn::Set(d, kNearest), sum_of_sizes(held)));
+  seen.has_lines = hn::And(hn::Gt(tangent2, hn::Zero(d)), is_far);
+  // What is rounded on the way into canonical space, and there: of a point next to the eye, or the
+  // centre, and of directions.
+  const WideV error = hn::Mul(hn::Set(d, 4.0), load(columns.error));
+  const auto rounded = [&](WideV canonical, WideV world) {
+    return hn::Add(hn::Mul(hn::Set(d, kCanonicalSlack), canonical), hn::Mul(error, world));
+  };
+  const WideV one = hn::Set(d, 1.0);
+  const WideV largest_u = hn::Set(d, picture.largest_u);
+  const WideV largest_v = hn::Set(d, picture.largest_v);
+  const WideV lateral =
+      hn::Add(hn::Mul(sum_of_sizes(right), largest_u), hn::Mul(sum_of_sizes(up), largest_v));
+  const WideV ahead = sum_of_sizes(forward);
+  const WideV coordinates =
+      hn::Add(sum_of_sizes(center), hn::Set(d, glm::dot(glm::abs(view.eye), Vec3{1.0})));
+  const WideV of_point = rounded(hn::Add(sum_of_sizes(eye), one), coordinates);
+  const WideV of_lateral = rounded(lateral, hn::Add(largest_u, largest_v));
+  const WideV of_forward = rounded(ahead, one);
+  // A plane that misses the eye by so much turns the ray that it holds; or, along the ray, leaves
+  // the view axis.
+  const WideV of_plane =
+      is_perspective
+          ? hn::Add(of_forward, hn::Div(hn::Mul(of_point, hn::Add(ahead, lateral)), distance))
+          : hn::Add(of_point, hn::Mul(of_forward, load(columns.depth_reach)));
+  seen.slack = hn::Add(of_plane, of_lateral);
+  const WideV root = hn::Sqrt(hn::Max(tangent2, hn::Zero(d)));
+  const WideV by_across2 = hn::Div(one, across2);
+  for (const int line : {0, 1}) {
+    const WideV turn = line == 0 ? root : hn::Neg(root);
+    const V3 normal = {hn::Mul(hn::Sub(hn::Mul(level, held.x), hn::Mul(turn, held.y)), by_across2),
+                       hn::Mul(hn::Add(hn::Mul(level, held.y), hn::Mul(turn, held.x)), by_across2),
+                       hn::Neg(slope)};
+    seen.at[line] = is_perspective ? dot(d, normal, forward) : hn::Sub(dot(d, normal, eye), mid);
+    seen.by_u[line] = dot(d, normal, right);
+    seen.by_v[line] = dot(d, normal, up);
+  }
+}
+
+/// Of as many primitives as fit in a vector.
+HWY_INLINE void find_some(const Columns& columns, const Picture& picture,
+                          const ScreenOptions& options, std::span<const uint32_t> indices,
+                          Extent* screen, ScreenOutline* outlines) {
+  const Wide d;
+  Seen seen;
+  find_limits(columns, picture, seen);
+  find_lines(columns, picture, seen);
+  alignas(64) double low_x[kMostLanes], high_x[kMostLanes], low_y[kMostLanes], high_y[kMostLanes];
+  const auto store = [&](WideV value, double scale, double middle, double(&column)[kMostLanes]) {
+    const WideV scaled = hn::Mul(value, hn::Set(d, scale * picture.px_per_unit));
+    hn::Store(hn::Add(scaled, hn::Set(d, middle)), d, column);
+  };
+  store(seen.low[0], 1, picture.middle_px[0], low_x);
+  store(seen.high[0], 1, picture.middle_px[0], high_x);
+  store(seen.high[1], -1, picture.middle_px[1], low_y);
+  store(seen.low[1], -1, picture.middle_px[1], high_y);
+  const LaneMask known = bits_of(seen.is_known, 0);
+  const LaneMask with_lines = bits_of(seen.has_lines, 0);
+  alignas(64) double x[2][kMostLanes], y[2][kMostLanes], limit[2][kMostLanes];
+  const WideV px_per_unit = hn::Set(d, picture.px_per_unit);
+  for (const int line : {0, 1}) {
+    const WideV by_u = seen.by_u[line];
+    const WideV by_v = hn::Neg(seen.by_v[line]);
+    const WideV length2 = hn::Add(hn::Mul(by_u, by_u), hn::Mul(by_v, by_v));
+    const WideV by_length = hn::Div(hn::Set(d, 1.0), hn::Sqrt(length2));
+    const WideV along_x = hn::Mul(by_u, by_length);
+    const WideV along_y = hn::Mul(by_v, by_length);
+    const WideV of_middle = hn::Add(hn::Mul(along_x, hn::Set(d, picture.middle_px[0])),
+                                    hn::Mul(along_y, hn::Set(d, picture.middle_px[1])));
+    const WideV from_middle =
+        hn::Mul(hn::Mul(hn::Sub(seen.slack, seen.at[line]), by_length), px_per_unit);
+    hn::Store(along_x, d, x[line]);
+    hn::Store(along_y, d, y[line]);
+    hn::Store(hn::Add(of_middle, from_middle), d, limit[line]);
+  }
+  for (size_t lane = 0; lane < indices.size(); ++lane) {
+    const uint32_t index = indices[lane];
+    if ((known >> lane & 1) != 0) {
+      narrow({low_x[lane], high_x[lane], low_y[lane], high_y[lane]}, picture, options,
+             screen[index]);
+    }
+    const bool has_lines = (with_lines >> lane & 1) != 0;
+    for (const int line : {0, 1}) {
+      const double no_line = std::numeric_limits<double>::quiet_NaN();
+      picture.set_line(x[line][lane], y[line][lane], has_lines ? limit[line][lane] : no_line, line,
+                       outlines[index]);
+    }
+  }
+}
+
+void find_quadrics_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
+                            const Picture& picture, const ScreenOptions& options, Extent* screen,
+                            ScreenOutline* outlines) {
+  Columns columns;
+  for (; !indices.empty(); indices = indices.subspan(std::min(indices.size(), kLanes))) {
+    const std::span<const uint32_t> some = indices.first(std::min(indices.size(), kLanes));
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const uint32_t index = some[std::min(lane, some.size() - 1)];
+      columns.set(lane, primitives[index], screen[index]);
+    }
+    find_some(columns, picture, options, some, screen, outlines);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace csgcore {
+
+CSGCORE_SIMD_EXPORT(find_quadrics_outlines);
+
+namespace {
+
+/// Polyhedra of so few vertices fill what encloses them badly, others well.
+constexpr size_t kFewVertices = 64;
+
+/// As many as are looked at together.
+constexpr size_t kQuadricsAtOnce = 64;
+
+/// Lines along the polyhedron's longest extent on the screen, or nearly so: from the vertex that is
+/// furthest from the first to that which is furthest from it.
+void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
+                     const Picture& picture, ScreenOutline& outline) {
+  const auto furthest_from = [&](const glm::dvec2& from) {
+    return *std::ranges::max_element(points_px, {}, [&](const glm::dvec2& point) {
+      const glm::dvec2 apart = point - from;
+      return glm::dot(apart, apart);
+    });
+  };
+  const glm::dvec2 start = furthest_from(points_px.front());
+  const glm::dvec2 along = furthest_from(start) - start;
+  const glm::dvec2 across = glm::dvec2{-along.y, along.x} / glm::length(along);
+  for (const int line : {0, 1}) {
+    const glm::dvec2 normal = line == 0 ? across : -across;
+    double limit = -std::numeric_limits<double>::infinity();
+    for (const glm::dvec2& point : points_px) limit = std::max(limit, glm::dot(normal, point));
+    picture.set_line(normal.x, normal.y, limit + 2 * margin_px, line, outline);
+  }
+}
+
+/// By the polyhedron's vertices.
+void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& picture,
+                           const ScreenOptions& options, Extent& screen, ScreenOutline& outline) {
+  const View& view = picture.view;
+  const Mat3& map = primitive.canonical_to_world;
+  const Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
+  const Vec3 ones{1.0};
+  const Vec3 from_eye = primitive.center - view.eye;
+  const double slack =
+      kPlaneSlack * glm::dot(glm::abs(from_eye) + glm::abs(view.eye) + glm::abs(map[0]) +
+                                 glm::abs(map[1]) + glm::abs(map[2]),
+                             ones);
+  const double no_line = std::numeric_limits<double>::infinity();
+  for (const int line : {0, 1}) picture.set_line(0, 0, no_line, line, outline);
+  glm::dvec2 points[kFewVertices] = {};
+  size_t count = 0;
+  double margin = 0;  // of u and v
+  for (const Vec3& vertex : primitive.polyhedron->vertices()) {
+    const Vec3 at = from_eye + map * ((vertex - canonical.center) / canonical.scale);
+    const glm::dvec2 lateral{glm::dot(at, view.right), glm::dot(at, view.up)};
+    const double depth = picture.is_perspective ? glm::dot(at, view.forward) : 1;
+    if (!(depth > 0)) return;
+    const double by_depth = 1 / depth;
+    const double shift = picture.is_perspective ? std::abs(lateral.x) + std::abs(lateral.y) : 0;
+    margin = std::max(margin, slack * (1 + shift * by_depth) * by_depth);
+    const glm::dvec2 uv = by_depth * lateral;
+    points[count++] = {picture.middle_px[0] + uv.x * picture.px_per_unit,
+                       picture.middle_px[1] - uv.y * picture.px_per_unit};
+  }
+  const std::span<const glm::dvec2> points_px{points, count};
+  const double margin_px = margin * picture.px_per_unit;
+  glm::dvec2 low = points_px.front(), high = low;
+  for (const glm::dvec2& point : points_px) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  set_lines_along(points_px, margin_px, picture, outline);
+  narrow({low.x - margin_px, high.x + margin_px, low.y - margin_px, high.y + margin_px}, picture,
+         options, screen);
+}
+
+}  // namespace
+
+void find_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
+                   const FrameRays& frame, const ScreenOptions& options, Extent* screen,
+                   ScreenOutline* outlines) {
+  const Picture picture(frame.view);
+  uint32_t quadrics[kQuadricsAtOnce];
+  size_t count = 0;
+  const auto find_all = [&] {
+    CSGCORE_SIMD(find_quadrics_outlines)
+    (primitives, {quadrics, count}, picture, options, screen, outlines);
+    count = 0;
+  };
+  for (const uint32_t i : indices) {
+    const Polyhedron* const polyhedron = primitives[i].polyhedron.get();
+    if (polyhedron && polyhedron->vertices().size() <= kFewVertices) {
+      find_vertices_outline(primitives[i], picture, options, screen[i], outlines[i]);
+      continue;
+    }
+    quadrics[count++] = i;
+    if (count == kQuadricsAtOnce) find_all();
+  }
+  find_all();
+}
+
+}  // namespace csgcore
+#endif  // HWY_ONCE

@@ -1,0 +1,44 @@
+// Where shapes that fill their boxes badly lie on the screen.
+#pragma once
+
+#include <cmath>
+
+#include "screen_extents.hpp"
+
+namespace csgcore {
+
+/// Two lines of the screen that a primitive lies between: no ray through a point p, in pixels as
+/// pixel_ray counts them, with x·p.x + y·p.y > limit for either line meets it. (x, y) is of length
+/// 1; or 0 and the limit +∞, where there is no such line.
+struct alignas(32) ScreenOutline {
+  float x[2], y[2], limit[2];
+};
+
+/// Whether no ray through the tile (a box in screen space; its z does not count) meets what lies
+/// between the lines.
+inline bool misses(const ScreenOutline& outline, const Box& tile) {
+  const auto middle = [&](int axis) {
+    return static_cast<float>(0.5 * (tile.min[axis] + tile.max[axis]));
+  };
+  const auto half = [&](int axis) {
+    return static_cast<float>(0.5 * (tile.max[axis] - tile.min[axis]));
+  };
+  bool result = false;
+  for (const int line : {0, 1}) {
+    const float x = outline.x[line];
+    const float y = outline.y[line];
+    const float nearest =
+        (x * middle(0) - std::abs(x) * half(0)) + (y * middle(1) - std::abs(y) * half(1));
+    result |= nearest > outline.limit[line];
+  }
+  return result;
+}
+
+/// For each of the indices: narrows the primitive's extent on the screen, which was found from its
+/// box, to the shape itself, or to what encloses a polyhedron of many vertices; and finds lines
+/// that it lies between. For primitives on the screen only.
+void find_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
+                   const FrameRays& frame, const ScreenOptions& options, Extent* screen,
+                   ScreenOutline* outlines);
+
+}  // namespace csgcore
