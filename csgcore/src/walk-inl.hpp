@@ -50,14 +50,24 @@ class ListSegments {
     computed_ = workspace.computed.data();
     reached_ = workspace.reached.data();
     apart_of_ = workspace.apart.data();
+    const uint32_t* const if_inside = list.list->if_inside.data();
+    const uint32_t* const if_outside = list.list->if_outside.data();
+    uint32_t next = CellList::kTrue;
     for (uint32_t i = 0; i < count; ++i) {
       const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
       reached_[i] = reached;
       computed_[i] = apart_of_[i] = 0;
       // Of a large scene, they come from far away.
       if (reached != 0) prefetch_rays_part(primitive(i));
+      all_must_hold_ &= (if_inside[i] == CellList::kFalse && if_outside[i] == next) ||
+                        (if_inside[i] == next && if_outside[i] == CellList::kFalse);
+      next = i + CellList::kFirst;
     }
+    all_must_hold_ &= list.list->root == next;
   }
+  /// Whether the list holds where all of its literals do: each makes it false, or hands on to the
+  /// next one.
+  HWY_INLINE bool all_must_hold() const { return all_must_hold_; }
   /// The lanes that may meet the primitive: the others are outside of it all along.
   HWY_INLINE LaneMask reached(uint32_t index) const { return reached_[index]; }
   /// Whether their segments are computed.
@@ -135,6 +145,7 @@ class ListSegments {
   LaneMask* computed_;
   LaneMask* reached_;
   LaneMask* apart_of_;
+  bool all_must_hold_ = true;
   bool any_apart_ = false;
   bool has_points_ = false;
   PacketPoints points_;  // where the lanes stand
@@ -273,10 +284,102 @@ HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   return number == CellList::kTrue;
 }
 
+/// Lanes of a packet that lie before a segment's start, within it, or beyond its end.
+HWY_INLINE LaneMask lanes_before(const PacketSegments& segment, const PacketV& t) {
+  LaneMask result = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    result |= bits_of(hn::Lt(t.chunk[c], hn::Load(Wide(), segment.start + first_lane(c))), c);
+  }
+  return result;
+}
+HWY_INLINE LaneMask lanes_within(const PacketSegments& segment, const PacketV& t) {
+  const Wide d;
+  LaneMask result = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    const WideM starts = hn::Lt(t.chunk[c], hn::Load(d, segment.start + first_lane(c)));
+    const WideM ends = hn::Lt(t.chunk[c], hn::Load(d, segment.end + first_lane(c)));
+    result |= bits_of(hn::AndNot(starts, ends), c);
+  }
+  return result;
+}
+
+/// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
+/// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
+/// that fails is passed over at once: to where it holds again. The least t that none moves any
+/// further is the first where all hold (design.md §4, the fixed point of an intersection).
+HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
+                                Walk& walk) {
+  const Wide d;
+  const CellList& list = *trace.list;
+  const uint32_t* const if_inside = list.if_inside.data();
+  double furthest_t = furthest_of(walk.t, walk.live);
+  LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some literal
+  uint32_t last_moved = 0;         // by it, moved last
+  bool is_first_round = true;
+  while (unsettled != 0) {
+    LaneMask moved = 0;
+    for (uint32_t index = list.count(); index-- > 0;) {
+      const bool must_be_outside = if_inside[index] == CellList::kFalse;
+      LaneMask active = unsettled & segments.reached(index);
+      LaneMask moves = 0;
+      if (must_be_outside) {
+        if (active != 0 && !segments.are_known(index, active)) {
+          if (furthest_t < trace.nearest_t[index]) {
+            active = 0;
+          } else {
+            active &= ~segments.apart(index, walk.t, active);
+          }
+        }
+        if (active != 0) {
+          moves = active & lanes_within(segments.compute(index, active), walk.t);
+        }
+      } else {
+        walk.live &= ~unsettled | active;
+        unsettled = walk.live & unsettled;
+        if (active != 0) {
+          const PacketSegments& segment = segments.compute(index, active);
+          moves = active & lanes_before(segment, walk.t);
+          const LaneMask ends = active & ~moves & ~lanes_within(segment, walk.t);
+          walk.live &= ~ends;
+          unsettled &= ~ends;
+        }
+      }
+      if (moves != 0) {
+        const PacketSegments& segment = segments.compute(index, moves);
+        const double* const to = must_be_outside ? segment.end : segment.start;
+        LaneMask goes_on = 0;
+        for (int c = 0; c < kChunks; ++c) {
+          const WideV next = hn::Load(d, to + first_lane(c));
+          const WideM further =
+              hn::And(mask_of(moves, c), hn::Le(next, hn::Load(d, leave + first_lane(c))));
+          goes_on |= bits_of(further, c);
+          walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
+        }
+        const LaneMask ends = moves & ~goes_on;
+        walk.live &= ~ends;
+        unsettled &= ~ends;
+        walk.moved |= goes_on;
+        moved |= goes_on;
+        segments.forget_apart(goes_on);
+        furthest_t = furthest_of(walk.t, walk.live);
+        last_moved = index;
+      } else if (moved == 0 && index == last_moved && !is_first_round) {
+        break;
+      }
+    }
+    is_first_round = false;
+    unsettled &= moved;
+  }
+  return walk.live;
+}
+
 /// Walks all lanes of `walk.live` until their value is no longer that in `before`, no further than
 /// `leave`; returns the lanes that got there, whose t is kept in the walk.
 HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, LaneMask before,
                                    const double* leave, Walk& walk) {
+  if (segments.all_must_hold() && (before & walk.live) == 0) {
+    return walk_to_all(trace, segments, leave, walk);
+  }
   const Wide d;
   LaneMask changed = 0;
   Evaluation evaluation;
