@@ -205,17 +205,21 @@ HWY_INLINE bool is_complement(const TraceList& list, uint32_t index) {
   return (list.list->primitive[index] & CellList::kComplementBit) != 0;
 }
 
-/// The literal's normals at its crossings τ = t, outward of the solid (paper §3.2, step 4).
+/// What makes the primitive's normals those of the solid (paper §3.2, step 4).
+HWY_INLINE WideV outward_sign(const TraceList& list, uint32_t index) {
+  return hn::Set(Wide(), is_complement(list, index) ? -1.0 : 1.0);
+}
+
+/// The literal's normals at its crossings τ = t, outward of the solid.
 HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
                                        const TraceList& list, uint32_t index, WideV t,
                                        LaneMask on_cap, int chunk) {
   const Wide d;
   const uint32_t entry = list.list->primitive[index];
   const CanonicalPrimitive& primitive = list.primitives[entry & kPrimitiveBits];
-  const auto sign = hn::Set(d, is_complement(list, index) ? -1.0 : 1.0);
   return scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first_lane(chunk)), t,
                           mask_of(on_cap, chunk)),
-                sign);
+                outward_sign(list, index));
 }
 
 /// What lies where the lanes stand.
@@ -281,10 +285,12 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     const LaneMask on_cap = (at_start & segment.start_on_cap) | (at_end & segment.end_on_cap);
     hits.on_cap |= on_cap & own;
     fill_lanes(own, index, hits.index);
+    Lanes3<Wide> normals[kChunks];
+    find_normals(frame, rays, own, segments.primitive(index), walk.t, on_cap, normals);
+    const WideV sign = outward_sign(trace, index);
     for (const int c : ChunksOf(own)) {
-      const Lanes3<Wide> normal =
-          outward_normal(frame, rays, trace, index, walk.t.chunk[c], on_cap, c);
-      result.normal[c] = if_then_else(mask_of(own, c), normal, result.normal[c]);
+      result.normal[c] =
+          if_then_else(mask_of(own, c), scaled(normals[c], sign), result.normal[c]);
     }
   }
   LaneMask together = 0;

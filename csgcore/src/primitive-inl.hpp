@@ -8,6 +8,8 @@
 
 #include <hwy/cache_control.h>
 
+#include <type_traits>
+
 #include "frustum-inl.hpp"
 #include "polyhedron-inl.hpp"
 #include "sphere-inl.hpp"
@@ -16,38 +18,53 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-template <class D>
-HWY_INLINE Segment<D> segment_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
+template <Shape kShape, class D>
+HWY_INLINE Segment<D> segment_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                                  const Rays<D>& rays) {
-  const Vec3 center = primitive.center - pivot;
+  if constexpr (kShape == Shape::kSphere) return sphere_rays::segment(d, primitive, center, rays);
+  if constexpr (kShape == Shape::kFrustum) return frustum_rays::segment(d, primitive, center, rays);
+  if constexpr (kShape == Shape::kPolyhedron) {
+    return polyhedron_rays::segment(d, primitive, center, rays);
+  }
+}
+
+template <Shape kShape, class D>
+HWY_INLINE Lanes3<D> normal_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                               const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
+  if constexpr (kShape == Shape::kSphere) return sphere_rays::normal(d, primitive, center, rays, t);
+  if constexpr (kShape == Shape::kFrustum) {
+    return frustum_rays::normal(d, primitive, center, rays, t, on_cap);
+  }
+  if constexpr (kShape == Shape::kPolyhedron) {
+    return polyhedron_rays::normal(d, primitive, center, rays, on_cap);
+  }
+}
+
+/// Calls back with the primitive's shape as a constant, so that loops need not ask for it.
+template <class Visit>
+HWY_INLINE void with_shape(const CanonicalPrimitive& primitive, Visit&& visit) {
   switch (primitive.shape) {
     case Shape::kSphere:
-      return sphere_rays::segment(d, primitive, center, rays);
+      return visit(std::integral_constant<Shape, Shape::kSphere>());
     case Shape::kFrustum:
-      return frustum_rays::segment(d, primitive, center, rays);
+      return visit(std::integral_constant<Shape, Shape::kFrustum>());
     case Shape::kPolyhedron:
-      break;
+      return visit(std::integral_constant<Shape, Shape::kPolyhedron>());
   }
-  return polyhedron_rays::segment(d, primitive, center, rays);
 }
 
 /// The primitive's own outward unit normal at τ = t, which lies on its surface.
 template <class D>
 HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
                                const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
-  const Vec3 center = primitive.center - pivot;
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return sphere_rays::normal(d, primitive, center, rays, t);
-    case Shape::kFrustum:
-      return frustum_rays::normal(d, primitive, center, rays, t, on_cap);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return polyhedron_rays::normal(d, primitive, center, rays, on_cap);
+  Lanes3<D> normal;
+  with_shape(primitive, [&](auto shape) {
+    normal = normal_of_shape<shape.value>(d, primitive, primitive.center - pivot, rays, t, on_cap);
+  });
+  return normal;
 }
 
-/// Fetches what `segment_of` reads.
+/// Fetches what `intersect_lanes` reads.
 HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
   hwy::Prefetch(&primitive);
   hwy::Prefetch(&primitive.world_to_canonical[1]);
@@ -57,20 +74,40 @@ HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
 HWY_NOINLINE void intersect_lanes(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
                                   const CanonicalPrimitive& primitive, PacketSegments& segments) {
   const Wide d;
+  const Vec3 center = primitive.center - frame.pivot;
   LaneMask start_on_cap = 0;
   LaneMask end_on_cap = 0;
   LaneMask done = 0;
-  for (const int c : ChunksOf(lanes)) {
-    const size_t first = first_lane(c);
-    const auto segment = segment_of(d, primitive, frame.pivot, load_rays(d, packet, first));
-    hn::Store(segment.start, d, segments.start + first);
-    hn::Store(segment.end, d, segments.end + first);
-    start_on_cap |= bits_of(segment.start_on_cap, c);
-    end_on_cap |= bits_of(segment.end_on_cap, c);
-    done |= chunk_lanes(c);
-  }
+  with_shape(primitive, [&](auto shape) {
+    for (const int c : ChunksOf(lanes)) {
+      const size_t first = first_lane(c);
+      const auto segment =
+          segment_of_shape<shape.value>(d, primitive, center, load_rays(d, packet, first));
+      hn::Store(segment.start, d, segments.start + first);
+      hn::Store(segment.end, d, segments.end + first);
+      done |= chunk_lanes(c);
+      if constexpr (shape.value == Shape::kSphere) continue;
+      start_on_cap |= bits_of(segment.start_on_cap, c);
+      end_on_cap |= bits_of(segment.end_on_cap, c);
+    }
+  });
   segments.start_on_cap = (segments.start_on_cap & ~done) | start_on_cap;
   segments.end_on_cap = (segments.end_on_cap & ~done) | end_on_cap;
+}
+
+/// The normals of all chunks that hold any of the lanes.
+HWY_NOINLINE void find_normals(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
+                               const CanonicalPrimitive& primitive, const PacketV& t,
+                               LaneMask on_cap, Lanes3<Wide> (&normals)[kChunks]) {
+  const Wide d;
+  const Vec3 center = primitive.center - frame.pivot;
+  with_shape(primitive, [&](auto shape) {
+    for (const int c : ChunksOf(lanes)) {
+      normals[c] = normal_of_shape<shape.value>(d, primitive, center,
+                                          load_rays(d, packet, first_lane(c)), t.chunk[c],
+                                          mask_of(on_cap, c));
+    }
+  });
 }
 
 }  // namespace HWY_NAMESPACE
