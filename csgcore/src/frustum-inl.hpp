@@ -159,23 +159,10 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
                     no_lanes(d));
 }
 
-/// Whether all lanes pass the frustum's axis further away than its larger radius, by the line's
-/// moment about the axis: most rays that miss, at a fraction of the cost. The slack is far above
-/// what is rounded here and far below what matters: passing is decided by `crossings`.
-template <class D>
-HWY_INLINE bool all_pass(D d, const Lanes3<D>& p, const Lanes3<D>& direction) {
-  constexpr double kPassSlack = 1e-6;
-  const auto moment = hn::Sub(hn::Mul(p.x, direction.y), hn::Mul(p.y, direction.x));
-  const auto lateral2 = dot_xy(direction, direction);
-  const auto limit = hn::Mul(lateral2, hn::Set(d, 1.0 + kPassSlack));
-  return hn::AllTrue(d, hn::Gt(hn::Mul(moment, moment), limit));
-}
-
 /// Of a ray p + t·direction in canonical space.
 template <class D>
 HWY_INLINE Segment<D> canonical_segment(D d, const CanonicalPrimitive& primitive,
                                         const Lanes3<D>& p, const Lanes3<D>& direction) {
-  if (all_pass(d, p, direction)) return no_segment(d);
   const auto lateral2 = dot_xy(direction, direction);
   const Inverses<D> inverse = inverses(d, direction, lateral2);
   const Interval<D> ends = slab(d, p.z, inverse);
@@ -207,6 +194,9 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
   return hn::Or(beyond, hn::Gt(dot_xy(p, p), hn::Mul(radius, radius)));
 }
 
+/// Where a cone's radius is less, its normals are found from the distance from the axis.
+constexpr double kNearApex = 0x1p-20;
+
 /// Outward and unit, at the point that lies at τ = t.
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
@@ -217,13 +207,21 @@ HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3
   const auto one = hn::Set(d, 1.0);
   auto wall_z = hn::Zero(d);
   if (primitive.radius_slope != 0) {
-    // The wall's gradient has the distance from the axis for a radius: at the apex none is left,
-    // and the axis' direction away from the cone's body stands in.
+    // The wall's gradient has its radius for the distance from the axis; near the apex, of which
+    // little is left but rounding, that distance itself. At the apex the axis' direction away from
+    // the cone's body stands in.
     const auto downhill = hn::Set(d, -primitive.radius_slope);
-    const auto across2 = dot_xy(point, point);
-    const auto across = hn::Mul(across2, inverse_sqrt(d, across2));
-    const auto is_apex = hn::Eq(across, hn::Zero(d));
-    wall_z = hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, across));
+    const auto radius = hn::Sub(hn::Set(d, primitive.radius_mid), hn::Mul(downhill, point.z));
+    wall_z = hn::Mul(downhill, radius);
+    const auto near_apex = hn::Lt(radius, hn::Set(d, kNearApex));
+    if (!hn::AllFalse(d, near_apex)) {
+      const auto across2 = dot_xy(point, point);
+      const auto across = hn::Mul(across2, inverse_sqrt(d, across2));
+      const auto is_apex = hn::Eq(across, hn::Zero(d));
+      const auto there =
+          hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, across));
+      wall_z = hn::IfThenElse(near_apex, there, wall_z);
+    }
   }
   const Lanes3<D> gradient = {hn::IfThenElseZero(hn::Not(on_cap), point.x),
                               hn::IfThenElseZero(hn::Not(on_cap), point.y),

@@ -289,8 +289,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     find_normals(frame, rays, own, segments.primitive(index), walk.t, on_cap, normals);
     const WideV sign = outward_sign(trace, index);
     for (const int c : ChunksOf(own)) {
-      result.normal[c] =
-          if_then_else(mask_of(own, c), scaled(normals[c], sign), result.normal[c]);
+      result.normal[c] = if_then_else(mask_of(own, c), scaled(normals[c], sign), result.normal[c]);
     }
   }
   LaneMask together = 0;
@@ -509,10 +508,11 @@ void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const R
       shade_phong(settings, frame, rays, same, base, hits, colors);
       continue;
     }
-    for (int channel = 0; channel < 3; ++channel) {
-      for (int c = 0; c < kChunks; ++c) {
+    for (int c = 0; c < kChunks; ++c) {
+      const WideM own = mask_of(same, c);
+      for (int channel = 0; channel < 3; ++channel) {
         WideV& color = colors_of[channel].chunk[c];
-        color = hn::IfThenElse(mask_of(same, c), hn::Set(d, base[channel]), color);
+        color = hn::IfThenElse(own, hn::Set(d, base[channel]), color);
       }
     }
   }
@@ -530,16 +530,21 @@ void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others
                   PacketPixels& pixels) {
   const Wide d;
   const hn::Rebind<int32_t, Wide> integers;
-  const hn::Rebind<uint8_t, Wide> bytes;
+  alignas(64) int32_t rgb[kPacketRays];  // from the lowest byte on
   for (int c = 0; c < kChunks; ++c) {
+    const WideM own = mask_of(lanes, c);
     const auto channel = [&](size_t i) {
       const WideV value = hn::Load(d, colors.rgb[i] + first_lane(c));
-      const WideV other = hn::Set(d, others[i]);
-      const WideV chosen = hn::IfThenElse(mask_of(lanes, c), value, other);
-      return hn::DemoteTo(bytes, hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5))));
+      const WideV chosen = hn::IfThenElse(own, value, hn::Set(d, others[i]));
+      return hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5)));
     };
-    hn::StoreInterleaved3(channel(0), channel(1), channel(2), bytes,
-                          pixels.rgb[first_lane(c)].data());
+    const auto green_blue = hn::Or(hn::ShiftLeft<8>(channel(1)), hn::ShiftLeft<16>(channel(2)));
+    hn::Store(hn::Or(channel(0), green_blue), integers, rgb + first_lane(c));
+  }
+  for (size_t lane = 0; lane < kPacketRays; ++lane) {
+    const uint32_t bits = static_cast<uint32_t>(rgb[lane]);
+    pixels.rgb[lane] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8),
+                        static_cast<uint8_t>(bits >> 16)};
   }
 }
 

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 
 template <Shape kShape, class D>
 HWY_INLINE Segment<D> segment_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                                 const Rays<D>& rays) {
+                                       const Rays<D>& rays) {
   if constexpr (kShape == Shape::kSphere) return sphere_rays::segment(d, primitive, center, rays);
   if constexpr (kShape == Shape::kFrustum) return frustum_rays::segment(d, primitive, center, rays);
   if constexpr (kShape == Shape::kPolyhedron) {
@@ -30,7 +30,7 @@ HWY_INLINE Segment<D> segment_of_shape(D d, const CanonicalPrimitive& primitive,
 
 template <Shape kShape, class D>
 HWY_INLINE Lanes3<D> normal_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                               const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
+                                     const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
   if constexpr (kShape == Shape::kSphere) return sphere_rays::normal(d, primitive, center, rays, t);
   if constexpr (kShape == Shape::kFrustum) {
     return frustum_rays::normal(d, primitive, center, rays, t, on_cap);
@@ -103,9 +103,9 @@ HWY_NOINLINE void find_normals(const FrameRays& frame, const RayPacket& packet, 
   const Vec3 center = primitive.center - frame.pivot;
   with_shape(primitive, [&](auto shape) {
     for (const int c : ChunksOf(lanes)) {
-      normals[c] = normal_of_shape<shape.value>(d, primitive, center,
-                                          load_rays(d, packet, first_lane(c)), t.chunk[c],
-                                          mask_of(on_cap, c));
+      normals[c] =
+          normal_of_shape<shape.value>(d, primitive, center, load_rays(d, packet, first_lane(c)),
+                                       t.chunk[c], mask_of(on_cap, c));
     }
   });
 }

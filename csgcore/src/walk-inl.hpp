@@ -348,20 +348,22 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
         const PacketSegments& segment = segments.compute(index, moves);
         const double* const to = must_be_outside ? segment.end : segment.start;
         LaneMask goes_on = 0;
+        WideV furthest = hn::Set(d, furthest_t);
         for (int c = 0; c < kChunks; ++c) {
           const WideV next = hn::Load(d, to + first_lane(c));
           const WideM further =
               hn::And(mask_of(moves, c), hn::Le(next, hn::Load(d, leave + first_lane(c))));
           goes_on |= bits_of(further, c);
           walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
+          furthest = hn::IfThenElse(further, hn::Max(furthest, next), furthest);
         }
+        furthest_t = hn::GetLane(hn::MaxOfLanes(d, furthest));
         const LaneMask ends = moves & ~goes_on;
         walk.live &= ~ends;
         unsettled &= ~ends;
         walk.moved |= goes_on;
         moved |= goes_on;
         segments.forget_apart(goes_on);
-        furthest_t = furthest_of(walk.t, walk.live);
         last_moved = index;
       } else if (moved == 0 && index == last_moved && !is_first_round) {
         break;
