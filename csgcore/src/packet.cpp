@@ -137,22 +137,20 @@ HWY_INLINE uint64_t pixels_between(const ScreenOutline& outline, float x, float 
   uint64_t beyond = 0;
   for (size_t column = 0; column < kPacketWidth_px; column += hn::Lanes(d)) {
     const auto along = hn::Iota(d, static_cast<float>(column));
-    const auto at_row = [&](int line) {
+    // How far beyond a line the row's pixels are.
+    const auto first_row = [&](int line) {
       const float first = outline.x[line] * x + outline.y[line] * y - outline.limit[line];
       return hn::Add(hn::Set(d, first), hn::Mul(hn::Set(d, outline.x[line]), along));
     };
-    const auto first0 = at_row(0);
-    const auto first1 = at_row(1);
+    auto past0 = first_row(0);
+    auto past1 = first_row(1);
     for (uint32_t row = 0; row < 2 * kPacketHeight_px; ++row) {
-      const auto down = [&](int line) {
-        return hn::Set(d, outline.y[line] * static_cast<float>(row));
-      };
-      const auto zero = hn::Zero(d);
-      const auto out =
-          hn::Or(hn::Gt(hn::Add(first0, down(0)), zero), hn::Gt(hn::Add(first1, down(1)), zero));
+      const auto is_beyond = hn::Gt(hn::Max(past0, past1), hn::Zero(d));
       uint8_t bytes[8] = {};
-      hn::StoreMaskBits(d, out, bytes);
+      hn::StoreMaskBits(d, is_beyond, bytes);
       beyond |= uint64_t{bytes[0]} << (kPacketWidth_px * row + column);
+      past0 = hn::Add(past0, hn::Set(d, outline.y[0]));
+      past1 = hn::Add(past1, hn::Set(d, outline.y[1]));
     }
   }
   return ~beyond;

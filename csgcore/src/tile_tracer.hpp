@@ -75,7 +75,7 @@ struct TileRules {
   /// Rays go through pixels' centres only.
   bool centers_only = true;
   /// A tile of kTileSide_px is not divided if its list is this short.
-  uint32_t tile_list = 32;
+  uint32_t tile_list = 48;
   /// Nor is one of a packet; one of 2 pixels a side in any case.
   uint32_t packet_list = std::numeric_limits<uint32_t>::max();
   /// What is hidden is left out where what hides it is, along every ray, longer than this share of

@@ -284,25 +284,23 @@ HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   return number == CellList::kTrue;
 }
 
-/// Lanes of a packet that lie before a segment's start, within it, or beyond its end.
-HWY_INLINE LaneMask lanes_before(const PacketSegments& segment, const PacketV& t) {
-  LaneMask result = 0;
-  for (int c = 0; c < kChunks; ++c) {
-    result |= bits_of(hn::Lt(t.chunk[c], hn::Load(Wide(), segment.start + first_lane(c))), c);
-  }
-  return result;
-}
-HWY_INLINE LaneMask lanes_within(const PacketSegments& segment, const PacketV& t) {
+/// Where the lanes of a packet stand against a segment.
+struct Sides {
+  LaneMask before, within;
+};
+HWY_INLINE Sides sides_of(const PacketSegments& segment, const PacketV& t) {
   const Wide d;
-  LaneMask result = 0;
+  LaneMask before_start = 0;
+  LaneMask before_end = 0;
   for (int c = 0; c < kChunks; ++c) {
-    const WideM starts = hn::Lt(t.chunk[c], hn::Load(d, segment.start + first_lane(c)));
-    const WideM ends = hn::Lt(t.chunk[c], hn::Load(d, segment.end + first_lane(c)));
-    result |= bits_of(hn::AndNot(starts, ends), c);
+    const auto is_before = [&](const double* ends) {
+      return bits_of(hn::Lt(t.chunk[c], hn::Load(d, ends + first_lane(c))), c);
+    };
+    before_start |= is_before(segment.start);
+    before_end |= is_before(segment.end);
   }
-  return result;
+  return {before_start, before_end & ~before_start};
 }
-
 /// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
 /// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
 /// that fails is passed over at once: to where it holds again. The least t that none moves any
@@ -331,15 +329,15 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
           }
         }
         if (active != 0) {
-          moves = active & lanes_within(segments.compute(index, active), walk.t);
+          moves = active & sides_of(segments.compute(index, active), walk.t).within;
         }
       } else {
         walk.live &= ~unsettled | active;
         unsettled = walk.live & unsettled;
         if (active != 0) {
-          const PacketSegments& segment = segments.compute(index, active);
-          moves = active & lanes_before(segment, walk.t);
-          const LaneMask ends = active & ~moves & ~lanes_within(segment, walk.t);
+          const Sides sides = sides_of(segments.compute(index, active), walk.t);
+          moves = active & sides.before;
+          const LaneMask ends = active & ~sides.before & ~sides.within;
           walk.live &= ~ends;
           unsettled &= ~ends;
         }
