@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kBoundedAtOnce = 4096;
 
 /// Of what is smaller on the screen, its box tells enough.
-constexpr double kOutlinelessHalf_px = 1;
+constexpr double kOutlinelessHalf_px = 4;
 
 /// As many as have bits in a word.
 constexpr uint32_t kMembersAtOnce = 64;
@@ -24,12 +24,7 @@ constexpr uint32_t kMembersAtOnce = 64;
 constexpr uint32_t kManyMembers = 4;
 
 bool meets(const Extent& screen, const Box& cell) {
-  bool meets = fate_on_screen(screen) == ScreenFate::kVisible;
-  for (const int axis : {0, 1}) {
-    meets &= screen.center[axis] - screen.half[axis] <= cell.max[axis];
-    meets &= screen.center[axis] + screen.half[axis] >= cell.min[axis];
-  }
-  return meets;
+  return fate_on_screen(screen) == ScreenFate::kVisible && overlaps(screen, cell);
 }
 
 void prefetch(const void* object, size_t bytes) {

@@ -42,6 +42,16 @@ inline ScreenFate fate_on_screen(const Extent& screen) {
   return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
 }
 
+/// Whether its rectangle meets an area of the screen, whose z does not count.
+inline bool overlaps(const Extent& screen, const Box& area) {
+  bool result = true;
+  for (const int axis : {0, 1}) {
+    result &= screen.center[axis] - screen.half[axis] <= area.max[axis];
+    result &= screen.center[axis] + screen.half[axis] >= area.min[axis];
+  }
+  return result;
+}
+
 inline double nearest_t(const Extent& screen) { return screen.center[2] - screen.half[2]; }
 inline double furthest_t(const Extent& screen) { return screen.center[2] + screen.half[2]; }
 

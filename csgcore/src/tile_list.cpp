@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <glm/common.hpp>
+#include <limits>
 #include <numeric>
 
 #include "screen_extents.hpp"
@@ -20,6 +23,10 @@ constexpr uint32_t kUndecisiveList = 64;
 /// far above the rounding of an intersection.
 constexpr double kCoverSlack = 1e-9;
 
+/// Of pixels that a primitive hides, those within it for less than this share of the longest are
+/// not asked for a common depth: they may have none.
+constexpr double kLeastShare = 0.25;
+
 /// A stretch of depth is looked at in so many parts for one that is free.
 constexpr size_t kDepthParts = 64;
 
@@ -28,6 +35,11 @@ constexpr int64_t kMostInTheWay = 16;
 
 bool meets(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) <= to_t && furthest_t(screen) >= from_t;
+}
+
+/// Whether it is larger than the tile on the screen.
+bool covers_more_than(const Extent& screen, const Tile& tile) {
+  return 2 * screen.half[0] > tile.width && 2 * screen.half[1] > tile.height;
 }
 
 bool lies_within(const Extent& screen, double from_t, double to_t) {
@@ -45,7 +57,8 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
   for (const Cover& cover : covers_) {
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
-    cuts = depth && drop_hidden(list, restrictor, *depth, cover);
+    cuts = depth && all_end_before(list, restrictor, *depth) &&
+           drop_behind(list, *depth, cover, nullptr);
     if (!cuts) continue;
     cut_t_ = *depth;
     break;
@@ -59,6 +72,11 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
   }
   restrictor.restrict(list, dropped_, result);
   return cuts ? Outcome::kCut : Outcome::kSimplified;
+}
+
+double TileSimplifier::slack_of(const Cover& cover) {
+  return kCoverSlack *
+         (std::abs(cover.from_t) + std::abs(cover.to_t) + (cover.to_t - cover.from_t));
 }
 
 /// The longest first.
@@ -79,7 +97,7 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
     const Extent& e = screen_[primitive];
     if (e.center[0] - e.half[0] > low_x || e.center[0] + e.half[0] < high_x ||
         e.center[1] - e.half[1] > low_y || e.center[1] + e.half[1] < high_y) {
-      is_partly_covered_ |= 2 * e.half[0] > tile.width && 2 * e.half[1] > tile.height;
+      is_partly_covered_ |= covers_more_than(e, tile);
       continue;
     }
     covers_.push_back({primitive, nearest_t(e), furthest_t(e)});
@@ -106,7 +124,7 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
     intersect_four(frame_, rays, primitives_[cover.primitive], segments);
     const double from = *std::max_element(segments.start, segments.start + 4);
     const double to = *std::min_element(segments.end, segments.end + 4);
-    const double slack = kCoverSlack * (std::abs(from) + std::abs(to) + (to - from));
+    const double slack = slack_of({cover.primitive, from, to});
     const double least = cover_share_ * (cover.to_t - cover.from_t);
     cover.from_t = std::max(from, frame_.first_t) + slack;
     cover.to_t = to - slack;
@@ -207,21 +225,122 @@ std::optional<double> TileSimplifier::free_depth(const CellList& list, double fr
   return std::nullopt;
 }
 
-bool TileSimplifier::drop_hidden(const CellList& list, Restrictor& restrictor, double depth,
-                                 const Cover& cover) {
+/// Whether all rays end before the depth, of those that the covers hold there.
+bool TileSimplifier::all_end_before(const CellList& list, Restrictor& restrictor, double depth) {
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
-  if (probe_.root != (*last_value_ ? CellList::kTrue : CellList::kFalse)) return false;
+  return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
+}
+
+/// Drops what is behind the depth, but for what reaches into `seen`; false if that is nothing.
+bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover& cover,
+                                 const Box* seen) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
-    const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
-    if (dropped_[i] == Decision::kOutside || nearest_t(screen_[primitive]) <= depth) continue;
+    const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
+    if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
+    if (seen && overlaps(extent, *seen)) continue;
     dropped_[i] = Decision::kOutside;
-    const bool is_inside = lies_within(screen_[primitive], cover.from_t, cover.to_t);
-    note(primitive, is_inside ? Fate::kInside : Fate::kHidden);
+    const bool is_inside = lies_within(extent, cover.from_t, cover.to_t);
+    note(list.primitive[i] & kPrimitiveBits, is_inside ? Fate::kInside : Fate::kHidden);
     drops = true;
   }
   return drops;
+}
+
+namespace {
+
+/// The pixels of a tile of up to 8 × 8, as PixelCut counts them.
+uint64_t pixels_of(const Tile& tile) {
+  uint64_t pixels = 0;
+  for (uint32_t y = 0; y < tile.height; ++y) {
+    pixels |= ((uint64_t{1} << tile.width) - 1) << (kPacketWidth_px * y);
+  }
+  return pixels;
+}
+
+/// The smallest box on the screen that holds these; none: an empty one.
+Box box_of(const Tile& tile, uint64_t pixels) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Box box{Vec3{kNone}, Vec3{-kNone}};
+  for (; pixels != 0; pixels &= pixels - 1) {
+    const uint32_t bit = static_cast<uint32_t>(std::countr_zero(pixels));
+    const Vec3 at{tile.x + bit % kPacketWidth_px, tile.y + bit / kPacketWidth_px, 0};
+    box.min = glm::min(box.min, at);
+    box.max = glm::max(box.max, at);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile& tile,
+                                                                      const CellList& list,
+                                                                      Restrictor& restrictor,
+                                                                      CellList& result) {
+  static_assert(kPacketWidth_px == 8 && kPacketRays == 32);
+  if (!last_value_ || !centers_only_) return std::nullopt;
+  // The largest primitive that may hide much of it.
+  const Extent* largest = nullptr;
+  uint32_t primitive = 0;
+  for (const uint32_t entry : list.primitives()) {
+    const uint32_t index = entry & kPrimitiveBits;
+    const Extent& e = screen_[index];
+    if (groups_.is_group(index) || !covers_more_than(e, tile)) continue;
+    if (largest && e.half[0] * e.half[1] <= largest->half[0] * largest->half[1]) continue;
+    largest = &e;
+    primitive = index;
+  }
+  if (!largest) return std::nullopt;
+  const bool any_behind = std::ranges::any_of(list.primitives(), [&](uint32_t entry) {
+    const uint32_t index = entry & kPrimitiveBits;
+    return nearest_t(screen_[index]) > largest->center[2];
+  });
+  if (!any_behind) return std::nullopt;
+  // Where each pixel's ray is within it.
+  double start[2 * kPacketRays], end[2 * kPacketRays];
+  uint64_t left = pixels_of(tile);
+  double longest = 0;
+  for (const uint32_t block : {0u, 1u}) {
+    if ((left >> (block * kPacketRays) & kAllLanes) == 0) continue;
+    RayPacket rays;
+    make_block_rays(frame_, tile.x, tile.y + block * kPacketHeight_px, rays);
+    PacketSegments segments;
+    intersect(frame_, rays, primitives_[primitive], segments);
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      const uint32_t pixel = block * kPacketRays + lane;
+      start[pixel] = std::max(segments.start[lane], frame_.first_t);
+      end[pixel] = segments.end[lane];
+      const bool is_in_tile = (left >> pixel & 1) != 0;
+      if (is_in_tile) longest = std::max(longest, end[pixel] - start[pixel]);
+    }
+  }
+  if (!(longest > 0)) return std::nullopt;
+  Cover cover{primitive, frame_.first_t, std::numeric_limits<double>::infinity()};
+  for (uint64_t pixels = left; pixels != 0; pixels &= pixels - 1) {
+    const int i = std::countr_zero(pixels);
+    if (!(end[i] - start[i] >= kLeastShare * longest)) continue;
+    cover.from_t = std::max(cover.from_t, start[i]);
+    cover.to_t = std::min(cover.to_t, end[i]);
+  }
+  const double slack = slack_of(cover);
+  cover = {primitive, cover.from_t + slack, cover.to_t - slack};
+  if (!(cover.from_t < cover.to_t)) return std::nullopt;
+  covers_.assign(1, cover);
+  dropped_.assign(list.count(), Decision::kOpen);
+  marked_.clear();
+  const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
+  if (!depth || !all_end_before(list, restrictor, *depth)) return std::nullopt;
+  PixelCut cut{tile.x, tile.y, 0, *depth, {}};
+  for (uint64_t pixels = left; pixels != 0; pixels &= pixels - 1) {
+    const int i = std::countr_zero(pixels);
+    const bool is_hidden = start[i] + slack < *depth && *depth < end[i] - slack;
+    cut.hidden |= uint64_t{is_hidden} << i;
+  }
+  cut.seen = box_of(tile, left & ~cut.hidden);
+  drop_behind(list, *depth, cover, &cut.seen);
+  restrictor.restrict(list, dropped_, result);
+  return cut;
 }
 
 /// Of a group, all that it holds and the screen shows.

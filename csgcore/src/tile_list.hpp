@@ -76,6 +76,18 @@ class TileSimplifier {
   };
   Outcome simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
                    CellList& result);
+  /// What some pixels of a tile cannot see, others may.
+  struct PixelCut {
+    uint32_t x, y;    // of the tile's first pixel
+    uint64_t hidden;  // bit 8·row + column: the ray through that pixel's centre ends before `depth`
+    double depth;     // τ
+    Box seen;         // on the screen: where rays go on
+  };
+  /// Of a tile of up to 8 × 8 pixels that one primitive covers in part, and rays through pixels'
+  /// centres: `result` is without what lies behind where that primitive hides it, and is seen
+  /// nowhere else. None: there is no such primitive.
+  std::optional<PixelCut> cut_by_pixels(const Tile& tile, const CellList& list,
+                                        Restrictor& restrictor, CellList& result);
   /// By the list's indices.
   std::span<const uint8_t> marked() const { return marked_; }
   /// After kCut: the depth that all rays of the tile end before.
@@ -89,10 +101,12 @@ class TileSimplifier {
     uint32_t primitive;
     double from_t, to_t;
   };
+  static double slack_of(const Cover& cover);
   bool find_covers(const Tile& tile, const CellList& list);
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
-  bool drop_hidden(const CellList& list, Restrictor& restrictor, double depth, const Cover& cover);
+  bool all_end_before(const CellList& list, Restrictor& restrictor, double depth);
+  bool drop_behind(const CellList& list, double depth, const Cover& cover, const Box* seen);
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
   void note(uint32_t index, Fate fate);

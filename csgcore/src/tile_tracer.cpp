@@ -87,6 +87,7 @@ TraceList TileList::trace_list(const PacketBlock& block) const {
 struct TileTracer::Level {
   CellList halves[2];
   CellList simplified;
+  CellList cut;
   CellList opened[2];
 };
 
@@ -248,9 +249,21 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
     if (!cuts) return;
     if (!cut.uncut) cut.uncut = &given;
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+    cut.by_pixels.reset();
   };
   // Groups that are left of a list that was cut are mostly seen.
   simplify_list(!cut.uncut && has_groups(groups_, *list));
+  if (is_short() && side <= kTileSide_px && !cut.uncut && rules_.cuts_by_pixels &&
+      has_groups(groups_, *list)) {
+    cut.by_pixels = workspace.simplifier.cut_by_pixels(tile, *list, workspace.restrictor, own.cut);
+    if (cut.by_pixels) {
+      cut.uncut = &given;
+      const double depth = cut.by_pixels->depth;
+      const auto is_behind_cut = [&](const Extent& group) { return nearest_t(group) > depth; };
+      list =
+          open_wanted_groups(cut.by_pixels->seen, &own.cut, is_behind_cut, own.opened, workspace);
+    }
+  }
   const CellList* const closed = list;
   const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
@@ -313,14 +326,15 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
       case TileSimplifier::Outcome::kSimplified:
         return &level.simplified;
       case TileSimplifier::Outcome::kOpenGroups:
-        list = &open_groups(tile, *list, workspace.simplifier.marked(), level.opened, workspace);
+        list = &open_groups(box_of(tile), *list, workspace.simplifier.marked(), level.opened,
+                            workspace);
     }
   }
   return list;
 }
 
 /// The list with the groups opened whose indices in the list are marked.
-const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
+const CellList& TileTracer::open_groups(const Box& cell, const CellList& list,
                                         std::span<const uint8_t> marked, CellList (&buffers)[2],
                                         Workspace& workspace) {
   using Opening = Restrictor::Opening;
@@ -331,31 +345,40 @@ const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
     workspace.openings[i] = is_seen ? Opening::kMembers : Opening::kNothing;
   }
   CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
-  workspace.restrictor.open(list, groups_, workspace.openings, box_of(tile), result);
+  workspace.restrictor.open(list, groups_, workspace.openings, cell, result);
   return result;
 }
 
-/// The list with all groups opened that are as wide or as high as `share` of the tile, in one of
-/// the buffers; the list itself if there are none.
-const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
-                                              CellList (&buffers)[2], Workspace& workspace) {
-  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
+/// The list with all groups opened whose extents are wanted, in one of the buffers; the list itself
+/// if there are none. Of what they hold, what matters in the cell on the screen is left.
+template <typename IsWanted>
+const CellList* TileTracer::open_wanted_groups(const Box& cell, const CellList* list,
+                                               const IsWanted& is_wanted, CellList (&buffers)[2],
+                                               Workspace& workspace) {
   const std::span<const Extent> screen = bounds_.extents();
   std::vector<uint8_t>& marked = workspace.marked;
-  const auto is_large_group = [&](uint32_t entry) {
+  const auto is_opened = [&](uint32_t entry) {
     const uint32_t index = entry & kPrimitiveBits;
-    return groups_.is_group(index) &&
-           (screen[index].half[0] >= least[0] || screen[index].half[1] >= least[1]);
+    return groups_.is_group(index) && is_wanted(screen[index]);
   };
   for (;;) {
     const std::span<const uint32_t> entries = list->primitives();
-    const auto first = std::find_if(entries.begin(), entries.end(), is_large_group);
+    const auto first = std::find_if(entries.begin(), entries.end(), is_opened);
     if (first == entries.end()) return list;
     marked.assign(entries.size(), 0);
-    std::transform(first, entries.end(), marked.begin() + (first - entries.begin()),
-                   is_large_group);
-    list = &open_groups(tile, *list, marked, buffers, workspace);
+    std::transform(first, entries.end(), marked.begin() + (first - entries.begin()), is_opened);
+    list = &open_groups(cell, *list, marked, buffers, workspace);
   }
+}
+
+/// The same of all groups that are as wide or as high as `share` of the tile.
+const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
+                                              CellList (&buffers)[2], Workspace& workspace) {
+  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
+  const auto is_large = [&](const Extent& group) {
+    return group.half[0] >= least[0] || group.half[1] >= least[1];
+  };
+  return open_wanted_groups(box_of(tile), list, is_large, buffers, workspace);
 }
 
 class TileTracer::LeafRays final : public TileRays {
@@ -374,21 +397,29 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    return trace(rays, lanes, workspace_.list.trace_list(), hits);
+    return trace(rays, lanes, lanes, workspace_.list.trace_list(), hits);
   }
 
   const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
                          PacketHits& hits) override {
-    return trace(rays, block.lanes, workspace_.list.trace_list(block), hits);
+    return trace(rays, block.lanes, lanes_that_end(block), workspace_.list.trace_list(block), hits);
   }
 
  private:
-  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
-                         PacketHits& hits) {
+  /// The rays that end before the list was cut.
+  LaneMask lanes_that_end(const PacketBlock& block) const {
+    if (!cut_.by_pixels) return block.lanes;
+    const uint64_t hidden = cut_.by_pixels->hidden;
+    const uint32_t first = (block.y - cut_.by_pixels->y) * kPacketWidth_px;
+    return block.lanes & static_cast<LaneMask>(hidden >> first);
+  }
+
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, LaneMask ending,
+                         const TraceList& list, PacketHits& hits) {
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
     // by a piece too thin to exist, what lies behind counts.
-    if (!cut_.uncut || (hits.hits & lanes) == lanes) return workspace_.list.trace_list();
+    if (!cut_.uncut || (hits.hits & ending) == ending) return workspace_.list.trace_list();
     workspace_.packets.was_computed.clear();
     if (!has_uncut_) assign_uncut();
     const TraceList& uncut = workspace_.uncut_list.trace_list();

@@ -81,6 +81,8 @@ struct TileRules {
   /// What is hidden is left out where what hides it is, along every ray, longer than this share of
   /// its depth on the screen: who computes less exactly than the tracer must not miss it.
   double cover_share = 0;
+  /// Whether it may be without what is hidden from some of a tile's pixels alone.
+  bool cuts_by_pixels = true;
 };
 
 /// One frame's tiles.
@@ -115,6 +117,7 @@ class TileTracer {
   struct Cut {
     const CellList* uncut = nullptr;                     // the list before; null: it is whole
     double t = std::numeric_limits<double>::infinity();  // TileRays::Met::cut_t
+    std::optional<TileSimplifier::PixelCut> by_pixels;   // none: all rays end before
   };
 
   /// What rays can get to.
@@ -133,9 +136,13 @@ class TileTracer {
                   TileVisitor& visitor);
   const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                            Level& level, Workspace& workspace, bool& cuts);
-  const CellList& open_groups(const Tile& tile, const CellList& list,
+  const CellList& open_groups(const Box& cell, const CellList& list,
                               std::span<const uint8_t> marked, CellList (&buffers)[2],
                               Workspace& workspace);
+  template <typename IsWanted>
+  const CellList* open_wanted_groups(const Box& cell, const CellList* list,
+                                     const IsWanted& is_wanted, CellList (&buffers)[2],
+                                     Workspace& workspace);
   const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
                                     CellList (&buffers)[2], Workspace& workspace);
   Box box_of(const Tile& tile) const;

@@ -352,6 +352,51 @@ class Simplifying {
     uint32_t before = 0, after = 0;  // literals
     uint64_t hits = 0;
   };
+  /// Fails if rays through a tile's pixels see different things by the list that is cut where they
+  /// are hidden. The hits are those of hidden pixels.
+  Outcome expect_same_hits_by_pixels(const Tile& tile) {
+    CellList list, cut_list;
+    const Box box{{tile.x, tile.y, -kFar},
+                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
+    restrictor_.restrict(*solid_.cell_list(), box, list);
+    Outcome outcome;
+    outcome.before = outcome.after = list.count();
+    if (list.is_constant()) return outcome;
+    const auto cut = simplifier_.cut_by_pixels(tile, list, restrictor_, cut_list);
+    if (!cut) return outcome;
+    outcome.after = cut_list.count();
+    for_each_block(tile, [&](const PacketBlock& block) {
+      RayPacket rays;
+      make_block_rays(whole_.frame(), block, rays);
+      const PacketHits by_all = trace(list, rays, block.lanes, Boundary::kFirst);
+      const PacketHits by_few = trace(cut_list, rays, block.lanes, Boundary::kFirst);
+      EXPECT_EQ(by_all.hits, by_few.hits);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        const double pixel[] = {static_cast<double>(block.x + lane % kPacketWidth_px),
+                                static_cast<double>(block.y + lane / kPacketWidth_px)};
+        const uint32_t bit = (block.y - tile.y) * kPacketWidth_px + lane;
+        const bool is_hidden = (cut->hidden >> bit & 1) != 0;
+        const bool is_in_tile = (block.lanes >> lane & 1) != 0;
+        EXPECT_TRUE(is_in_tile || !is_hidden);
+        if (is_in_tile && !is_hidden) {
+          for (const int axis : {0, 1}) {
+            EXPECT_GE(pixel[axis], cut->seen.min[axis]);
+            EXPECT_LE(pixel[axis], cut->seen.max[axis]);
+          }
+        }
+        if (!(by_few.hits >> lane & by_all.hits >> lane & 1)) {
+          EXPECT_FALSE(is_hidden) << "hits nothing";
+          continue;
+        }
+        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
+        if (!is_hidden) continue;
+        EXPECT_LT(by_few.t[lane], cut->depth);
+        ++outcome.hits;
+      }
+    });
+    return outcome;
+  }
+
   /// Fails if rays through the tile's pixels see different things by the two lists.
   Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
     CellList list, simplified;
@@ -435,6 +480,66 @@ TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
   }
   EXPECT_GT(dropped, 1000u);
   EXPECT_GT(hits, 10000u);
+}
+
+TEST(SimplifierByPixels, DropsOnlyWhatItsRaysDoNotSee) {
+  uint64_t dropped = 0, hits = 0;
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = checks::crowd(seed);
+    const Box bounds{Vec3(-6.0), Vec3(6.0)};
+    for (const auto& [name, view] : checks::trace_views(bounds, 92, 90)) {
+      if (name == "FromWithin") continue;
+      SCOPED_TRACE(name);
+      Simplifying simplifying(scene, view, true);
+      for (uint32_t y = 0; y < 90; y += 8) {
+        for (uint32_t x = 0; x < 92; x += 8) {
+          const auto outcome = simplifying.expect_same_hits_by_pixels(
+              {x, y, std::min(8u, 92 - x), std::min(8u, 90 - y)});
+          dropped += outcome.before - outcome.after;
+          hits += outcome.hits;
+        }
+      }
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(dropped, 1000u);
+  EXPECT_GT(hits, 10000u);
+}
+
+/// A ball, and many behind it and about it, of which some look out beside it.
+TEST(SimplifierByPixels, GroupsAreOpenedForWhatIsSeen) {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    std::mt19937 random(4);
+    Scene scene;
+    CsgTreeBuilder builder;
+    builder.open(Op::kUnion);
+    const auto add = [&](double radius, const Vec3& center) {
+      scene.primitives.push_back(make_sphere(radius, {Mat3(1.0), center}));
+      builder.primitive(static_cast<uint32_t>(scene.primitives.size() - 1));
+    };
+    add(3, Vec3(0, 0, 0));
+    for (int i = 0; i < 4000; ++i) {
+      const double angle = uniform(random, 0, 7), distance = 5.5 * std::sqrt(uniform(random, 0, 1));
+      add(0.05, {distance * std::cos(angle), distance * std::sin(angle), uniform(random, -9, 3)});
+    }
+    builder.close();
+    scene.model = builder.finish();
+    View view =
+        checks::view_of({Vec3(-3.0), Vec3(3.0)}, glm::normalize(Vec3(-0.05, -0.03, -1)), 12);
+    view.projection = projection;
+    view.half_height = projection == Projection::kPerspective ? 0.4 : 5;
+    view.width_px = 203;
+    view.height_px = 190;
+    const Solid solid(canonical_primitives(scene), scene.model);
+    ASSERT_GT(solid.groups().count(), solid.groups().first_group());
+    const Hits expected = checks::WholeList(solid, view).picture();
+    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view), expected));
+    // Some of them are seen.
+    const auto is_small = [](uint32_t primitive) {
+      return primitive != Hits::kMiss && primitive != 0;
+    };
+    EXPECT_GT(std::ranges::count_if(expected.primitive, is_small), 100);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Tiles, Simplifier, testing::Values(Boundary::kFirst, Boundary::kBehind),
