@@ -194,7 +194,7 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
   return hn::Or(beyond, hn::Gt(dot_xy(p, p), hn::Mul(radius, radius)));
 }
 
-/// Where a cone's radius is less, its normals are found from the distance from the axis.
+/// Where a cone's radius is less, it is not taken for a guess at the distance from the axis.
 constexpr double kNearApex = 0x1p-20;
 
 /// Outward and unit, at the point that lies at τ = t.
@@ -207,19 +207,21 @@ HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3
   const auto one = hn::Set(d, 1.0);
   auto wall_z = hn::Zero(d);
   if (primitive.radius_slope != 0) {
-    // The wall's gradient has its radius for the distance from the axis; near the apex, of which
-    // little is left but rounding, that distance itself. At the apex the axis' direction away from
-    // the cone's body stands in.
+    // The wall's gradient has the distance from the axis for a radius: the wall's own but for
+    // rounding, of which one step leaves nothing, unless next to the apex. There none is left, and
+    // the axis' direction away from the cone's body stands in.
     const auto downhill = hn::Set(d, -primitive.radius_slope);
     const auto radius = hn::Sub(hn::Set(d, primitive.radius_mid), hn::Mul(downhill, point.z));
-    wall_z = hn::Mul(downhill, radius);
+    const auto across2 = dot_xy(point, point);
+    const auto guess = hn::Div(one, radius);
+    const auto across = hn::Mul(across2, newton_inverse_sqrt(d, across2, guess, 1));
+    wall_z = hn::Mul(downhill, across);
     const auto near_apex = hn::Lt(radius, hn::Set(d, kNearApex));
     if (!hn::AllFalse(d, near_apex)) {
-      const auto across2 = dot_xy(point, point);
-      const auto across = hn::Mul(across2, inverse_sqrt(d, across2));
-      const auto is_apex = hn::Eq(across, hn::Zero(d));
+      const auto exact = hn::Mul(across2, inverse_sqrt(d, across2));
+      const auto is_apex = hn::Eq(exact, hn::Zero(d));
       const auto there =
-          hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, across));
+          hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, exact));
       wall_z = hn::IfThenElse(near_apex, there, wall_z);
     }
   }
