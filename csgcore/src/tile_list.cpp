@@ -46,6 +46,28 @@ bool lies_within(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) > from_t && furthest_t(screen) < to_t;
 }
 
+/// The pixels of a tile of up to 8 × 8, as PixelCut counts them.
+uint64_t pixels_of(const Tile& tile) {
+  uint64_t pixels = 0;
+  for (uint32_t y = 0; y < tile.height; ++y) {
+    pixels |= ((uint64_t{1} << tile.width) - 1) << (kPacketWidth_px * y);
+  }
+  return pixels;
+}
+
+/// The smallest box on the screen that holds these; none: an empty one.
+Box box_about(const Tile& tile, uint64_t pixels) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Box box{Vec3{kNone}, Vec3{-kNone}};
+  for (; pixels != 0; pixels &= pixels - 1) {
+    const uint32_t bit = static_cast<uint32_t>(std::countr_zero(pixels));
+    const Vec3 at{tile.x + bit % kPacketWidth_px, tile.y + bit / kPacketWidth_px, 0};
+    box.min = glm::min(box.min, at);
+    box.max = glm::max(box.max, at);
+  }
+  return box;
+}
+
 }  // namespace
 
 TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellList& list,
@@ -248,32 +270,6 @@ bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover
   return drops;
 }
 
-namespace {
-
-/// The pixels of a tile of up to 8 × 8, as PixelCut counts them.
-uint64_t pixels_of(const Tile& tile) {
-  uint64_t pixels = 0;
-  for (uint32_t y = 0; y < tile.height; ++y) {
-    pixels |= ((uint64_t{1} << tile.width) - 1) << (kPacketWidth_px * y);
-  }
-  return pixels;
-}
-
-/// The smallest box on the screen that holds these; none: an empty one.
-Box box_of(const Tile& tile, uint64_t pixels) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  Box box{Vec3{kNone}, Vec3{-kNone}};
-  for (; pixels != 0; pixels &= pixels - 1) {
-    const uint32_t bit = static_cast<uint32_t>(std::countr_zero(pixels));
-    const Vec3 at{tile.x + bit % kPacketWidth_px, tile.y + bit / kPacketWidth_px, 0};
-    box.min = glm::min(box.min, at);
-    box.max = glm::max(box.max, at);
-  }
-  return box;
-}
-
-}  // namespace
-
 std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile& tile,
                                                                       const CellList& list,
                                                                       Restrictor& restrictor,
@@ -299,10 +295,10 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
   if (!any_behind) return std::nullopt;
   // Where each pixel's ray is within it.
   double start[2 * kPacketRays], end[2 * kPacketRays];
-  uint64_t left = pixels_of(tile);
+  const uint64_t pixels_in_tile = pixels_of(tile);
   double longest = 0;
   for (const uint32_t block : {0u, 1u}) {
-    if ((left >> (block * kPacketRays) & kAllLanes) == 0) continue;
+    if ((pixels_in_tile >> (block * kPacketRays) & kAllLanes) == 0) continue;
     RayPacket rays;
     make_block_rays(frame_, tile.x, tile.y + block * kPacketHeight_px, rays);
     PacketSegments segments;
@@ -311,13 +307,13 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
       const uint32_t pixel = block * kPacketRays + lane;
       start[pixel] = std::max(segments.start[lane], frame_.first_t);
       end[pixel] = segments.end[lane];
-      const bool is_in_tile = (left >> pixel & 1) != 0;
+      const bool is_in_tile = (pixels_in_tile >> pixel & 1) != 0;
       if (is_in_tile) longest = std::max(longest, end[pixel] - start[pixel]);
     }
   }
   if (!(longest > 0)) return std::nullopt;
   Cover cover{primitive, frame_.first_t, std::numeric_limits<double>::infinity()};
-  for (uint64_t pixels = left; pixels != 0; pixels &= pixels - 1) {
+  for (uint64_t pixels = pixels_in_tile; pixels != 0; pixels &= pixels - 1) {
     const int i = std::countr_zero(pixels);
     if (!(end[i] - start[i] >= kLeastShare * longest)) continue;
     cover.from_t = std::max(cover.from_t, start[i]);
@@ -332,12 +328,12 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
   const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
   if (!depth || !all_end_before(list, restrictor, *depth)) return std::nullopt;
   PixelCut cut{tile.x, tile.y, 0, *depth, {}};
-  for (uint64_t pixels = left; pixels != 0; pixels &= pixels - 1) {
+  for (uint64_t pixels = pixels_in_tile; pixels != 0; pixels &= pixels - 1) {
     const int i = std::countr_zero(pixels);
     const bool is_hidden = start[i] + slack < *depth && *depth < end[i] - slack;
     cut.hidden |= uint64_t{is_hidden} << i;
   }
-  cut.seen = box_of(tile, left & ~cut.hidden);
+  cut.seen = box_about(tile, pixels_in_tile & ~cut.hidden);
   drop_behind(list, *depth, cover, &cut.seen);
   restrictor.restrict(list, dropped_, result);
   return cut;
