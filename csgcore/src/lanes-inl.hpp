@@ -185,10 +185,6 @@ HWY_INLINE Segment<D> segment_if(D d, hn::Mask<D> exists, hn::Vec<D> start, hn::
   return {hn::IfThenElse(exists, start, hn::Set(d, kInfinity)),
           hn::IfThenElse(exists, end, hn::Set(d, -kInfinity)), start_on_cap, end_on_cap};
 }
-template <class D>
-HWY_INLINE Segment<D> no_segment(D d) {
-  return {hn::Set(d, kInfinity), hn::Set(d, -kInfinity), no_lanes(d), no_lanes(d)};
-}
 /// Within a round wall about the foot of the perpendicular from its centre or axis, where nothing
 /// cancels: `inside` is radius² − |foot|², of the primitive's own magnitude.
 template <class D>

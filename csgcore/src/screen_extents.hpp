@@ -14,7 +14,7 @@ namespace csgcore {
 /// Screen space: x and y in pixels as pixel_ray counts them (whole numbers are pixels' centres), z
 /// is τ. Bounds are conservative: no ray meets the primitive outside of its box.
 /// A primitive that no ray can meet is outside every cell: see fate_on_screen.
-/// inside2 < 0 marks what a closer look may find outside of a tile (classify_in_tile).
+/// inside2 < 0 marks what a closer look may find outside of a tile (screen_outline.hpp).
 struct ScreenOptions {
   /// Rays go through pixels' centres only: what lies between them is seen by none.
   bool centers_only = true;

@@ -34,8 +34,14 @@ constexpr double kPlaneSlack = 0x1p-40;
 constexpr double kNearest = 0x1p-20;
 
 /// What float rounds of a line, and of a point's distance from it, as a share of the coordinates:
-/// some five operations of 2^-24.
+/// some ten operations of 2^-24.
 constexpr double kLineSlack = 0x1p-20;
+
+/// A line further off is none: far beyond every picture.
+constexpr double kFurthestLine_px = 1e9;
+
+constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+constexpr ScreenOutline kNoOutline = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
 
 /// The picture's plane.
 struct Picture {
@@ -53,14 +59,13 @@ struct Picture {
         largest_u(0.5 * of.width_px / px_per_unit),
         largest_v(of.half_height) {}
 
-  /// Sets a line: beyond it is where x·p.x + y·p.y > limit.
+  /// Sets a line, of an outline that has none as yet: beyond it is where x·p.x + y·p.y > limit.
   void set_line(double x, double y, double limit, int line, ScreenOutline& outline) const {
-    const double rounded = kLineSlack * (middle_px[0] + middle_px[1] + 1 + std::abs(limit));
-    const bool is_line = rounded < kLineSlack * 1e9;  // no nan
-    outline.x[line] = is_line ? static_cast<float>(x) : 0;
-    outline.y[line] = is_line ? static_cast<float>(y) : 0;
-    outline.limit[line] =
-        is_line ? static_cast<float>(limit + rounded) : std::numeric_limits<float>::infinity();
+    const double coordinates_px = middle_px[0] + middle_px[1] + 1 + std::abs(limit);
+    if (!(coordinates_px < kFurthestLine_px)) return;  // nor is nan
+    outline.x[line] = static_cast<float>(x);
+    outline.y[line] = static_cast<float>(y);
+    outline.limit[line] = static_cast<float>(limit + kLineSlack * coordinates_px);
   }
 };
 
@@ -97,6 +102,10 @@ struct Columns {
   alignas(64) double error[kMostLanes];
   alignas(64) double depth_reach[kMostLanes];
 
+  HWY_INLINE Lanes3<Wide> centers() const {
+    const Wide d;
+    return {hn::Load(d, center[0]), hn::Load(d, center[1]), hn::Load(d, center[2])};
+  }
   HWY_INLINE void set(size_t lane, const CanonicalPrimitive& primitive, const Extent& screen) {
     for (int i = 0; i < 9; ++i) {
       to_canonical[i][lane] = primitive.world_to_canonical[i / 3][i % 3];
@@ -193,7 +202,7 @@ struct Seen {
 HWY_INLINE void find_limits(const Columns& columns, const Picture& picture, Seen& seen) {
   const Wide d;
   const View& view = picture.view;
-  const V3 center = {load(columns.center[0]), load(columns.center[1]), load(columns.center[2])};
+  const V3 center = columns.centers();
   const V3 from_eye = center - broadcast(d, view.eye);
   const V3 forward = transposed_times(columns.to_world, view.forward);
   const WideV depth = dot(d, from_eye, broadcast(d, view.forward));
@@ -235,7 +244,7 @@ HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen&
   const bool is_perspective = picture.is_perspective;
   const WideV mid = load(columns.mid);
   const WideV slope = load(columns.slope);
-  const V3 center = {load(columns.center[0]), load(columns.center[1]), load(columns.center[2])};
+  const V3 center = columns.centers();
   const V3 right = times(columns.to_canonical, view.right);
   const V3 up = times(columns.to_canonical, view.up);
   const V3 forward = times(columns.to_canonical, view.forward);
@@ -333,11 +342,10 @@ HWY_INLINE void find_some(const Columns& columns, const Picture& picture,
       narrow({low_x[lane], high_x[lane], low_y[lane], high_y[lane]}, picture, options,
              screen[index]);
     }
-    const bool has_lines = (with_lines >> lane & 1) != 0;
+    outlines[index] = kNoOutline;
+    if ((with_lines >> lane & 1) == 0) continue;
     for (const int line : {0, 1}) {
-      const double no_line = std::numeric_limits<double>::quiet_NaN();
-      picture.set_line(x[line][lane], y[line][lane], has_lines ? limit[line][lane] : no_line, line,
-                       outlines[index]);
+      picture.set_line(x[line][lane], y[line][lane], limit[line][lane], line, outlines[index]);
     }
   }
 }
@@ -406,8 +414,7 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
       kPlaneSlack * glm::dot(glm::abs(from_eye) + glm::abs(view.eye) + glm::abs(map[0]) +
                                  glm::abs(map[1]) + glm::abs(map[2]),
                              ones);
-  const double no_line = std::numeric_limits<double>::infinity();
-  for (const int line : {0, 1}) picture.set_line(0, 0, no_line, line, outline);
+  outline = kNoOutline;
   glm::dvec2 points[kFewVertices] = {};
   size_t count = 0;
   double margin = 0;  // of u and v

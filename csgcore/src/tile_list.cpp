@@ -327,7 +327,7 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
   marked_.clear();
   const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
   if (!depth || !all_end_before(list, restrictor, *depth)) return std::nullopt;
-  PixelCut cut{tile.x, tile.y, 0, *depth, {}};
+  PixelCut cut{tile.y, 0, *depth, {}};
   for (uint64_t pixels = pixels_in_tile; pixels != 0; pixels &= pixels - 1) {
     const int i = std::countr_zero(pixels);
     const bool is_hidden = start[i] + slack < *depth && *depth < end[i] - slack;

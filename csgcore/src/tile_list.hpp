@@ -78,7 +78,7 @@ class TileSimplifier {
                    CellList& result);
   /// What some pixels of a tile cannot see, others may.
   struct PixelCut {
-    uint32_t x, y;    // of the tile's first pixel
+    uint32_t y;       // of the tile's first row
     uint64_t hidden;  // bit 8·row + column: the ray through that pixel's centre ends before `depth`
     double depth;     // τ
     Box seen;         // on the screen: where rays go on

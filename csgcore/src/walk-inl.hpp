@@ -301,71 +301,72 @@ HWY_INLINE Sides sides_of(const PacketSegments& segment, const PacketV& t) {
   }
   return {before_start, before_end & ~before_start};
 }
+
+/// Moves lanes to where `to` says, no further than `leave`; returns those that got there.
+/// `furthest_t` becomes that of all that go on, or more.
+HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* leave, Walk& walk,
+                               double& furthest_t) {
+  const Wide d;
+  LaneMask arrived = 0;
+  WideV furthest = hn::Set(d, furthest_t);
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV next = hn::Load(d, to + first_lane(c));
+    const WideM further =
+        hn::And(mask_of(lanes, c), hn::Le(next, hn::Load(d, leave + first_lane(c))));
+    arrived |= bits_of(further, c);
+    walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
+    furthest = hn::IfThenElse(further, hn::Max(furthest, next), furthest);
+  }
+  furthest_t = hn::GetLane(hn::MaxOfLanes(d, furthest));
+  walk.moved |= arrived;
+  return arrived;
+}
+
 /// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
 /// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
 /// that fails is passed over at once: to where it holds again. The least t that none moves any
 /// further is the first where all hold (design.md §4, the fixed point of an intersection).
 HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
                                 Walk& walk) {
-  const Wide d;
   const CellList& list = *trace.list;
   const uint32_t* const if_inside = list.if_inside.data();
   double furthest_t = furthest_of(walk.t, walk.live);
   LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some literal
   uint32_t last_moved = 0;         // by it, moved last
   bool is_first_round = true;
+  const auto end = [&](LaneMask lanes) {
+    walk.live &= ~lanes;
+    unsettled &= ~lanes;
+  };
   while (unsettled != 0) {
     LaneMask moved = 0;
     for (uint32_t index = list.count(); index-- > 0;) {
       const bool must_be_outside = if_inside[index] == CellList::kFalse;
       LaneMask active = unsettled & segments.reached(index);
+      if (!must_be_outside) {
+        end(unsettled & ~active);
+      } else if (active != 0 && !segments.are_known(index, active)) {
+        // Outside as yet, or by its place alone.
+        const bool is_ahead = furthest_t < trace.nearest_t[index];
+        active &= is_ahead ? 0 : ~segments.apart(index, walk.t, active);
+      }
       LaneMask moves = 0;
-      if (must_be_outside) {
-        if (active != 0 && !segments.are_known(index, active)) {
-          if (furthest_t < trace.nearest_t[index]) {
-            active = 0;
-          } else {
-            active &= ~segments.apart(index, walk.t, active);
-          }
-        }
-        if (active != 0) {
-          moves = active & sides_of(segments.compute(index, active), walk.t).within;
-        }
-      } else {
-        walk.live &= ~unsettled | active;
-        unsettled = walk.live & unsettled;
-        if (active != 0) {
-          const Sides sides = sides_of(segments.compute(index, active), walk.t);
-          moves = active & sides.before;
-          const LaneMask ends = active & ~sides.before & ~sides.within;
-          walk.live &= ~ends;
-          unsettled &= ~ends;
+      if (active != 0) {
+        const PacketSegments& segment = segments.compute(index, active);
+        const Sides sides = sides_of(segment, walk.t);
+        moves = active & (must_be_outside ? sides.within : sides.before);
+        if (!must_be_outside) end(active & ~sides.before & ~sides.within);
+        if (moves != 0) {
+          const double* const to = must_be_outside ? segment.end : segment.start;
+          const LaneMask goes_on = move_lanes(moves, to, leave, walk, furthest_t);
+          end(moves & ~goes_on);
+          moved |= goes_on;
+          segments.forget_apart(goes_on);
+          last_moved = index;
         }
       }
-      if (moves != 0) {
-        const PacketSegments& segment = segments.compute(index, moves);
-        const double* const to = must_be_outside ? segment.end : segment.start;
-        LaneMask goes_on = 0;
-        WideV furthest = hn::Set(d, furthest_t);
-        for (int c = 0; c < kChunks; ++c) {
-          const WideV next = hn::Load(d, to + first_lane(c));
-          const WideM further =
-              hn::And(mask_of(moves, c), hn::Le(next, hn::Load(d, leave + first_lane(c))));
-          goes_on |= bits_of(further, c);
-          walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
-          furthest = hn::IfThenElse(further, hn::Max(furthest, next), furthest);
-        }
-        furthest_t = hn::GetLane(hn::MaxOfLanes(d, furthest));
-        const LaneMask ends = moves & ~goes_on;
-        walk.live &= ~ends;
-        unsettled &= ~ends;
-        walk.moved |= goes_on;
-        moved |= goes_on;
-        segments.forget_apart(goes_on);
-        last_moved = index;
-      } else if (moved == 0 && index == last_moved && !is_first_round) {
-        break;
-      }
+      // Since then nothing has moved, and all that had has been asked again.
+      if (moves == 0 && moved == 0 && index == last_moved && !is_first_round) break;
     }
     is_first_round = false;
     unsettled &= moved;

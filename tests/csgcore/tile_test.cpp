@@ -453,6 +453,29 @@ class Simplifying {
   PacketWorkspace workspace_;
 };
 
+/// Calls back with what makes a list for a tile, and each tile of pictures of crowds; until a test
+/// fails.
+template <typename Visit>
+void for_each_tile_of_crowds(uint32_t width_px, uint32_t height_px, uint32_t side_px,
+                             std::optional<bool> last_value, Visit&& visit) {
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = checks::crowd(seed);
+    const Box bounds{Vec3(-6.0), Vec3(6.0)};
+    for (const auto& [name, view] : checks::trace_views(bounds, width_px, height_px)) {
+      if (name == "FromWithin") continue;
+      SCOPED_TRACE(name);
+      Simplifying simplifying(scene, view, last_value);
+      for (uint32_t y = 0; y < height_px; y += side_px) {
+        for (uint32_t x = 0; x < width_px; x += side_px) {
+          visit(simplifying,
+                Tile{x, y, std::min(side_px, width_px - x), std::min(side_px, height_px - y)});
+        }
+      }
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
 class Simplifier : public testing::TestWithParam<Boundary> {};
 
 TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
@@ -461,47 +484,22 @@ TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
   const auto last_value =
       boundary == Boundary::kFirst ? std::optional<bool>(true) : std::optional<bool>();
   uint64_t dropped = 0, hits = 0;
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const Scene scene = checks::crowd(seed);
-    const Box bounds{Vec3(-6.0), Vec3(6.0)};
-    for (const auto& [name, view] : checks::trace_views(bounds, 96, 96)) {
-      if (name == "FromWithin") continue;
-      SCOPED_TRACE(name);
-      Simplifying simplifying(scene, view, last_value);
-      for (uint32_t y = 0; y < 96; y += 16) {
-        for (uint32_t x = 0; x < 96; x += 16) {
-          const auto outcome = simplifying.expect_same_hits({x, y, 16, 16}, boundary);
-          if (outcome.hits > 0) dropped += outcome.before - outcome.after;
-          hits += outcome.hits;
-        }
-      }
-      if (HasFailure()) return;
-    }
-  }
+  for_each_tile_of_crowds(96, 96, 16, last_value, [&](Simplifying& simplifying, const Tile& tile) {
+    const auto outcome = simplifying.expect_same_hits(tile, boundary);
+    if (outcome.hits > 0) dropped += outcome.before - outcome.after;
+    hits += outcome.hits;
+  });
   EXPECT_GT(dropped, 1000u);
   EXPECT_GT(hits, 10000u);
 }
 
 TEST(SimplifierByPixels, DropsOnlyWhatItsRaysDoNotSee) {
   uint64_t dropped = 0, hits = 0;
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const Scene scene = checks::crowd(seed);
-    const Box bounds{Vec3(-6.0), Vec3(6.0)};
-    for (const auto& [name, view] : checks::trace_views(bounds, 92, 90)) {
-      if (name == "FromWithin") continue;
-      SCOPED_TRACE(name);
-      Simplifying simplifying(scene, view, true);
-      for (uint32_t y = 0; y < 90; y += 8) {
-        for (uint32_t x = 0; x < 92; x += 8) {
-          const auto outcome = simplifying.expect_same_hits_by_pixels(
-              {x, y, std::min(8u, 92 - x), std::min(8u, 90 - y)});
-          dropped += outcome.before - outcome.after;
-          hits += outcome.hits;
-        }
-      }
-      if (HasFailure()) return;
-    }
-  }
+  for_each_tile_of_crowds(92, 90, 8, true, [&](Simplifying& simplifying, const Tile& tile) {
+    const auto outcome = simplifying.expect_same_hits_by_pixels(tile);
+    dropped += outcome.before - outcome.after;
+    hits += outcome.hits;
+  });
   EXPECT_GT(dropped, 1000u);
   EXPECT_GT(hits, 10000u);
 }
