@@ -156,7 +156,7 @@ class OperandGroups::Builder {
     if (!output_.empty())
       assign(groups_.list_, compile(std::span<const CsgToken>(output_)).literals);
     find_owners();
-    groups_.balls_.resize(4 * groups_.member_row());
+    groups_.balls_.resize(groups_.row_size());
     for (uint32_t group = groups_.first_group_; group < groups_.count(); ++group) {
       groups_.place_members(group);
     }
@@ -407,26 +407,23 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
 }
 
 BallRows OperandGroups::balls(uint32_t group) const {
-  const float* const x = balls_.data() + members_[group - first_group_].first;
-  const size_t row = member_row();
-  return {x, x + row, x + 2 * row, x + 3 * row};
+  const auto [x, y, z, radius] = members(group).rows(balls_.data());
+  return {x, y, z, radius};
 }
 
 void OperandGroups::place_members(uint32_t group) {
   const Extent& whole = extents_[group];
   const Members all = members(group);
-  float* to = balls_.data() + all.first;
-  const size_t row = member_row();
-  for (const uint32_t entry : all.primitive) {
-    const Extent& extent = extents_[entry & kPrimitiveBits];
+  const std::array<float*, 4> rows = all.rows(balls_.data());
+  for (size_t i = 0; i < all.primitive.size(); ++i) {
+    const Extent& extent = extents_[all.primitive[i] & kPrimitiveBits];
     for (size_t axis = 0; axis < 3; ++axis) {
-      to[axis * row] = static_cast<float>(extent.center[axis] - whole.center[axis]);
+      rows[axis][i] = static_cast<float>(extent.center[axis] - whole.center[axis]);
     }
     const bool is_ball = std::isfinite(extent.outside2);
-    to[3 * row] =
+    rows[3][i] =
         static_cast<float>(is_ball ? std::sqrt(extent.outside2)
                                    : std::hypot(extent.half[0], extent.half[1], extent.half[2]));
-    ++to;
   }
 }
 

@@ -1,6 +1,7 @@
 // A solid's list with its operands in groups: what is far from where one looks costs nothing.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -60,6 +61,14 @@ class OperandGroups {
     uint32_t group;
     /// Each member holds the group, and the next is asked otherwise: any of them may be left out.
     bool is_union;
+
+    /// Where its rows start in an array of row_size() numbers.
+    template <typename Number>
+    std::array<Number*, 4> rows(Number* numbers) const {
+      const size_t count = primitive.size();
+      Number* const from = numbers + 4 * size_t{first};
+      return {from, from + count, from + 2 * count, from + 3 * count};
+    }
   };
   Members members(uint32_t group) const {
     const Range& range = members_[group - first_group_];
@@ -71,8 +80,8 @@ class OperandGroups {
   }
   /// Of all groups together.
   uint32_t member_count() const { return static_cast<uint32_t>(if_inside_.size()); }
-  /// How far rows of what is kept for each member lie apart.
-  size_t member_row() const { return member_count() + size_t{kRowPadding}; }
+  /// Numbers in four rows, of which each group's stand together, and what vectors read past them.
+  size_t row_size() const { return 4 * size_t{member_count()} + kRowPadding; }
   /// Balls that hold the group's members, their centres counted from that of its extent, rounded to
   /// float. Side by side they are read much faster than extents, which lie all over memory.
   BallRows balls(uint32_t group) const;
@@ -100,7 +109,7 @@ class OperandGroups {
   std::vector<Range> members_, owned_;  // by group
   std::vector<uint32_t> primitive_;     // and valid indices that vectors read past the last
   std::vector<uint32_t> if_inside_, if_outside_;
-  std::vector<float> balls_;  // x of all members, then y, z and radius
+  std::vector<float> balls_;  // of a group's members x, then y, z and radius; then the next group's
   std::vector<uint32_t> own_, common_;
 };
 

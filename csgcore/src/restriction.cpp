@@ -95,10 +95,10 @@ void Restrictor::restrict(const CellList& list, std::span<const Decision> decisi
 }
 
 void Restrictor::open(const CellList& list, const OperandGroups& groups,
-                      std::span<const Opening> openings, const Box& cell, CellList& result) {
+                      std::span<const uint8_t> marked, const Box& cell, CellList& result) {
   uint32_t most = list.count();
   for (uint32_t i = 0; i < list.count(); ++i) {
-    if (openings[i] != Opening::kMembers) continue;
+    if (!marked[i]) continue;
     most += groups.members(list.primitive[i] & kPrimitiveBits).primitive.size();
   }
   Pass pass(list, most, result, maps_[0]);
@@ -106,9 +106,8 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t number = i + CellList::kFirst;
     const uint32_t entry = list.primitive[i];
-    if (openings[i] != Opening::kMembers) {
-      const bool outside = openings[i] == Opening::kNothing;
-      pass.step(number, entry, list.if_inside[i], list.if_outside[i], outside, false);
+    if (!marked[i]) {
+      pass.step(number, entry, list.if_inside[i], list.if_outside[i], false, false);
       continue;
     }
     const OperandGroups::Members members = groups.members(entry & kPrimitiveBits);

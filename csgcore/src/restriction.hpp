@@ -71,15 +71,10 @@ class Restrictor {
   /// The same for decisions that the caller has made: `decisions[i]` is that of the list's index i.
   void restrict(const CellList& list, std::span<const Decision> decisions, CellList& result);
 
-  /// What becomes of a literal.
-  enum class Opening : uint8_t {
-    kNone,     // it stays
-    kMembers,  // a group: its members stand in its place, as far as they matter in the cell
-    kNothing,  // a group none of whose members matters in any cell
-  };
-  /// `openings[i]` is that of the list's index i. `list` comes from a restriction to the cell, and
-  /// is not `result`.
-  void open(const CellList& list, const OperandGroups& groups, std::span<const Opening> openings,
+  /// Groups whose index in the list is marked are opened: their members stand in their places, as
+  /// far as they matter in the cell. `list` comes from a restriction to the cell, and is not
+  /// `result`.
+  void open(const CellList& list, const OperandGroups& groups, std::span<const uint8_t> marked,
             const Box& cell, CellList& result);
 
  private:

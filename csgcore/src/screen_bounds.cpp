@@ -20,9 +20,6 @@ constexpr double kOutlinelessHalf_px = 4;
 /// As many as have bits in a word.
 constexpr uint32_t kMembersAtOnce = 64;
 
-/// If this part of a group's members meets a tile, others will: all are bounded at once.
-constexpr uint32_t kManyMembers = 4;
-
 bool meets(const Extent& screen, const Box& cell) {
   return fate_on_screen(screen) == ScreenFate::kVisible && overlaps(screen, cell);
 }
@@ -44,9 +41,10 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       options_{centers_only},
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
       outlines_(std::make_unique_for_overwrite<ScreenOutline[]>(primitives.size())),
+      corners_(std::make_unique_for_overwrite<ScreenCorners[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
       bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.member_count())),
-      rectangles_(std::make_unique_for_overwrite<float[]>(4 * groups.member_row())) {
+      rectangles_(std::make_unique_for_overwrite<float[]>(groups.row_size())) {
   const std::span<const uint32_t> common = groups.common();
   if (common.size() <= kBoundedAtOnce) {
     bound(common);
@@ -59,51 +57,40 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
   });
 }
 
-bool ScreenBounds::open(uint32_t group) {
-  std::atomic<uint8_t>& state = states_[group - groups_.first_group()];
-  uint8_t found = state.load(std::memory_order_acquire);
-  if (found == kClosed && state.compare_exchange_strong(found, kBusy, std::memory_order_acquire)) {
-    found = find_rectangles_of(group) ? kSeen : kUnseen;
-    state.store(found, std::memory_order_release);
-  }
-  // Another thread is about to have done it: some microseconds.
-  while (found == kBusy) {
-    std::this_thread::yield();
-    found = state.load(std::memory_order_acquire);
-  }
-  return found == kSeen;
-}
-
-bool ScreenBounds::open_wholly(uint32_t group) {
-  if (!open(group)) return false;
+void ScreenBounds::open_wholly(uint32_t group) {
   const OperandGroups::Members members = groups_.members(group);
   const auto count = static_cast<uint32_t>(members.primitive.size());
   for (uint32_t first = 0; first < count; first += kMembersAtOnce) {
     bound_members(members, first, first_bits(std::min(count - first, kMembersAtOnce)));
   }
-  return true;
 }
 
-/// Returns whether any ray can meet any of them.
-bool ScreenBounds::find_rectangles_of(uint32_t group) {
+/// Members that stand elsewhere, too, are bounded with the frame, and not again.
+void ScreenBounds::note_shared_members(uint32_t group) const {
   const OperandGroups::Members members = groups_.members(group);
-  const auto count = static_cast<uint32_t>(members.primitive.size());
-  // What stands elsewhere, too, was bounded with the frame.
-  const std::span<const uint32_t> own = groups_.own(group);
-  if (own.size() < count) {
-    bound(own);
-    for (uint32_t i = 0; i < count; ++i) {
+  std::span<const uint32_t> own = groups_.own(group);  // in the members' order
+  if (own.size() == members.primitive.size()) return;
+  for (size_t i = 0; i < members.primitive.size(); ++i) {
+    if (!own.empty() && own.front() == (members.primitive[i] & kPrimitiveBits)) {
+      own = own.subspan(1);
+    } else {
       bounded_[members.first + i].store(1, std::memory_order_relaxed);
     }
   }
-  const double* const center = groups_.extents()[group].center;
-  const size_t row = groups_.member_row();
-  float* const from = rectangles_.get() + members.first;
-  return find_rectangles(groups_.balls(group), count, {center[0], center[1], center[2]}, frame_,
-                         options_, {from, from + row, from + 2 * row, from + 3 * row});
 }
 
-/// Of an opened group's members from `first` on, those whose bit is set in `wanted`.
+/// A group's box is larger on the screen than what the screen shows of all that it holds.
+void ScreenBounds::narrow_to_members(uint32_t group) const {
+  const OperandGroups::Members members = groups_.members(group);
+  const double* const center = groups_.extents()[group].center;
+  const auto [low_x, high_x, low_y, high_y] = members.rows(rectangles_.get());
+  const Rectangle all = find_rectangles(
+      groups_.balls(group), static_cast<uint32_t>(members.primitive.size()),
+      {center[0], center[1], center[2]}, frame_, options_, {low_x, high_x, low_y, high_y});
+  narrow(all, frame_.view, screen_[group]);
+}
+
+/// Of a group's members from `first` on, those whose bit is set in `wanted`.
 void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t first,
                                  uint64_t wanted) const {
   std::atomic<uint8_t>* const bounded = bounded_.get() + members.first + first;
@@ -119,11 +106,8 @@ void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t
   uint32_t missing[kMembersAtOnce];
   if (find_missing(missing) == 0) return;
   std::atomic<uint8_t>& state = states_[members.group - groups_.first_group()];
-  uint8_t expected = kSeen;
-  while (!state.compare_exchange_weak(expected, kBusy, std::memory_order_acquire)) {
-    std::this_thread::yield();
-    expected = kSeen;
-  }
+  // Another thread is about to have bounded some: some microseconds.
+  while (state.exchange(kBusy, std::memory_order_acquire) == kBusy) std::this_thread::yield();
   const uint32_t count = find_missing(missing);
   uint32_t indices[kMembersAtOnce];
   for (uint32_t i = 0; i < count; ++i) {
@@ -131,7 +115,7 @@ void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t
   }
   bound({indices, count});
   for (uint32_t i = 0; i < count; ++i) bounded[missing[i]].store(1, std::memory_order_release);
-  state.store(kSeen, std::memory_order_release);
+  state.store(kFree, std::memory_order_release);
 }
 
 void ScreenBounds::bound_all() {
@@ -145,7 +129,10 @@ OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint6
   uint64_t outside = 0;
   for (uint64_t left = open; left != 0; left &= left - 1) {
     const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;
-    if (misses(outlines_[primitive], cell)) outside |= left & -left;
+    const bool is_cornered = screen_[primitive].inside2 == kCornered;
+    if (misses(outlines_[primitive], cell) || (is_cornered && misses(corners_[primitive], cell))) {
+      outside |= left & -left;
+    }
   }
   return {outside, 0};
 }
@@ -154,14 +141,12 @@ std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Membe
                                                       uint32_t first, uint32_t count,
                                                       const Box& cell) const {
   const uint32_t* const primitives = members.primitive.data() + first;
-  const size_t row = groups_.member_row();
-  const float* const from = rectangles_.get() + members.first + first;
-  const RectangleRows rows{from, from + row, from + 2 * row, from + 3 * row};
-  uint64_t outside = find_outside(rows, count, cell);
+  const auto [low_x, high_x, low_y, high_y] = members.rows(rectangles_.get());
+  uint64_t outside =
+      find_outside({low_x + first, high_x + first, low_y + first, high_y + first}, count, cell);
   const uint64_t near = ~outside & first_bits(count);
   if (near == 0) return outside;
-  const bool are_many = kManyMembers * static_cast<uint32_t>(std::popcount(near)) >= count;
-  bound_members(members, first, are_many ? first_bits(count) : near);
+  bound_members(members, first, near);
   uint64_t open = 0;
   for (uint64_t left = near; left != 0; left &= left - 1) {
     const Extent& extent = screen_[primitives[std::countr_zero(left)] & kPrimitiveBits];
@@ -180,15 +165,31 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
   for (const uint32_t i : indices) {
     prefetch(&groups_.extents()[i], sizeof(Extent));
     prefetch(&screen_[i], sizeof(Extent));
+    if (!groups_.is_group(i)) continue;
+    const OperandGroups::Members members = groups_.members(i);
+    const size_t bytes = 4 * members.primitive.size() * sizeof(float);
+    prefetch(groups_.balls(i).x, bytes);
+    prefetch(rectangles_.get() + 4 * size_t{members.first}, bytes);
   }
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
+  for (const uint32_t i : indices) {
+    if (!groups_.is_group(i)) continue;
+    note_shared_members(i);
+    if (fate_on_screen(screen_[i]) == ScreenFate::kVisible) narrow_to_members(i);
+  }
   const auto needs_outline = [&](uint32_t i) {
     const Extent& extent = screen_[i];
-    return extent.inside2 < 0 && fate_on_screen(extent) == ScreenFate::kVisible &&
-           std::max(extent.half[0], extent.half[1]) >= kOutlinelessHalf_px;
+    if (groups_.is_group(i) || fate_on_screen(extent) != ScreenFate::kVisible) return false;
+    const auto [least, most] = std::minmax(extent.half[0], extent.half[1]);
+    return extent.inside2 < 0 ? most >= kOutlinelessHalf_px : least >= kCorneredHalf_px;
   };
   uint32_t outlined[kMembersAtOnce];
   uint32_t count = 0;
+  const auto flush = [&] {
+    find_outlines(primitives_.data(), {outlined, count}, frame_, options_, screen_.get(),
+                  outlines_.get(), corners_.get());
+    count = 0;
+  };
   for (const uint32_t i : indices) {
     if (!needs_outline(i)) {
       screen_[i].inside2 = 0;
@@ -197,12 +198,9 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
     prefetch(&primitives_[i], sizeof(CanonicalPrimitive));
     prefetch(&outlines_[i], sizeof(ScreenOutline));
     outlined[count++] = i;
-    if (count < kMembersAtOnce) continue;
-    find_outlines(primitives_.data(), outlined, frame_, options_, screen_.get(), outlines_.get());
-    count = 0;
+    if (count == kMembersAtOnce) flush();
   }
-  find_outlines(primitives_.data(), {outlined, count}, frame_, options_, screen_.get(),
-                outlines_.get());
+  flush();
 }
 
 }  // namespace csgcore

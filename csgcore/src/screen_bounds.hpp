@@ -12,8 +12,8 @@
 namespace csgcore {
 
 /// The extents that tiles are divided by, of one frame. What stands in no group is bounded with the
-/// frame. What a group holds is told apart from tiles by rectangles, which are found when it is
-/// opened; what meets a tile is bounded then.
+/// frame. What a group holds is told apart from tiles by rectangles, which are found with the
+/// group's own; what meets a tile by these is bounded.
 class ScreenBounds final : public OpenClassifier {
  public:
   /// Keeps references to all of them.
@@ -26,37 +26,36 @@ class ScreenBounds final : public OpenClassifier {
   /// Of those whose inside2 < 0.
   const ScreenOutline* outlines() const { return outlines_.get(); }
 
-  /// Finds the rectangles of what the group holds; false if no ray can meet any of it. From any
-  /// thread, again and again.
-  bool open(uint32_t group);
-  /// Bounds all that the group holds, too, unless no ray can meet any of it.
-  bool open_wholly(uint32_t group);
+  /// Bounds all that the group holds. From any thread, again and again.
+  void open_wholly(uint32_t group);
   /// Bounds all primitives, used or not. Not while other threads trace.
   void bound_all();
 
   /// In screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
-  /// Of an opened group; bounds those that are not outside.
+  /// Of a group that is bounded; bounds those that are not outside.
   std::optional<uint64_t> members_outside(const OperandGroups::Members& members, uint32_t first,
                                           uint32_t count, const Box& cell) const override;
 
  private:
-  bool find_rectangles_of(uint32_t group);
+  void narrow_to_members(uint32_t group) const;
+  void note_shared_members(uint32_t group) const;
   void bound_members(const OperandGroups::Members& members, uint32_t first, uint64_t wanted) const;
   void bound(std::span<const uint32_t> indices) const;
 
   /// Of a group. kBusy: some thread writes what belongs to it.
-  enum State : uint8_t { kClosed, kBusy, kSeen, kUnseen };
+  enum State : uint8_t { kFree, kBusy };
   std::span<const CanonicalPrimitive> primitives_;
   const OperandGroups& groups_;
   const FrameRays& frame_;
   const ScreenOptions options_;
   std::unique_ptr<Extent[]> screen_;
-  std::unique_ptr<ScreenOutline[]> outlines_;  // of what fills its box badly and is on the screen
+  std::unique_ptr<ScreenOutline[]> outlines_;        // of whose inside2 < 0
+  std::unique_ptr<ScreenCorners[]> corners_;         // of those that are large
   std::unique_ptr<std::atomic<uint8_t>[]> states_;   // of the groups
   std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // of members: whether screen_ holds them
-  /// Of opened groups' members, side by side: what tiles tell them apart by. Low x of all, then
-  /// high x, low y, high y.
+  /// Of the members of groups that are seen: what tiles tell them apart by. Of one group low x of
+  /// all, then high x, low y, high y; then the next group's.
   std::unique_ptr<float[]> rectangles_;
 };
 

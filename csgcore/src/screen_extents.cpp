@@ -208,104 +208,108 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
   }
 }
 
-/// The same in float, of coordinates: each of some ten operations rounds by 2^-24. And of pixels.
-constexpr float kFloatSlack = 0x1p-19f;
-constexpr float kFloatSlack_px = 0.125f;
+/// The same in float, of coordinates: each of some ten operations rounds by 2^-24. And of pixels:
+/// a bound that is further beside the picture stays there, however it is rounded.
+constexpr double kFloatSlack = 0x1p-19;
+constexpr double kFloatSlack_px = 0.125;
+constexpr double kFarBeside = 4;  // the picture's sizes
 
 /// As kNearestDepth, of a ball's reach: float has half the digits.
-constexpr float kNearestDepthInFloat = 0x1p-10f;
+constexpr double kNearestDepthInFloat = 0x1p-10;
 
-bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, const ScreenOptions& options,
-                     float* const (&rows)[4]) {
-  constexpr float kFar = 1e30f;
+Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                          const FrameRays& frame, const ScreenOptions& options,
+                          float* const (&rows)[4]) {
+  constexpr double kFar = 1e30;
   const hn::CappedTag<float, kRowPadding> d;
   using V = hn::Vec<decltype(d)>;
+  const auto set = [&](double value) { return hn::Set(d, static_cast<float>(value)); };
   const View& view = frame.view;
   const bool is_perspective = view.projection == Projection::kPerspective;
   const Vec3 from_eye = center - view.eye;
   const Vec3 axes[3] = {view.right, view.up, view.forward};
-  const float px_per_unit = static_cast<float>(0.5 * view.height_px / view.half_height);
-  const float middle[2] = {0.5f * static_cast<float>(view.width_px) - 0.5f,
-                           0.5f * static_cast<float>(view.height_px) - 0.5f};
-  const auto set = [&](double value) { return hn::Set(d, static_cast<float>(value)); };
+  const double sizes_px[2] = {static_cast<double>(view.width_px),
+                              static_cast<double>(view.height_px)};
+  const double px_per_unit = 0.5 * view.height_px / view.half_height;
+  const double slack_px =
+      kFloatSlack_px + kFloatSlack * kFarBeside * std::max(sizes_px[0], sizes_px[1]);
+  const Vec3 ones{1.0};
   const double double_slack =
       kScreenSlack *
-      glm::dot(glm::abs(from_eye) + kRoundedOnce * (glm::abs(center) + glm::abs(view.eye)),
-               Vec3{1.0});
-  bool any = false;
+      glm::dot(glm::abs(from_eye) + kRoundedOnce * (glm::abs(center) + glm::abs(view.eye)), ones);
+  double middle[3], slack[3];  // of the group, along the axes
+  for (int i = 0; i < 3; ++i) {
+    middle[i] = glm::dot(from_eye, axes[i]);
+    slack[i] = double_slack + kFloatSlack * std::abs(middle[i]);
+  }
+  V all[4] = {set(kFar), set(-kFar), set(kFar), set(-kFar)};
   for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(hn::Lanes(d))) {
     const V offset[3] = {hn::LoadU(d, balls.x + first), hn::LoadU(d, balls.y + first),
                          hn::LoadU(d, balls.z + first)};
     const V radius = hn::LoadU(d, balls.radius + first);
     const V size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
                            hn::Add(hn::Abs(offset[2]), radius));
-    V at[3], reach[3];
+    const V rounded_reach = hn::Add(radius, hn::Mul(size, set(kFloatSlack)));
+    V low[3], high[3];
     for (int i = 0; i < 3; ++i) {
-      at[i] = set(glm::dot(from_eye, axes[i]));
-      const V rounded = hn::Mul(hn::Add(size, hn::Abs(at[i])), set(kFloatSlack));
-      reach[i] = hn::Add(hn::Add(radius, set(double_slack)), rounded);
+      const double unit = i == 0 ? px_per_unit : i == 1 ? -px_per_unit : 1;  // y goes down
+      V at = set(unit * middle[i]);
       for (int axis = 0; axis < 3; ++axis) {
-        at[i] = hn::Add(at[i], hn::Mul(offset[axis], set(axes[i][axis])));
+        at = hn::Add(at, hn::Mul(offset[axis], set(unit * axes[i][axis])));
       }
+      const V reach = hn::Mul(hn::Add(rounded_reach, set(slack[i])), set(std::abs(unit)));
+      low[i] = hn::Sub(at, reach);
+      high[i] = hn::Add(at, reach);
     }
-    const V nearest = hn::Sub(at[2], reach[2]);
-    const V furthest = hn::Add(at[2], reach[2]);
+    const V& nearest = low[2];
+    const V& furthest = high[2];
     // What overflows is neither behind nor beside.
     const V behind = is_perspective ? furthest : set(1);
-    const auto is_behind = hn::Le(behind, hn::Zero(d));
-    // Who is about the eye's plane may be anywhere.
-    const auto is_about = hn::Le(nearest, hn::Mul(reach[2], set(kNearestDepthInFloat)));
-    const V one = hn::Set(d, 1.0f);
-    const V scale = hn::Set(d, px_per_unit);
-    const V by_nearest = is_perspective ? hn::Mul(scale, hn::Div(one, nearest)) : scale;
-    const V by_furthest = is_perspective ? hn::Mul(scale, hn::Div(one, furthest)) : scale;
+    // Who is about the eye's plane may be anywhere, and so may what overflows.
+    const V least = is_perspective ? hn::Mul(rounded_reach, set(kNearestDepthInFloat))
+                                   : set(-std::numeric_limits<double>::infinity());
+    const auto is_ahead = hn::Gt(nearest, least);
+    const V by_nearest = is_perspective ? hn::Div(set(1), nearest) : set(1);
+    const V by_furthest = is_perspective ? hn::Div(set(1), furthest) : set(1);
+    const uint32_t left = count - first;
+    auto is_nowhere = hn::Or(hn::Le(behind, hn::Zero(d)), hn::Not(hn::FirstN(d, left)));
     V bounds[4];
-    auto is_beside = is_behind;
-    auto is_between = is_behind;
     for (int i = 0; i < 2; ++i) {
-      const V low = hn::Sub(at[i], reach[i]);
-      const V high = hn::Add(at[i], reach[i]);
-      V from = hn::Min(hn::Mul(low, by_nearest), hn::Mul(low, by_furthest));
-      V to = hn::Max(hn::Mul(high, by_nearest), hn::Mul(high, by_furthest));
-      if (i == 1) {  // the picture's y goes down
-        const V above = hn::Neg(to);
-        to = hn::Neg(from);
-        from = above;
-      }
-      const V slack = hn::Add(hn::Set(d, kFloatSlack_px),
-                              hn::Mul(hn::Max(hn::Abs(from), hn::Abs(to)), set(kFloatSlack)));
-      from = hn::Sub(hn::Add(from, hn::Set(d, middle[i])), slack);
-      to = hn::Add(hn::Add(to, hn::Set(d, middle[i])), slack);
-      if (is_perspective) {
-        from = hn::IfThenElse(is_about, set(-kFar), from);
-        to = hn::IfThenElse(is_about, set(kFar), to);
-      }
+      const double middle_px = 0.5 * sizes_px[i] - 0.5;
+      V from = hn::Add(hn::Min(hn::Mul(low[i], by_nearest), hn::Mul(low[i], by_furthest)),
+                       set(middle_px - slack_px));
+      V to = hn::Add(hn::Max(hn::Mul(high[i], by_nearest), hn::Mul(high[i], by_furthest)),
+                     set(middle_px + slack_px));
+      const auto is_number = hn::And(hn::Lt(from, set(kFar)), hn::Gt(to, set(-kFar)));
+      const auto is_known = hn::And(is_ahead, is_number);
+      from = hn::IfThenElse(is_known, from, set(-kFar));
+      to = hn::IfThenElse(is_known, to, set(kFar));
       // A pixel's centre has the pixel's number for its coordinate.
       if (options.centers_only) {
         from = hn::Ceil(from);
         to = hn::Floor(to);
-        is_between = hn::Or(is_between, hn::Gt(from, to));
+        is_nowhere = hn::Or(is_nowhere, hn::Gt(from, to));
       }
-      const float last = static_cast<float>(i == 0 ? view.width_px : view.height_px);
-      is_beside = hn::Or(is_beside, hn::Or(hn::Gt(from, hn::Set(d, last)), hn::Lt(to, set(-1))));
+      is_nowhere = hn::Or(is_nowhere, hn::Or(hn::Gt(from, set(sizes_px[i])), hn::Lt(to, set(-1))));
       bounds[2 * i] = from;
       bounds[2 * i + 1] = to;
     }
-    const uint32_t left = count - first;
-    any |= !hn::AllFalse(d, hn::AndNot(hn::Or(is_beside, is_between), hn::FirstN(d, left)));
     for (int i = 0; i < 4; ++i) {
-      bounds[i] = hn::IfThenElse(is_between, set(i % 2 == 0 ? kFar : -kFar), bounds[i]);
+      const bool is_low = i % 2 == 0;
+      const V bound = hn::IfThenElse(is_nowhere, set(is_low ? kFar : -kFar), bounds[i]);
+      all[i] = is_low ? hn::Min(all[i], bound) : hn::Max(all[i], bound);
       if (left >= hn::Lanes(d)) {
-        hn::StoreU(bounds[i], d, rows[i] + first);
+        hn::StoreU(bound, d, rows[i] + first);
         continue;
       }
       float some[kRowPadding];  // what follows is another group's
-      hn::StoreU(bounds[i], d, some);
+      hn::StoreU(bound, d, some);
       std::copy_n(some, left, rows[i] + first);
     }
   }
-  return any;
+  const auto lowest = [&](V v) { return hn::GetLane(hn::MinOfLanes(d, v)); };
+  const auto highest = [&](V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); };
+  return {lowest(all[0]), highest(all[1]), lowest(all[2]), highest(all[3])};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -318,9 +322,9 @@ namespace csgcore {
 CSGCORE_SIMD_EXPORT(find_screen_extents);
 CSGCORE_SIMD_EXPORT(find_rectangles);
 
-bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, const ScreenOptions& options,
-                     float* const (&rows)[4]) {
+Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                          const FrameRays& frame, const ScreenOptions& options,
+                          float* const (&rows)[4]) {
   return CSGCORE_SIMD(find_rectangles)(balls, count, center, frame, options, rows);
 }
 
@@ -334,18 +338,24 @@ void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen) {
   const double high[] = {pixels.high_x, pixels.high_y};
   const double size[] = {double(view.width_px), double(view.height_px)};
   bool is_off = false;
-  bool is_empty = false;
   for (const int axis : {0, 1}) {
     screen.center[axis] = 0.5 * (low[axis] + high[axis]);
     screen.half[axis] = 0.5 * (high[axis] - low[axis]);
     is_off |= high[axis] < -0.5 || low[axis] > size[axis] - 0.5;
-    is_empty |= low[axis] > high[axis];
   }
   if (is_off) {
     screen.half[0] = -std::numeric_limits<double>::infinity();
-  } else if (is_empty) {
+  } else if (pixels.is_empty()) {
     screen.outside2 = -1.0;
   }
+}
+
+void narrow(const Rectangle& to, const View& view, Extent& screen) {
+  const auto low = [&](int axis) { return screen.center[axis] - screen.half[axis]; };
+  const auto high = [&](int axis) { return screen.center[axis] + screen.half[axis]; };
+  set_rectangle({std::max(to.low_x, low(0)), std::min(to.high_x, high(0)),
+                 std::max(to.low_y, low(1)), std::min(to.high_y, high(1))},
+                view, screen);
 }
 
 }  // namespace csgcore

@@ -14,7 +14,7 @@ namespace csgcore {
 /// Screen space: x and y in pixels as pixel_ray counts them (whole numbers are pixels' centres), z
 /// is τ. Bounds are conservative: no ray meets the primitive outside of its box.
 /// A primitive that no ray can meet is outside every cell: see fate_on_screen.
-/// inside2 < 0 marks what a closer look may find outside of a tile (screen_outline.hpp).
+/// inside2 < 0 marks what a closer look may find outside of a tile, and how (screen_outline.hpp).
 struct ScreenOptions {
   /// Rays go through pixels' centres only: what lies between them is seen by none.
   bool centers_only = true;
@@ -24,17 +24,23 @@ struct ScreenOptions {
 void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
                          const FrameRays& frame, const ScreenOptions& options, Extent* screen);
 
-/// Rectangles of balls, in float: conservative ones. `center`: of the world, what the balls count
-/// from; `rows`: of `count` floats each, low x, high x, low y, high y. Returns whether any may be
-/// seen; those that are behind the eye, or between the rays, are empty.
-bool find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
-                     const FrameRays& frame, const ScreenOptions& options, float* const (&rows)[4]);
-
-/// Sets x and y, and what tells the fate, to a rectangle; empty ones (low > high) are seen by none.
+/// Empty (low > high): seen by none.
 struct Rectangle {
   double low_x, high_x, low_y, high_y;
+  bool is_empty() const { return low_x > high_x || low_y > high_y; }
 };
+
+/// Rectangles of balls, in float: conservative ones. `center`: of the world, what the balls count
+/// from; `rows`: of `count` floats each, low x, high x, low y, high y. Those that are behind the
+/// eye, beside the picture or between the rays are empty. Returns what holds all others.
+Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
+                          const FrameRays& frame, const ScreenOptions& options,
+                          float* const (&rows)[4]);
+
+/// Sets x and y, and what tells the fate, to a rectangle.
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
+/// The same to what of it the extent holds already.
+void narrow(const Rectangle& to, const View& view, Extent& screen);
 
 enum class ScreenFate : uint8_t { kVisible, kOffScreen, kSubPixel };
 inline ScreenFate fate_on_screen(const Extent& screen) {

@@ -3,6 +3,7 @@
 #include "screen_outline.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -40,6 +41,9 @@ constexpr double kLineSlack = 0x1p-20;
 /// A line further off is none: far beyond every picture.
 constexpr double kFurthestLine_px = 1e9;
 
+/// |x| + |y| of any of kCornerDirections, at most.
+constexpr double kLongestDirection = 3;
+
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 constexpr ScreenOutline kNoOutline = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
 
@@ -67,19 +71,28 @@ struct Picture {
     outline.y[line] = static_cast<float>(y);
     outline.limit[line] = static_cast<float>(limit + kLineSlack * coordinates_px);
   }
+
+  /// Of d·p, d being the i-th of kCornerDirections.
+  void set_corner(double low, double high, int i, ScreenCorners& corners) const {
+    const double coordinates_px =
+        kLongestDirection * (middle_px[0] + middle_px[1] + 1) + std::abs(low) + std::abs(high);
+    const bool is_near = coordinates_px < kFurthestLine_px;
+    const double margin = kLineSlack * coordinates_px;
+    corners.low[i] = is_near ? static_cast<float>(low - margin) : -kNoLimit;
+    corners.high[i] = is_near ? static_cast<float>(high + margin) : kNoLimit;
+  }
 };
+
+bool is_large(const Extent& screen) {
+  return std::min(screen.half[0], screen.half[1]) >= kCorneredHalf_px;
+}
 
 /// Narrows an extent to a rectangle, in pixels.
 void narrow(Rectangle to, const Picture& picture, const ScreenOptions& options, Extent& screen) {
   if (options.centers_only) {
     to = {std::ceil(to.low_x), std::floor(to.high_x), std::ceil(to.low_y), std::floor(to.high_y)};
   }
-  // Never wider than the box was.
-  to.low_x = std::max(to.low_x, screen.center[0] - screen.half[0]);
-  to.high_x = std::min(to.high_x, screen.center[0] + screen.half[0]);
-  to.low_y = std::max(to.low_y, screen.center[1] - screen.half[1]);
-  to.high_y = std::min(to.high_y, screen.center[1] + screen.half[1]);
-  set_rectangle(to, picture.view, screen);
+  narrow(to, picture.view, screen);
 }
 
 }  // namespace
@@ -189,56 +202,70 @@ HWY_INLINE Limits orthographic_limits(const Span& s, WideV slack) {
   return {hn::Sub(s.center, reach), hn::Add(s.center, reach)};
 }
 
-/// What the screen shows of the enclosing quadrics.
-struct Seen {
-  WideV low[2], high[2];  // of u and of v
-  WideM is_known;         // whether these are
-  /// Two lines: where at + u·by_u + v·by_v > slack.
-  WideM has_lines;
-  WideV at[2], by_u[2], by_v[2], slack;
-};
-
-/// u and v: those of a frustum's two ends, or twice those of a ball.
-HWY_INLINE void find_limits(const Columns& columns, const Picture& picture, Seen& seen) {
-  const Wide d;
-  const View& view = picture.view;
-  const V3 center = columns.centers();
-  const V3 from_eye = center - broadcast(d, view.eye);
-  const V3 forward = transposed_times(columns.to_world, view.forward);
-  const WideV depth = dot(d, from_eye, broadcast(d, view.forward));
-  WideV size = hn::Add(sum_of_sizes(from_eye), hn::Set(d, glm::dot(glm::abs(view.eye), Vec3{1.0})));
-  for (int column = 0; column < 3; ++column) {
-    size = hn::Add(size, sum_of_sizes(load_column(columns.to_world, column)));
+/// Limits of the enclosing quadrics along directions of the screen: those of a frustum's two ends,
+/// or twice those of a ball.
+class QuadricLimits {
+ public:
+  HWY_INLINE QuadricLimits(const Columns& columns, const Picture& picture)
+      : columns_(columns), picture_(picture) {
+    const Wide d;
+    const View& view = picture.view;
+    from_eye_ = columns.centers() - broadcast(d, view.eye);
+    forward_ = transposed_times(columns.to_world, view.forward);
+    depth_ = dot(d, from_eye_, broadcast(d, view.forward));
+    WideV size =
+        hn::Add(sum_of_sizes(from_eye_), hn::Set(d, glm::dot(glm::abs(view.eye), Vec3{1.0})));
+    for (int column = 0; column < 3; ++column) {
+      size = hn::Add(size, sum_of_sizes(load_column(columns.to_world, column)));
+    }
+    slack_ = hn::Mul(hn::Set(d, kPlaneSlack), size);
   }
-  const WideV slack = hn::Mul(hn::Set(d, kPlaneSlack), size);
-  const WideV height = load(columns.height);
-  const WideV thickness = hn::Sub(hn::Set(d, 1.0), height);
-  seen.is_known = hn::Eq(height, height);
-  for (const int axis : {0, 1}) {
-    const Vec3& along = axis == 0 ? view.right : view.up;
-    const V3 across = transposed_times(columns.to_world, along);
-    const WideV offset = dot(d, from_eye, broadcast(d, along));
+
+  /// Of by_u·u + by_v·v. Where they are not known, takes the lane out of `are_known`.
+  HWY_INLINE Limits along(double by_u, double by_v, WideM& are_known) const {
+    const Wide d;
+    const Vec3 direction = by_u * picture_.view.right + by_v * picture_.view.up;
+    const V3 across = transposed_times(columns_.to_world, direction);
+    const WideV offset = dot(d, from_eye_, broadcast(d, direction));
+    const WideV slack = hn::Mul(slack_, hn::Set(d, std::abs(by_u) + std::abs(by_v)));
+    const WideV height = load(columns_.height);
+    const WideV thickness = hn::Sub(hn::Set(d, 1.0), height);
     Limits limits[2];
     for (const int end : {0, 1}) {
       const WideV z = end == 0 ? height : hn::Neg(height);
-      const WideV radius = hn::Add(load(columns.mid), hn::Mul(load(columns.slope), z));
+      const WideV radius = hn::Add(load(columns_.mid), hn::Mul(load(columns_.slope), z));
       const auto spanning = [&](const V3& axes) {
         return V3{hn::Mul(axes.x, radius), hn::Mul(axes.y, radius), hn::Mul(axes.z, thickness)};
       };
-      const Span span{hn::Add(offset, hn::Mul(z, across.z)), hn::Add(depth, hn::Mul(z, forward.z)),
-                      spanning(across), spanning(forward)};
-      limits[end] = picture.is_perspective ? perspective_limits(span, slack, seen.is_known)
-                                           : orthographic_limits(span, slack);
+      const Span span{hn::Add(offset, hn::Mul(z, across.z)),
+                      hn::Add(depth_, hn::Mul(z, forward_.z)), spanning(across),
+                      spanning(forward_)};
+      limits[end] = picture_.is_perspective ? perspective_limits(span, slack, are_known)
+                                            : orthographic_limits(span, slack);
     }
-    seen.low[axis] = hn::Min(limits[0].low, limits[1].low);
-    seen.high[axis] = hn::Max(limits[0].high, limits[1].high);
+    return {hn::Min(limits[0].low, limits[1].low), hn::Max(limits[0].high, limits[1].high)};
   }
-}
 
-/// Lines: the planes that touch the wall and hold the eye or, in orthographic views, the view axis;
+ private:
+  const Columns& columns_;
+  const Picture& picture_;
+  V3 from_eye_, forward_;
+  WideV depth_, slack_;
+};
+
+HWY_INLINE WideM all_lanes() { return hn::Eq(hn::Zero(Wide()), hn::Zero(Wide())); }
+
+/// Two lines of the screen: beyond them is where at + u·by_u + v·by_v > slack.
+struct QuadricLines {
+  WideM are_known;
+  WideV at[2], by_u[2], by_v[2], slack;
+};
+
+/// The planes that touch the wall and hold the eye or, in orthographic views, the view axis;
 /// in canonical space x·cos φ + y·sin φ − slope·z = mid, beyond which no point of a frustum lies,
 /// whatever φ is, nor one of the ball, of which mid is 1 and slope 0.
-HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen& seen) {
+HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& picture) {
+  QuadricLines lines;
   const Wide d;
   const View& view = picture.view;
   const bool is_perspective = picture.is_perspective;
@@ -262,7 +289,7 @@ HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen&
   const WideV tangent2 = hn::Sub(across2, hn::Mul(level, level));
   const WideV distance = hn::Sub(hn::Sqrt(across2), level);  // of the eye from the wall, at least
   const auto is_far = hn::Gt(distance, hn::Mul(hn::Set(d, kNearest), sum_of_sizes(held)));
-  seen.has_lines = hn::And(hn::Gt(tangent2, hn::Zero(d)), is_far);
+  lines.are_known = hn::And(hn::Gt(tangent2, hn::Zero(d)), is_far);
   // What is rounded on the way into canonical space, and there: of a point next to the eye, or the
   // centre, and of directions.
   const WideV error = hn::Mul(hn::Set(d, 4.0), load(columns.error));
@@ -286,7 +313,7 @@ HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen&
       is_perspective
           ? hn::Add(of_forward, hn::Div(hn::Mul(of_point, hn::Add(ahead, lateral)), distance))
           : hn::Add(of_point, hn::Mul(of_forward, load(columns.depth_reach)));
-  seen.slack = hn::Add(of_plane, of_lateral);
+  lines.slack = hn::Add(of_plane, of_lateral);
   const WideV root = hn::Sqrt(hn::Max(tangent2, hn::Zero(d)));
   const WideV by_across2 = hn::Div(one, across2);
   for (const int line : {0, 1}) {
@@ -294,36 +321,52 @@ HWY_INLINE void find_lines(const Columns& columns, const Picture& picture, Seen&
     const V3 normal = {hn::Mul(hn::Sub(hn::Mul(level, held.x), hn::Mul(turn, held.y)), by_across2),
                        hn::Mul(hn::Add(hn::Mul(level, held.y), hn::Mul(turn, held.x)), by_across2),
                        hn::Neg(slope)};
-    seen.at[line] = is_perspective ? dot(d, normal, forward) : hn::Sub(dot(d, normal, eye), mid);
-    seen.by_u[line] = dot(d, normal, right);
-    seen.by_v[line] = dot(d, normal, up);
+    lines.at[line] = is_perspective ? dot(d, normal, forward) : hn::Sub(dot(d, normal, eye), mid);
+    lines.by_u[line] = dot(d, normal, right);
+    lines.by_v[line] = dot(d, normal, up);
   }
+  return lines;
 }
 
-/// Of as many primitives as fit in a vector.
-HWY_INLINE void find_some(const Columns& columns, const Picture& picture,
-                          const ScreenOptions& options, std::span<const uint32_t> indices,
-                          Extent* screen, ScreenOutline* outlines) {
+/// What is found of some primitives. Of a vector of them, those of `indices` count.
+struct Found {
+  std::span<const uint32_t> indices;
+  Extent* screen;
+  ScreenOutline* outlines;
+  ScreenCorners* corners;
+};
+
+HWY_INLINE void narrow_to(const QuadricLimits& limits, const Picture& picture,
+                          const ScreenOptions& options, const Found& found) {
   const Wide d;
-  Seen seen;
-  find_limits(columns, picture, seen);
-  find_lines(columns, picture, seen);
   alignas(64) double low_x[kMostLanes], high_x[kMostLanes], low_y[kMostLanes], high_y[kMostLanes];
   const auto store = [&](WideV value, double scale, double middle, double(&column)[kMostLanes]) {
     const WideV scaled = hn::Mul(value, hn::Set(d, scale * picture.px_per_unit));
     hn::Store(hn::Add(scaled, hn::Set(d, middle)), d, column);
   };
-  store(seen.low[0], 1, picture.middle_px[0], low_x);
-  store(seen.high[0], 1, picture.middle_px[0], high_x);
-  store(seen.high[1], -1, picture.middle_px[1], low_y);
-  store(seen.low[1], -1, picture.middle_px[1], high_y);
-  const LaneMask known = bits_of(seen.is_known, 0);
-  const LaneMask with_lines = bits_of(seen.has_lines, 0);
+  WideM are_known = all_lanes();
+  const Limits u = limits.along(1, 0, are_known);
+  const Limits v = limits.along(0, 1, are_known);
+  store(u.low, 1, picture.middle_px[0], low_x);
+  store(u.high, 1, picture.middle_px[0], high_x);
+  store(v.high, -1, picture.middle_px[1], low_y);
+  store(v.low, -1, picture.middle_px[1], high_y);
+  const LaneMask known = bits_of(are_known, 0);
+  for (size_t lane = 0; lane < found.indices.size(); ++lane) {
+    if ((known >> lane & 1) == 0) continue;
+    narrow({low_x[lane], high_x[lane], low_y[lane], high_y[lane]}, picture, options,
+           found.screen[found.indices[lane]]);
+  }
+}
+
+HWY_INLINE void set_lines(const QuadricLines& lines, const Picture& picture, const Found& found) {
+  const Wide d;
+  const LaneMask known = bits_of(lines.are_known, 0);
   alignas(64) double x[2][kMostLanes], y[2][kMostLanes], limit[2][kMostLanes];
   const WideV px_per_unit = hn::Set(d, picture.px_per_unit);
   for (const int line : {0, 1}) {
-    const WideV by_u = seen.by_u[line];
-    const WideV by_v = hn::Neg(seen.by_v[line]);
+    const WideV by_u = lines.by_u[line];
+    const WideV by_v = hn::Neg(lines.by_v[line]);
     const WideV length2 = hn::Add(hn::Mul(by_u, by_u), hn::Mul(by_v, by_v));
     const WideV by_length = hn::Div(hn::Set(d, 1.0), hn::Sqrt(length2));
     const WideV along_x = hn::Mul(by_u, by_length);
@@ -331,28 +374,56 @@ HWY_INLINE void find_some(const Columns& columns, const Picture& picture,
     const WideV of_middle = hn::Add(hn::Mul(along_x, hn::Set(d, picture.middle_px[0])),
                                     hn::Mul(along_y, hn::Set(d, picture.middle_px[1])));
     const WideV from_middle =
-        hn::Mul(hn::Mul(hn::Sub(seen.slack, seen.at[line]), by_length), px_per_unit);
+        hn::Mul(hn::Mul(hn::Sub(lines.slack, lines.at[line]), by_length), px_per_unit);
     hn::Store(along_x, d, x[line]);
     hn::Store(along_y, d, y[line]);
     hn::Store(hn::Add(of_middle, from_middle), d, limit[line]);
   }
-  for (size_t lane = 0; lane < indices.size(); ++lane) {
-    const uint32_t index = indices[lane];
-    if ((known >> lane & 1) != 0) {
-      narrow({low_x[lane], high_x[lane], low_y[lane], high_y[lane]}, picture, options,
-             screen[index]);
-    }
-    outlines[index] = kNoOutline;
-    if ((with_lines >> lane & 1) == 0) continue;
+  for (size_t lane = 0; lane < found.indices.size(); ++lane) {
+    ScreenOutline& outline = found.outlines[found.indices[lane]];
+    outline = kNoOutline;
+    if ((known >> lane & 1) == 0) continue;
     for (const int line : {0, 1}) {
-      picture.set_line(x[line][lane], y[line][lane], limit[line][lane], line, outlines[index]);
+      picture.set_line(x[line][lane], y[line][lane], limit[line][lane], line, outline);
+    }
+  }
+}
+
+/// Of those that are large.
+HWY_INLINE void set_corners(const QuadricLimits& limits, const Picture& picture,
+                            const Found& found) {
+  const Wide d;
+  LaneMask large = 0;
+  for (size_t lane = 0; lane < found.indices.size(); ++lane) {
+    Extent& screen = found.screen[found.indices[lane]];
+    if (!is_large(screen)) continue;
+    screen.inside2 = kCornered;
+    large |= LaneMask{1} << lane;
+  }
+  if (large == 0) return;
+  for (int i = 0; i < ScreenCorners::kCount; ++i) {
+    const auto [x, y] = kCornerDirections[i];
+    WideM are_known = all_lanes();
+    const Limits exact = limits.along(x, -y, are_known);
+    const WideV scale = hn::Set(d, picture.px_per_unit);
+    const WideV middle = hn::Set(d, x * picture.middle_px[0] + y * picture.middle_px[1]);
+    alignas(64) double low[kMostLanes], high[kMostLanes];
+    hn::Store(hn::IfThenElse(are_known, hn::Add(hn::Mul(exact.low, scale), middle),
+                             hn::Set(d, -kInfinity)),
+              d, low);
+    hn::Store(hn::IfThenElse(are_known, hn::Add(hn::Mul(exact.high, scale), middle),
+                             hn::Set(d, kInfinity)),
+              d, high);
+    for (LaneMask left = large; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      picture.set_corner(low[lane], high[lane], i, found.corners[found.indices[lane]]);
     }
   }
 }
 
 void find_quadrics_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
                             const Picture& picture, const ScreenOptions& options, Extent* screen,
-                            ScreenOutline* outlines) {
+                            ScreenOutline* outlines, ScreenCorners* corners) {
   Columns columns;
   for (; !indices.empty(); indices = indices.subspan(std::min(indices.size(), kLanes))) {
     const std::span<const uint32_t> some = indices.first(std::min(indices.size(), kLanes));
@@ -360,7 +431,11 @@ void find_quadrics_outlines(const CanonicalPrimitive* primitives, std::span<cons
       const uint32_t index = some[std::min(lane, some.size() - 1)];
       columns.set(lane, primitives[index], screen[index]);
     }
-    find_some(columns, picture, options, some, screen, outlines);
+    const QuadricLimits limits(columns, picture);
+    const Found found{some, screen, outlines, corners};
+    narrow_to(limits, picture, options, found);
+    set_lines(find_lines(columns, picture), picture, found);
+    set_corners(limits, picture, found);
   }
 }
 
@@ -404,7 +479,8 @@ void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
 
 /// By the polyhedron's vertices.
 void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& picture,
-                           const ScreenOptions& options, Extent& screen, ScreenOutline& outline) {
+                           const ScreenOptions& options, Extent& screen, ScreenOutline& outline,
+                           ScreenCorners& corners) {
   const View& view = picture.view;
   const Mat3& map = primitive.canonical_to_world;
   const Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
@@ -440,31 +516,40 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
   set_lines_along(points_px, margin_px, picture, outline);
   narrow({low.x - margin_px, high.x + margin_px, low.y - margin_px, high.y + margin_px}, picture,
          options, screen);
+  if (!is_large(screen)) return;
+  screen.inside2 = kCornered;
+  for (int i = 0; i < ScreenCorners::kCount; ++i) {
+    const auto [x, y] = kCornerDirections[i];
+    const auto along = [x, y](const glm::dvec2& point) { return x * point.x + y * point.y; };
+    const auto [least, most] = std::ranges::minmax(points_px, {}, along);
+    const double margin_along = kLongestDirection * margin_px;
+    picture.set_corner(along(least) - margin_along, along(most) + margin_along, i, corners);
+  }
 }
 
 }  // namespace
 
 void find_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
                    const FrameRays& frame, const ScreenOptions& options, Extent* screen,
-                   ScreenOutline* outlines) {
+                   ScreenOutline* outlines, ScreenCorners* corners) {
   const Picture picture(frame.view);
   uint32_t quadrics[kQuadricsAtOnce];
   size_t count = 0;
-  const auto find_all = [&] {
+  const auto flush = [&] {
     CSGCORE_SIMD(find_quadrics_outlines)
-    (primitives, {quadrics, count}, picture, options, screen, outlines);
+    (primitives, {quadrics, count}, picture, options, screen, outlines, corners);
     count = 0;
   };
   for (const uint32_t i : indices) {
     const Polyhedron* const polyhedron = primitives[i].polyhedron.get();
     if (polyhedron && polyhedron->vertices().size() <= kFewVertices) {
-      find_vertices_outline(primitives[i], picture, options, screen[i], outlines[i]);
+      find_vertices_outline(primitives[i], picture, options, screen[i], outlines[i], corners[i]);
       continue;
     }
     quadrics[count++] = i;
-    if (count == kQuadricsAtOnce) find_all();
+    if (count == kQuadricsAtOnce) flush();
   }
-  find_all();
+  flush();
 }
 
 }  // namespace csgcore

@@ -1,4 +1,4 @@
-// Where shapes that fill their boxes badly lie on the screen.
+// Where shapes that fill their boxes badly, and all large ones, lie on the screen.
 #pragma once
 
 #include <cmath>
@@ -34,11 +34,41 @@ inline bool misses(const ScreenOutline& outline, const Box& tile) {
   return result;
 }
 
+/// What a large primitive leaves of its rectangle's corners: no ray through a point p, in pixels,
+/// meets it where d·p < low or d·p > high for any of kCornerDirections.
+struct ScreenCorners {
+  static constexpr int kCount = 6;
+  float low[kCount], high[kCount];
+};
+constexpr float kCornerDirections[ScreenCorners::kCount][2] = {{1, 1},  {1, -1}, {2, 1},
+                                                               {2, -1}, {1, 2},  {1, -2}};
+
+/// The same of what lies within the corners' limits.
+inline bool misses(const ScreenCorners& corners, const Box& tile) {
+  const float from[] = {static_cast<float>(tile.min.x), static_cast<float>(tile.min.y)};
+  const float to[] = {static_cast<float>(tile.max.x), static_cast<float>(tile.max.y)};
+  bool result = false;
+  for (int i = 0; i < ScreenCorners::kCount; ++i) {
+    const auto [x, y] = kCornerDirections[i];
+    const bool rises = y > 0;
+    result |= x * from[0] + y * (rises ? from[1] : to[1]) > corners.high[i];
+    result |= x * to[0] + y * (rises ? to[1] : from[1]) < corners.low[i];
+  }
+  return result;
+}
+
+/// Smaller ones on the screen have no ScreenCorners.
+constexpr double kCorneredHalf_px = 32;
+
+/// The inside2 of an extent whose primitive has them.
+constexpr double kCornered = -2;
+
 /// For each of the indices: narrows the primitive's extent on the screen, which was found from its
 /// box, to the shape itself, or to what encloses a polyhedron of many vertices; and finds lines
-/// that it lies between. For primitives on the screen only.
+/// that it lies between, and of a large one the corners, which its inside2 tells then. For
+/// primitives on the screen only.
 void find_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
                    const FrameRays& frame, const ScreenOptions& options, Extent* screen,
-                   ScreenOutline* outlines);
+                   ScreenOutline* outlines, ScreenCorners* corners);
 
 }  // namespace csgcore

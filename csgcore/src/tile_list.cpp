@@ -351,7 +351,7 @@ void TileSimplifier::note(uint32_t index, Fate fate) {
       fates_.note(next, fate);
       continue;
     }
-    if (!bounds_.open_wholly(next)) continue;
+    bounds_.open_wholly(next);
     const std::span<const uint32_t> members = groups_.members(next).primitive;
     noted_.insert(noted_.end(), members.begin(), members.end());
   }

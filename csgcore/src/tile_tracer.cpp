@@ -109,9 +109,7 @@ struct TileTracer::Workspace {
   std::vector<std::unique_ptr<Level>> levels;
   TileList list, uncut_list;
   CellList uncut, uncut_opened[2];
-  // Of groups, by index in a list:
-  std::vector<uint8_t> marked;
-  std::vector<Restrictor::Opening> openings;
+  std::vector<uint8_t> marked;  // groups, by index in a list
   uint64_t tiles = 0;
 };
 
@@ -166,17 +164,15 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
   Restrictor restrictor(groups.extents(), classifier);
   const Box cell{frame.view.eye - reach, frame.view.eye + reach};
   CellList at_eye, closed;
-  using Opening = Restrictor::Opening;
-  std::vector<Opening> openings;
+  std::vector<uint8_t> marked;
   restrictor.restrict(groups.list(), cell, at_eye);
   while (has_groups(groups, at_eye)) {
-    openings.clear();
+    marked.clear();
     for (const uint32_t entry : at_eye.primitives()) {
-      const bool is_group = groups.is_group(entry & kPrimitiveBits);
-      openings.push_back(is_group ? Opening::kMembers : Opening::kNone);
+      marked.push_back(groups.is_group(entry & kPrimitiveBits));
     }
     std::swap(at_eye, closed);
-    restrictor.open(closed, groups, openings, cell, at_eye);
+    restrictor.open(closed, groups, marked, cell, at_eye);
   }
   if (!at_eye.is_constant()) return std::nullopt;
   return at_eye.root == CellList::kFalse;
@@ -337,15 +333,8 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
 const CellList& TileTracer::open_groups(const Box& cell, const CellList& list,
                                         std::span<const uint8_t> marked, CellList (&buffers)[2],
                                         Workspace& workspace) {
-  using Opening = Restrictor::Opening;
-  workspace.openings.assign(list.count(), Opening::kNone);
-  for (uint32_t i = 0; i < list.count(); ++i) {
-    if (!marked[i]) continue;
-    const bool is_seen = bounds_.open(list.primitive[i] & kPrimitiveBits);
-    workspace.openings[i] = is_seen ? Opening::kMembers : Opening::kNothing;
-  }
   CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
-  workspace.restrictor.open(list, groups_, workspace.openings, cell, result);
+  workspace.restrictor.open(list, groups_, marked, cell, result);
   return result;
 }
 

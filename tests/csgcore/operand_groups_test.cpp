@@ -12,6 +12,7 @@
 #include "restriction.hpp"
 #include "screen_bounds.hpp"
 #include "screen_extents.hpp"
+#include "simd_levels.hpp"
 #include "support/models.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
@@ -96,122 +97,123 @@ bool value_at(const Solid& solid, const Vec3& point) {
   return evaluate(std::span<const Literal>(literals), inside);
 }
 
-class GroupsOf : public testing::TestWithParam<uint32_t> {};
+class GroupsOf : public testing::TestWithParam<uint32_t> {
+ protected:
+  const Scene scene_ = random_scene(GetParam());
+  const Solid solid_{canonical_primitives(scene_), scene_.model};
+  const OperandGroups& groups_ = solid_.groups();
+};
 
 TEST_P(GroupsOf, RandomTreeHaveItsValues) {
-  const Scene scene = random_scene(GetParam());
-  const Solid solid(canonical_primitives(scene), scene.model);
-  ASSERT_GT(solid.groups().count(), solid.groups().first_group());
+  ASSERT_GT(groups_.count(), groups_.first_group());
   std::mt19937 random(1);
   int holds = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3 point = checks::random_point(random, kSpace);
-    ASSERT_EQ(value_at(solid, point), solid.contains(point));
-    holds += solid.contains(point);
+    ASSERT_EQ(value_at(solid_, point), solid_.contains(point));
+    holds += solid_.contains(point);
   }
   EXPECT_GT(holds, 0);
 }
 
 /// The same by opening them, cell by cell.
 TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
-  const Scene scene = random_scene(GetParam());
-  const Solid solid(canonical_primitives(scene), scene.model);
-  const OperandGroups& groups = solid.groups();
-  const WorldClassifier classifier(solid.primitives());
-  Restrictor restrictor(groups.extents(), classifier);
+  const WorldClassifier classifier(solid_.primitives());
+  Restrictor restrictor(groups_.extents(), classifier);
   std::mt19937 random(2);
   for (int round = 0; round < 100; ++round) {
     const Vec3 center = checks::random_point(random, kSpace);
     const Vec3 half(uniform(random, 0.01, 1));
     const Box cell{center - half, center + half};
     CellList list, closed;
-    restrictor.restrict(groups.list(), cell, list);
+    restrictor.restrict(groups_.list(), cell, list);
     for (bool any = true; any;) {
       any = false;
-      std::vector<Restrictor::Opening> openings(list.count());
+      std::vector<uint8_t> marked(list.count());
       for (uint32_t i = 0; i < list.count(); ++i) {
-        if (!groups.is_group(list.primitive[i] & kPrimitiveBits)) continue;
-        openings[i] = Restrictor::Opening::kMembers;
+        if (!groups_.is_group(list.primitive[i] & kPrimitiveBits)) continue;
+        marked[i] = 1;
         any = true;
       }
       std::swap(list, closed);
-      restrictor.open(closed, groups, openings, cell, list);
+      restrictor.open(closed, groups_, marked, cell, list);
     }
     std::vector<Literal> literals;
     append(literals, list);
     for (int i = 0; i < 30; ++i) {
       const Vec3 point = checks::random_point(random, cell);
-      const auto inside = [&](uint32_t p) { return contains(solid.primitives()[p], point); };
+      const auto inside = [&](uint32_t p) { return contains(solid_.primitives()[p], point); };
       const bool value = literals.empty() ? list.root == CellList::kTrue
                                           : evaluate(std::span<const Literal>(literals), inside);
-      ASSERT_EQ(value, solid.contains(point));
+      ASSERT_EQ(value, solid_.contains(point));
     }
   }
 }
 
 TEST_P(GroupsOf, RandomTreeOwnEachIndexOnce) {
-  const Scene scene = random_scene(GetParam());
-  const Solid solid(canonical_primitives(scene), scene.model);
-  const OperandGroups& groups = solid.groups();
-  std::multiset<uint32_t> owned(groups.common().begin(), groups.common().end());
+  std::multiset<uint32_t> owned(groups_.common().begin(), groups_.common().end());
   std::set<uint32_t> standing;
   const auto note = [&](std::span<const uint32_t> primitives) {
     for (const uint32_t entry : primitives) standing.insert(entry & kPrimitiveBits);
   };
-  note(groups.list().primitives());
-  for (uint32_t group = groups.first_group(); group < groups.count(); ++group) {
-    note(groups.members(group).primitive);
-    owned.insert(groups.own(group).begin(), groups.own(group).end());
+  note(groups_.list().primitives());
+  for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
+    note(groups_.members(group).primitive);
+    owned.insert(groups_.own(group).begin(), groups_.own(group).end());
   }
   EXPECT_TRUE(std::equal(owned.begin(), owned.end(), standing.begin(), standing.end()));
 }
 
 TEST_P(GroupsOf, RandomTreeShowTheSame) {
-  const Scene scene = random_scene(GetParam());
-  const Solid solid(canonical_primitives(scene), scene.model);
   for (const auto& [name, view] : checks::trace_views(kSpace, 48, 36)) {
     SCOPED_TRACE(name);
-    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view, {}),
-                                  checks::WholeList(solid, view).picture()));
+    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid_, view, {}),
+                                  checks::WholeList(solid_, view).picture()));
   }
 }
 
 /// Rectangles of balls hold what is bounded in double, and hardly more.
 TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
-  const Scene scene = random_scene(GetParam());
-  const Solid solid(canonical_primitives(scene), scene.model);
-  const OperandGroups& groups = solid.groups();
   for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
-    const FrameRays frame = frame_rays(view, solid.bounds());
-    Extents screen(groups.count());
+    const FrameRays frame = frame_rays(view, solid_.bounds());
+    Extents screen(groups_.count());
     double area = 0, exact_area = 0;
     int visible = 0;
-    for (uint32_t group = groups.first_group(); group < groups.count(); ++group) {
-      const OperandGroups::Members members = groups.members(group);
+    for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
+      const OperandGroups::Members members = groups_.members(group);
       const auto count = static_cast<uint32_t>(members.primitive.size());
-      const double* const center = groups.extents()[group].center;
+      const double* const center = groups_.extents()[group].center;
       // What follows a group's is another's.
       std::vector<float> rows[4];
       for (auto& row : rows) row.assign(count + 1, 7.0f);
-      const bool any = find_rectangles(
-          groups.balls(group), count, {center[0], center[1], center[2]}, frame, {false},
+      const Rectangle all = find_rectangles(
+          groups_.balls(group), count, {center[0], center[1], center[2]}, frame, {false},
           {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
       for (const auto& row : rows) ASSERT_EQ(row[count], 7.0f);
+      if (!all.is_empty()) {
+        EXPECT_GE(all.low_x, *std::min_element(rows[0].begin(), rows[0].end() - 1));
+        EXPECT_LE(all.high_x, *std::max_element(rows[1].begin(), rows[1].end() - 1));
+        EXPECT_GE(all.low_y, *std::min_element(rows[2].begin(), rows[2].end() - 1));
+        EXPECT_LE(all.high_y, *std::max_element(rows[3].begin(), rows[3].end() - 1));
+      }
       std::vector<uint32_t> indices;
       for (const uint32_t entry : members.primitive) indices.push_back(entry & kPrimitiveBits);
-      find_screen_extents(groups.extents().data(), indices, frame, {false}, screen.data());
+      find_screen_extents(groups_.extents().data(), indices, frame, {false}, screen.data());
       for (uint32_t i = 0; i < count; ++i) {
         const Extent& exact = screen[indices[i]];
         if (fate_on_screen(exact) != ScreenFate::kVisible) continue;
         ++visible;
-        EXPECT_TRUE(any);
+        EXPECT_LE(all.low_x, rows[0][i]);
+        EXPECT_GE(all.high_x, rows[1][i]);
+        EXPECT_LE(all.low_y, rows[2][i]);
+        EXPECT_GE(all.high_y, rows[3][i]);
         for (const int axis : {0, 1}) {
           const double last = axis == 0 ? view.width_px : view.height_px;
           ASSERT_LE(rows[2 * axis][i], std::max(exact.center[axis] - exact.half[axis], -1.0));
           ASSERT_GE(rows[2 * axis + 1][i], std::min(exact.center[axis] + exact.half[axis], last));
         }
-        if (groups.is_group(indices[i]) || exact.half[0] > 100) continue;
+        if (groups_.is_group(indices[i]) || exact.half[0] > 100) continue;
         area += (rows[1][i] - rows[0][i]) * (rows[3][i] - rows[2][i]);
         exact_area += 4 * exact.half[0] * exact.half[1];
       }
@@ -219,6 +221,64 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
     EXPECT_GT(visible, 0);
     // Near the eye a ball is no longer seen as one.
     EXPECT_LT(area, (name == "FromWithin" ? 2 : 1.2) * exact_area);
+  }
+}
+
+/// On the screen a group reaches as far as what it holds, and not as far as its box.
+TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
+  for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
+    SCOPED_TRACE(name);
+    const FrameRays frame = frame_rays(view, solid_.bounds());
+    ScreenBounds bounds(solid_.primitives(), groups_, frame, true);
+    Extents boxes(groups_.count());
+    double area = 0, box_area = 0;
+    std::vector<uint32_t> left;
+    const auto add_groups = [&](std::span<const uint32_t> entries) {
+      for (const uint32_t entry : entries) {
+        if (groups_.is_group(entry & kPrimitiveBits)) left.push_back(entry & kPrimitiveBits);
+      }
+    };
+    for (add_groups(groups_.list().primitives()); !left.empty();) {
+      const uint32_t group = left.back();
+      left.pop_back();
+      const Extent& extent = bounds.extents()[group];
+      find_screen_extents(groups_.extents().data(), std::span(&group, 1), frame, {true},
+                          boxes.data());
+      const Extent& box = boxes[group];
+      bounds.open_wholly(group);
+      const std::span<const uint32_t> members = groups_.members(group).primitive;
+      if (fate_on_screen(box) != ScreenFate::kVisible) continue;
+      add_groups(members);
+      if (fate_on_screen(extent) == ScreenFate::kVisible) {
+        const bool is_on_screen = box.half[0] < 0.5 * view.width_px;
+        area += is_on_screen ? extent.half[0] * extent.half[1] : 0;
+        box_area += is_on_screen ? box.half[0] * box.half[1] : 0;
+      }
+      for (const uint32_t entry : members) {
+        const Extent& member = bounds.extents()[entry & kPrimitiveBits];
+        if (fate_on_screen(member) != ScreenFate::kVisible) continue;
+        // What the group's box and the picture leave of it counts.
+        double low[2], high[2];
+        for (const int axis : {0, 1}) {
+          const double last = axis == 0 ? view.width_px - 1.0 : view.height_px - 1.0;
+          low[axis] = std::max(
+              {member.center[axis] - member.half[axis], box.center[axis] - box.half[axis], 0.0});
+          high[axis] = std::min(
+              {member.center[axis] + member.half[axis], box.center[axis] + box.half[axis], last});
+        }
+        if (low[0] > high[0] || low[1] > high[1]) continue;
+        ASSERT_EQ(fate_on_screen(extent), ScreenFate::kVisible);
+        for (const int axis : {0, 1}) {
+          EXPECT_LE(extent.center[axis] - extent.half[axis], low[axis]);
+          EXPECT_GE(extent.center[axis] + extent.half[axis], high[axis]);
+        }
+      }
+    }
+    // Along the axes boxes are tight.
+    EXPECT_LE(area, box_area);
+    if (name == "Perspective") {
+      EXPECT_LT(area, 0.9 * box_area);
+    }
   }
 }
 
@@ -265,23 +325,62 @@ TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
   }
 }
 
+/// Beside a ball that is not.
 TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
   constexpr float kOverflown = std::numeric_limits<float>::infinity();
-  constexpr uint32_t kCount = 3;
-  std::vector<float> x(kCount + kRowPadding), radius(kCount + kRowPadding, 1.0f);
+  constexpr uint32_t kCount = 2;
   const std::vector<float> zeros(kCount + kRowPadding);
-  x[1] = kOverflown;
-  radius[2] = kOverflown;
-  for (const auto& [name, view] : checks::trace_views(kSpace, 64, 48)) {
+  struct Ball {
+    float x, radius;
+  };
+  // The last overflows in pixels only.
+  for (const Ball& ball : {Ball{kOverflown, 1}, Ball{0, kOverflown}, Ball{1e38f, 2e38f}}) {
+    std::vector<float> x(kCount + kRowPadding), radius(kCount + kRowPadding, 1.0f);
+    x[0] = ball.x;
+    radius[0] = ball.radius;
+    for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
+      SCOPED_TRACE(name);
+      std::vector<float> rows[4];
+      for (auto& row : rows) row.resize(kCount + kRowPadding);
+      const Rectangle all =
+          find_rectangles({x.data(), zeros.data(), zeros.data(), radius.data()}, kCount, Vec3(0.0),
+                          frame_rays(view, kSpace), {false},
+                          {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()});
+      EXPECT_LT(std::max(all.low_x, all.low_y), -1);
+      EXPECT_GT(std::min(all.high_x, all.high_y), 640);
+      const Box corner{Vec3(-1, -1, 0), Vec3(0, 0, 0)};
+      const RectangleRows rectangles{rows[0].data(), rows[1].data(), rows[2].data(),
+                                     rows[3].data()};
+      EXPECT_EQ(find_outside(rectangles, kCount, corner) & 1, 0u);
+    }
+  }
+}
+
+TEST(MemberRectangles, EveryInstructionSetAgrees) {
+  std::mt19937 random(4);
+  constexpr uint32_t kCount = 37;
+  std::vector<float> balls[4];
+  for (auto& row : balls) {
+    for (uint32_t i = 0; i < kCount + kRowPadding; ++i) {
+      row.push_back(static_cast<float>(uniform(random, 0.01, 8)));
+    }
+  }
+  for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
-    std::vector<float> rows[4];
-    for (auto& row : rows) row.resize(kCount + kRowPadding);
-    const BallRows balls{x.data(), zeros.data(), zeros.data(), radius.data()};
-    EXPECT_TRUE(find_rectangles(balls, kCount, Vec3(0.0), frame_rays(view, kSpace), {false},
-                                {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()}));
-    const Box corner{Vec3(-1, -1, 0), Vec3(0, 0, 0)};
-    const RectangleRows rectangles{rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()};
-    EXPECT_EQ(find_outside(rectangles, kCount, corner) & 0b110u, 0u);
+    std::vector<std::vector<float>> answers;
+    checks::for_each_simd_level([&](SimdLevel) {
+      std::vector<float> rows(4 * kCount);
+      float* const row = rows.data();
+      const Rectangle all =
+          find_rectangles({balls[0].data(), balls[1].data(), balls[2].data(), balls[3].data()},
+                          kCount, Vec3(-4.0), frame_rays(view, kSpace), {true},
+                          {row, row + kCount, row + 2 * kCount, row + 3 * kCount});
+      for (const double bound : {all.low_x, all.high_x, all.low_y, all.high_y}) {
+        rows.push_back(static_cast<float>(bound));
+      }
+      answers.push_back(std::move(rows));
+    });
+    for (const auto& rows : answers) EXPECT_EQ(rows, answers.front());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 
+#include "csgcore/polyhedron.hpp"
 #include "csgcore/tracer.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
@@ -91,6 +92,34 @@ void build_union(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
   add_range(builder, 0, first);
   add_range(builder, first, end);
   builder.close();
+}
+
+/// Of what is large on the screen, hardly a ray is traced that goes past it, though it fills its
+/// rectangle badly.
+TEST(Skipped, RaysThatPassLargeShapes) {
+  Affine tilted;  // a rotation
+  tilted.linear = {
+      {2.0 / 3, 2.0 / 3, -1.0 / 3}, {-1.0 / 3, 2.0 / 3, 2.0 / 3}, {2.0 / 3, -1.0 / 3, 2.0 / 3}};
+  const Primitive shapes[] = {make_sphere(5), make_frustum(-5, 5, 3, 3, tilted),
+                              make_frustum(-5, 5, 5, 0.5, tilted),
+                              make_polyhedron(Polyhedron::box({Vec3(-3.5), Vec3(3.5)}), tilted)};
+  for (const Projection projection : kBothProjections) {
+    for (const Primitive& shape : shapes) {
+      View view = view_from_above(projection);
+      view.width_px = view.height_px = 640;
+      Scene scene;
+      scene.primitives = {shape};
+      CsgTreeBuilder builder;
+      builder.primitive(0);
+      scene.model = builder.finish();
+      Hits hits;
+      TraceStats stats;
+      trace(Solid(canonical_primitives(scene), scene.model), view, {}, hits, stats);
+      // Tiles go past by some pixels.
+      EXPECT_LT(static_cast<double>(stats.rays),
+                1.22 * static_cast<double>(checks::count_hits(hits)));
+    }
+  }
 }
 
 double place(uint32_t i) { return -5 + 10.0 * i / kParts; }

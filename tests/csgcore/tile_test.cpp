@@ -28,6 +28,7 @@ struct Screen {
   std::vector<CanonicalPrimitive> primitives;
   Extents extents;
   std::vector<ScreenOutline> outlines;  // of those whose inside2 < 0, on the screen
+  std::vector<ScreenCorners> corners;   // of those that are large there
 
   Screen(const std::vector<Primitive>& scene, const FrameRays& rays, bool centers_only)
       : frame(rays) {
@@ -38,12 +39,17 @@ struct Screen {
     }
     extents.resize(world.size());
     outlines.resize(world.size());
+    corners.resize(world.size());
     const ScreenOptions options{centers_only};
     std::vector<uint32_t> indices(world.size());
     std::iota(indices.begin(), indices.end(), 0u);
     find_screen_extents(world.data(), indices, frame, options, extents.data());
-    std::erase_if(indices, [&](uint32_t i) { return !is_outlined(i); });
-    find_outlines(primitives.data(), indices, frame, options, extents.data(), outlines.data());
+    std::erase_if(indices, [&](uint32_t i) {
+      const double half = std::min(extents[i].half[0], extents[i].half[1]);
+      return !is_outlined(i) && !(half >= kCorneredHalf_px);
+    });
+    find_outlines(primitives.data(), indices, frame, options, extents.data(), outlines.data(),
+                  corners.data());
   }
 
   /// Of what fills its box badly.
@@ -51,9 +57,13 @@ struct Screen {
     return extents[i].inside2 < 0 && fate_on_screen(extents[i]) == ScreenFate::kVisible;
   }
 
+  bool is_cornered(size_t i) const { return is_outlined(i) && extents[i].inside2 == kCornered; }
+
   bool is_beyond_line(size_t i, const glm::dvec2& point_px) const {
     const Vec3 at{point_px, 0};
-    return is_outlined(i) && misses(outlines[i], Box{at, at});
+    const Box box{at, at};
+    return (is_outlined(i) && misses(outlines[i], box)) ||
+           (is_cornered(i) && misses(corners[i], box));
   }
 
   /// The rays of so many points of the picture, at most kPacketRays.
@@ -183,8 +193,10 @@ INSTANTIATE_TEST_SUITE_P(Tiles, ScreenExtents, testing::Bool(), [](const auto& c
 /// Of what lies wholly on the screen, well before the eye: to a hundredth of its size.
 TEST(ScreenExtents, AreTight) {
   std::mt19937 random(2);
-  uint64_t tight = 0, tight_lines = 0;
-  for (const View& view : random_views(random)) {
+  uint64_t tight = 0, tight_lines = 0, tight_corners = 0;
+  for (View& view : random_views(random)) {
+    view.width_px *= 4;  // so that many are large
+    view.height_px *= 4;
     const std::vector<Primitive> primitives = random_primitives(random, 60);
     const Screen screen(primitives, rays_of(view), false);
     for (size_t i = 0; i < primitives.size(); ++i) {
@@ -197,6 +209,9 @@ TEST(ScreenExtents, AreTight) {
       if (polyhedron && polyhedron->vertices().size() > 64) continue;
       glm::dvec2 low(1e9), high(-1e9);
       double beyond[2] = {-1e9, -1e9};  // how far the furthest is beyond the lines
+      double least[ScreenCorners::kCount], most[ScreenCorners::kCount];
+      std::fill(std::begin(least), std::end(least), 1e9);
+      std::fill(std::begin(most), std::end(most), -1e9);
       const ScreenOutline& outline = screen.outlines[i];
       for (int point = 0; point < 3000; ++point) {
         const glm::dvec2 at = screen.project(checks::surface_point(primitives[i], random));
@@ -206,6 +221,11 @@ TEST(ScreenExtents, AreTight) {
           const double past = outline.x[line] * at.x + outline.y[line] * at.y - outline.limit[line];
           beyond[line] = std::max(beyond[line], past);
         }
+        for (int corner = 0; corner < ScreenCorners::kCount; ++corner) {
+          const auto [x, y] = kCornerDirections[corner];
+          least[corner] = std::min(least[corner], x * at.x + y * at.y);
+          most[corner] = std::max(most[corner], x * at.x + y * at.y);
+        }
       }
       for (const int axis : {0, 1}) {
         const double slack = 0.03 * (high[axis] - low[axis]);
@@ -213,6 +233,12 @@ TEST(ScreenExtents, AreTight) {
         ASSERT_NEAR(extent.center[axis] + extent.half[axis], high[axis], slack);
       }
       ++tight;
+      for (int corner = 0; screen.is_cornered(i) && corner < ScreenCorners::kCount; ++corner) {
+        const double slack = 0.06 * glm::length(high - low);
+        ASSERT_NEAR(screen.corners[i].low[corner], least[corner], slack);
+        ASSERT_NEAR(screen.corners[i].high[corner], most[corner], slack);
+        ++tight_corners;
+      }
       const bool shows_wall = primitives[i].shape == Shape::kFrustum;
       if (!screen.is_outlined(i) || (!shows_wall && !polyhedron)) continue;
       for (const int line : {0, 1}) {
@@ -224,6 +250,7 @@ TEST(ScreenExtents, AreTight) {
   }
   EXPECT_GT(tight, 100u);
   EXPECT_GT(tight_lines, 100u);
+  EXPECT_GT(tight_corners, 100u);
 }
 
 std::vector<uint32_t> indices(size_t count) {
@@ -257,23 +284,29 @@ bool any_seen(const Screen& screen, const RayPacket& rays, size_t primitive) {
 
 TEST(ScreenOutlines, MissOnlyTilesWhoseRaysMissThem) {
   std::mt19937 random(3);
-  uint64_t missed = 0;
-  for (const View& view : random_views(random)) {
+  uint64_t missed = 0, missed_by_corners = 0;
+  for (View& view : random_views(random)) {
+    view.width_px *= 4;  // so that many are large
+    view.height_px *= 4;
     const std::vector<Primitive> primitives = random_primitives(random, 64);
     const Screen screen(primitives, rays_of(view), true);
     for (int round = 0; round < 200; ++round) {
-      const double x = uniform(random, 0, 112), y = uniform(random, 0, 82);
-      const double side = uniform(random, 0, 40);
+      const double x = uniform(random, 0, 472), y = uniform(random, 0, 352);
+      const double side = uniform(random, 0, 100);
       const Box tile{{x, y, 0}, {x + side, y + uniform(random, 0.5, 1) * side, 0}};
       const RayPacket rays = screen.rays_through(points_in(tile, random));
       for (uint32_t i = 0; i < 64; ++i) {
-        if (!screen.is_outlined(i) || !misses(screen.outlines[i], tile)) continue;
+        const bool by_lines = screen.is_outlined(i) && misses(screen.outlines[i], tile);
+        const bool by_corners = screen.is_cornered(i) && misses(screen.corners[i], tile);
+        if (!by_lines && !by_corners) continue;
         ++missed;
+        missed_by_corners += !by_lines && overlaps(screen.extents[i], tile);
         ASSERT_FALSE(any_seen(screen, rays, i)) << i;
       }
     }
   }
   EXPECT_GT(missed, 1000u);
+  EXPECT_GT(missed_by_corners, 100u);
 }
 
 /// The screen's functions have no other test of their instruction sets.
@@ -281,7 +314,9 @@ TEST(ScreenOutlines, EveryInstructionSetAgrees) {
   std::mt19937 random(5);
   const std::vector<View> views = random_views(random);
   const std::vector<Primitive> primitives = random_primitives(random, 203);
-  for (const View& view : views) {
+  for (View view : views) {
+    view.width_px *= 4;  // so that some are large
+    view.height_px *= 4;
     const Screen expected(primitives, rays_of(view), true);
     checks::for_each_simd_level([&](SimdLevel level) {
       SCOPED_TRACE(checks::name_of(level));
@@ -296,6 +331,8 @@ TEST(ScreenOutlines, EveryInstructionSetAgrees) {
           EXPECT_EQ(screen.outlines[i].y[line], expected.outlines[i].y[line]);
           EXPECT_EQ(screen.outlines[i].limit[line], expected.outlines[i].limit[line]);
         }
+        if (!screen.is_cornered(i)) continue;
+        EXPECT_EQ(std::memcmp(&screen.corners[i], &expected.corners[i], sizeof(ScreenCorners)), 0);
       }
     });
   }
