@@ -54,11 +54,14 @@ class Gather {
   hn::Vec<Signed> offsets_;
 };
 
-HWY_INLINE uint64_t bits_of(Mask mask) {
+/// Of at most 16 lanes.
+template <typename Tag>
+HWY_INLINE uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
   std::array<uint8_t, 8> bytes{};
-  hn::StoreMaskBits(Doubles(), mask, bytes.data());
-  return bytes[0];
+  hn::StoreMaskBits(tag, mask, bytes.data());
+  return bytes[0] | uint32_t{bytes[1]} << 8;
 }
+HWY_INLINE uint64_t bits_of(Mask mask) { return bits_of(Doubles(), mask); }
 
 /// What the interval [min, max] of one axis adds to the tests.
 struct AxisTest {
@@ -161,11 +164,28 @@ uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell
                                hn::Lt(hn::LoadU(d, rows.high_x + i), min_x));
     const auto above = hn::Or(hn::Gt(hn::LoadU(d, rows.low_y + i), max_y),
                               hn::Lt(hn::LoadU(d, rows.high_y + i), min_y));
-    std::array<uint8_t, 8> bytes{};
-    hn::StoreMaskBits(d, hn::Or(beside, above), bytes.data());
-    outside |= uint64_t{bytes[0] | uint32_t{bytes[1]} << 8} << i;
+    outside |= bits_of(d, hn::Or(beside, above)) << i;
   }
   return outside;
+}
+
+uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
+                      const HiddenSide& side) {
+  const hn::CappedTag<float, kRowPadding> d;
+  // A rectangle's corner that lies furthest towards the line.
+  const auto furthest = [&](const float* low, const float* high, int axis, float towards) {
+    const auto end =
+        towards > 0 ? hn::Min(hn::LoadU(d, high), hn::Set(d, static_cast<float>(cell.max[axis])))
+                    : hn::Max(hn::LoadU(d, low), hn::Set(d, static_cast<float>(cell.min[axis])));
+    return hn::Mul(end, hn::Set(d, towards));
+  };
+  uint64_t on_side = 0;
+  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(d))) {
+    const auto along_x = furthest(rows.low_x + i, rows.high_x + i, 0, side.x);
+    const auto along_y = furthest(rows.low_y + i, rows.high_y + i, 1, side.y);
+    on_side |= bits_of(d, hn::Lt(hn::Add(along_x, along_y), hn::Set(d, side.limit))) << i;
+  }
+  return on_side;
 }
 
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
@@ -249,6 +269,7 @@ CSGCORE_SIMD_EXPORT(test_extents);
 CSGCORE_SIMD_EXPORT(test_boxes);
 CSGCORE_SIMD_EXPORT(test_rectangles);
 CSGCORE_SIMD_EXPORT(find_outside);
+CSGCORE_SIMD_EXPORT(find_on_side);
 CSGCORE_SIMD_EXPORT(count_ends);
 
 namespace {
@@ -283,6 +304,11 @@ ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives,
 
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
   return CSGCORE_SIMD(find_outside)(rows, count, cell);
+}
+
+uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
+                      const HiddenSide& side) {
+  return CSGCORE_SIMD(find_on_side)(rows, count, cell, side);
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

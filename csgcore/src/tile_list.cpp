@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 
@@ -26,6 +27,10 @@ constexpr double kCoverSlack = 1e-9;
 /// Of pixels that a primitive hides, those within it for less than this share of the longest are
 /// not asked for a common depth: they may have none.
 constexpr double kLeastShare = 0.25;
+
+/// Of a picture's width and height together: far above what float loses of a point's distance from
+/// a line of the screen.
+constexpr double kLineRounding = 1e-6;
 
 /// A stretch of depth is looked at in so many parts for one that is free.
 constexpr size_t kDepthParts = 64;
@@ -68,6 +73,64 @@ Box box_about(const Tile& tile, uint64_t pixels) {
   return box;
 }
 
+/// The smallest box on the screen that holds its pixels' centres, and so much more at each side.
+Box box_of(const Tile& tile, double border_px) {
+  return {{tile.x - border_px, tile.y - border_px, 0},
+          {tile.x + tile.width - 1 + border_px, tile.y + tile.height - 1 + border_px, 0}};
+}
+
+/// Of the rays through its corners, in the first four lanes.
+PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box) {
+  PacketLaterals corners{};
+  for (uint32_t lane = 0; lane < 4; ++lane) {
+    corners.u[lane] = frame.u((lane & 1) ? box.max.x : box.min.x);
+    corners.v[lane] = frame.v((lane & 2) ? box.max.y : box.min.y);
+  }
+  return corners;
+}
+
+/// As many points around a tile's border, its corners among them, as rays are in a packet.
+struct BorderPoints {
+  explicit BorderPoints(const Box& box) {
+    constexpr uint32_t kOnASide = kPacketRays / 4;
+    const glm::dvec2 corners[] = {{box.min.x, box.min.y},
+                                  {box.max.x, box.min.y},
+                                  {box.max.x, box.max.y},
+                                  {box.min.x, box.max.y}};
+    for (uint32_t i = 0; i < kPacketRays; ++i) {
+      const uint32_t corner = i / kOnASide;
+      points[i] = glm::mix(corners[corner], corners[(corner + 1) % 4],
+                           static_cast<double>(i % kOnASide) / kOnASide);
+    }
+  }
+
+  /// Given that a convex part of the screen holds the points whose bit is set: a side of a line
+  /// whose part within the tile that holds, too. It is about the points that stand side by side,
+  /// and as the corners between them are among those, the line through the first and the last cuts
+  /// off no more of the tile than lies between them.
+  std::optional<HiddenSide> side_within(LaneMask held, double depth, double rounding) const {
+    if (held == kAllLanes) return HiddenSide{0, 0, 1, 1, depth};
+    int first = 0, count = 0;
+    for (int i = 0; i < static_cast<int>(kPacketRays); ++i) {
+      const int run = std::countr_one(std::rotr(held, i));
+      if (run > count) first = i, count = run;
+    }
+    if (count < 3) return std::nullopt;
+    const glm::dvec2 from = points[first];
+    const glm::dvec2 to = points[(static_cast<uint32_t>(first + count) - 1) % kPacketRays];
+    const double length = glm::distance(from, to);
+    if (!(length > 0)) return std::nullopt;
+    const glm::dvec2 across = glm::dvec2{from.y - to.y, to.x - from.x} / length;
+    const auto x = static_cast<float>(across.x);
+    const auto y = static_cast<float>(across.y);
+    const double line = std::min(x * from.x + y * from.y, x * to.x + y * to.y);
+    return HiddenSide{x, y, static_cast<float>(line - rounding),
+                      static_cast<float>(line + rounding), depth};
+  }
+
+  glm::dvec2 points[kPacketRays];
+};
+
 }  // namespace
 
 TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellList& list,
@@ -80,7 +143,7 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
     cuts = depth && all_end_before(list, restrictor, *depth) &&
-           drop_behind(list, *depth, cover, nullptr);
+           drop_behind(list, *depth, cover, [](const Extent&) { return false; });
     if (!cuts) continue;
     cut_t_ = *depth;
     break;
@@ -104,10 +167,7 @@ double TileSimplifier::slack_of(const Cover& cover) {
 /// The longest first.
 bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
   const double border = centers_only_ ? 0.0 : 0.5;
-  const double low_x = tile.x - border;
-  const double low_y = tile.y - border;
-  const double high_x = tile.x + tile.width - 1 + border;
-  const double high_y = tile.y + tile.height - 1 + border;
+  const Box box = box_of(tile, border);
   covers_.clear();
   has_groups_ = is_partly_covered_ = false;
   for (const uint32_t entry : list.primitives()) {
@@ -117,8 +177,8 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
       continue;
     }
     const Extent& e = screen_[primitive];
-    if (e.center[0] - e.half[0] > low_x || e.center[0] + e.half[0] < high_x ||
-        e.center[1] - e.half[1] > low_y || e.center[1] + e.half[1] < high_y) {
+    if (e.center[0] - e.half[0] > box.min.x || e.center[0] + e.half[0] < box.max.x ||
+        e.center[1] - e.half[1] > box.min.y || e.center[1] + e.half[1] < box.max.y) {
       is_partly_covered_ |= covers_more_than(e, tile);
       continue;
     }
@@ -134,13 +194,8 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
   std::partial_sort(covers_.begin(), covers_.begin() + static_cast<long>(kept), covers_.end(),
                     longer);
   covers_.resize(kept);
-  PacketLaterals corners{};
-  for (uint32_t lane = 0; lane < 4; ++lane) {
-    corners.u[lane] = frame_.u((lane & 1) ? high_x : low_x);
-    corners.v[lane] = frame_.v((lane & 2) ? high_y : low_y);
-  }
   RayPacket rays;
-  make_four_rays(frame_, corners, rays);
+  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
   for (Cover& cover : covers_) {
     PacketSegments segments;
     intersect_four(frame_, rays, primitives_[cover.primitive], segments);
@@ -254,14 +309,15 @@ bool TileSimplifier::all_end_before(const CellList& list, Restrictor& restrictor
   return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
 }
 
-/// Drops what is behind the depth, but for what reaches into `seen`; false if that is nothing.
+/// Drops what is behind the depth, but for what is seen all the same; false if that is nothing.
+template <typename IsSeen>
 bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover& cover,
-                                 const Box* seen) {
+                                 const IsSeen& is_seen) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
     if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
-    if (seen && overlaps(extent, *seen)) continue;
+    if (is_seen(extent)) continue;
     dropped_[i] = Decision::kOutside;
     const bool is_inside = lies_within(extent, cover.from_t, cover.to_t);
     note(list.primitive[i] & kPrimitiveBits, is_inside ? Fate::kInside : Fate::kHidden);
@@ -270,13 +326,8 @@ bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover
   return drops;
 }
 
-std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile& tile,
-                                                                      const CellList& list,
-                                                                      Restrictor& restrictor,
-                                                                      CellList& result) {
-  static_assert(kPacketWidth_px == 8 && kPacketRays == 32);
-  if (!last_value_ || !centers_only_) return std::nullopt;
-  // The largest primitive that may hide much of it.
+/// The largest primitive that may hide much of the tile; none if nothing lies behind it.
+std::optional<uint32_t> TileSimplifier::find_large(const Tile& tile, const CellList& list) const {
   const Extent* largest = nullptr;
   uint32_t primitive = 0;
   for (const uint32_t entry : list.primitives()) {
@@ -289,34 +340,26 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
   }
   if (!largest) return std::nullopt;
   const bool any_behind = std::ranges::any_of(list.primitives(), [&](uint32_t entry) {
-    const uint32_t index = entry & kPrimitiveBits;
-    return nearest_t(screen_[index]) > largest->center[2];
+    return nearest_t(screen_[entry & kPrimitiveBits]) > largest->center[2];
   });
   if (!any_behind) return std::nullopt;
-  // Where each pixel's ray is within it.
-  double start[2 * kPacketRays], end[2 * kPacketRays];
-  const uint64_t pixels_in_tile = pixels_of(tile);
+  return primitive;
+}
+
+/// A depth that rays end before, at least those that the primitive holds long enough of some whose
+/// segments within it are given. It is the only cover then.
+std::optional<double> TileSimplifier::find_part_depth(const CellList& list, Restrictor& restrictor,
+                                                      uint32_t primitive,
+                                                      std::span<const double> start,
+                                                      std::span<const double> end) {
+  const auto from = [&](size_t i) { return std::max(start[i], frame_.first_t); };
   double longest = 0;
-  for (const uint32_t block : {0u, 1u}) {
-    if ((pixels_in_tile >> (block * kPacketRays) & kAllLanes) == 0) continue;
-    RayPacket rays;
-    make_block_rays(frame_, tile.x, tile.y + block * kPacketHeight_px, rays);
-    PacketSegments segments;
-    intersect(frame_, rays, primitives_[primitive], segments);
-    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-      const uint32_t pixel = block * kPacketRays + lane;
-      start[pixel] = std::max(segments.start[lane], frame_.first_t);
-      end[pixel] = segments.end[lane];
-      const bool is_in_tile = (pixels_in_tile >> pixel & 1) != 0;
-      if (is_in_tile) longest = std::max(longest, end[pixel] - start[pixel]);
-    }
-  }
+  for (size_t i = 0; i < start.size(); ++i) longest = std::max(longest, end[i] - from(i));
   if (!(longest > 0)) return std::nullopt;
   Cover cover{primitive, frame_.first_t, std::numeric_limits<double>::infinity()};
-  for (uint64_t pixels = pixels_in_tile; pixels != 0; pixels &= pixels - 1) {
-    const int i = std::countr_zero(pixels);
-    if (!(end[i] - start[i] >= kLeastShare * longest)) continue;
-    cover.from_t = std::max(cover.from_t, start[i]);
+  for (size_t i = 0; i < start.size(); ++i) {
+    if (!(end[i] - from(i) >= kLeastShare * longest)) continue;
+    cover.from_t = std::max(cover.from_t, from(i));
     cover.to_t = std::min(cover.to_t, end[i]);
   }
   const double slack = slack_of(cover);
@@ -326,17 +369,85 @@ std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile
   dropped_.assign(list.count(), Decision::kOpen);
   marked_.clear();
   const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
-  if (!depth || !all_end_before(list, restrictor, *depth)) return std::nullopt;
-  PixelCut cut{tile.y, 0, *depth, {}};
-  for (uint64_t pixels = pixels_in_tile; pixels != 0; pixels &= pixels - 1) {
-    const int i = std::countr_zero(pixels);
-    const bool is_hidden = start[i] + slack < *depth && *depth < end[i] - slack;
-    cut.hidden |= uint64_t{is_hidden} << i;
+  return depth && all_end_before(list, restrictor, *depth) ? depth : std::nullopt;
+}
+
+/// The bits of up to 64 rays that the only cover holds at the depth, by their segments within it.
+uint64_t TileSimplifier::find_held(std::span<const double> start, std::span<const double> end,
+                                   double depth) const {
+  const double slack = slack_of(covers_.front());
+  uint64_t held = 0;
+  for (size_t i = 0; i < start.size(); ++i) {
+    held |= uint64_t{start[i] + slack < depth && depth < end[i] - slack} << i;
   }
-  cut.seen = box_about(tile, pixels_in_tile & ~cut.hidden);
-  drop_behind(list, *depth, cover, &cut.seen);
+  return held;
+}
+
+std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile& tile,
+                                                                      const CellList& list,
+                                                                      Restrictor& restrictor,
+                                                                      CellList& result) {
+  static_assert(kPacketWidth_px == 8 && kPacketRays == 32);
+  if (!last_value_ || !centers_only_) return std::nullopt;
+  const std::optional<uint32_t> primitive = find_large(tile, list);
+  if (!primitive) return std::nullopt;
+  double start[2 * kPacketRays], end[2 * kPacketRays];
+  std::fill(std::begin(start), std::end(start), std::numeric_limits<double>::infinity());
+  std::fill(std::begin(end), std::end(end), -std::numeric_limits<double>::infinity());
+  const uint64_t pixels_in_tile = pixels_of(tile);
+  for (const uint32_t first : {0u, kPacketRays}) {
+    const auto lanes = static_cast<LaneMask>(pixels_in_tile >> first);
+    if (lanes == 0) continue;
+    RayPacket rays;
+    make_block_rays(frame_, tile.x, tile.y + first / kPacketWidth_px, rays);
+    PacketSegments segments;
+    intersect(frame_, rays, primitives_[*primitive], segments);
+    for (LaneMask left = lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+      start[first + lane] = segments.start[lane];
+      end[first + lane] = segments.end[lane];
+    }
+  }
+  const auto depth = find_part_depth(list, restrictor, *primitive, start, end);
+  if (!depth) return std::nullopt;
+  const uint64_t hidden = find_held(start, end, *depth);
+  const Box seen = box_about(tile, pixels_in_tile & ~hidden);
+  drop_behind(list, *depth, covers_.front(),
+              [&](const Extent& extent) { return overlaps(extent, seen); });
   restrictor.restrict(list, dropped_, result);
-  return cut;
+  return PixelCut{tile.y, hidden, *depth, seen};
+}
+
+std::optional<HiddenSide> TileSimplifier::cut_by_line(const Tile& tile, const CellList& list,
+                                                      Restrictor& restrictor, CellList& result) {
+  if (!last_value_ || !centers_only_) return std::nullopt;
+  const std::optional<uint32_t> primitive = find_large(tile, list);
+  if (!primitive) return std::nullopt;
+  const Box box = box_of(tile, 0);
+  RayPacket rays;
+  PacketSegments segments;
+  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
+  intersect_four(frame_, rays, primitives_[*primitive], segments);
+  const auto depth =
+      find_part_depth(list, restrictor, *primitive, {segments.start, 4}, {segments.end, 4});
+  if (!depth) return std::nullopt;
+  const BorderPoints border(box);
+  PacketLaterals laterals;
+  for (uint32_t i = 0; i < kPacketRays; ++i) {
+    laterals.u[i] = frame_.u(border.points[i].x);
+    laterals.v[i] = frame_.v(border.points[i].y);
+  }
+  make_rays(frame_, laterals, rays);
+  intersect(frame_, rays, primitives_[*primitive], segments);
+  const auto held = static_cast<LaneMask>(find_held(segments.start, segments.end, *depth));
+  const double rounding = kLineRounding * (frame_.view.width_px + frame_.view.height_px);
+  const auto side = border.side_within(held, *depth, rounding);
+  if (!side) return std::nullopt;
+  const bool drops = drop_behind(list, *depth, covers_.front(),
+                                 [&](const Extent& extent) { return !hides(*side, extent, box); });
+  if (!drops) return std::nullopt;
+  restrictor.restrict(list, dropped_, result);
+  return side;
 }
 
 /// Of a group, all that it holds and the screen shows.

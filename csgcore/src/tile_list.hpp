@@ -88,6 +88,10 @@ class TileSimplifier {
   /// nowhere else. None: there is no such primitive.
   std::optional<PixelCut> cut_by_pixels(const Tile& tile, const CellList& list,
                                         Restrictor& restrictor, CellList& result);
+  /// The same of a tile of any size, of what a line tells: `result` is without what lies on that
+  /// side, behind where one primitive hides it.
+  std::optional<HiddenSide> cut_by_line(const Tile& tile, const CellList& list,
+                                        Restrictor& restrictor, CellList& result);
   /// By the list's indices.
   std::span<const uint8_t> marked() const { return marked_; }
   /// After kCut: the depth that all rays of the tile end before.
@@ -106,7 +110,14 @@ class TileSimplifier {
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
   bool all_end_before(const CellList& list, Restrictor& restrictor, double depth);
-  bool drop_behind(const CellList& list, double depth, const Cover& cover, const Box* seen);
+  template <typename IsSeen>
+  bool drop_behind(const CellList& list, double depth, const Cover& cover, const IsSeen& is_seen);
+  std::optional<uint32_t> find_large(const Tile& tile, const CellList& list) const;
+  std::optional<double> find_part_depth(const CellList& list, Restrictor& restrictor,
+                                        uint32_t primitive, std::span<const double> start,
+                                        std::span<const double> end);
+  uint64_t find_held(std::span<const double> start, std::span<const double> end,
+                     double depth) const;
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
   void note(uint32_t index, Fate fate);

@@ -33,6 +33,9 @@ constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 constexpr double kOpenShare = 1.0;
 constexpr double kOpenShareBehind = 4.0;
 
+/// Of a larger tile, a line tells badly what is hidden.
+constexpr uint32_t kLineCutSide_px = 64;
+
 /// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
 constexpr uint32_t kLongCutList = 256;
 
@@ -172,7 +175,7 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
       marked.push_back(groups.is_group(entry & kPrimitiveBits));
     }
     std::swap(at_eye, closed);
-    restrictor.open(closed, groups, marked, cell, at_eye);
+    restrictor.open(closed, groups, marked, {cell}, at_eye);
   }
   if (!at_eye.is_constant()) return std::nullopt;
   return at_eye.root == CellList::kFalse;
@@ -241,35 +244,46 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
   };
   const auto simplify_list = [&](bool is_new) {
     bool cuts = false;
-    list = simplify(tile, list, is_new, cut.uncut != nullptr, own, workspace, cuts);
+    list = simplify(tile, list, is_new, cut.is_for_all(), own, workspace, cuts);
     if (!cuts) return;
     if (!cut.uncut) cut.uncut = &given;
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
-    cut.by_pixels.reset();
   };
   // Groups that are left of a list that was cut are mostly seen.
-  simplify_list(!cut.uncut && has_groups(groups_, *list));
-  if (is_short() && side <= kTileSide_px && !cut.uncut && rules_.cuts_by_pixels &&
-      has_groups(groups_, *list)) {
+  simplify_list(!cut.is_for_all() && has_groups(groups_, *list));
+  const bool is_cut_in_part =
+      rules_.cuts_in_part && !cut.is_for_all() && has_groups(groups_, *list);
+  LineCut line;
+  const HiddenSide* hidden = nullptr;
+  if (is_cut_in_part && is_short() && side <= kTileSide_px) {
     cut.by_pixels = workspace.simplifier.cut_by_pixels(tile, *list, workspace.restrictor, own.cut);
     if (cut.by_pixels) {
-      cut.uncut = &given;
+      if (!cut.uncut) cut.uncut = &given;
       const double depth = cut.by_pixels->depth;
       const auto is_behind_cut = [&](const Extent& group) { return nearest_t(group) > depth; };
       list =
-          open_wanted_groups(cut.by_pixels->seen, &own.cut, is_behind_cut, own.opened, workspace);
+          open_wanted_groups({cut.by_pixels->seen}, &own.cut, is_behind_cut, own.opened, workspace);
+    }
+  } else if (is_cut_in_part && side <= kLineCutSide_px) {
+    const auto found = workspace.simplifier.cut_by_line(tile, *list, workspace.restrictor, own.cut);
+    if (found) {
+      if (!cut.uncut) cut.uncut = &given;
+      line = {*found, cut.by_line};
+      hidden = &line.side;
+      cut.by_line = &line;
+      list = &own.cut;
     }
   }
   const CellList* const closed = list;
-  const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
+  const bool is_behind = !cut.is_for_all() && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
-  list = open_large_groups(tile, list, share, own.opened, workspace);
-  if (list != closed) simplify_list(!cut.uncut);
+  list = open_large_groups(tile, hidden, list, share, own.opened, workspace);
+  if (list != closed) simplify_list(!cut.is_for_all());
   if (list->is_constant() && !cut.uncut) {
     visitor.visit_empty(tile);
     return;
   }
-  if (is_short()) list = open_large_groups(tile, list, 0.0, own.opened, workspace);
+  if (is_short()) list = open_large_groups(tile, hidden, list, 0.0, own.opened, workspace);
   if (is_short()) {
     visit_leaf(tile, *list, cut, workspace, visitor);
     return;
@@ -322,7 +336,7 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
       case TileSimplifier::Outcome::kSimplified:
         return &level.simplified;
       case TileSimplifier::Outcome::kOpenGroups:
-        list = &open_groups(box_of(tile), *list, workspace.simplifier.marked(), level.opened,
+        list = &open_groups({box_of(tile)}, *list, workspace.simplifier.marked(), level.opened,
                             workspace);
     }
   }
@@ -330,7 +344,7 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
 }
 
 /// The list with the groups opened whose indices in the list are marked.
-const CellList& TileTracer::open_groups(const Box& cell, const CellList& list,
+const CellList& TileTracer::open_groups(const OpenedCell& cell, const CellList& list,
                                         std::span<const uint8_t> marked, CellList (&buffers)[2],
                                         Workspace& workspace) {
   CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
@@ -339,9 +353,9 @@ const CellList& TileTracer::open_groups(const Box& cell, const CellList& list,
 }
 
 /// The list with all groups opened whose extents are wanted, in one of the buffers; the list itself
-/// if there are none. Of what they hold, what matters in the cell on the screen is left.
+/// if there are none. Of what they hold, what is seen in the cell on the screen is left.
 template <typename IsWanted>
-const CellList* TileTracer::open_wanted_groups(const Box& cell, const CellList* list,
+const CellList* TileTracer::open_wanted_groups(const OpenedCell& cell, const CellList* list,
                                                const IsWanted& is_wanted, CellList (&buffers)[2],
                                                Workspace& workspace) {
   const std::span<const Extent> screen = bounds_.extents();
@@ -361,13 +375,14 @@ const CellList* TileTracer::open_wanted_groups(const Box& cell, const CellList* 
 }
 
 /// The same of all groups that are as wide or as high as `share` of the tile.
-const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
+const CellList* TileTracer::open_large_groups(const Tile& tile, const HiddenSide* hidden,
+                                              const CellList* list, double share,
                                               CellList (&buffers)[2], Workspace& workspace) {
   const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
   const auto is_large = [&](const Extent& group) {
     return group.half[0] >= least[0] || group.half[1] >= least[1];
   };
-  return open_wanted_groups(box_of(tile), list, is_large, buffers, workspace);
+  return open_wanted_groups({box_of(tile), hidden}, list, is_large, buffers, workspace);
 }
 
 class TileTracer::LeafRays final : public TileRays {
@@ -386,29 +401,43 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    return trace(rays, lanes, lanes, workspace_.list.trace_list(), hits);
+    return trace(rays, lanes, nullptr, workspace_.list.trace_list(), hits);
   }
 
   const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
                          PacketHits& hits) override {
-    return trace(rays, block.lanes, lanes_that_end(block), workspace_.list.trace_list(block), hits);
+    return trace(rays, block.lanes, &block, workspace_.list.trace_list(block), hits);
   }
 
  private:
   /// The rays that end before the list was cut.
   LaneMask lanes_that_end(const PacketBlock& block) const {
-    if (!cut_.by_pixels) return block.lanes;
-    const uint64_t hidden = cut_.by_pixels->hidden;
-    const uint32_t first = (block.y - cut_.by_pixels->y) * kPacketWidth_px;
-    return block.lanes & static_cast<LaneMask>(hidden >> first);
+    if (cut_.is_for_all()) return block.lanes;
+    LaneMask ending = 0;
+    if (cut_.by_pixels) {
+      const uint32_t first = (block.y - cut_.by_pixels->y) * kPacketWidth_px;
+      ending |= static_cast<LaneMask>(cut_.by_pixels->hidden >> first);
+    }
+    for (const LineCut* cut = cut_.by_line; cut; cut = cut->earlier) {
+      const HiddenSide& side = cut->side;
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        const double x = block.x + lane % kPacketWidth_px;
+        const double y = block.y + lane / kPacketWidth_px;
+        ending |= LaneMask{side.x * x + side.y * y < side.rays_limit} << lane;
+      }
+    }
+    return block.lanes & ending;
   }
 
-  const TraceList& trace(const RayPacket& rays, LaneMask lanes, LaneMask ending,
+  /// `block`: of whose pixels the rays are. Null: of any.
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const PacketBlock* block,
                          const TraceList& list, PacketHits& hits) {
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
     // by a piece too thin to exist, what lies behind counts.
-    if (!cut_.uncut || (hits.hits & ending) == ending) return workspace_.list.trace_list();
+    LaneMask missed = lanes & ~hits.hits;
+    if (cut_.uncut && missed != 0 && block) missed &= lanes_that_end(*block);
+    if (!cut_.uncut || missed == 0) return workspace_.list.trace_list();
     workspace_.packets.was_computed.clear();
     if (!has_uncut_) assign_uncut();
     const TraceList& uncut = workspace_.uncut_list.trace_list();
@@ -421,8 +450,8 @@ class TileTracer::LeafRays final : public TileRays {
     has_uncut_ = true;
     CellList& restricted = workspace_.uncut;
     workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
-    const CellList* list =
-        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
+    const CellList* list = owner_.open_large_groups(tile_, nullptr, &restricted, 0.0,
+                                                    workspace_.uncut_opened, workspace_);
     workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
   }
 

@@ -82,7 +82,7 @@ struct TileRules {
   /// its depth on the screen: who computes less exactly than the tracer must not miss it.
   double cover_share = 0;
   /// Whether it may be without what is hidden from some of a tile's pixels alone.
-  bool cuts_by_pixels = true;
+  bool cuts_in_part = true;
 };
 
 /// One frame's tiles.
@@ -113,11 +113,22 @@ class TileTracer {
   class Lease;
   class LeafRays;
 
+  /// By a line, of a tile that this one is part of.
+  struct LineCut {
+    HiddenSide side;
+    const LineCut* earlier;  // null: there is none
+  };
   /// What a list has lost of what is hidden.
   struct Cut {
-    const CellList* uncut = nullptr;                     // the list before; null: it is whole
-    double t = std::numeric_limits<double>::infinity();  // TileRays::Met::cut_t
-    std::optional<TileSimplifier::PixelCut> by_pixels;   // none: all rays end before
+    const CellList* uncut = nullptr;  // the list before; null: it is whole
+    /// TileRays::Met::cut_t
+    double t = std::numeric_limits<double>::infinity();
+    // Rays that may end before something else of what was lost:
+    std::optional<TileSimplifier::PixelCut> by_pixels;
+    const LineCut* by_line = nullptr;
+
+    /// Whether all rays end before what was lost.
+    bool is_for_all() const { return t < std::numeric_limits<double>::infinity(); }
   };
 
   /// What rays can get to.
@@ -136,15 +147,16 @@ class TileTracer {
                   TileVisitor& visitor);
   const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                            Level& level, Workspace& workspace, bool& cuts);
-  const CellList& open_groups(const Box& cell, const CellList& list,
+  const CellList& open_groups(const OpenedCell& cell, const CellList& list,
                               std::span<const uint8_t> marked, CellList (&buffers)[2],
                               Workspace& workspace);
   template <typename IsWanted>
-  const CellList* open_wanted_groups(const Box& cell, const CellList* list,
+  const CellList* open_wanted_groups(const OpenedCell& cell, const CellList* list,
                                      const IsWanted& is_wanted, CellList (&buffers)[2],
                                      Workspace& workspace);
-  const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
-                                    CellList (&buffers)[2], Workspace& workspace);
+  const CellList* open_large_groups(const Tile& tile, const HiddenSide* hidden,
+                                    const CellList* list, double share, CellList (&buffers)[2],
+                                    Workspace& workspace);
   Box box_of(const Tile& tile) const;
 
   const Solid& solid_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -393,56 +394,44 @@ class Simplifying {
   /// are hidden. The hits are those of hidden pixels.
   Outcome expect_same_hits_by_pixels(const Tile& tile) {
     CellList list, cut_list;
-    const Box box{{tile.x, tile.y, -kFar},
-                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
-    restrictor_.restrict(*solid_.cell_list(), box, list);
-    Outcome outcome;
-    outcome.before = outcome.after = list.count();
-    if (list.is_constant()) return outcome;
+    if (!restrict_to(tile, list)) return {};
     const auto cut = simplifier_.cut_by_pixels(tile, list, restrictor_, cut_list);
-    if (!cut) return outcome;
-    outcome.after = cut_list.count();
-    for_each_block(tile, [&](const PacketBlock& block) {
-      RayPacket rays;
-      make_block_rays(whole_.frame(), block, rays);
-      const PacketHits by_all = trace(list, rays, block.lanes, Boundary::kFirst);
-      const PacketHits by_few = trace(cut_list, rays, block.lanes, Boundary::kFirst);
-      EXPECT_EQ(by_all.hits, by_few.hits);
-      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-        const double pixel[] = {static_cast<double>(block.x + lane % kPacketWidth_px),
-                                static_cast<double>(block.y + lane / kPacketWidth_px)};
-        const uint32_t bit = (block.y - tile.y) * kPacketWidth_px + lane;
-        const bool is_hidden = (cut->hidden >> bit & 1) != 0;
-        const bool is_in_tile = (block.lanes >> lane & 1) != 0;
-        EXPECT_TRUE(is_in_tile || !is_hidden);
-        if (is_in_tile && !is_hidden) {
-          for (const int axis : {0, 1}) {
-            EXPECT_GE(pixel[axis], cut->seen.min[axis]);
-            EXPECT_LE(pixel[axis], cut->seen.max[axis]);
-          }
-        }
-        if (!(by_few.hits >> lane & by_all.hits >> lane & 1)) {
-          EXPECT_FALSE(is_hidden) << "hits nothing";
-          continue;
-        }
-        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
-        if (!is_hidden) continue;
-        EXPECT_LT(by_few.t[lane], cut->depth);
-        ++outcome.hits;
+    if (!cut) return {};
+    const auto is_hidden = [&](uint32_t x, uint32_t y) {
+      return (cut->hidden >> ((y - tile.y) * kPacketWidth_px + x - tile.x) & 1) != 0;
+    };
+    for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
+      for (uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
+        if (is_hidden(x, y)) continue;
+        EXPECT_GE(x, cut->seen.min.x);
+        EXPECT_LE(x, cut->seen.max.x);
+        EXPECT_GE(y, cut->seen.min.y);
+        EXPECT_LE(y, cut->seen.max.y);
       }
-    });
-    return outcome;
+    }
+    return expect_same_hits_before(tile, list, cut_list, is_hidden, cut->depth);
+  }
+
+  /// The same of the side of a line.
+  Outcome expect_same_hits_by_line(const Tile& tile) {
+    CellList list, cut_list;
+    if (!restrict_to(tile, list)) return {};
+    const auto side = simplifier_.cut_by_line(tile, list, restrictor_, cut_list);
+    if (!side) return {};
+    EXPECT_LT(cut_list.count(), list.count());
+    EXPECT_LT(side->limit, side->rays_limit + (side->x == 0 && side->y == 0));
+    const auto is_hidden = [&](uint32_t x, uint32_t y) {
+      return side->x * x + side->y * y < side->limit;
+    };
+    return expect_same_hits_before(tile, list, cut_list, is_hidden, side->depth);
   }
 
   /// Fails if rays through the tile's pixels see different things by the two lists.
   Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
     CellList list, simplified;
-    const Box box{{tile.x, tile.y, -kFar},
-                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
-    restrictor_.restrict(*solid_.cell_list(), box, list);
     Outcome outcome;
+    if (!restrict_to(tile, list)) return outcome;
     outcome.before = list.count();
-    if (list.is_constant()) return outcome;
     const auto simplicity = simplifier_.simplify(tile, list, restrictor_, simplified);
     if (simplicity == TileSimplifier::Outcome::kNothing) return outcome;
     const bool cuts = simplicity == TileSimplifier::Outcome::kCut;
@@ -468,6 +457,42 @@ class Simplifying {
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  /// False if it is constant.
+  bool restrict_to(const Tile& tile, CellList& list) {
+    const Box box{{tile.x, tile.y, -kFar},
+                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
+    restrictor_.restrict(*solid_.cell_list(), box, list);
+    return !list.is_constant();
+  }
+
+  /// All rays see the same by both lists; those of hidden pixels hit something before the depth.
+  template <typename IsHidden>
+  Outcome expect_same_hits_before(const Tile& tile, const CellList& list, const CellList& cut_list,
+                                  const IsHidden& is_hidden, double depth) {
+    Outcome outcome{list.count(), cut_list.count(), 0};
+    for_each_block(tile, [&](const PacketBlock& block) {
+      RayPacket rays;
+      make_block_rays(whole_.frame(), block, rays);
+      const PacketHits by_all = trace(list, rays, block.lanes, Boundary::kFirst);
+      const PacketHits by_few = trace(cut_list, rays, block.lanes, Boundary::kFirst);
+      EXPECT_EQ(by_all.hits, by_few.hits);
+      for (LaneMask left = block.lanes; left != 0; left &= left - 1) {
+        const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+        const bool hidden =
+            is_hidden(block.x + lane % kPacketWidth_px, block.y + lane / kPacketWidth_px);
+        if (!(by_few.hits >> lane & by_all.hits >> lane & 1)) {
+          EXPECT_FALSE(hidden) << "hits nothing";
+          continue;
+        }
+        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
+        if (!hidden) continue;
+        EXPECT_LT(by_few.t[lane], depth);
+        ++outcome.hits;
+      }
+    });
+    return outcome;
+  }
 
   PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
     PacketHits hits;
@@ -541,8 +566,21 @@ TEST(SimplifierByPixels, DropsOnlyWhatItsRaysDoNotSee) {
   EXPECT_GT(hits, 10000u);
 }
 
-/// A ball, and many behind it and about it, of which some look out beside it.
-TEST(SimplifierByPixels, GroupsAreOpenedForWhatIsSeen) {
+TEST(SimplifierByLine, DropsOnlyWhatItsRaysDoNotSee) {
+  uint64_t dropped = 0, hits = 0, in_part = 0;
+  for_each_tile_of_crowds(372, 361, 20, true, [&](Simplifying& simplifying, const Tile& tile) {
+    const auto outcome = simplifying.expect_same_hits_by_line(tile);
+    dropped += outcome.before - outcome.after;
+    hits += outcome.hits;
+    in_part += outcome.hits > 0 && outcome.hits < tile.width * tile.height;
+  });
+  EXPECT_GT(dropped, 1000u);
+  EXPECT_GT(hits, 10000u);
+  EXPECT_GT(in_part, 30u);
+}
+
+/// A ball, and many behind it and about it, of which some look out beside it; and some before it.
+TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
     std::mt19937 random(4);
     Scene scene;
@@ -553,10 +591,13 @@ TEST(SimplifierByPixels, GroupsAreOpenedForWhatIsSeen) {
       builder.primitive(static_cast<uint32_t>(scene.primitives.size() - 1));
     };
     add(3, Vec3(0, 0, 0));
-    for (int i = 0; i < 4000; ++i) {
+    const auto add_small = [&](double low_z, double high_z) {
       const double angle = uniform(random, 0, 7), distance = 5.5 * std::sqrt(uniform(random, 0, 1));
-      add(0.05, {distance * std::cos(angle), distance * std::sin(angle), uniform(random, -9, 3)});
-    }
+      add(0.05,
+          {distance * std::cos(angle), distance * std::sin(angle), uniform(random, low_z, high_z)});
+    };
+    for (int i = 0; i < 4000; ++i) add_small(-9, 3);
+    for (int i = 0; i < 400; ++i) add_small(4, 5);
     builder.close();
     scene.model = builder.finish();
     View view =
