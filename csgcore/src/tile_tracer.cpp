@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "packet_blocks.hpp"
@@ -410,34 +411,45 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
  private:
-  /// The rays that end before the list was cut.
-  LaneMask lanes_that_end(const PacketBlock& block) const {
-    if (cut_.is_for_all()) return block.lanes;
-    LaneMask ending = 0;
-    if (cut_.by_pixels) {
-      const uint32_t first = (block.y - cut_.by_pixels->y) * kPacketWidth_px;
-      ending |= static_cast<LaneMask>(cut_.by_pixels->hidden >> first);
+  /// The rays that were to end before what the list has lost, and have not. `block`: of whose
+  /// pixels they are. Null: of any; a list for those has lost nothing by pixels, nor by lines.
+  LaneMask lanes_that_go_on(const PacketBlock* block, const PacketHits& hits) const {
+    LaneMask lost = 0;
+    const auto add = [&](LaneMask lanes, double depth) {
+      lost |= lanes & ~hits.hits;
+      for (LaneMask left = lanes & hits.hits; left != 0; left &= left - 1) {
+        if (hits.t[std::countr_zero(left)] > depth) lost |= left & -left;
+      }
+    };
+    if (cut_.is_for_all()) add(kAllLanes, cut_.t);
+    if (!block) return lost;
+    if (const auto& cut = cut_.by_pixels) {
+      add(static_cast<LaneMask>(cut->hidden >> (block->y - cut->y) * kPacketWidth_px), cut->depth);
     }
     for (const LineCut* cut = cut_.by_line; cut; cut = cut->earlier) {
       const HiddenSide& side = cut->side;
+      LaneMask hidden = 0;
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-        const double x = block.x + lane % kPacketWidth_px;
-        const double y = block.y + lane / kPacketWidth_px;
-        ending |= LaneMask{side.x * x + side.y * y < side.rays_limit} << lane;
+        const double x = block->x + lane % kPacketWidth_px;
+        const double y = block->y + lane / kPacketWidth_px;
+        hidden |= LaneMask{side.x * x + side.y * y < side.rays_limit} << lane;
       }
+      add(hidden, side.depth);
     }
-    return block.lanes & ending;
+    return lost;
   }
 
-  /// `block`: of whose pixels the rays are. Null: of any.
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, const PacketBlock* block,
                          const TraceList& list, PacketHits& hits) {
+    const uint64_t resolved = workspace_.packets.resolved_rays;
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
-    // The solid was found to hold where the list was cut. Should a ray have missed it all the same,
-    // by a piece too thin to exist, what lies behind counts.
-    LaneMask missed = lanes & ~hits.hits;
-    if (cut_.uncut && missed != 0 && block) missed &= lanes_that_end(*block);
-    if (!cut_.uncut || missed == 0) return workspace_.list.trace_list();
+    // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
+    // beyond a piece too thin to exist, what lies behind counts.
+    const bool is_certain =
+        (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
+    if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(block, hits)) == 0) {
+      return workspace_.list.trace_list();
+    }
     workspace_.packets.was_computed.clear();
     if (!has_uncut_) assign_uncut();
     const TraceList& uncut = workspace_.uncut_list.trace_list();

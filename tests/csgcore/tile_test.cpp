@@ -618,6 +618,49 @@ TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
   }
 }
 
+/// The rim of a wall too thin to exist, which rays nevertheless are within for long enough to be
+/// found to end there; behind it many needles that they meet end on, and at last a ball.
+TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
+  constexpr double kTilt = 1e-2, kPixel = 1e-10;
+  const double cosine = std::sqrt(1 - kTilt * kTilt);
+  const Mat3 tilted{Vec3(cosine, 0, -kTilt), Vec3(0, 1, 0), Vec3(kTilt, 0, cosine)};
+  const Mat3 lying{Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)};
+  std::mt19937 random(7);
+  Scene scene;
+  CsgTreeBuilder builder;
+  builder.open(Op::kUnion);
+  const auto add = [&](const Primitive& primitive) {
+    scene.primitives.push_back(primitive);
+    builder.primitive(static_cast<uint32_t>(scene.primitives.size() - 1));
+  };
+  add(make_frustum(0, 2e-8, 5, 5, {tilted, {0, 5, 0}}));
+  add(make_sphere(4e5 * kPixel, {Mat3(1.0), {20, 0, 0}}));
+  // In the order of a quadtree: they lie too close to each other for their groups to find one.
+  for (uint32_t i = 0; i < 4096; ++i) {
+    glm::dvec2 at(-112);
+    for (int bit = 0; bit < 6; ++bit) {
+      at += 3.5 * (1 << bit) * glm::dvec2(i >> (2 * bit) & 1, i >> (2 * bit + 1) & 1);
+    }
+    at = kPixel * (at + glm::dvec2(uniform(random, 0, 4), uniform(random, 0, 4)));
+    const double radius = uniform(random, 0.5, 1.5) * kPixel;
+    add(make_frustum(6, 7, radius, radius, {lying, {0, at}}));
+  }
+  builder.close();
+  scene.model = builder.finish();
+  const Solid solid(canonical_primitives(scene), scene.model);
+  ASSERT_GT(solid.groups().count(), solid.groups().first_group());
+  for (const uint32_t side_px : {7u, 31u, 100u}) {
+    View view = checks::view_of({Vec3(0.0), Vec3(0.0)}, {1, 0, 0}, 9);
+    view.projection = Projection::kOrthographic;
+    view.width_px = view.height_px = side_px;
+    view.half_height = 0.5 * side_px * kPixel;
+    const Hits expected = checks::WholeList(solid, view).picture();
+    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view), expected)) << side_px;
+    EXPECT_EQ(std::ranges::count(expected.primitive, 0u), 0);
+    EXPECT_GT(std::ranges::count(expected.primitive, 1u), 0);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Tiles, Simplifier, testing::Values(Boundary::kFirst, Boundary::kBehind),
                          [](const auto& boundary) {
                            return boundary.param == Boundary::kFirst ? "First" : "Behind";
