@@ -28,8 +28,8 @@ constexpr double kCoverSlack = 1e-9;
 /// not asked for a common depth: they may have none.
 constexpr double kLeastShare = 0.25;
 
-/// Of a picture's width and height together: far above what float loses of a point's distance from
-/// a line of the screen.
+/// Of a picture's width and height together: above what float loses of a point's distance from a
+/// line of the screen, five roundings of 2⁻²⁴.
 constexpr double kLineRounding = 1e-6;
 
 /// A stretch of depth is looked at in so many parts for one that is free.
@@ -109,7 +109,7 @@ struct BorderPoints {
   /// and as the corners between them are among those, the line through the first and the last cuts
   /// off no more of the tile than lies between them.
   std::optional<HiddenSide> side_within(LaneMask held, double depth, double rounding) const {
-    if (held == kAllLanes) return HiddenSide{0, 0, 1, 1, depth};
+    if (held == kAllLanes) return HiddenSide{0, 0, 1, 2, depth};
     int first = 0, count = 0;
     for (int i = 0; i < static_cast<int>(kPacketRays); ++i) {
       const int run = std::countr_one(std::rotr(held, i));
@@ -326,7 +326,7 @@ bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover
   return drops;
 }
 
-/// The largest primitive that may hide much of the tile; none if nothing lies behind it.
+/// The largest primitive that may hide much of the tile; none if nothing lies behind its middle.
 std::optional<uint32_t> TileSimplifier::find_large(const Tile& tile, const CellList& list) const {
   const Extent* largest = nullptr;
   uint32_t primitive = 0;
@@ -346,8 +346,9 @@ std::optional<uint32_t> TileSimplifier::find_large(const Tile& tile, const CellL
   return primitive;
 }
 
-/// A depth that rays end before, at least those that the primitive holds long enough of some whose
-/// segments within it are given. It is the only cover then.
+/// Makes the primitive the only cover, over the stretch that it holds along all of some rays but
+/// those that hardly touch it, and nothing dropped. A depth there that who is within it ends
+/// before. start, end: of the rays' segments within it, in τ.
 std::optional<double> TileSimplifier::find_part_depth(const CellList& list, Restrictor& restrictor,
                                                       uint32_t primitive,
                                                       std::span<const double> start,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
 
 #include "packet_blocks.hpp"
@@ -34,7 +35,7 @@ constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 constexpr double kOpenShare = 1.0;
 constexpr double kOpenShareBehind = 4.0;
 
-/// Of a larger tile, a line tells badly what is hidden.
+/// Of a larger tile, a line tells badly what is hidden (tests/benchmark/NOTES.md).
 constexpr uint32_t kLineCutSide_px = 64;
 
 /// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
@@ -253,7 +254,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
   // Groups that are left of a list that was cut are mostly seen.
   simplify_list(!cut.is_for_all() && has_groups(groups_, *list));
   const bool is_cut_in_part =
-      rules_.cuts_in_part && !cut.is_for_all() && has_groups(groups_, *list);
+      rules_.cuts_in_part && !cut.is_for_all() && !cut.by_pixels && has_groups(groups_, *list);
   LineCut line;
   const HiddenSide* hidden = nullptr;
   if (is_cut_in_part && is_short() && side <= kTileSide_px) {
@@ -412,7 +413,7 @@ class TileTracer::LeafRays final : public TileRays {
 
  private:
   /// The rays that were to end before what the list has lost, and have not. `block`: of whose
-  /// pixels they are. Null: of any; a list for those has lost nothing by pixels, nor by lines.
+  /// pixels they are. Null: of any; a list for those is not cut in part.
   LaneMask lanes_that_go_on(const PacketBlock* block, const PacketHits& hits) const {
     LaneMask lost = 0;
     const auto add = [&](LaneMask lanes, double depth) {
@@ -422,6 +423,7 @@ class TileTracer::LeafRays final : public TileRays {
       }
     };
     if (cut_.is_for_all()) add(kAllLanes, cut_.t);
+    assert(block || (!cut_.by_pixels && !cut_.by_line));
     if (!block) return lost;
     if (const auto& cut = cut_.by_pixels) {
       add(static_cast<LaneMask>(cut->hidden >> (block->y - cut->y) * kPacketWidth_px), cut->depth);
@@ -445,6 +447,7 @@ class TileTracer::LeafRays final : public TileRays {
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
     // beyond a piece too thin to exist, what lies behind counts.
+    // Such pieces are the resolver's alone: other rays show where the solid's value changes first.
     const bool is_certain =
         (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
     if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(block, hits)) == 0) {

@@ -123,7 +123,7 @@ class TileTracer {
     const CellList* uncut = nullptr;  // the list before; null: it is whole
     /// TileRays::Met::cut_t
     double t = std::numeric_limits<double>::infinity();
-    // Rays that may end before something else of what was lost:
+    // What is lost where some rays end alone:
     std::optional<TileSimplifier::PixelCut> by_pixels;
     const LineCut* by_line = nullptr;
 
