@@ -28,7 +28,7 @@ class Run {
       : options_(options), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
   ExitCode execute() {
-    if (!options_.report.empty()) frontend::check_output(options_.report);
+    if (!options_.report.empty()) check_report();
     const csgcore::Scene design = import();
     // As the picture is drawn: floats and products of three cannot hold every size.
     const int exponent = frontend::scale_exponent(design);
@@ -64,13 +64,20 @@ class Run {
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
     frontend::DesignFile file = frontend::read_design(options_.input, reading);
     name_ = file.name;
-    frontend::ImportedDesign design = file.import.finish();
+    frontend::ImportedDesign design = frontend::import_design(file);
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
     design.scene.background = {};
     design.scene.highlight = {};
     return std::move(design.scene);
+  }
+
+  void check_report() const {
+    frontend::check_output(options_.report);
+    const frontend::NamedPath report{"--report", options_.report};
+    frontend::check_outputs_differ(
+        {&report, 1}, frontend::design_inputs(options_.input, options_.openscad_arguments));
   }
 
   void write_report(const Result& result, int exponent) {

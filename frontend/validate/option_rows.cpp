@@ -25,7 +25,7 @@ constexpr OptionRow kOptions[] = {
     {"report", Takes::kText, "FILE",
      "all that was found, with coordinates, as JSON; - is standard output", frontend::kAnyFile},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
-    {"skip-unsupported", Takes::kNothing, "", "leave out what cannot be drawn, and list it"},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", frontend::kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},

@@ -47,7 +47,6 @@ Options parse_options(const std::vector<std::string>& words) {
   options.input = only_file(arguments);
   options.report = arguments.text_or_empty("report");
   options.quiet = arguments.has("quiet");
-  options.import.skip_unsupported = arguments.has("skip-unsupported");
   options.threads = arguments.number("threads", 1u, kMostThreads, options.threads);
   Settings& settings = options.settings;
   settings.fragments = arguments.number("fn", 3, kMostFragments, settings.fragments);

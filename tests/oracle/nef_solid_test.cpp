@@ -149,6 +149,43 @@ TEST(NefSolid, Regularised) {
   EXPECT_EQ(gap->area(), 12);
 }
 
+// An edge of the solid that lies within a facet, or enters it from its border: the facet is on both
+// of its sides, and its cycle runs along it to and fro.
+TEST(NefSolid, RidgesInAFacet) {
+  const ConvexPolyhedron block = box(Vec3(0), Vec3(4));
+  // A prism along y, of a square of diagonal 2 that stands on its corner.
+  const auto prism = [](double y_min, double y_max, double x, double z) {
+    return frustum(y_min, y_max, 1, 1, 4,
+                   {Mat3(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0)), Vec3(x, 0, z)});
+  };
+  const auto expect = [](const std::string& what, const NefScene& scene, const Rational& volume) {
+    const auto solid = build(scene);
+    ASSERT_EQ(solid->volume(), volume) << what << ": " << solid->volume().get_d();
+    EXPECT_NEAR(volume_of(solid->mesh()), volume.get_d(), 1e-12) << what;
+    EXPECT_EQ(solid->locate(Vec3(2, 2, 4)), Place::kBoundary) << what;
+    EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 3.875)), Place::kInside) << what;
+    EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 4.125)), Place::kOutside) << what;
+  };
+  const auto without = [&](std::vector<ConvexPolyhedron> holes) {
+    holes.insert(holes.begin(), block);
+    return scene_of(Op::kDifference, std::move(holes));
+  };
+  const ConvexPolyhedron across =
+      frustum(1, 3, 1, 1, 4, {Mat3(Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)), Vec3(0, 2, 3)});
+  expect("within", without({prism(1, 3, 2, 3)}), 60);
+  expect("from one border", without({prism(-1, 3, 2, 3)}), 58);
+  expect("from border to border", without({prism(0, 4, 2, 3)}), 56);
+  expect("from a hole", without({prism(1, 3, 2, 3), box(Vec3(1.5, 3, -1), Vec3(2.5, 3.5, 5))}), 58);
+  expect("a cross", without({prism(1, 3, 2, 3), across}), 64 - Rational(16, 3));
+  expect("a T", without({prism(2, 3, 2, 3), across}), 64 - Rational(14, 3));
+  expect("a vertex", without({frustum(2, 4, 1, 0, 4, shift(Vec3(2, 2, 0)))}), 64 - Rational(4, 3));
+  // Of a box that only touches: its edge runs over the vertex, and is an edge of no solid.
+  expect("a vertex below an edge",
+         without({box(Vec3(2, 0, 4), Vec3(4, 4, 6)), frustum(2, 4, 1, 0, 4, shift(Vec3(2, 2, 0)))}),
+         64 - Rational(4, 3));
+  expect("from outside", scene_of(Op::kUnion, {block, prism(1, 3, 2, 5)}), 68);
+}
+
 TEST(NefSolid, Empty) {
   const auto nothing = build({});
   EXPECT_TRUE(nothing->empty());

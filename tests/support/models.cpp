@@ -85,6 +85,27 @@ Scene cylinder_minus_cones(uint32_t n, uint32_t seed) {
   });
 }
 
+Scene stacked_frusta(uint32_t rings) {
+  constexpr double kRingHeight = 0.5, kWall = 2;
+  const auto radius = [&](uint32_t i) { return 20 + 8 * std::sin(9.0 * i / rings); };
+  Scene scene;
+  csgcore::CsgTreeBuilder tree;
+  tree.open(Op::kUnion);
+  for (uint32_t i = 0; i < rings; ++i) {
+    tree.open(Op::kDifference);
+    for (const double inwards : {0.0, kWall}) {
+      tree.primitive(static_cast<uint32_t>(scene.primitives.size()));
+      scene.primitives.push_back(csgcore::make_frustum(
+          kRingHeight * i, kRingHeight * (i + 1), radius(i) - inwards, radius(i + 1) - inwards));
+      scene.primitives.back().id = static_cast<uint32_t>(scene.primitives.size() - 1);
+    }
+    tree.close();
+  }
+  tree.close();
+  scene.model = tree.finish();
+  return scene;
+}
+
 Scene scene_of(Op op, std::vector<csgcore::Primitive> primitives) {
   Scene scene;
   csgcore::CsgTreeBuilder builder;

@@ -17,6 +17,10 @@ csgcore::Scene cylinder_minus_spheres(uint32_t n, uint32_t seed = 1);
 /// base radius 26/√n, height 4 times that, two thirds of it inside, tilted by up to 40°.
 csgcore::Scene cylinder_minus_cones(uint32_t n, uint32_t seed = 1);
 
+/// A vase turned of rings that are stacked on each other: each a frustum minus a thinner one, all
+/// of them coaxial. Neighbours share rims and faces, which no cell separates.
+csgcore::Scene stacked_frusta(uint32_t rings);
+
 /// A random tree of `primitives` spheres, cylinders and cones under random affine maps (sheared,
 /// mirrored, unevenly scaled), within about [-10, 10]³.
 csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);

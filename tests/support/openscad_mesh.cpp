@@ -89,7 +89,9 @@ csgcore::Mesh openscad_triangles(const std::string& scad) {
     const auto corner = static_cast<uint32_t>(mesh.vertices.size() - 1);
     if (corner % 3 == 2) mesh.faces.push_back({corner - 2, corner - 1, corner});
   }
-  if (!text.empty() && mesh.faces.empty()) throw std::runtime_error("openscad: no ASCII STL");
+  // Where an edge or a vertex alone is left, the mesh is there and has no triangles.
+  if (!text.empty() && !text.starts_with("solid"))
+    throw std::runtime_error("openscad: no ASCII STL");
   return mesh;
 }
 

@@ -18,15 +18,16 @@ using reference_test::scene_of;
 
 // --- Which primitive is shown ---
 
-TEST(ReferenceCoincidence, ShowsTheFirstOfThoseThatDecideAlone) {
+TEST(ReferenceCoincidence, ShowsTheLastThatTurnsTheValue) {
   const Primitive wide = rod(0, 2, 5), narrow = rod(0, 2, 3), above = rod(2, 4, 3);
-  EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {wide, narrow}), down(9)).primitive, 0u);
-  EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {narrow, wide}), down(9)).primitive, 0u);
-  // Leaving what is cut away and entering what it is cut from: both decide.
+  EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {wide, narrow}), down(9)).primitive, 1u);
+  EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {narrow, wide}), down(9)).primitive, 1u);
+  // Leaving what is cut away and entering what it is cut from: both turn the value.
   const ReferenceHit touching = middle_hit(scene_of(Op::kDifference, {wide, above}), down(9));
-  EXPECT_EQ(touching.primitive, 0u);
+  EXPECT_EQ(touching.primitive, 1u);
   EXPECT_EQ(touching.normal.z, 1);
-  // An inlay: plate − hole ∪ plug. Plate and hole cancel each other, the plug alone decides.
+  // An inlay: plate − hole ∪ plug. Plate and hole cancel each other, the plug alone turns the
+  // value.
   const Scene inlay = scene_of({wide, rod(1, 2, 3), rod(1, 2, 3)}, [](CsgTreeBuilder& builder) {
     builder.open(Op::kUnion);
     builder.open(Op::kDifference);
@@ -39,30 +40,30 @@ TEST(ReferenceCoincidence, ShowsTheFirstOfThoseThatDecideAlone) {
   EXPECT_EQ(middle_hit(inlay, down(9)).primitive, 2u);
 }
 
-TEST(ReferenceCoincidence, WithoutADeciderShowsTheFirstThatChangesTheValuesWay) {
-  EXPECT_EQ(middle_hit(scene_of(Op::kUnion, {rod(0, 2, 5), rod(0, 2, 3)}), down(9)).primitive, 0u);
+TEST(ReferenceCoincidence, WhatChangesAgainstTheValueIsNotShown) {
+  EXPECT_EQ(middle_hit(scene_of(Op::kUnion, {rod(0, 2, 5), rod(0, 2, 3)}), down(9)).primitive, 1u);
   // Entering a cut changes too, but not the value's way: what is cut there is not seen.
-  const Scene beside_a_cut = scene_of({rod(-1, 2, 1), rod(-1, 1, 2), rod(0, 2, 5), rod(0, 2, 5)},
-                                      [](CsgTreeBuilder& builder) {  // (1 − 0) ∪ 2 ∪ 3
+  const Scene beside_a_cut = scene_of({rod(0, 2, 5), rod(0, 2, 5), rod(-1, 1, 2), rod(-1, 2, 1)},
+                                      [](CsgTreeBuilder& builder) {  // (2 − 3) ∪ 0 ∪ 1
                                         builder.open(Op::kUnion);
                                         builder.open(Op::kDifference);
-                                        builder.primitive(1);
-                                        builder.primitive(0);
-                                        builder.close();
                                         builder.primitive(2);
                                         builder.primitive(3);
                                         builder.close();
+                                        builder.primitive(0);
+                                        builder.primitive(1);
+                                        builder.close();
                                       });
-  EXPECT_EQ(middle_hit(beside_a_cut, down(9)).primitive, 2u);
-  // From inside the common part of two equal balls: both are left, and neither decides alone.
+  EXPECT_EQ(middle_hit(beside_a_cut, down(9)).primitive, 1u);
+  // From inside the common part of two equal balls: both are left.
   const ReferenceHit leaving =
       middle_hit(scene_of(Op::kIntersection, {ball(2), ball(2)}), down(0.5));
-  EXPECT_EQ(leaving.primitive, 0u);
+  EXPECT_EQ(leaving.primitive, 1u);
   EXPECT_EQ(leaving.normal.z, -1);
   // From inside a block, into two equal cuts at once.
   const ReferenceHit into_cuts =
       middle_hit(scene_of(Op::kDifference, {rod(-9, 9, 9), ball(2), ball(2)}), down(5));
-  EXPECT_EQ(into_cuts.primitive, 1u);
+  EXPECT_EQ(into_cuts.primitive, 2u);
   EXPECT_EQ(into_cuts.s, 3);
   EXPECT_EQ(into_cuts.normal.z, -1);  // outward of the solid: into the cut
 }
@@ -120,24 +121,24 @@ TEST(ReferenceCoincidence, WhatMakesNoDifferenceLinksNothingAndIsNotShown) {
                                  builder.primitive(3);
                                  builder.close();
                                });
-  EXPECT_EQ(middle_hit(plugs, down(9)).primitive, 2u);
-  EXPECT_EQ(middle_hit(plugs, down(1.5)).primitive, 2u);  // from within the cut
+  EXPECT_EQ(middle_hit(plugs, down(9)).primitive, 3u);
+  EXPECT_EQ(middle_hit(plugs, down(1.5)).primitive, 3u);  // from within the cut
 }
 
 TEST(ReferenceCoincidence, CullingChangesNothing) {
-  // Blocks of pixels that primitive 1 reaches and others that it doesn't, for which the tree is
-  // reduced to what lies there: primitive 0, which is in common with it only, is flush with the
+  // Blocks of pixels that primitive 2 reaches and others that it doesn't, for which the tree is
+  // reduced to what lies there: primitive 3, which is in common with it only, is flush with the
   // others everywhere.
   const Scene scene =
-      scene_of({rod(-1, 1, 1), rod(-1, 1, 0.5, {1, 0, 0}), rod(0, 1, 0.9), rod(-1, 1, 0.8)},
+      scene_of({rod(0, 1, 0.9), rod(-1, 1, 0.8), rod(-1, 1, 0.5, {1, 0, 0}), rod(-1, 1, 1)},
                [](CsgTreeBuilder& builder) {
                  builder.open(Op::kUnion);
                  builder.open(Op::kIntersection);
-                 builder.primitive(0);
-                 builder.primitive(1);
-                 builder.close();
                  builder.primitive(2);
                  builder.primitive(3);
+                 builder.close();
+                 builder.primitive(0);
+                 builder.primitive(1);
                  builder.close();
                });
   View view = down(9, Projection::kOrthographic);
@@ -151,10 +152,10 @@ TEST(ReferenceCoincidence, CullingChangesNothing) {
     const LongVec3& p = picture[i].position;
     const bool in_common = std::hypot(p.x - 1, p.y) < 0.5L;
     if (!picture[i].hit()) continue;
-    ASSERT_EQ(picture[i].primitive == 0, in_common) << p.x << ' ' << p.y;
+    ASSERT_EQ(picture[i].primitive == 3, in_common) << p.x << ' ' << p.y;
   }
-  EXPECT_GT(seen[0], 100);
-  EXPECT_GT(seen[2], 1000);
+  EXPECT_GT(seen[3], 100);
+  EXPECT_GT(seen[1], 1000);
 }
 
 TEST(ReferenceCoincidence, ThicknessIsMeasuredAlongTheSteeperNormal) {
@@ -169,12 +170,12 @@ TEST(ReferenceCoincidence, ThicknessIsMeasuredAlongTheSteeperNormal) {
     view.up = glm::cross(view.right, view.forward);
     view.width_px = view.height_px = 1;
     // The top is met at x = gap; the wall stands at x = 0 there.
-    Scene scene = scene_of(Op::kUnion, {rod(-1, 0, 3), rod(-1, 1, 1, {1, 0, 0})});
+    Scene scene = scene_of(Op::kUnion, {rod(-1, 1, 1, {1, 0, 0}), rod(-1, 0, 3)});
     return Reference(scene, view).at(0, 0).primitive;
   };
-  EXPECT_EQ(first_seen(0.3), 0u);  // together: the first of the two
-  EXPECT_EQ(first_seen(3), 1u);    // not: the wall, which comes first
-  EXPECT_EQ(first_seen(60), 1u);   // by the top's normal, 0.6
+  EXPECT_EQ(first_seen(0.3), 1u);  // together: the last of the two
+  EXPECT_EQ(first_seen(3), 0u);    // not: the wall, which comes first
+  EXPECT_EQ(first_seen(60), 0u);   // by the top's normal, 0.6
 }
 
 TEST(ReferenceCoincidence, AShellIsWholeOrNotAtAll) {

@@ -54,6 +54,49 @@ void CountingTree::change(uint32_t index) {
   }
 }
 
+uint32_t CountingTree::turning_slot(const std::vector<uint8_t>& changed) const {
+  struct Turn {
+    bool before, behind;
+    uint32_t slot;  // if they differ
+  };
+  std::vector<uint32_t> slot_of(nodes_.size(), kNone);
+  for (uint32_t slot = 0; slot < first_leaf_.size(); ++slot) {
+    for (uint32_t leaf = first_leaf_[slot]; leaf != kNone; leaf = nodes_[leaf].next_leaf) {
+      slot_of[leaf] = slot;
+    }
+  }
+  std::vector<Turn> stack;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.operands == 0) {
+      const uint32_t slot = slot_of[i];
+      stack.push_back({node.value != (changed[slot] != 0), node.value, slot});
+      continue;
+    }
+    const size_t first = stack.size() - node.operands;
+    // An intersection holds unless an operand fails; a union is the negation of an intersection of
+    // negations, a difference an intersection with negations.
+    const bool negated = node.op == Op::kUnion;
+    Turn turn{true, true, kNone};
+    for (size_t k = first; k < stack.size(); ++k) {
+      const bool is_negated = negated || (node.op == Op::kDifference && k > first);
+      turn.before &= stack[k].before != is_negated;
+      turn.behind &= stack[k].behind != is_negated;
+    }
+    for (size_t k = first; k < stack.size(); ++k) {
+      const bool is_negated = negated || (node.op == Op::kDifference && k > first);
+      const bool turns = stack[k].before != stack[k].behind;
+      if (!turns || (stack[k].behind != is_negated) != turn.behind) continue;
+      if (turn.slot == kNone || stack[k].slot > turn.slot) turn.slot = stack[k].slot;
+    }
+    if (negated) turn.before = !turn.before, turn.behind = !turn.behind;
+    stack.resize(first);
+    stack.push_back(turn);
+  }
+  const bool has_turned = !stack.empty() && stack.back().before != stack.back().behind;
+  return has_turned ? stack.back().slot : kNone;
+}
+
 std::vector<uint32_t> primitives_of(std::span<const CsgToken> tokens) {
   std::vector<uint32_t> primitives;
   for (const CsgToken& token : tokens) {

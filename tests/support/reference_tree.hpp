@@ -21,8 +21,13 @@ class CountingTree {
   bool inside(uint32_t slot) const { return nodes_[first_leaf_[slot]].value; }
   void flip(uint32_t slot);
 
- private:
   static constexpr uint32_t kNone = 0xFFFFFFFFu;
+  /// By which slot the value has turned, if the point has changed sides of those in `changed` (by
+  /// slot): the greatest that is, as are all operations that it is under, an operand that turned
+  /// the way which turns the operation. kNone if the value is the same.
+  uint32_t turning_slot(const std::vector<uint8_t>& changed) const;
+
+ private:
   struct Node {
     Op op = Op::kUnion;
     bool is_first = false;  // of its parent's operands

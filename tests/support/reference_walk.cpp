@@ -53,7 +53,6 @@ ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidat
   collect(candidates);
   passed_ = 0;
   while (passed_ < crossings_.size() && !(crossings_[passed_].t > setup_.first_t)) pass();
-  value_at_eye_ = tree_.value();
   ReferenceHit result;
   size_t begin = passed_;
   for (size_t first = next_boundary(begin); first < crossings_.size();) {
@@ -174,46 +173,17 @@ void RayWalk::drop_what_came_back() {
   changed_.resize(kept);
 }
 
-/// Whether the value is that at the eye again without the primitive's change.
-bool RayWalk::decides(const Crossing& crossing) {
-  tree_.flip(crossing.slot);
-  const bool result = tree_.value() == value_at_eye_;
-  tree_.flip(crossing.slot);
-  return result;
-}
-
-/// Whether the primitive's change is of the kind that turns the value from what it is at the eye.
-bool RayWalk::turns(const Crossing& crossing) const {
-  return (crossing.enters != is_subtracted(crossing)) != value_at_eye_;
-}
-
 /// The crossing that is seen of a cluster which turns the value.
 const RayWalk::Crossing& RayWalk::shown(const Cluster& cluster) {
   collect_changes(cluster);
-  for (const Crossing& crossing : changed_) {
-    if (decides(crossing)) return crossing;
-  }
-  return lowest_decider_of_few(cluster);
-}
-
-/// Where several changes would do: without the later ones of those that turn the value, as far as
-/// it stays turned, one of the others decides.
-const RayWalk::Crossing& RayWalk::lowest_decider_of_few(const Cluster& cluster) {
-  std::vector<uint32_t> undone;
-  size_t few = changed_.size();
-  for (size_t i = changed_.size(); i-- > 0;) {
-    if (!turns(changed_[i])) continue;
-    if (decides(changed_[i])) break;
-    tree_.flip(changed_[i].slot);
-    undone.push_back(changed_[i].slot);
-    few = i;
-  }
-  const auto end = changed_.begin() + long(few);
-  const auto seen = std::find_if(changed_.begin(), end, [this](const Crossing& crossing) {
-    return turns(crossing) && decides(crossing);
-  });
-  for (const uint32_t slot : undone) tree_.flip(slot);
-  return seen != end ? *seen : crossings_[cluster.first];
+  if (changed_.size() == 1) return changed_.front();
+  has_changed_.assign(slots().size(), 0);
+  for (const Crossing& crossing : changed_) has_changed_[crossing.slot] = 1;
+  const uint32_t slot = tree_.turning_slot(has_changed_);
+  const auto seen =
+      std::find_if(changed_.begin(), changed_.end(),
+                   [slot](const Crossing& crossing) { return crossing.slot == slot; });
+  return seen != changed_.end() ? *seen : crossings_[cluster.first];
 }
 
 ReferenceHit RayWalk::describe(const Crossing& crossing) const {

@@ -74,19 +74,16 @@ class RayWalk {
 
   void collect_changes(const Cluster& cluster);
   void drop_what_came_back();
-  bool decides(const Crossing& crossing);
-  bool turns(const Crossing& crossing) const;
   const Crossing& shown(const Cluster& cluster);
-  const Crossing& lowest_decider_of_few(const Cluster& cluster);
   ReferenceHit describe(const Crossing& crossing) const;
 
   const RaySetup& setup_;
   CountingTree tree_;                // that of a point after the first passed_ crossings
   std::vector<Crossing> crossings_;  // of the ray, by t
   size_t passed_ = 0;
-  std::vector<Crossing> changed_;  // by a cluster, in order of the primitives
+  std::vector<Crossing> changed_;     // by a cluster, in order of the primitives
+  std::vector<uint8_t> has_changed_;  // by slot
   const NearRay* ray_ = nullptr;
-  bool value_at_eye_ = false;
 };
 
 }  // namespace csgcore::reference

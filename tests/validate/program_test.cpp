@@ -121,6 +121,14 @@ void expect_whole_table(const Outcome& outcome) {
   EXPECT_THAT(outcome.out, EndsWith("\nagrees\n"));
 }
 
+TEST_F(Validate, ItsReportDoesNotOverwriteTheDesign) {
+  const std::string design = folder_.write("a.csg", "sphere(r = 1);\n");
+  const Outcome outcome = run({"--report=" + design, design});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("--report would overwrite the design"));
+  EXPECT_EQ(folder_.read("a.csg"), "sphere(r = 1);\n");
+}
+
 TEST_F(Validate, AgreesOnR9) { expect_whole_table(run_few({example("r9")})); }
 
 TEST_F(Validate, AgreesOnCs100) { expect_whole_table(run_few({"--fn=4", example("cs100")})); }
@@ -265,7 +273,6 @@ TEST_F(Validate, Failures) {
   expect_failure({r9, r9}, "more than one file");
   expect_failure({"missing.csg"}, "missing.csg: error: cannot be read");
   expect_failure({folder_.write("bad.csg", "sphere(r = ")}, "bad.csg:1:");
-  expect_failure({folder_.write("flat.csg", "square(size = 1);")}, "square");
   expect_failure({"--fn=2", r9}, "--fn=2 is not understood (give a number from 3 to 200)");
   expect_failure({"--fn=8.5", r9}, "--fn=8.5");
   expect_failure({"--points=0", r9}, "--points=0");
@@ -276,9 +283,15 @@ TEST_F(Validate, Failures) {
   expect_failure({"--renderer=ink", r9}, "--renderer=ink");
   expect_failure({"--no-such", r9}, "no-such");
   expect_failure({"--report=" + folder_ / "no/such/folder", r9}, "cannot be written");
-  EXPECT_EQ(
-      run({"--skip-unsupported", "--renderer=cpu", "--time-limit=0", folder_ / "flat.csg"}).code,
-      0);
+}
+
+TEST_F(Validate, WhatCannotBeDrawnIsLeftOut) {
+  const std::string flat = folder_.write("flat.csg", "square(size = 1);");
+  for (const char* option : {"--skip-unsupported", "--seed=1"}) {
+    const Outcome outcome = run({option, "--renderer=cpu", "--time-limit=0", flat});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: square is left out"));
+  }
 }
 
 TEST_F(Validate, ReportToStandardOutputAndQuiet) {

@@ -258,14 +258,6 @@ void ExactWalk::drop_what_came_back() {
   changed_ = std::move(kept);
 }
 
-/// Whether the value is that at the eye again without the primitive's change.
-bool ExactWalk::decides(const Crossing& crossing) {
-  tree_.flip(primitive_of(crossing));
-  const bool result = tree_.value() == bool(values_[eye_]);
-  tree_.flip(primitive_of(crossing));
-  return result;
-}
-
 /// Whether the change is of the kind that turns the value from what it is at the eye: added
 /// primitives that are entered and subtracted ones that are left, or the reverse for an eye inside.
 bool ExactWalk::turns(const Crossing& crossing) const {
@@ -276,30 +268,13 @@ bool ExactWalk::turns(const Crossing& crossing) const {
 
 ExactWalk::Crossing ExactWalk::shown_of(const Cluster& cluster) {
   collect_changes(cluster);
-  for (const Crossing& crossing : changed_) {
-    if (decides(crossing)) return crossing;
-  }
-  return lowest_decider_of_few(cluster);
-}
-
-/// Where several changes would do: without the later ones of those that turn the value, as far as
-/// it stays turned, one of the others decides.
-ExactWalk::Crossing ExactWalk::lowest_decider_of_few(const Cluster& cluster) {
-  std::vector<Crossing> few;
-  for (const Crossing& crossing : changed_) {
-    if (turns(crossing)) few.push_back(crossing);
-  }
-  std::vector<Crossing> undone;
-  while (!few.empty() && !decides(few.back())) {
-    undone.push_back(few.back());
-    tree_.flip(primitive_of(few.back()));
-    few.pop_back();
-  }
-  const auto seen = std::find_if(few.begin(), few.end(),
-                                 [this](const Crossing& crossing) { return decides(crossing); });
-  const Crossing result = seen != few.end() ? *seen : crossings_[cluster.first];
-  for (const Crossing& crossing : undone) tree_.flip(primitive_of(crossing));
-  return result;
+  if (changed_.size() == 1) return changed_.front();
+  changed_primitives_.clear();
+  for (const Crossing& crossing : changed_) changed_primitives_.push_back(primitive_of(crossing));
+  const uint32_t shown = tree_.turning_primitive(changed_primitives_);
+  const auto at = std::ranges::find(changed_primitives_, shown);
+  if (at == changed_primitives_.end()) return crossings_[cluster.first];
+  return changed_[static_cast<size_t>(at - changed_primitives_.begin())];
 }
 
 ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {

@@ -83,10 +83,8 @@ class ExactWalk {
   void pass_until(size_t count);
   void collect_changes(const Cluster& cluster);
   void drop_what_came_back();
-  bool decides(const Crossing& crossing);
   bool turns(const Crossing& crossing) const;
   Crossing shown_of(const Cluster& cluster);
-  Crossing lowest_decider_of_few(const Cluster& cluster);
   Shown describe(const Crossing& crossing) const;
   Bounds tight_s(const ExactRoot& u, double base, const Interval& s) const;
 
@@ -110,7 +108,8 @@ class ExactWalk {
   std::vector<Crossing> crossings_;  // in order along the ray
   std::vector<uint8_t> values_;      // of the solid, before each crossing and after the last
   std::vector<Crossing> changed_;    // by a cluster, in order of the primitives
-  size_t eye_ = 0;                   // crossings behind the eye
+  std::vector<uint32_t> changed_primitives_;
+  size_t eye_ = 0;  // crossings behind the eye
 };
 
 }  // namespace oracle

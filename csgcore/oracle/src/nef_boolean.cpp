@@ -84,8 +84,14 @@ Nef value_of(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> pol
   return operands.empty() ? Nef(Nef::EMPTY) : operands.front();
 }
 
-/// Of a regularised solid. (CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a
-/// cavity that holds something, and fails where a vertex touches a facet.)
+/// Returns the regularised solid's boundary: the facets between its volumes and what is outside. A
+/// facet that dangles, or a crack, has volumes of the same kind on both of its sides.
+///
+/// Neither of CGAL's own ways serves. Nef_polyhedron_3::regularization() merges facets by
+/// SNC_simplify, whose SNC_decorator::add_sloop_to_facet() links the circle that is left about a
+/// vertex to the wrong side of its facet (5.5.1): where an apex touches that facet, inside and
+/// outside become one volume. And CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a
+/// cavity that holds something, and fails where a vertex touches a facet.
 ExactBoundary boundary_of(const Nef& solid) {
   ExactBoundary boundary;
   std::unordered_map<Nef::Vertex_const_handle, std::size_t> indices;
@@ -97,7 +103,7 @@ ExactBoundary boundary_of(const Nef& solid) {
   Nef::Halffacet_const_iterator half;
   CGAL_forall_halffacets(half, solid) {
     // A halffacet looks into its volume; of the two, the one that looks out of the solid.
-    if (half->incident_volume()->mark()) continue;
+    if (half->incident_volume()->mark() || !half->twin()->incident_volume()->mark()) continue;
     Facet facet{half->plane().orthogonal_vector(), {}};
     Nef::Halffacet_cycle_const_iterator cycle;
     CGAL_forall_facet_cycles_of(cycle, half) {
@@ -118,10 +124,9 @@ ExactBoundary boundary_of(const Nef& solid) {
 
 ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
                            std::span<const ConvexPolyhedron> polyhedra) {
-  // What dangles or is cracked in between is of no volume, and makes none: closing the interior of
-  // the last solid is enough.
-  const Nef solid = value_of(tree, polyhedra).regularization();
-  return boundary_of(solid);
+  // Facets that dangle and cracks have no volume, and make none in a later operation: it is enough
+  // to leave them out of the last solid.
+  return boundary_of(value_of(tree, polyhedra));
 }
 
 }  // namespace oracle

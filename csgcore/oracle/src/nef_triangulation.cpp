@@ -5,12 +5,16 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace oracle {
 namespace {
 
-/// How many cycles a triangle lies within.
+/// How many borders lie between a triangle and what is outside.
 using Nesting = std::optional<int>;
 
 using Traits = CGAL::Projection_traits_3<Kernel>;
@@ -19,6 +23,21 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<
     Traits, CGAL::Triangulation_face_base_with_info_2<Nesting, Traits>>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+/// The edges that cycles run along once, by their ends. An edge of the solid may lie within a facet
+/// and end there: the ridge of a groove that reaches the facet from behind. The cycle runs along it
+/// to and fro, and the facet is on both of its sides.
+std::set<std::pair<std::size_t, std::size_t>> borders_of(const Facet& facet) {
+  std::set<std::pair<std::size_t, std::size_t>> borders;
+  for (const std::vector<std::size_t>& cycle : facet.cycles) {
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+      const auto [a, b] = std::minmax(cycle[i], cycle[(i + 1) % cycle.size()]);
+      const auto [border, is_new] = borders.emplace(a, b);
+      if (!is_new) borders.erase(border);
+    }
+  }
+  return borders;
+}
 
 /// From the infinite face inwards.
 void find_nesting(const Triangulation& triangulation) {
@@ -40,15 +59,17 @@ void find_nesting(const Triangulation& triangulation) {
 void triangulate(const Facet& facet, const std::vector<Point>& points,
                  std::vector<std::array<std::size_t, 3>>& triangles) {
   Triangulation triangulation{Traits(facet.normal)};
+  std::map<std::size_t, Triangulation::Vertex_handle> corners;
   for (const std::vector<std::size_t>& cycle : facet.cycles) {
-    std::vector<Triangulation::Vertex_handle> corners;
     for (const std::size_t index : cycle) {
-      corners.push_back(triangulation.insert(points[index]));
-      corners.back()->info() = index;
+      const auto [corner, is_new] = corners.try_emplace(index);
+      if (!is_new) continue;
+      corner->second = triangulation.insert(points[index]);
+      corner->second->info() = index;
     }
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      triangulation.insert_constraint(corners[i], corners[(i + 1) % corners.size()]);
-    }
+  }
+  for (const auto& [a, b] : borders_of(facet)) {
+    triangulation.insert_constraint(corners.at(a), corners.at(b));
   }
   find_nesting(triangulation);
   for (const Triangulation::Face_handle face : triangulation.finite_face_handles()) {

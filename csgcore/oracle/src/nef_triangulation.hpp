@@ -8,7 +8,8 @@
 
 namespace oracle {
 
-/// A plane polygon, possibly with holes: closed cycles of indices of points, in any order.
+/// A plane polygon, possibly with holes: closed cycles of indices of points, in any order. An edge
+/// that they run along twice, to and fro, has the polygon on both of its sides.
 struct Facet {
   Vector normal;
   std::vector<std::vector<std::size_t>> cycles;

@@ -1,12 +1,17 @@
 #include "tree_value.hpp"
 
+#include <algorithm>
+
 namespace oracle {
 
 using csgcore::CsgToken;
 using csgcore::Op;
 
 TreeValue::TreeValue(const csgcore::CsgTree& tree, size_t primitives)
-    : nodes_(tree.tokens().size()), first_leaf_(primitives, kNone), signs_(primitives, 0) {
+    : nodes_(tree.tokens().size()),
+      first_leaf_(primitives, kNone),
+      signs_(primitives, 0),
+      turned_(nodes_.size(), 0) {
   std::vector<uint32_t> operands;  // roots of the subtrees so far
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const CsgToken& token = tree.tokens()[i];
@@ -44,18 +49,42 @@ void TreeValue::find_signs(const csgcore::CsgTree& tree) {
 
 void TreeValue::flip(uint32_t primitive) {
   for (uint32_t leaf = first_leaf_[primitive]; leaf != kNone; leaf = nodes_[leaf].next_leaf) {
-    bool now = nodes_[leaf].in_favour == 0;  // of a leaf: whether the point is inside
-    nodes_[leaf].in_favour = now;
+    nodes_[leaf].in_favour = holds(leaf) ? 0 : 1;  // of a leaf: whether the point is inside
+    turned_[leaf] ^= 1;
     uint32_t i = leaf;
     for (; nodes_[i].parent != kNone; i = nodes_[i].parent) {
-      Node& parent = nodes_[nodes_[i].parent];
-      const bool before = parent.in_favour >= parent.needed;
-      parent.in_favour += now != nodes_[i].is_subtracted ? 1u : uint32_t(-1);
-      now = parent.in_favour >= parent.needed;
-      if (now == before) break;
+      const uint32_t parent = nodes_[i].parent;
+      const bool before = holds(parent);
+      nodes_[parent].in_favour += holds(i) != nodes_[i].is_subtracted ? 1u : uint32_t(-1);
+      if (holds(parent) == before) break;
+      turned_[parent] ^= 1;
     }
-    if (nodes_[i].parent == kNone) value_ = now;
+    if (nodes_[i].parent == kNone) value_ = holds(i);
   }
+}
+
+bool TreeValue::goes_back_to(uint32_t leaf) const {
+  if (!turned_[leaf]) return false;
+  for (uint32_t i = leaf; nodes_[i].parent != kNone; i = nodes_[i].parent) {
+    const uint32_t parent = nodes_[i].parent;
+    if (!turned_[parent] || (holds(i) != nodes_[i].is_subtracted) != holds(parent)) return false;
+  }
+  return true;
+}
+
+uint32_t TreeValue::turning_primitive(std::span<const uint32_t> changed) {
+  // There and back again: in between, what has turned is what did by these primitives.
+  for (const uint32_t primitive : changed) flip(primitive);
+  std::fill(turned_.begin(), turned_.end(), uint8_t{0});
+  for (const uint32_t primitive : changed) flip(primitive);
+  uint32_t last = kNone;
+  for (const uint32_t primitive : changed) {
+    if (last != kNone && primitive < last) continue;
+    for (uint32_t leaf = first_leaf_[primitive]; leaf != kNone; leaf = nodes_[leaf].next_leaf) {
+      if (goes_back_to(leaf)) last = primitive;
+    }
+  }
+  return last;
 }
 
 }  // namespace oracle

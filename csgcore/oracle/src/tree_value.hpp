@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "csgcore/csg_tree.hpp"
@@ -18,6 +19,14 @@ class TreeValue {
   /// The point changes sides of a primitive.
   void flip(uint32_t primitive);
 
+  /// Given that the point has changed sides of these primitives, and that the value has turned by
+  /// that: the last of them in file order that its turn goes back to. An operation's turn goes back
+  /// to those of its operands that turned the same way, or, if they are subtracted, the other way.
+  /// kNone if the value has not turned.
+  uint32_t turning_primitive(std::span<const uint32_t> changed);
+
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
   bool names(uint32_t primitive) const { return first_leaf_[primitive] != kNone; }
   /// Whether the primitive stands within an even number of subtractions somewhere in the tree;
   /// within an odd number.
@@ -25,7 +34,6 @@ class TreeValue {
   bool is_subtracted(uint32_t primitive) const { return signs_[primitive] & kSubtracted; }
 
  private:
-  static constexpr uint32_t kNone = 0xFFFFFFFFu;
   static constexpr uint8_t kAdded = 1, kSubtracted = 2;
   /// A node holds if at least `needed` of its operands are in its favour: those that hold, or, of
   /// the later ones of a difference, those that do not.
@@ -37,10 +45,13 @@ class TreeValue {
     bool is_subtracted = false;  // from its parent
   };
   void find_signs(const csgcore::CsgTree& tree);
+  bool holds(uint32_t node) const { return nodes_[node].in_favour >= nodes_[node].needed; }
+  bool goes_back_to(uint32_t leaf) const;
 
   std::vector<Node> nodes_;           // by token: parents come after their operands
   std::vector<uint32_t> first_leaf_;  // by primitive
   std::vector<uint8_t> signs_;
+  std::vector<uint8_t> turned_;  // by token: how often the node has turned, modulo 2
   bool value_ = false;
 };
 

@@ -1,0 +1,14 @@
+// Random designs whose parts touch each other: faces in faces, rims in caps, edges and vertices in
+// faces and on edges, from outside and from within.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace validation {
+
+/// Makes a design of 2 to 6 boxes, prisms, pyramids and convex polyhedra on a grid of whole
+/// numbers, which is a .csg and a .scad. The seed decides it.
+std::string contact_design(uint32_t seed);
+
+}  // namespace validation
