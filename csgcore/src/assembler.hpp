@@ -1,25 +1,19 @@
-// Puts the parts of a kd-tree together.
+// Puts the pieces of a kd-tree together.
 #pragma once
 
-#include "builder.hpp"
+#include <memory>
+#include <span>
+
+#include "chunk.hpp"
 
 namespace csgcore {
 
-/// Appends parts in the order in which one task alone would have produced them: a node before its
-/// two sides, the one below first.
-class Assembler {
- public:
-  /// Keeps a reference.
-  explicit Assembler(Chunk& all) : all_(all) {}
+/// The whole tree as the one chunk that one task alone, with no cell paused, would have produced.
+Chunk assemble(std::unique_ptr<Part> part);
 
-  /// Puts the part's root at `slot`, and the rest behind all nodes.
-  void place(const Part& part, uint32_t slot);
-
- private:
-  uint32_t new_slot();
-  void append_chunk(const Chunk& chunk, uint32_t slot);
-
-  Chunk& all_;
-};
+/// Puts the subtrees of `chunk` in the places of the nodes `slots` of `tree`: the root of each at
+/// its slot, and the rest behind all that `tree` holds. What was resumed stands in the place of
+/// what was paused.
+void place(Chunk chunk, std::span<const uint32_t> slots, Chunk& tree);
 
 }  // namespace csgcore

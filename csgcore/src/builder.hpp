@@ -3,38 +3,15 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "cell_budget.hpp"
+#include "chunk.hpp"
 #include "csgcore/subdivision.hpp"
 #include "restriction.hpp"
-#include "split.hpp"
 
 namespace csgcore {
-
-/// What one task produces; indices are local to it, node 0 is its root.
-struct Chunk {
-  std::vector<KdNode> nodes;
-  std::vector<Leaf> leaves;
-  std::vector<Literal> literals;
-};
-
-/// Either a chunk, or a division whose two sides are parts of their own.
-struct Part {
-  Split split{KdNode::kLeafAxis, 0};
-  std::unique_ptr<Part> below, above;
-  Chunk chunk;
-};
-
-struct Cell {
-  Box box;
-  uint32_t depth = 0;
-  uint32_t stalled = 0;  // divisions since a primitive last left
-  uint32_t doubled = 0;  // divisions in a row of which both halves kept every primitive, but for
-                         // those that only cut off empty space
-  /// How many literals the leaves below may hold for each of the cell's own. Each division hands
-  /// its cell's share on to the halves, in proportion to what they hold.
-  double allowance = 0;
-};
 
 class Builder {
  public:
@@ -42,13 +19,18 @@ class Builder {
   Builder(const Solid& solid, const SubdivisionOptions& options, double overlap,
           const BatchSink& sink);
 
-  /// `literals`, not empty, equal the solid within the cell. Uses as many threads as the options
-  /// say; the result does not depend on them.
-  std::unique_ptr<Part> build(Cell cell, std::span<const Literal> literals);
+  /// The whole tree. Uses as many threads as the options say; the result does not depend on them.
+  Chunk build(const Box& root_box);
 
-  /// What takes the place of a leaf at this depth whose function has become `list`, which is
-  /// restricted to it. In one chunk.
-  std::unique_ptr<Part> replace(const Leaf& leaf, uint32_t depth, const CellList& list);
+  /// Adds to `starts` a cell that is to be divided, of a tree that is there: a leaf at this depth
+  /// that was dropped, with its literals;
+  void start(const Leaf& leaf, uint32_t depth, std::span<const Literal> literals, Chunk& starts);
+  /// or one whose function has become `list`, which is restricted to it.
+  void start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts);
+  /// Whether the budget, of which `stored_bytes` are used, takes all of them a step further.
+  bool can_divide(const Chunk& starts, uint64_t stored_bytes) const;
+  /// Divides them: `starts` gets a subtree for each, in order. Returns whether the budget sufficed.
+  bool finish(Chunk& starts, uint64_t stored_bytes);
 
  private:
   /// The lists of one level of the recursion, reused by all cells of that level.
@@ -63,16 +45,35 @@ class Builder {
     Restrictor restrictor;
     std::vector<std::unique_ptr<Level>> levels;
     std::vector<uint32_t> distinct;
-    CellList probe;
   };
 
+  /// Paused cells of one chunk that one task resumes.
+  struct Resumption {
+    Chunk* owner;
+    size_t first, end;
+    Chunk* result;
+  };
+  /// What is dealt out to paused cells: to each what it needs, and its share of the rest.
+  struct Deal {
+    uint64_t rest, literals;
+  };
+
+  template <typename Work>
+  void run(bool in_parallel, Work&& work);
   std::unique_ptr<Part> build_part(const Cell& cell, const CellList& list);
   std::unique_ptr<Part> finish_part(const Cell& cell, const CellList& list);
   void divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
               Chunk& chunk) const;
+  int64_t left_to(const Chunk& starts, uint64_t stored_bytes) const;
+  bool resume_paused(const std::vector<Chunk*>& chunks, int64_t left);
+  bool resume_in_rounds(std::vector<Chunk*> chunks, int64_t left);
+  void resume(const Resumption& resumption, const Deal& deal);
+  void give_up(Chunk& chunk);
+  void deliver(std::span<const Leaf> leaves, const Chunk& chunk);
 
   LeafKind leaf_kind(const Cell& cell, const CellList& list, std::vector<uint32_t>& distinct) const;
-  bool coincides(const Cell& cell, const CellList& list, Workspace& workspace) const;
+  std::optional<bool> coincides(const Cell& cell, const CellList& list, uint64_t credit,
+                                Workspace& workspace, uint64_t& cost) const;
   bool is_small(const Cell& cell) const;
   Split choose_split(const Cell& cell, const CellList& list) const;
   Box inflated(const Box& box) const { return {box.min - overlap_, box.max + overlap_}; }
@@ -87,6 +88,8 @@ class Builder {
   const BatchSink& sink_;
   bool repeats_ = false;  // some primitive stands in the list more than once
   bool in_parallel_ = false;
+  const CellCosts costs_;
+  const uint64_t budget_;  // bytes
   std::mutex sink_mutex_;
   std::mutex workspaces_mutex_;
   std::vector<std::unique_ptr<Workspace>> workspaces_;  // not in use

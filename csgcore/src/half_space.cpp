@@ -34,9 +34,11 @@ FacetedRevolution::Band band_between(const Ring& a, const Ring& b) {
   return {a.radius - slope * a.z, slope};
 }
 
+using Edge = std::pair<uint32_t, uint32_t>;
+
 /// Every edge is run through once in each direction.
 bool is_closed(const Mesh& mesh) {
-  std::vector<std::pair<uint32_t, uint32_t>> edges, twins;
+  std::vector<Edge> edges, twins;
   for (const std::vector<uint32_t>& face : mesh.faces) {
     for (size_t i = 0; i < face.size(); ++i) {
       edges.emplace_back(face[i], face[(i + 1) % face.size()]);
@@ -46,6 +48,24 @@ bool is_closed(const Mesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(twins.begin(), twins.end());
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+/// Every edge is run through twice, in whichever direction. Told much sooner than which way each
+/// face has to run.
+bool has_paired_edges(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  for (const std::vector<uint32_t>& face : mesh.faces) {
+    for (size_t i = 0; i < face.size(); ++i) {
+      edges.push_back(std::minmax(face[i], face[(i + 1) % face.size()]));
+    }
+  }
+  if (edges.size() % 2 != 0) return false;
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i < edges.size(); i += 2) {
+    const bool is_third = i > 0 && edges[i] == edges[i - 1];
+    if (is_third || edges[i] != edges[i + 1]) return false;
+  }
+  return true;
 }
 
 /// Twice the face's area, along its normal (Newell's method, about the first vertex).
@@ -107,30 +127,41 @@ std::vector<HalfSpace> half_spaces(const Box& box) {
 }
 
 std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh) {
-  if (mesh.faces.empty() || !is_closed(mesh)) return std::nullopt;
+  if (mesh.faces.empty() || !has_paired_edges(mesh)) return std::nullopt;
   double largest = 0;
   for (const Vec3& v : mesh.vertices) {
     for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
   }
   const double tolerance = kMeshDigits * largest;
   std::vector<HalfSpace> result;
-  for (const std::vector<uint32_t>& face : mesh.faces) {
+  Mesh outward = mesh;
+  for (std::vector<uint32_t>& face : outward.faces) {
     const Vec3 normal = area_vector(mesh, face);
     const double length = glm::length(normal);
     if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-    double lowest = kInfinity, highest = -kInfinity, face_lowest = kInfinity;
+    double lowest = kInfinity, highest = -kInfinity;
     for (const Vec3& v : mesh.vertices) {
       lowest = std::min(lowest, glm::dot(normal, v));
       highest = std::max(highest, glm::dot(normal, v));
     }
+    double face_lowest = kInfinity, face_highest = -kInfinity;
     for (const uint32_t i : face) {
       face_lowest = std::min(face_lowest, glm::dot(normal, mesh.vertices[i]));
+      face_highest = std::max(face_highest, glm::dot(normal, mesh.vertices[i]));
     }
-    const bool is_supporting = highest - face_lowest <= tolerance * length;
-    const bool is_flat = highest - lowest <= tolerance * length;
-    if (!is_supporting || is_flat) return std::nullopt;
-    result.push_back({normal, highest});
+    const double slack = tolerance * length;
+    if (highest - lowest <= slack) return std::nullopt;  // it is flat
+    if (highest - face_lowest <= slack) {
+      result.push_back({normal, highest});
+    } else if (face_highest - lowest <= slack) {
+      result.push_back({-normal, -lowest});
+      std::reverse(face.begin(), face.end());
+    } else {
+      return std::nullopt;
+    }
   }
+  // A face that is there twice has paired edges, too.
+  if (!is_closed(outward)) return std::nullopt;
   return result;
 }
 

@@ -18,6 +18,7 @@
 #include <hwy/foreach_target.h>  // includes this file again for every instruction set
 #include <hwy/highway.h>
 
+#include "clusters-inl.hpp"
 #include "primitive-inl.hpp"
 #include "resolve-inl.hpp"
 #include "walk-inl.hpp"
@@ -119,6 +120,18 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   intersect_lanes(frame, rays, 0xF, primitive, segments);
+}
+
+void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
+                        const CanonicalPrimitive& primitive, const PacketSegments& segments,
+                        double (&normals)[3][kPacketRays]) {
+  PacketV t;
+  Lanes3<Wide> found[kChunks];
+  for (int c = 0; c < kFourChunks; ++c) {
+    t.chunk[c] = hn::Load(Wide(), segments.start + first_lane(c));
+  }
+  find_normals(frame, rays, 0xF, primitive, t, segments.start_on_cap, found);
+  for (int c = 0; c < kFourChunks; ++c) store3(Wide(), found[c], normals, first_lane(c));
 }
 
 /// The lanes of a block that are in these columns and rows, by bits.
@@ -276,9 +289,10 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
       at_start |= bits_of(is_start, c);
       at_end |= bits_of(is_end, c);
     }
-    const LaneMask own = (at_start | at_end) & reached;
+    const LaneMask here = (at_start | at_end) & reached;
+    several |= here & found;
+    const LaneMask own = here & ~found;
     if (own == 0) continue;
-    several |= own & found;
     found |= own;
     const LaneMask on_cap = (at_start & segment.start_on_cap) | (at_end & segment.end_on_cap);
     hits.on_cap |= on_cap & own;
@@ -332,15 +346,13 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
                               PacketHits& hits) {
   if (lanes == 0) return;
   segments.compute_all(lanes);
-  LaneMask found = 0;
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
-    ++workspace.resolved_rays;
     RayResolver resolver(frame, rays, lane, list, subject, workspace);
     const auto shown = resolver.resolve(hits.t[lane], (hits.eye_inside & bit) != 0);
     if (!shown) continue;
-    found |= bit;
+    hits.hits |= bit;
     hits.t[lane] = shown->event.t;
     hits.index[lane] = shown->event.index;
     hits.on_cap = (hits.on_cap & ~bit) | (shown->on_cap ? bit : 0);
@@ -352,7 +364,48 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
     hn::BlendedStore(normal.y, mask_of(bit, chunk), Wide(), hits.normal[1] + first_lane(chunk));
     hn::BlendedStore(normal.z, mask_of(bit, chunk), Wide(), hits.normal[2] + first_lane(chunk));
   }
-  hits.hits = (hits.hits & ~lanes) | found;
+}
+
+/// The hits of lanes that stand at their first boundary, with which other crossings may coincide,
+/// or which want the one behind it. Lanes whose cluster is plain go on from cluster to cluster
+/// together; the others are left to the resolver, one by one.
+HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                                     const TraceList& list, const TraceSubject& subject,
+                                     const double* leave, Walk walk, ListSegments& segments,
+                                     PacketWorkspace& workspace, PacketHits& hits) {
+  if (lanes == 0) return;
+  workspace.resolved_rays += static_cast<uint64_t>(std::popcount(lanes));
+  hits.hits &= ~lanes;
+  ClusterFinder finder(frame, rays, list, subject, segments, workspace);
+  LaneMask unclear = 0;
+  LaneMask shows_next = subject.boundary == Boundary::kFirst ? lanes : 0;
+  LaneMask value = hits.eye_inside;
+  PacketV from;
+  for (int c = 0; c < kChunks; ++c) from.chunk[c] = hn::Set(Wide(), frame.first_t);
+  for (LaneMask open = lanes; open != 0;) {
+    LaneMask ended = 0;
+    LaneMask turned = 0;
+    for (const bool held : {false, true}) {
+      const LaneMask group = open & (held ? value : ~value);
+      if (group == 0) continue;
+      const Clusters clusters = finder.find(walk, group, held, from);
+      finder.show(clusters.turned & shows_next, hits);
+      unclear |= group & ~clusters.plain;
+      ended |= (group & ~clusters.plain) | (clusters.turned & shows_next);
+      turned |= clusters.turned;
+      for (int c = 0; c < kChunks; ++c) {
+        const WideM mask = mask_of(group, c);
+        from.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], from.chunk[c]);
+        walk.t.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], walk.t.chunk[c]);
+      }
+    }
+    segments.forget_apart(open);
+    shows_next |= turned;
+    value ^= turned;
+    walk.live = open & ~ended;
+    open = walk_to_change(list, segments, value, leave, walk);
+  }
+  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
 }
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
@@ -375,10 +428,11 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   take_hits(walk, arrived, hits);
   hits.undecided = 0;
   if (arrived == 0) return;
-  LaneMask unclear = subject.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
-  unclear |=
-      show_crossings(frame, rays, list, subject, segments, walk, arrived & ~unclear, hits).unclear;
-  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
+  const LaneMask unclear =
+      subject.boundary == Boundary::kBehind
+          ? arrived
+          : show_crossings(frame, rays, list, subject, segments, walk, arrived, hits).unclear;
+  resolve_coincidences(frame, rays, unclear, list, subject, leave, walk, segments, workspace, hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
@@ -558,6 +612,7 @@ CSGCORE_SIMD_EXPORT(make_four_rays);
 CSGCORE_SIMD_EXPORT(make_block_rays);
 CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(intersect_four);
+CSGCORE_SIMD_EXPORT(find_entry_normals);
 CSGCORE_SIMD_EXPORT(find_reached);
 CSGCORE_SIMD_EXPORT(find_apart);
 CSGCORE_SIMD_EXPORT(trace_packet);
@@ -587,6 +642,12 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
+}
+
+void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
+                        const CanonicalPrimitive& primitive, const PacketSegments& segments,
+                        double (&normals)[3][kPacketRays]) {
+  CSGCORE_SIMD(find_entry_normals)(frame, rays, primitive, segments, normals);
 }
 
 void find_reached(const Extent* screen, const ScreenOutline* outlines,

@@ -13,6 +13,7 @@
 #include "csgcore/tracer.hpp"
 #include "csgcore/view.hpp"
 #include "extent_tests.hpp"
+#include "list_expression.hpp"
 
 namespace csgcore {
 
@@ -88,6 +89,11 @@ struct TraceSubject {
   std::stop_token stop{};
 };
 
+/// By lane, what becomes of an operand at crossings that coincide: see list_expression.hpp.
+struct alignas(64) PacketStates {
+  int32_t lane[kPacketRays];
+};
+
 /// Working memory of one thread, for packets of one list after the other.
 struct PacketWorkspace {
   // By index in the list:
@@ -101,6 +107,9 @@ struct PacketWorkspace {
   uint64_t intersections = 0;         // of rays with primitives
   uint64_t resolved_rays = 0;
 
+  // What coincident crossings are told with:
+  ListExpression expression;
+  std::vector<PacketStates> states;  // a stack
   // The resolver's.
   struct Event {
     double t;
@@ -111,6 +120,8 @@ struct PacketWorkspace {
   std::vector<uint8_t> inside;  // by index in the list
   std::vector<uint32_t> repeats, order;
   std::vector<uint8_t> is_first;
+  std::vector<uint8_t> has_changed;  // by index in the list
+  std::vector<int32_t> operands;     // a stack
 };
 
 /// Per lane. Only lanes of `hits` hold anything.
@@ -148,6 +159,13 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 /// Of the first four lanes alone.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
+
+/// Of the first four lanes alone: the primitive's outward unit normals where they enter it, by
+/// coordinate. Those of one plane face are the same, bit for bit. `normals` is aligned as a packet
+/// is.
+void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
+                        const CanonicalPrimitive& primitive, const PacketSegments& segments,
+                        double (&normals)[3][kPacketRays]);
 
 /// Of the primitives (indices, the top bit ignored), the lanes that may meet them in the block from
 /// the pixel (x, y) on and in that below it, by their extents on the screen, which are no nan, and

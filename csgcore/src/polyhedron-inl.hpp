@@ -24,8 +24,8 @@ struct FacedSegment {
 };
 
 /// Cuts by a face's half-space, height + t·growth ≤ 1, in the lanes where an end lies beyond it.
-template <class D>
-HWY_INLINE void cut(D d, const Lanes3<D>& normal, hn::Vec<D> height, hn::Vec<D> growth,
+template <bool kWithNormals, class D>
+HWY_INLINE void cut(D d, const Vec3& face_normal, hn::Vec<D> height, hn::Vec<D> growth,
                     hn::Mask<D> beyond, FacedSegment<D>& segment) {
   const auto zero = hn::Zero(d);
   const auto at = hn::Div(hn::Sub(hn::Set(d, 1.0), height), growth);
@@ -35,15 +35,19 @@ HWY_INLINE void cut(D d, const Lanes3<D>& normal, hn::Vec<D> height, hn::Vec<D> 
   const auto later = hn::And(hn::Lt(growth, zero), hn::Gt(at, segment.start));
   const auto enters = hn::And(beyond, later);
   segment.start = hn::IfThenElse(enters, at, segment.start);
-  segment.start_normal = if_then_else(enters, normal, segment.start_normal);
+  if constexpr (kWithNormals) {
+    segment.start_normal = if_then_else(enters, broadcast(d, face_normal), segment.start_normal);
+  }
   const auto sooner = hn::And(hn::Gt(growth, zero), hn::Lt(at, segment.end));
   const auto leaves = hn::And(beyond, sooner);
   segment.end = hn::IfThenElse(leaves, at, segment.end);
-  segment.end_normal = if_then_else(leaves, normal, segment.end_normal);
+  if constexpr (kWithNormals) {
+    segment.end_normal = if_then_else(leaves, broadcast(d, face_normal), segment.end_normal);
+  }
 }
 
-/// `center`: relative to the rays' pivot.
-template <class D>
+/// `center`: relative to the rays' pivot. Normals are found if asked for.
+template <bool kWithNormals, class D>
 HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primitive,
                                            const Vec3& center, const Rays<D>& rays) {
   const Mat3& map = primitive.world_to_canonical;
@@ -61,12 +65,22 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
   const Lanes3<D> none = broadcast(d, Vec3(0, 0, 1));
   FacedSegment<D> segment{enclosed.start, enclosed.end, none, none};
   auto live = hn::Lt(segment.start, segment.end);
+  const hn::Vec<D> origin_along[] = {o.x, o.y, o.z};
+  const hn::Vec<D> direction_along[] = {direction.x, direction.y, direction.z};
   const std::vector<Polyhedron::Entry>& entries = primitive.polyhedron->entries();
   for (size_t i = 0; i < entries.size() && !hn::AllFalse(d, live); ++i) {
     const Polyhedron::Entry& entry = entries[i];
-    const Lanes3<D> normal = broadcast(d, entry.normal);
-    const auto height = dot(d, normal, o);
-    const auto growth = dot(d, normal, direction);
+    hn::Vec<D> height, growth;
+    if (entry.axis < Polyhedron::Entry::kNoAxis) {
+      // The dot products' other terms are zeros.
+      const auto along = hn::Set(d, entry.normal[static_cast<int>(entry.axis)]);
+      height = hn::Mul(along, origin_along[entry.axis]);
+      growth = hn::Mul(along, direction_along[entry.axis]);
+    } else {
+      const Lanes3<D> normal = broadcast(d, entry.normal);
+      height = dot(d, normal, o);
+      growth = dot(d, normal, direction);
+    }
     // What holds at both ends holds between them.
     const auto at_start = hn::Add(height, hn::Mul(segment.start, growth));
     const auto at_end = hn::Add(height, hn::Mul(segment.end, growth));
@@ -74,7 +88,7 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
     if (hn::AllFalse(d, beyond)) {
       i += entry.skip;
     } else if (entry.skip == 0) {
-      cut(d, normal, height, growth, beyond, segment);
+      cut<kWithNormals>(d, entry.normal, height, growth, beyond, segment);
       live = hn::Lt(segment.start, segment.end);
     }
   }
@@ -86,7 +100,7 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
 template <class D>
 HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                               const Rays<D>& rays) {
-  const FacedSegment<D> faced = faced_segment(d, primitive, center, rays);
+  const FacedSegment<D> faced = faced_segment<false>(d, primitive, center, rays);
   return segment_if(d, hn::Lt(faced.start, faced.end), faced.start, faced.end, no_lanes(d),
                     hn::Not(no_lanes(d)));
 }
@@ -95,7 +109,7 @@ HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Ve
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                             const Rays<D>& rays, hn::Mask<D> leaves) {
-  const FacedSegment<D> faced = faced_segment(d, primitive, center, rays);
+  const FacedSegment<D> faced = faced_segment<true>(d, primitive, center, rays);
   return normalized(d,
                     transformed_back(d, primitive.world_to_canonical,
                                      if_then_else(leaves, faced.end_normal, faced.start_normal)));

@@ -136,6 +136,13 @@ Vec3 canonical_normal(const HalfSpace& half_space, const Vec3& center, const Vec
   return normal;
 }
 
+/// Along which the vector points; kNoAxis if it leans.
+uint32_t axis_of(const Vec3& v) {
+  const int zeros = (v.x == 0) + (v.y == 0) + (v.z == 0);
+  if (zeros != 2) return Polyhedron::Entry::kNoAxis;
+  return v.x != 0 ? 0 : v.y != 0 ? 1 : 2;
+}
+
 }  // namespace
 
 Polyhedron::Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices,
@@ -217,7 +224,7 @@ void Polyhedron::list_faces() {
       },
       [&](size_t entry) { entries_[entry].skip = uint32_t(entries_.size() - entry - 1); },
       [&](uint32_t i) {
-        entries_.push_back({normals[i], 1, 0});
+        entries_.push_back({normals[i], 1, 0, axis_of(normals[i])});
       });
 }
 
@@ -260,7 +267,10 @@ bool Polyhedron::contains(const Vec3& point, double slack) const {
     const Entry& entry = entries_[i];
     const double reach = glm::dot(entry.normal, point);
     const bool is_face = entry.skip == 0;
-    if (is_face && !(reach <= 1 - slack * glm::length(entry.normal))) return false;
+    if (is_face &&
+        !(reach <= 1 && (slack == 0 || reach <= 1 - slack * glm::length(entry.normal)))) {
+      return false;
+    }
     if (!is_face && reach <= entry.limit && slack <= kMargin) i += entry.skip;
   }
   return true;
@@ -335,6 +345,19 @@ Vec3 Polyhedron::support(const Vec3& direction) const {
     }
   }
   return vertex;
+}
+
+bool same_polyhedron(const Polyhedron* a, const Polyhedron* b) {
+  if (a == b) return true;
+  if (!a || !b) return false;
+  const Polyhedron::Canonical &x = a->canonical(), &y = b->canonical();
+  return x.center == y.center && x.scale == y.scale && x.in_frustum == y.in_frustum &&
+         x.radius_mid == y.radius_mid && x.radius_slope == y.radius_slope &&
+         a->vertices() == b->vertices() &&
+         std::equal(a->half_spaces().begin(), a->half_spaces().end(), b->half_spaces().begin(),
+                    b->half_spaces().end(), [](const HalfSpace& p, const HalfSpace& q) {
+                      return p.normal == q.normal && p.offset == q.offset;
+                    });
 }
 
 }  // namespace csgcore

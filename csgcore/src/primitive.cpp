@@ -35,12 +35,7 @@ Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
   return primitive;
 }
 
-bool is_valid(const Primitive& primitive) {
-  if (!primitive.local_to_world.finite()) return false;
-  const double determinant = primitive.local_to_world.determinant();
-  if (!std::isfinite(determinant) || determinant == 0) return false;
-  // The inverse must be representable too: a determinant that underflows flattens the solid.
-  if (!Affine{inverse(primitive.local_to_world.linear), Vec3{0.0}}.finite()) return false;
+bool has_valid_shape(const Primitive& primitive) {
   if (primitive.shape == Shape::kPolyhedron) return primitive.polyhedron != nullptr;
   if (primitive.shape == Shape::kSphere) {
     return std::isfinite(primitive.r_bottom) && primitive.r_bottom > 0;
@@ -49,6 +44,15 @@ bool is_valid(const Primitive& primitive) {
   return std::isfinite(height) && height > 0 && std::isfinite(primitive.r_bottom) &&
          std::isfinite(primitive.r_top) && primitive.r_bottom >= 0 && primitive.r_top >= 0 &&
          primitive.r_bottom + primitive.r_top > 0;
+}
+
+bool is_valid(const Primitive& primitive) {
+  if (!primitive.local_to_world.finite()) return false;
+  const double determinant = primitive.local_to_world.determinant();
+  if (!std::isfinite(determinant) || determinant == 0) return false;
+  // The inverse must be representable too: a determinant that underflows flattens the solid.
+  if (!Affine{inverse(primitive.local_to_world.linear), Vec3{0.0}}.finite()) return false;
+  return has_valid_shape(primitive);
 }
 
 }  // namespace csgcore

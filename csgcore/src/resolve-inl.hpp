@@ -12,6 +12,7 @@
 #include <numeric>
 #include <optional>
 
+#include "list_expression.hpp"
 #include "primitive-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -42,6 +43,9 @@ class RayResolver {
         repeats_(workspace.repeats),
         order_(workspace.order),
         is_first_(workspace.is_first),
+        has_changed_(workspace.has_changed),
+        operands_(workspace.operands),
+        expression_(workspace.expression),
         segments_(workspace.segments) {}
 
   struct Shown {
@@ -221,14 +225,6 @@ class RayResolver {
     changed_.resize(kept);
   }
 
-  /// Whether the value is that before the cluster again without the crossing's change.
-  bool decides(const Event& event, bool value) {
-    flip(event.index);
-    const bool result = holds() == value;
-    flip(event.index);
-    return result;
-  }
-
   /// Whether the literal becomes true by the crossing, or, if `value`, false.
   bool turns(const Event& event, bool value) const {
     const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
@@ -244,29 +240,46 @@ class RayResolver {
     return first;
   }
 
-  /// The crossing that is seen of a cluster which turns the value from `value`: a decider's, a
-  /// primitive's without whose change the value would not have turned; of several, that of the
-  /// lowest index.
+  /// The primitive by which the cluster turns the value (turning, in list_expression.hpp), or what
+  /// tells that none does.
+  int32_t turning_primitive(bool value) {
+    using Step = ListExpression::Step;
+    has_changed_.assign(list().count(), 0);
+    for (const Event& event : changed_) {
+      for (uint32_t i = event.index; i != kNone; i = repeats_[i]) has_changed_[i] = 1;
+    }
+    expression_.parse(list());
+    operands_.clear();
+    uint32_t index = 0;
+    for (const Step step : expression_.steps()) {
+      if (step == Step::kLiteral) {
+        const uint32_t entry = list().primitive[index];
+        const bool is_negated = ((entry & CellList::kComplementBit) != 0) != value;
+        const bool behind = (inside_[index] != 0) != is_negated;
+        const bool before = behind != (has_changed_[index] != 0);
+        operands_.push_back(turning::state_of(before, behind, entry & kPrimitiveBits));
+        ++index;
+        continue;
+      }
+      const int32_t last = operands_.back();
+      operands_.pop_back();
+      int32_t& other = operands_.back();
+      const bool is_union = (step == Step::kUnion) != value;
+      other = is_union ? turning::union_of(other, last) : turning::intersection_of(other, last);
+    }
+    return operands_.size() == 1 ? operands_.back() : turning::kFails;
+  }
+
+  /// The crossing that is seen of a cluster which turns the value from `value`.
   Event shown_of(const Cluster& cluster, bool value) {
     collect_changes(cluster);
-    for (const Event& event : changed_) {
-      if (decides(event, value)) return as_turning(event, value);
-    }
-    // Several would do. Without the later ones of those that turn the value, as far as it stays
-    // turned, one of the others decides.
-    size_t undone = changed_.size();
-    for (size_t i = changed_.size(); i-- > 0;) {
-      if (!turns(as_turning(changed_[i], value), value)) continue;
-      flip(changed_[i].index);
-      if (holds() == value) {
-        flip(changed_[i].index);
-        break;
+    const int32_t primitive = turning_primitive(value);
+    if (turning::is_turned(primitive)) {
+      for (const Event& event : changed_) {
+        if (primitive_of(event) == static_cast<uint32_t>(primitive)) {
+          return as_turning(event, value);
+        }
       }
-      undone = i;
-    }
-    for (size_t i = 0; i < undone; ++i) {
-      const Event event = as_turning(changed_[i], value);
-      if (turns(event, value) && decides(changed_[i], value)) return event;
     }
     return as_turning(events_[cluster.first], value);
   }
@@ -283,6 +296,9 @@ class RayResolver {
   std::vector<uint32_t>& repeats_;
   std::vector<uint32_t>& order_;
   std::vector<uint8_t>& is_first_;
+  std::vector<uint8_t>& has_changed_;
+  std::vector<int32_t>& operands_;
+  ListExpression& expression_;
   const std::vector<PacketSegments>& segments_;
   size_t passed_ = 0;
 };

@@ -83,6 +83,17 @@ void Restrictor::restrict(const CellList& list, const Box& cell, CellList& resul
   restrict_sides<1>(list, {cell, cell, 0}, results);
 }
 
+bool Restrictor::decides_none(const CellList& list, const Box& cell) const {
+  const uint32_t count = list.count();
+  for (uint32_t first = 0; first < count; first += kBlock) {
+    const uint32_t size = std::min(count - first, kBlock);
+    const ExtentAnswers answers =
+        answers_of<1>(list.primitive.data() + first, size, {cell, cell, 0});
+    if (((answers.outside[0] | answers.inside[0]) & first_bits(size)) != 0) return false;
+  }
+  return true;
+}
+
 void Restrictor::restrict(const CellList& list, std::span<const Decision> decisions,
                           CellList& result) {
   Pass pass(list, list.count(), result, maps_[0]);

@@ -73,6 +73,8 @@ class Restrictor {
   void restrict(const CellList& list, const Halves& halves, CellList& below, CellList& above);
   /// The same for one cell and any list.
   void restrict(const CellList& list, const Box& cell, CellList& result);
+  /// Whether that would leave the list as it is. `list` is irreducible.
+  bool decides_none(const CellList& list, const Box& cell) const;
 
   /// What a caller knows of a literal.
   enum class Decision : uint8_t { kOpen, kOutside, kInside };

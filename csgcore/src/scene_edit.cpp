@@ -9,19 +9,6 @@
 namespace csgcore {
 namespace {
 
-bool same_polyhedron(const Polyhedron* a, const Polyhedron* b) {
-  if (a == b) return true;
-  if (!a || !b) return false;
-  const Polyhedron::Canonical &x = a->canonical(), &y = b->canonical();
-  return x.center == y.center && x.scale == y.scale && x.in_frustum == y.in_frustum &&
-         x.radius_mid == y.radius_mid && x.radius_slope == y.radius_slope &&
-         a->vertices() == b->vertices() &&
-         std::equal(a->half_spaces().begin(), a->half_spaces().end(), b->half_spaces().begin(),
-                    b->half_spaces().end(), [](const HalfSpace& p, const HalfSpace& q) {
-                      return p.normal == q.normal && p.offset == q.offset;
-                    });
-}
-
 bool same_tokens(const CsgTree& a, const CsgTree& b) {
   return std::equal(a.tokens().begin(), a.tokens().end(), b.tokens().begin(), b.tokens().end(),
                     [](const CsgToken& x, const CsgToken& y) {

@@ -119,7 +119,7 @@ void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t
 }
 
 void ScreenBounds::bound_all() {
-  std::vector<uint32_t> indices(primitives_.size());
+  std::vector<uint32_t> indices(groups_.first_group());
   std::iota(indices.begin(), indices.end(), 0u);
   bound(indices);
 }

@@ -60,6 +60,16 @@ inline bool overlaps(const Extent& screen, const Box& area) {
   return result;
 }
 
+/// Whether its rectangle holds all of an area of the screen, whose z does not count.
+inline bool covers(const Extent& screen, const Box& area) {
+  bool result = true;
+  for (const int axis : {0, 1}) {
+    result &= screen.center[axis] - screen.half[axis] <= area.min[axis];
+    result &= screen.center[axis] + screen.half[axis] >= area.max[axis];
+  }
+  return result;
+}
+
 inline double nearest_t(const Extent& screen) { return screen.center[2] - screen.half[2]; }
 inline double furthest_t(const Extent& screen) { return screen.center[2] + screen.half[2]; }
 

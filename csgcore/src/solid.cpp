@@ -3,11 +3,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "cell_list.hpp"
 #include "csgcore/subdivision.hpp"
+#include "csgcore/tracer.hpp"
 #include "operand_groups.hpp"
+#include "redundant_operands.hpp"
 #include "subtree_boxes.hpp"
 
 namespace csgcore {
@@ -32,6 +36,16 @@ void for_each_part(size_t count, Work&& work) {
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) work(i);
   });
+}
+
+Extents extents_of(const CanonicalPrimitives& primitives) {
+  Extents extents(primitives.size());
+  for_each_part(extents.size(), [&](size_t i) { extents[i] = extent_of(primitives[i]); });
+  return extents;
+}
+
+bool have_common(std::span<const uint32_t> a, std::span<const uint32_t> b) {
+  return std::ranges::any_of(a, [b](uint32_t i) { return std::ranges::binary_search(b, i); });
 }
 
 }  // namespace
@@ -67,30 +81,33 @@ std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& sce
 }
 
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree)
-    : primitives_(std::move(primitives)),
-      list_(compile(tree)),
-      bounds_(bounds_of(*primitives_, tree)) {
+    : primitives_(std::move(primitives)), bounds_(bounds_of(*primitives_, tree)) {
   if (tree.empty()) {
     groups_ = outer_groups_ = std::make_shared<const OperandGroups>();
     return;
   }
+  Extents extents = extents_of(*primitives_);
+  if (auto lean = leave_out_redundant(tree, *primitives_, extents, thinnest_piece(bounds_))) {
+    lean_ = std::make_shared<const LeanTree>(*std::move(lean));
+  }
+  list_ = compile(used_of(tree));
   auto list = std::make_shared<CellList>();
   assign(*list, list_.literals);
   cell_list_ = std::move(list);
-  Extents extents(primitives_->size());
-  for_each_part(extents.size(), [&](size_t i) { extents[i] = extent_of((*primitives_)[i]); });
-  make_groups(tree, std::move(extents));
-  find_outer_groups(tree);
+  make_groups(used_of(tree), std::move(extents));
+  find_outer_groups(used_of(tree));
 }
 
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
              const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit) {
   const bool has_same_list = tree_edit == TreeEdit::kSame && !tree.empty();
-  if (!has_same_list || edit.added.size() > kMostMoved * edit.primitives_after) {
+  const bool may_be_wrong = earlier.lean_ && have_common(edit.added, earlier.lean_->grounds);
+  if (!has_same_list || may_be_wrong || edit.added.size() > kMostMoved * edit.primitives_after) {
     *this = Solid(std::move(primitives), tree);
     return;
   }
   primitives_ = std::move(primitives);
+  lean_ = earlier.lean_;
   list_ = earlier.list_;
   cell_list_ = earlier.cell_list_;
   if (edit.added.empty()) {
@@ -103,10 +120,13 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   const std::span<const Extent> extents_before = earlier.extents();
   Extents extents(extents_before.begin(), extents_before.end());
   for (const uint32_t i : edit.added) extents[i] = extent_of((*primitives_)[i]);
-  groups_ = OperandGroups::with_moved(earlier.groups_, tree, extents, edit.added);
-  if (!groups_) make_groups(tree, std::move(extents));
-  find_outer_groups(tree);
+  const CsgTree& used = used_of(tree);
+  groups_ = OperandGroups::with_moved(earlier.groups_, used, extents, edit.added);
+  if (!groups_) make_groups(used, std::move(extents));
+  find_outer_groups(used);
 }
+
+const CsgTree& Solid::used_of(const CsgTree& tree) const { return lean_ ? lean_->tree : tree; }
 
 void Solid::make_groups(const CsgTree& tree, Extents extents) {
   groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(extents),
@@ -121,6 +141,14 @@ void Solid::find_outer_groups(const CsgTree& tree) {
   Extents same(extents().begin(), extents().end());
   outer_groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(same), margin,
                                                         std::move(hidden));
+}
+
+std::span<const uint32_t> Solid::inner() const {
+  return lean_ ? std::span<const uint32_t>(lean_->inner) : std::span<const uint32_t>();
+}
+
+std::span<const uint32_t> Solid::equal() const {
+  return lean_ ? std::span<const uint32_t>(lean_->equal) : std::span<const uint32_t>();
 }
 
 std::span<const Extent> Solid::extents() const {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "assembler.hpp"
+#include "builder.hpp"
 #include "csgcore/subdivision.hpp"
 #include "restriction.hpp"
 
@@ -59,7 +60,6 @@ class Updater {
         classifier_(solid.primitives()),
         restrictor_(solid.extents(), classifier_),
         builder_(solid, options, overlap, no_sink_),
-        assembler_(tree),
         is_changed_(tree.nodes.size()) {}
 
   /// Marks nodes whose leaves name a primitive that is gone. They are mostly found by their cells,
@@ -111,12 +111,19 @@ class Updater {
     return count;
   }
 
-  /// Replaces the marked leaves. `literals` are the whole solid's.
-  void replace_all(const Box& root_box, std::span<const Literal> literals) {
+  /// Replaces the marked leaves. `literals` are the whole solid's. Returns whether the budget
+  /// sufficed.
+  bool replace_all(const Box& root_box, std::span<const Literal> literals) {
+    if (!is_changed_[0]) return true;
     CellList whole, list;
     assign(whole, literals);
     restrictor_.restrict(whole, inflated(root_box), list);
-    if (is_changed_[0]) replace(0, root_box, 0, list);
+    const uint64_t stored_bytes = bytes_of(tree_);
+    start(0, root_box, 0, list);
+    if (!builder_.can_divide(starts_, stored_bytes)) return false;
+    if (!builder_.finish(starts_, stored_bytes)) return false;
+    place(std::move(starts_), slots_, tree_);
+    return true;
   }
 
  private:
@@ -126,14 +133,16 @@ class Updater {
     return std::span(tree_.literals).subspan(leaf.first_literal, leaf.literal_count);
   }
 
-  /// As deep as the tree. `list` is the solid's function within the node's cell.
-  void replace(uint32_t index, const Box& box, uint32_t depth, const CellList& list) {
-    const KdNode node = tree_.nodes[index];  // a copy: nodes are added
+  /// Starts what replaces the marked leaves at and below the node. As deep as the tree. `list` is
+  /// the solid's function within the node's cell.
+  void start(uint32_t index, const Box& box, uint32_t depth, const CellList& list) {
+    const KdNode& node = tree_.nodes[index];
     if (node.axis == KdNode::kLeafAxis) {
-      const Leaf leaf = tree_.leaves[node.below];
-      tree_.leaves[node.below].kind = LeafKind::kReplaced;
-      tree_.leaves[node.below].solid = false;
-      assembler_.place(*builder_.replace(leaf, depth, list), index);
+      Leaf& leaf = tree_.leaves[node.below];
+      builder_.start(leaf, depth, list, starts_);
+      slots_.push_back(index);
+      leaf.kind = LeafKind::kReplaced;
+      leaf.solid = false;
       return;
     }
     CellList halves[2];
@@ -144,8 +153,8 @@ class Updater {
       restrictor_.restrict(list, {inflated(boxes[0]), inflated(boxes[1]), node.axis}, halves[0],
                            halves[1]);
     }
-    if (is_changed_[node.below]) replace(node.below, boxes[0], depth + 1, halves[0]);
-    if (is_changed_[node.above]) replace(node.above, boxes[1], depth + 1, halves[1]);
+    if (is_changed_[node.below]) start(node.below, boxes[0], depth + 1, halves[0]);
+    if (is_changed_[node.above]) start(node.above, boxes[1], depth + 1, halves[1]);
   }
 
   const double overlap_;
@@ -154,7 +163,8 @@ class Updater {
   WorldClassifier classifier_;
   Restrictor restrictor_;
   Builder builder_;
-  Assembler assembler_;
+  Chunk starts_;
+  std::vector<uint32_t> slots_;      // nodes whose places the subtrees of `starts_` take
   std::vector<uint8_t> is_changed_;  // by node, of those before the edit
 };
 
@@ -182,7 +192,10 @@ SubdivisionUpdate Subdivision::update(const Solid& solid, const SceneEdit& edit,
     return all_anew();
   }
 
-  Chunk tree{std::move(nodes_), std::move(leaves_), std::move(literals_)};
+  Chunk tree;
+  tree.nodes = std::move(nodes_);
+  tree.leaves = std::move(leaves_);
+  tree.literals = std::move(literals_);
   Updater updater(solid, options_, overlap_, tree);
   if (!edit.keeps_indices()) updater.mark_gone(edit.later_indices());
   updater.mark(0, root_box_, changes_of(before, solid, edit));
@@ -204,7 +217,7 @@ SubdivisionUpdate Subdivision::update(const Solid& solid, const SceneEdit& edit,
       literal.primitive = (later == SceneEdit::kGone ? 0 : later) & 0x7FFFFFFFu;
     }
   }
-  updater.replace_all(root_box_, solid.list().literals);
+  if (!updater.replace_all(root_box_, solid.list().literals)) return all_anew();
   nodes_ = std::move(tree.nodes);
   leaves_ = std::move(tree.leaves);
   literals_ = std::move(tree.literals);

@@ -73,22 +73,6 @@ Box box_about(const Tile& tile, uint64_t pixels) {
   return box;
 }
 
-/// The smallest box on the screen that holds its pixels' centres, and so much more at each side.
-Box box_of(const Tile& tile, double border_px) {
-  return {{tile.x - border_px, tile.y - border_px, 0},
-          {tile.x + tile.width - 1 + border_px, tile.y + tile.height - 1 + border_px, 0}};
-}
-
-/// Of the rays through its corners, in the first four lanes.
-PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box) {
-  PacketLaterals corners{};
-  for (uint32_t lane = 0; lane < 4; ++lane) {
-    corners.u[lane] = frame.u((lane & 1) ? box.max.x : box.min.x);
-    corners.v[lane] = frame.v((lane & 2) ? box.max.y : box.min.y);
-  }
-  return corners;
-}
-
 /// As many points around a tile's border, its corners among them, as rays are in a packet.
 struct BorderPoints {
   explicit BorderPoints(const Box& box) {
@@ -133,6 +117,15 @@ struct BorderPoints {
 
 }  // namespace
 
+PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box) {
+  PacketLaterals corners{};
+  for (uint32_t lane = 0; lane < 4; ++lane) {
+    corners.u[lane] = frame.u((lane & 1) ? box.max.x : box.min.x);
+    corners.v[lane] = frame.v((lane & 2) ? box.max.y : box.min.y);
+  }
+  return corners;
+}
+
 TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellList& list,
                                                  Restrictor& restrictor, CellList& result) {
   if (!find_covers(tile, list)) return Outcome::kNothing;
@@ -166,8 +159,7 @@ double TileSimplifier::slack_of(const Cover& cover) {
 
 /// The longest first.
 bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
-  const double border = centers_only_ ? 0.0 : 0.5;
-  const Box box = box_of(tile, border);
+  const Box box = box_of(tile, centers_only_);
   covers_.clear();
   has_groups_ = is_partly_covered_ = false;
   for (const uint32_t entry : list.primitives()) {
@@ -177,8 +169,7 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
       continue;
     }
     const Extent& e = screen_[primitive];
-    if (e.center[0] - e.half[0] > box.min.x || e.center[0] + e.half[0] < box.max.x ||
-        e.center[1] - e.half[1] > box.min.y || e.center[1] + e.half[1] < box.max.y) {
+    if (!covers(e, box)) {
       is_partly_covered_ |= covers_more_than(e, tile);
       continue;
     }
@@ -424,7 +415,7 @@ std::optional<HiddenSide> TileSimplifier::cut_by_line(const Tile& tile, const Ce
   if (!last_value_ || !centers_only_) return std::nullopt;
   const std::optional<uint32_t> primitive = find_large(tile, list);
   if (!primitive) return std::nullopt;
-  const Box box = box_of(tile, 0);
+  const Box box = box_of(tile, centers_only_);
   RayPacket rays;
   PacketSegments segments;
   make_four_rays(frame_, laterals_of_corners(frame_, box), rays);

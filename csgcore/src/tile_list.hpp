@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,20 @@ namespace csgcore {
 
 /// What the screen is divided into.
 using Tile = PixelArea;
+
+/// Where a tile's rays go through the screen, at any depth: through its pixels' centres alone, or
+/// anywhere in its pixels.
+inline Box box_of(const Tile& tile, bool centers_only) {
+  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
+  const double border = centers_only ? 0.0 : 0.5;
+  const double x = tile.x;
+  const double y = tile.y;
+  return {{x - border, y - border, -kAnyDepth},
+          {x + tile.width - 1 + border, y + tile.height - 1 + border, kAnyDepth}};
+}
+
+/// Rays through the corners of such a box, in the first four lanes.
+PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box);
 
 /// Why a primitive was never intersected; the largest that any tile saw counts.
 enum class Fate : uint8_t {
@@ -57,7 +72,8 @@ class TileSimplifier {
   /// `cover_share`: a stretch counts if it is longer than this share of its primitive's depth.
   TileSimplifier(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
                  ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
-                 std::optional<bool> last_value, double cover_share, Fates& fates)
+                 std::optional<bool> last_value, double cover_share, double thinnest_piece,
+                 Fates& fates)
       : primitives_(primitives),
         groups_(groups),
         bounds_(bounds),
@@ -66,6 +82,7 @@ class TileSimplifier {
         centers_only_(centers_only),
         last_value_(last_value),
         cover_share_(cover_share),
+        thinnest_piece_(thinnest_piece),
         fates_(fates) {}
 
   enum class Outcome : uint8_t {
@@ -92,9 +109,15 @@ class TileSimplifier {
   /// side, behind where one primitive hides it.
   std::optional<HiddenSide> cut_by_line(const Tile& tile, const CellList& list,
                                         Restrictor& restrictor, CellList& result);
+  /// If all rays of the tile enter one primitive by one plane face, and have ended where they do:
+  /// `result` is without what lies behind that plane, or touches it from behind and comes earlier
+  /// in the file. False: there is no such primitive, or nothing behind it. cut_t() is the furthest
+  /// depth of that face.
+  bool cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                   CellList& result);
   /// By the list's indices.
   std::span<const uint8_t> marked() const { return marked_; }
-  /// After kCut: the depth that all rays of the tile end before.
+  /// After a cut for all of a tile's rays: the depth that all rays of the tile end before.
   double cut_t() const { return cut_t_; }
   /// Whether some primitive covers a part of the tile that smaller tiles may lie in wholly.
   bool is_partly_covered() const { return is_partly_covered_; }
@@ -105,6 +128,21 @@ class TileSimplifier {
     uint32_t primitive;
     double from_t, to_t;
   };
+  struct FaceCandidate {
+    uint32_t index;  // in the list
+    uint32_t primitive;
+    double entry_t;
+  };
+  /// normal · (x − pivot) = offset.
+  struct FacePlane {
+    Vec3 normal;
+    double offset;
+  };
+  void find_face_candidates(const CellList& list, const Box& tile, size_t most);
+  std::optional<FacePlane> entered_plane(const RayPacket& rays, uint32_t primitive,
+                                         const PacketSegments& segments) const;
+  bool lies_behind(uint32_t index, const FacePlane& plane, double limit) const;
+  bool is_enough(const CellList& list, uint32_t index, Restrictor& restrictor);
   static double slack_of(const Cover& cover);
   bool find_covers(const Tile& tile, const CellList& list);
   void decide_within(const CellList& list, double from_t, double to_t);
@@ -130,6 +168,7 @@ class TileSimplifier {
   bool centers_only_;
   std::optional<bool> last_value_;
   double cover_share_;
+  double thinnest_piece_;
   Fates& fates_;
 
   using Decision = Restrictor::Decision;
@@ -145,6 +184,7 @@ class TileSimplifier {
   CellList probe_;
   std::vector<uint8_t> decides_;
   std::vector<uint32_t> noted_;
+  std::vector<FaceCandidate> face_candidates_;
 };
 
 }  // namespace csgcore

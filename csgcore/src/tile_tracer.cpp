@@ -37,6 +37,11 @@ constexpr double kOpenShareBehind = 4.0;
 
 /// Of a larger tile, a line tells badly what is hidden (tests/benchmark/NOTES.md).
 constexpr uint32_t kLineCutSide_px = 64;
+static_assert(kTileSide_px <= kLineCutSide_px);
+
+/// Tiles of so many pixels a side are cut by faces, and lists of so many literals.
+constexpr uint32_t kFaceCutSide_px = 128;
+constexpr uint32_t kLeastFaceCut = 4;
 
 /// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
 constexpr uint32_t kLongCutList = 256;
@@ -91,6 +96,7 @@ TraceList TileList::trace_list(const PacketBlock& block) const {
 /// The lists of one level of the recursion, reused by all tiles of that level.
 struct TileTracer::Level {
   CellList halves[2];
+  CellList in_front;
   CellList simplified;
   CellList cut;
   CellList opened[2];
@@ -102,7 +108,7 @@ struct TileTracer::Workspace {
       : restrictor(owner.bounds_.extents(), owner.bounds_, Restrictor::Space::kScreen),
         simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
                    owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
-                   owner.fates_) {}
+                   owner.subject_.thinnest_piece, owner.fates_) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -212,12 +218,7 @@ TileTracer::TileTracer(const Solid& solid, const Seen& seen, const FrameRays& fr
 TileTracer::~TileTracer() = default;
 
 Box TileTracer::box_of(const Tile& tile) const {
-  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
-  const double border = rules_.centers_only ? 0.0 : 0.5;
-  const double x = tile.x;
-  const double y = tile.y;
-  return {{x - border, y - border, -kAnyDepth},
-          {x + tile.width - 1 + border, y + tile.height - 1 + border, kAnyDepth}};
+  return csgcore::box_of(tile, rules_.centers_only);
 }
 
 void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
@@ -251,10 +252,16 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
     if (!cut.uncut) cut.uncut = &given;
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
   };
+  if (rules_.cuts_in_part && side <= kFaceCutSide_px && list->count() >= kLeastFaceCut &&
+      workspace.simplifier.cut_by_face(tile, *list, workspace.restrictor, own.in_front)) {
+    if (!cut.uncut) cut.uncut = &given;
+    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+    list = &own.in_front;
+  }
   // Groups that are left of a list that was cut are mostly seen.
   simplify_list(!cut.is_for_all() && has_groups(groups_, *list));
-  const bool is_cut_in_part =
-      rules_.cuts_in_part && !cut.is_for_all() && !cut.by_pixels && has_groups(groups_, *list);
+  const bool is_cut_in_part = rules_.cuts_in_part && side <= kLineCutSide_px && !cut.is_for_all() &&
+                              !cut.by_pixels && has_groups(groups_, *list);
   LineCut line;
   const HiddenSide* hidden = nullptr;
   if (is_cut_in_part && is_short() && side <= kTileSide_px) {
@@ -266,7 +273,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
       list =
           open_wanted_groups({cut.by_pixels->seen}, &own.cut, is_behind_cut, own.opened, workspace);
     }
-  } else if (is_cut_in_part && side <= kLineCutSide_px) {
+  } else if (is_cut_in_part) {
     const auto found = workspace.simplifier.cut_by_line(tile, *list, workspace.restrictor, own.cut);
     if (found) {
       if (!cut.uncut) cut.uncut = &given;
@@ -508,7 +515,7 @@ void TileTracer::note_screen_fates() {
     fates_.note(primitive, Fate::kInside);
   }
   bounds_.bound_all();
-  for (uint32_t primitive = 0; primitive < solid_.primitives().size(); ++primitive) {
+  for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
     const ScreenFate fate = fate_on_screen(bounds_.extents()[primitive]);
     if (fate == ScreenFate::kOffScreen) fates_.note(primitive, Fate::kOffScreen);
     if (fate == ScreenFate::kSubPixel) fates_.note(primitive, Fate::kSubPixel);

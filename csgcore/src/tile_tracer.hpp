@@ -43,7 +43,7 @@ class TileRays {
   struct Met {
     const CellList& list;
     /// All rays end before this depth, and the list is without what lies behind it. +∞: it is
-    /// without nothing.
+    /// without nothing. Of lists that are cut in part this is not known (TileRules::cuts_in_part).
     double cut_t;
   };
   virtual Met met() = 0;
@@ -81,7 +81,8 @@ struct TileRules {
   /// What is hidden is left out where what hides it is, along every ray, longer than this share of
   /// its depth on the screen: who computes less exactly than the tracer must not miss it.
   double cover_share = 0;
-  /// Whether it may be without what is hidden from some of a tile's pixels alone.
+  /// Whether it may be without what is hidden from some of a tile's pixels alone, or behind a face
+  /// that all of its rays meet at depths of their own.
   bool cuts_in_part = true;
 };
 
@@ -121,7 +122,7 @@ class TileTracer {
   /// What a list has lost of what is hidden.
   struct Cut {
     const CellList* uncut = nullptr;  // the list before; null: it is whole
-    /// TileRays::Met::cut_t
+    /// All rays end before this depth: TileRays::Met::cut_t, unless cut by a face.
     double t = std::numeric_limits<double>::infinity();
     // What is lost where some rays end alone:
     std::optional<TileSimplifier::PixelCut> by_pixels;

@@ -34,7 +34,7 @@ class Stopwatch {
 
 TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
   TraceSubject subject;
-  subject.thinnest_piece = thinnest_piece(solid.bounds());
+  subject.thinnest_piece = options.thinnest_piece.value_or(thinnest_piece(solid.bounds()));
   subject.boundary = options.boundary;
   subject.stop = options.stop;
   return subject;
@@ -58,6 +58,9 @@ class PixelVisitor final : public TileVisitor {
 };
 
 void count_fates(const Solid& solid, const Fates& fates, TraceStats& stats) {
+  stats.skipped.cancelled = solid.equal().size();
+  stats.skipped.inside = solid.inner().size();
+  stats.primitives = solid.equal().size() + solid.inner().size();
   std::vector<bool> seen(solid.primitives().size());
   for (const Literal& literal : solid.list().literals) {
     if (seen[literal.primitive]) continue;

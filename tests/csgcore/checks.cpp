@@ -182,6 +182,7 @@ void expect_kind(const Subdivision& subdivision, const Leaf& leaf) {
       EXPECT_TRUE(few);
       break;
     case LeafKind::kFull:
+    case LeafKind::kGivenUp:
       EXPECT_FALSE(few);
       break;
     case LeafKind::kDropped:

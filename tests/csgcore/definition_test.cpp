@@ -14,21 +14,7 @@ namespace csgcore {
 namespace {
 
 using checks::moved;
-
-/// Trees in prefix notation: "(- 0 1 (+ 2 3))".
-CsgTree tree_of(const std::string& text) {
-  CsgTreeBuilder builder;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '(') {
-      const char op = text[++i];
-      builder.open(op == '+' ? Op::kUnion : op == '-' ? Op::kDifference : Op::kIntersection);
-    }
-    if (c == ')') builder.close();
-    if (c >= '0' && c <= '9') builder.primitive(static_cast<uint32_t>(c - '0'));
-  }
-  return builder.finish();
-}
+using checks::tree_of;
 
 /// One pixel's ray: from 100 above the x-y plane, through (x, y) down along −z, or leaning.
 struct Look {
@@ -84,10 +70,12 @@ testing::AssertionResult shows(const Seen& seen, uint32_t primitive, double z, c
 
 // --- Coincident faces ---
 
-TEST(Definition, OfCoincidentFacesTheLowestIndexIsShown) {
-  EXPECT_TRUE(shows(look_at({slab(0, 1), slab(0, 1)}, "(+ 1 0)", {}), 0u, 1, kUp));
-  EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1), slab(-2, 1)}, "(+ 2 1 0)", {}), 0u, 1, kUp));
-  EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1)}, "(* 1 0)", {}), 0u, 1, kUp));
+TEST(Definition, OfCoincidentFacesTheLastInFileOrderIsShown) {
+  EXPECT_TRUE(shows(look_at({slab(0, 1), slab(0, 1)}, "(+ 1 0)", {}), 1u, 1, kUp));
+  EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1), slab(-2, 1)}, "(+ 2 1 0)", {}), 2u, 1, kUp));
+  EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1)}, "(* 1 0)", {}), 1u, 1, kUp));
+  // What is subtracted, and only touches what is left.
+  EXPECT_TRUE(shows(look_at({slab(0, 1), slab(1, 2)}, "(- 0 1)", {}), 1u, 1, kUp));
 }
 
 TEST(Definition, AFlushHoleIsOpen) {
@@ -111,19 +99,27 @@ TEST(Definition, AFaceSharedByAUnionLeavesNoSkin) {
 }
 
 /// The cut face and the part that fills the cut up to it: either alone would be seen there.
-TEST(Definition, ACutFaceThatMeetsAnotherPartIsTheLowerIndexs) {
+TEST(Definition, ACutFaceThatMeetsAnotherPartIsThatOfTheLast) {
   EXPECT_TRUE(
-      shows(look_at({slab(0, 2), slab(1, 3), slab(-1, 1)}, "(+ (- 0 1) 2)", {}), 1u, 1, kUp));
+      shows(look_at({slab(0, 2), slab(1, 3), slab(-1, 1)}, "(+ (- 0 1) 2)", {}), 2u, 1, kUp));
   EXPECT_TRUE(
-      shows(look_at({slab(0, 2), slab(-1, 1), slab(1, 3)}, "(+ (- 0 2) 1)", {}), 1u, 1, kUp));
+      shows(look_at({slab(0, 2), slab(-1, 1), slab(1, 3)}, "(+ (- 0 2) 1)", {}), 2u, 1, kUp));
 }
 
-TEST(Definition, WhereNoChangeAloneDecidesTheFirstThatDoTogether) {
+TEST(Definition, OfFacesThatTurnNoOperationNoneIsShown) {
   const std::vector<Primitive> four(4, slab(0, 1));
-  EXPECT_TRUE(shows(look_at(four, "(+ (* 0 1) (* 2 3))", {}), 0u, 1, kUp));
-  EXPECT_TRUE(shows(look_at(four, "(+ (* 1 3) (* 0 2))", {}), 0u, 1, kUp));
-  // 0 makes no difference to anything.
-  EXPECT_TRUE(shows(look_at(four, "(+ (* 1 2) (* 1 3) (- (* 0 1) 1))", {}), 1u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(four, "(+ (* 0 1) (* 2 3))", {}), 3u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(four, "(+ (* 1 3) (* 0 2))", {}), 3u, 1, kUp));
+  // 3 and 2 are cut away at once.
+  EXPECT_TRUE(shows(look_at(four, "(+ (* 0 1) (- 3 2))", {}), 1u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(four, "(* 0 (+ 1 (- 3 2)))", {}), 1u, 1, kUp));
+  // 3 is cut away by what the ray is in already.
+  const std::vector<Primitive> in_cut{slab(0, 1), slab(0, 2), slab(-3, 1), slab(-2, 1)};
+  EXPECT_TRUE(shows(look_at(in_cut, "(+ (- 3 1) 0)", {}), 0u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(in_cut, "(+ (- 3 1) (* 0 2))", {}), 2u, 1, kUp));
+  // 3 alone would do, but the ray is in the other operand's part already.
+  const std::vector<Primitive> in_other{slab(0, 1), slab(0, 2), slab(-3, 1), slab(-2, 1)};
+  EXPECT_TRUE(shows(look_at(in_other, "(* 0 (+ 1 3))", {}), 0u, 1, kUp));
 }
 
 TEST(Definition, APrimitiveThatIsAddedAndSubtractedFacesOutBothWays) {
@@ -135,8 +131,8 @@ TEST(Definition, APrimitiveThatIsAddedAndSubtractedFacesOutBothWays) {
   EXPECT_TRUE(shows(look_at(parts, either_or, behind), 0u, 2, kDown));
   // Two that coincide, so that neither alone decides.
   const std::vector<Primitive> twins{slab(0, 1), slab(0, 1), slab(-3, -2)};
-  EXPECT_TRUE(shows(look_at(twins, "(+ 0 1 (- 2 0 1))", {}), 0u, 1, kUp));
-  EXPECT_TRUE(shows(look_at(twins, "(+ (- 2 0 1) 0 1)", {}), 0u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(twins, "(+ 0 1 (- 2 0 1))", {}), 1u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(twins, "(+ (- 2 0 1) 0 1)", {}), 1u, 1, kUp));
 }
 
 // --- The thinnest piece ---

@@ -424,8 +424,8 @@ TEST(MemberRectangles, LieOnASideOfALineOrNot) {
           screen.center[axis] = 0.5 * (double(rows[2 * axis][i]) + rows[2 * axis + 1][i]);
           screen.half[axis] = 0.5 * (double(rows[2 * axis + 1][i]) - rows[2 * axis][i]);
         }
-        screen.center[2] = 1;  // behind the side's depth
-        constexpr double kRounding = 1e-5;
+        screen.center[2] = 1;               // behind the side's depth
+        constexpr double kRounding = 1e-5;  // some roundings in float of coordinates below 10
         if (std::abs(furthest - side.limit) < kRounding) continue;
         const bool is_on_side = furthest < side.limit;
         EXPECT_EQ((on_side >> i & 1) != 0, is_on_side);

@@ -192,5 +192,50 @@ TEST(Polyhedron, OnlyOfConvexMeshes) {
   EXPECT_FALSE(Polyhedron::from(Mesh{}));
 }
 
+TEST(Polyhedron, FacesMayRunEitherWay) {
+  for (const Mesh& mesh : {box_mesh({Vec3(-1, 0, 2), Vec3(1, 3, 5)}), sphere_mesh(2, 9),
+                           frustum_mesh(0, 3, 2, 0, 7)}) {
+    const std::vector<HalfSpace> wanted = Polyhedron::from(mesh)->half_spaces();
+    std::mt19937 random(7);
+    for (int i = 0; i < 8; ++i) {
+      Mesh turned = mesh;
+      for (std::vector<uint32_t>& face : turned.faces) {
+        // All of them first, then some.
+        if (i == 0 || random() % 2 == 0) std::reverse(face.begin(), face.end());
+      }
+      const auto polyhedron = Polyhedron::from(turned);
+      ASSERT_TRUE(polyhedron);
+      for (size_t k = 0; k < wanted.size(); ++k) {
+        const HalfSpace& found = polyhedron->half_spaces()[k];
+        EXPECT_LE(glm::length(found.normal - wanted[k].normal),
+                  1e-14 * glm::length(wanted[k].normal));
+        EXPECT_NEAR(found.offset, wanted[k].offset, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Polyhedron, OnlyOfClosedMeshes) {
+  const auto without_last = [](Mesh mesh) {
+    mesh.faces.pop_back();
+    return mesh;
+  };
+  const auto with_again = [](Mesh mesh, std::vector<uint32_t> face) {
+    mesh.faces.push_back(std::move(face));
+    return mesh;
+  };
+  const Mesh box = box_mesh({Vec3(0), Vec3(1)});
+  std::vector<uint32_t> turned = box.faces[0];
+  std::reverse(turned.begin(), turned.end());
+  EXPECT_FALSE(Polyhedron::from(without_last(box)));
+  EXPECT_FALSE(Polyhedron::from(with_again(box, box.faces[0])));
+  EXPECT_FALSE(Polyhedron::from(with_again(box, turned)));
+  // Opposite faces of an octahedron, each twice: all edges are there twice, and nothing is closed.
+  const std::vector<Vec3> corners = {Vec3(1, 0, 0),  Vec3(0, 1, 0),  Vec3(0, 0, 1),
+                                     Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1)};
+  EXPECT_FALSE(Polyhedron::from({corners, {{0, 1, 2}, {2, 1, 0}, {3, 4, 5}, {5, 4, 3}}}));
+  EXPECT_FALSE(Polyhedron::from({corners, {{0, 1, 2}, {0, 1, 2}, {3, 4, 5}, {3, 4, 5}}}));
+}
+
 }  // namespace
 }  // namespace csgcore

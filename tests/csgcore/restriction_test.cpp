@@ -105,8 +105,8 @@ TEST(Restriction, DropsWhatAnOperandMadeIrrelevant) {
   for (uint32_t part = 0; part < 2; ++part) {
     builder.open(Op::kDifference);
     for (uint32_t i = 0; i < 4; ++i) {
-      const Vec3 center{10.0 * part, i == 0 ? 0.0 : 1.0, 0.0};
-      scene.primitives.push_back(make_sphere(i == 0 ? 1.0 : 20.0 + i, {Mat3{1.0}, center}));
+      const Vec3 center{10.0 * part, i, 0.0};
+      scene.primitives.push_back(make_sphere(i == 0 ? 1.0 : 20.0, {Mat3{1.0}, center}));
       builder.primitive(4 * part + i);
     }
     builder.close();

@@ -154,7 +154,7 @@ TEST(Skipped, BetweenTheSamples) {
   const auto dust = [](uint32_t i) {
     const double x = 0.25 * std::round(4 * place(i)),
                  y = 0.25 * std::round(2 * place(7 * i % kParts));
-    return make_sphere(0.02, checks::moved({x, y, 0}));
+    return make_sphere(0.02, checks::moved({x, y, 1e-3 * i}));  // no two are equal
   };
   expect_skipped({{kLeft, kRight, make_sphere(5, checks::moved({0, 0, -20}))}, dust, build_union},
                  &SkippedPrimitives::sub_pixel);
@@ -189,7 +189,7 @@ TEST(Skipped, AddedAndWhollySubtracted) {
   };
   // A block, its upper half cut off, and in the air above it the parts, cut off too.
   const auto in_the_air = [](uint32_t i) {
-    return make_sphere(0.5, checks::moved({0.1 * (i % 7), 0.1 * (i % 5), 2 + 0.01 * i}));
+    return make_sphere(0.5, checks::moved({0.1 * (i % 7), 0.1 * (i % 5), 4 + 0.01 * i}));
   };
   expect_skipped({{kLeft, kRight, make_sphere(2, checks::moved({0, 0, -30})),
                    make_frustum(-3, 3, 5, 5), make_frustum(0, 20, 100, 100)},

@@ -1,6 +1,8 @@
 // A subdivision that follows edits: valid cells, the same picture, and no more work than needed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/tracer.hpp"
@@ -103,6 +105,9 @@ void follow_edits(checks::Design& design, const SubdivisionOptions& options, int
       }
     }
     if (!subdivision.nodes().empty()) checks::expect_correct(subdivision, after->scene, 2);
+    if (options.budget_bytes > 0) {
+      ASSERT_LE(subdivision.bytes(), options.budget_bytes);
+    }
     const View view =
         checks::trace_views(after->solid.bounds(), 61, 45)[static_cast<size_t>(save) % 7].view;
     ASSERT_TRUE(same_bits(checks::trace_by_cells(subdivision, view),
@@ -126,6 +131,25 @@ TEST(SubdivisionUpdate, RandomEditsLeaveCellsValid) {
     ASSERT_NO_FATAL_FAILURE(follow_edits(design, options, 12, random, counts));
   }
   EXPECT_GT(counts.in_part, counts.anew / 2);
+}
+
+/// What an edit adds stays within the budget; where that does not suffice all is made anew.
+TEST(SubdivisionUpdate, EditsKeepToTheBudget) {
+  std::mt19937 random(5);
+  Counts counts;
+  for (uint32_t round = 0; round < 6; ++round) {
+    SCOPED_TRACE("design " + std::to_string(round));
+    checks::Design design(checks::framed_tree(60, round));
+    SubdivisionOptions options;
+    options.leaf_primitives = 2;
+    const Made made(design.scene());
+    // Some more than it takes, and less than that.
+    const uint64_t bytes = Subdivision(made.solid, options).bytes();
+    options.budget_bytes = round % 2 ? bytes + bytes / 8 : bytes / 2;
+    ASSERT_NO_FATAL_FAILURE(follow_edits(design, options, 10, random, counts));
+  }
+  EXPECT_GT(counts.in_part, 0);
+  EXPECT_GT(counts.anew, 0);
 }
 
 /// Few leaves are touched; and however many edits follow each other, what is stored stays bounded.
@@ -300,7 +324,11 @@ TEST(SubdivisionUpdate, OtherBoundsAreSubdividedAnew) {
 /// Surfaces that coincide are left in one cell, which edits do not blow up.
 TEST(SubdivisionUpdate, CoincidentSurfacesStayInOneCell) {
   std::vector<Primitive> parts;
-  for (int i = 0; i < 12; ++i) parts.push_back(make_frustum(-1, 1 + i % 3, 4, 4));
+  for (int i = 0; i < 12; ++i) {  // turned, so that none are equal; and none is within another
+    const double c = std::cos(0.1 * i), s = std::sin(0.1 * i);
+    parts.push_back(make_frustum(-1 - i % 3, 1 - i % 3, 4, 4,
+                                 {Mat3{Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1)}, Vec3(0.0)}));
+  }
   for (int i = 0; i < 400; ++i) {  // so that there is much to keep
     parts.push_back(make_sphere(0.5, checks::moved({1.2 * (i % 20), 10 + 1.2 * (i / 20), 0})));
   }

@@ -181,8 +181,9 @@ TEST(TileLists, LongOnesAreOfSmallTiles) {
 }
 
 TEST(TileLists, ListsThatNoDivisionMakesShortEnoughAreRefused) {
-  const Scene scene =
-      test_support::scene_of(Op::kIntersection, std::vector<Primitive>(40000, make_sphere(1)));
+  std::vector<Primitive> spheres;
+  for (int i = 0; i < 40000; ++i) spheres.push_back(make_sphere(1 + 1e-6 * i));
+  const Scene scene = test_support::scene_of(Op::kIntersection, std::move(spheres));
   const Solid solid(canonical_primitives(scene), scene.model);
   const View view = checks::trace_views(solid.bounds(), 640, 480).front().view;
   TileListOptions options = options_of(solid);

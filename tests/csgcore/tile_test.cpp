@@ -382,7 +382,7 @@ class Simplifying {
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
         restrictor_(bounds_.extents(), bounds_, Restrictor::Space::kScreen),
         simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
-                    0.0, fates_) {
+                    0.0, thinnest_piece(solid_.bounds()), fates_) {
     bounds_.bound_all();
   }
 
@@ -400,9 +400,12 @@ class Simplifying {
     const auto is_hidden = [&](uint32_t x, uint32_t y) {
       return (cut->hidden >> ((y - tile.y) * kPacketWidth_px + x - tile.x) & 1) != 0;
     };
-    for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
-      for (uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
-        if (is_hidden(x, y)) continue;
+    constexpr uint32_t kSide_px = 8;  // of what the bits are for
+    for (uint32_t y = tile.y; y < tile.y + kSide_px; ++y) {
+      for (uint32_t x = tile.x; x < tile.x + kSide_px; ++x) {
+        const bool is_in_tile = x < tile.x + tile.width && y < tile.y + tile.height;
+        EXPECT_TRUE(is_in_tile || !is_hidden(x, y));
+        if (!is_in_tile || is_hidden(x, y)) continue;
         EXPECT_GE(x, cut->seen.min.x);
         EXPECT_LE(x, cut->seen.max.x);
         EXPECT_GE(y, cut->seen.min.y);
@@ -456,13 +459,9 @@ class Simplifying {
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
   /// False if it is constant.
   bool restrict_to(const Tile& tile, CellList& list) {
-    const Box box{{tile.x, tile.y, -kFar},
-                  {tile.x + tile.width - 1.0, tile.y + tile.height - 1.0, kFar}};
-    restrictor_.restrict(*solid_.cell_list(), box, list);
+    restrictor_.restrict(*solid_.cell_list(), box_of(tile, true), list);
     return !list.is_constant();
   }
 
@@ -551,7 +550,7 @@ TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
     if (outcome.hits > 0) dropped += outcome.before - outcome.after;
     hits += outcome.hits;
   });
-  EXPECT_GT(dropped, 1000u);
+  EXPECT_GT(dropped, 200u);
   EXPECT_GT(hits, 10000u);
 }
 
@@ -583,12 +582,9 @@ TEST(SimplifierByLine, DropsOnlyWhatItsRaysDoNotSee) {
 TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
     std::mt19937 random(4);
-    Scene scene;
-    CsgTreeBuilder builder;
-    builder.open(Op::kUnion);
+    std::vector<Primitive> primitives;
     const auto add = [&](double radius, const Vec3& center) {
-      scene.primitives.push_back(make_sphere(radius, {Mat3(1.0), center}));
-      builder.primitive(static_cast<uint32_t>(scene.primitives.size() - 1));
+      primitives.push_back(make_sphere(radius, {Mat3(1.0), center}));
     };
     add(3, Vec3(0, 0, 0));
     const auto add_small = [&](double low_z, double high_z) {
@@ -598,8 +594,7 @@ TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
     };
     for (int i = 0; i < 4000; ++i) add_small(-9, 3);
     for (int i = 0; i < 400; ++i) add_small(4, 5);
-    builder.close();
-    scene.model = builder.finish();
+    const Scene scene = test_support::scene_of(Op::kUnion, std::move(primitives));
     View view =
         checks::view_of({Vec3(-3.0), Vec3(3.0)}, glm::normalize(Vec3(-0.05, -0.03, -1)), 12);
     view.projection = projection;
@@ -622,6 +617,9 @@ TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
 /// found to end there; behind them many needles that they meet end on, before them some more, and
 /// at last a ball.
 TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
+  // Below the thinnest piece of such a scene, 1e-9 of its size; and what some tens of pixels are
+  // small against, so that all their rays leave a wall at about one depth.
+  constexpr double kThickness = 2e-8;
   constexpr double kPixel = 1e-10;
   const Mat3 lying{Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)};
   uint64_t behind = 0;
@@ -630,13 +628,7 @@ TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
     std::mt19937 random(seed);
     const bool is_one_tile = seed % 2 == 0;
     const double half_px = is_one_tile ? 4 : uniform(random, 4, 40);
-    Scene scene;
-    CsgTreeBuilder builder;
-    builder.open(Op::kUnion);
-    const auto add = [&](const Primitive& primitive) {
-      scene.primitives.push_back(primitive);
-      builder.primitive(static_cast<uint32_t>(scene.primitives.size() - 1));
-    };
+    std::vector<Primitive> primitives;
     // In the order of a quadtree: they lie too close to each other for their groups to find one.
     const auto add_needles = [&](double low_x, const glm::dvec2& center_px, double reach_px,
                                  int bits) {
@@ -647,7 +639,7 @@ TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
         }
         at = kPixel * (center_px + reach_px * (at * std::ldexp(2.0, -bits) - 1.0));
         const double radius = uniform(random, 0.3, 1.2) * kPixel;
-        add(make_frustum(low_x, low_x + 1, radius, radius, {lying, {0, at}}));
+        primitives.push_back(make_frustum(low_x, low_x + 1, radius, radius, {lying, {0, at}}));
       }
     };
     const auto in_picture_px = [&] {
@@ -661,15 +653,18 @@ TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
       const Mat3 turned{0.1 * (Vec3(cosine, 0, 0) + tilt * along), inward,
                         Vec3(-tilt, 0, 0) + cosine * along};
       const double rim = uniform(random, -half_px, half_px) * kPixel;
-      add(make_frustum(0, 2e-8, 5, 5, {turned, Vec3(2.0 * wall, 0, 0) + (5 + rim) * inward}));
+      primitives.push_back(
+          make_frustum(0, kThickness, 5, 5, {turned, Vec3(2.0 * wall, 0, 0) + (5 + rim) * inward}));
     }
-    if (!is_one_tile) add(make_sphere(1000 * kPixel, {Mat3(1.0), {20, 0, 0}}));
-    add(make_sphere(1, {Mat3(1.0), {20, 6, 0}}));  // beside the picture: walls are thin against it
+    if (!is_one_tile) {
+      primitives.push_back(make_sphere(1000 * kPixel, {Mat3(1.0), {20, 0, 0}}));
+    }
+    // Beside the picture, so that the size is more than 21 in any case.
+    primitives.push_back(make_sphere(1, {Mat3(1.0), {20, 6, 0}}));
     add_needles(6, {0, 0}, 1.05 * half_px, 5);
     add_needles(6, in_picture_px(), 0.5 * half_px, 4);
     add_needles(-4, in_picture_px(), 0.5 * half_px, 3);
-    builder.close();
-    scene.model = builder.finish();
+    const Scene scene = test_support::scene_of(Op::kUnion, std::move(primitives));
     const Solid solid(canonical_primitives(scene), scene.model);
     ASSERT_GT(solid.groups().count(), solid.groups().first_group());
     View view = checks::view_of({Vec3(0.0), Vec3(0.0)}, {1, 0, 0}, 9);

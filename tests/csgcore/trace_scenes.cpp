@@ -248,4 +248,18 @@ std::vector<NamedView> trace_views(const Box& bounds, uint32_t width_px, uint32_
   return views;
 }
 
+CsgTree tree_of(const std::string& text) {
+  CsgTreeBuilder builder;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '(') {
+      const char op = text[++i];
+      builder.open(op == '+' ? Op::kUnion : op == '-' ? Op::kDifference : Op::kIntersection);
+    }
+    if (c == ')') builder.close();
+    if (c >= '0' && c <= '9') builder.primitive(static_cast<uint32_t>(c - '0'));
+  }
+  return builder.finish();
+}
+
 }  // namespace csgcore::checks

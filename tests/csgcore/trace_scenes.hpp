@@ -31,4 +31,7 @@ std::vector<NamedView> trace_views(const Box& bounds, uint32_t width_px, uint32_
 
 Affine moved(const Vec3& by);
 
+/// Trees in prefix notation, of primitives below 10: "(- 0 1 (+ 2 3))".
+CsgTree tree_of(const std::string& text);
+
 }  // namespace csgcore::checks

@@ -14,6 +14,7 @@ struct EditStats {
   uint64_t pixels = 0;          // of the picture
   uint64_t pixels_traced = 0;   // changed_areas; by OpenGL all
   uint64_t bytes_uploaded = 0;  // to the GPU
+  uint64_t comparisons = 0;     // of two scenes, each in time proportional to their sizes
 };
 
 }  // namespace csgcore

@@ -52,9 +52,10 @@ std::vector<HalfSpace> half_spaces(const FacetedRevolution& solid);
 /// Of a box that is not empty.
 std::vector<HalfSpace> half_spaces(const Box& box);
 
-/// One half-space a face, as far out as the outermost vertex: none is cut off. Nothing if the mesh
-/// is not the closed boundary of one convex solid with plane faces, within kMeshDigits of its
-/// largest coordinate.
+/// One half-space a face, as far out as the outermost vertex: none is cut off. The faces may run
+/// either way, each for itself: the solid lies on one side of its plane. Nothing if the mesh is not
+/// the closed boundary of one convex solid with plane faces, within kMeshDigits of its largest
+/// coordinate.
 std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh);
 
 /// A .csg holds 6 significant digits: a coordinate is off by up to 5e-6 of itself, a vertex and the

@@ -28,6 +28,9 @@ class Polyhedron {
     Vec3 normal;
     double limit;  // normal · x ≤ limit; of a face 1
     uint32_t skip;
+    /// The axis along which the normal points, to either side; kNoAxis if it leans.
+    uint32_t axis = kNoAxis;
+    static constexpr uint32_t kNoAxis = 3;
   };
 
   /// Canonical space, and the quadric there that just holds the solid.
@@ -90,5 +93,8 @@ class Polyhedron {
   std::vector<Entry> entries_;
   std::vector<VertexEntry> vertex_entries_;
 };
+
+/// Whether both are null, or the same solid, number by number.
+bool same_polyhedron(const Polyhedron* a, const Polyhedron* b);
 
 }  // namespace csgcore

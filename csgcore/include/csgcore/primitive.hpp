@@ -47,5 +47,7 @@ Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
 /// False for what is the empty set by openscad.md §2 (a size that is ≤ 0, infinite or nan; a matrix
 /// that is not finite), and for a singular matrix, which flattens the solid to nothing.
 bool is_valid(const Primitive& primitive);
+/// is_valid(), whatever local_to_world is.
+bool has_valid_shape(const Primitive& primitive);
 
 }  // namespace csgcore

@@ -16,6 +16,7 @@ namespace csgcore {
 
 struct CellList;
 class OperandGroups;
+struct LeanTree;
 
 /// The canonical primitives of a scene, index for index. Shared by the solids of its trees.
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
@@ -42,8 +43,12 @@ class Solid {
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
   /// Index for index those of `primitives()`; none if the tree is empty.
   std::span<const Extent> extents() const;
-  /// The whole tree, as a list that is valid everywhere.
+  /// The whole tree, as a list that is valid everywhere; without operands that change nothing
+  /// (redundant_operands.hpp).
   const ShortCircuitList& list() const { return list_; }
+  /// The primitives that only those operands name: what lies within others, and what equals others.
+  std::span<const uint32_t> inner() const;
+  std::span<const uint32_t> equal() const;
   /// The same in the form that is restricted to cells and tiles; null if the list is constant.
   const CellList* cell_list() const { return cell_list_.get(); }
   /// The same with operands in groups.
@@ -59,10 +64,13 @@ class Solid {
   bool contains(const Vec3& point) const;
 
  private:
+  /// The one that the list and the groups are made of.
+  const CsgTree& used_of(const CsgTree& tree) const;
   void make_groups(const CsgTree& tree, Extents extents);
   void find_outer_groups(const CsgTree& tree);
 
   std::shared_ptr<const CanonicalPrimitives> primitives_;
+  std::shared_ptr<const LeanTree> lean_;  // null: all operands count
   ShortCircuitList list_;
   std::shared_ptr<const CellList> cell_list_;
   std::shared_ptr<const OperandGroups> groups_, outer_groups_;

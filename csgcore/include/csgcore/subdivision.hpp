@@ -29,6 +29,9 @@ struct SubdivisionOptions {
   /// Must be set if threshold_px > 0; not used otherwise.
   std::optional<View> view;
   SplitRule split = SplitRule::kSurfaceArea;
+  /// How many bytes the cells may take: what is left to divide when they are used up is given up
+  /// (LeafKind::kGivenUp). Bounds the time, too. 0: subdivision_budget() of the solid's literals.
+  uint64_t budget_bytes = 0;
   /// Worker threads; 0: as many as there are. The result does not depend on it.
   unsigned threads = 0;
 
@@ -44,9 +47,10 @@ enum class LeafKind : uint8_t {
   kFull,  // more than K that no sensible subdivision separates (they coincide, meet in a point, or
           // lie so close that dividing repeats more than it separates): evaluated in full
   kDropped,   // case 4: below the threshold
+  kGivenUp,   // more than K; not divided since the budget is used up; evaluated in full
   kReplaced,  // no part of the tree any longer: others stand in its place (refine, update)
 };
-constexpr size_t kLeafKinds = 7;
+constexpr size_t kLeafKinds = 8;
 
 /// `literals` of Subdivision [first_literal, first_literal + literal_count) are the cell's
 /// function.
@@ -68,7 +72,8 @@ struct KdNode {
   uint32_t above = 0;
 };
 
-/// Leaves that one piece of the subdivision has finished, with the literals they index.
+/// Leaves that one piece of the subdivision has finished, with the literals they index. In the
+/// places of those that are kReplaced others will come.
 struct LeafBatch {
   std::span<const Leaf> leaves;
   std::span<const Literal> literals;
@@ -77,6 +82,10 @@ struct LeafBatch {
 /// Called with each batch as the subdivision delivers it (paper §2.3, "render the CSG object while
 /// subdividing it"), from any thread, one call at a time; the spans live during the call only.
 using BatchSink = std::function<void(const LeafBatch&)>;
+
+/// The budget of a solid of so many literals, in bytes: 64 MiB and in proportion to them, at most
+/// 2 GiB. Ordinary designs need a tenth of it.
+uint64_t subdivision_budget(size_t literals);
 
 /// How far beyond a cell its function is valid (Subdivision::overlap), for a solid of these bounds.
 double cell_overlap(const Box& solid_bounds);
@@ -111,7 +120,8 @@ class Subdivision {
   size_t bytes() const;
 
   /// Paper §2.3: subdivides on where cells that were dropped for the old view exceed the threshold
-  /// in the new one. Returns whether anything changed. Leaves keep their indices.
+  /// in the new one. Returns whether anything changed. Leaves keep their indices. The budget is
+  /// that of all views together: what it does not suffice for is drawn, but not divided.
   bool refine(const View& view);
 
   /// Follows an edit: `solid` is of the scene after it, that of this subdivision of the same tree
@@ -120,7 +130,7 @@ class Subdivision {
   /// old and new form alike; others are subdivided anew, each for itself. Where that is too little
   /// to be worth it all is subdivided anew: where the root box changes, the cells that change hold
   /// more than a third of the literals, more than half of what is stored has been replaced by and
-  /// by, or cells are dropped below a threshold.
+  /// by, the budget does not suffice for what is added, or cells are dropped below a threshold.
   SubdivisionUpdate update(const Solid& solid, const SceneEdit& edit, TreeEdit tree_edit);
 
   /// The leaf that holds the point (of several that share it, one); nullptr outside the root box.

@@ -41,6 +41,9 @@ struct TraceOptions {
   /// With more than one sample the pixels beside the area are looked at too, which it may have made
   /// edges of, or no longer edges.
   std::optional<PixelArea> area;
+  /// In place of thinnest_piece() of the solid's bounds: that of a renderer whose pixels are traced
+  /// anew. World units, > 0; no more than 2⁻²⁰ of the size of these bounds.
+  std::optional<double> thinnest_piece;
   /// Find out why primitives were skipped (TraceStats::skipped); costs a little. Of an area that is
   /// not the whole picture, what only others show is counted as cancelled.
   bool count_skipped = false;
@@ -52,7 +55,7 @@ struct TraceOptions {
 struct SkippedPrimitives {
   uint64_t off_screen = 0;  // their bounds miss the picture
   uint64_t sub_pixel = 0;   // they fall between the samples
-  uint64_t cancelled = 0;   // where they are, the operations leave nothing
+  uint64_t cancelled = 0;   // where they are, the operations leave nothing, or a later equal one
   uint64_t inside = 0;      // they lie within the solid
   uint64_t hidden = 0;      // they lie behind what is seen
 };
@@ -65,7 +68,7 @@ struct TraceStats {
   uint64_t tiles = 0;          // tiles that were traced; 0 with a Subdivision
   uint64_t rays = 0;           // rays that had anything to meet
   uint64_t intersections = 0;  // of a ray with a primitive
-  uint64_t resolved_rays = 0;  // rays on which crossings coincide, resolved one by one
+  uint64_t resolved_rays = 0;  // rays on which crossings coincide, or nearly
   uint64_t edge_pixels = 0;    // pixels with more than one sample
   double cull_ms = 0;          // bounds of the primitives on the screen
   double trace_ms = 0;         // all the rest

@@ -9,7 +9,8 @@ namespace csgcore {
 
 enum class Projection : uint8_t { kPerspective, kOrthographic };
 
-/// A camera in world space. `right`, `up` and `forward` are orthonormal, right × up = −forward.
+/// A camera in world space. `right`, `up` and `forward` are orthonormal, right × up = −forward; or
+/// = forward, in a picture that is mirrored.
 /// A pixel (x, y), y downwards from the top left corner, is seen along the ray through its centre:
 ///   u = (2(x + ½) − width)/height · half_height,  v = (height − 2(y + ½))/height · half_height
 ///   perspective:  p(s) = eye + s·(forward + u·right + v·up), s > 0, half_height = tan(fov/2)

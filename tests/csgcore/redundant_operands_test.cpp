@@ -1,0 +1,260 @@
+// Operands that are there twice, or lie within others, are left out; nothing of the picture
+// changes.
+#include "redundant_operands.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "checks.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/tracer.hpp"
+#include "made.hpp"
+#include "support/models.hpp"
+#include "trace_scenes.hpp"
+#include "whole_list.hpp"
+
+namespace csgcore {
+namespace {
+
+using checks::Made;
+using checks::moved;
+using checks::tree_of;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// "(- 0 1 (+ 2 3))".
+std::string text_of(const CsgTree& tree) {
+  std::vector<std::string> operands;
+  for (const CsgToken& token : tree.tokens()) {
+    if (token.is_primitive) {
+      operands.push_back(std::to_string(token.value));
+      continue;
+    }
+    const char* const name = token.op == Op::kUnion ? "+" : token.op == Op::kDifference ? "-" : "*";
+    std::string text = std::string("(") + name;
+    for (size_t i = operands.size() - token.value; i < operands.size(); ++i) {
+      text += ' ' + operands[i];
+    }
+    operands.resize(operands.size() - token.value);
+    operands.push_back(text + ')');
+  }
+  return operands.empty() ? "" : operands.back();
+}
+
+std::optional<LeanTree> lean_of(const Scene& scene) {
+  const auto primitives = canonical_primitives(scene);
+  Extents extents;
+  for (const CanonicalPrimitive& primitive : *primitives) extents.push_back(extent_of(primitive));
+  constexpr double kTolerance = 1e-8;  // of scenes some 10 large
+  return leave_out_redundant(scene.model, *primitives, extents, kTolerance);
+}
+
+/// Letter for letter the same ball, else another one.
+Scene scene_of(const std::string& letters, const std::string& tree) {
+  Scene scene;
+  for (const char letter : letters) {
+    scene.primitives.push_back(make_sphere(3, moved({2.0 * (letter - 'a'), 0, 0})));
+  }
+  scene.model = tree_of(tree);
+  return scene;
+}
+
+std::string merged(const std::string& letters, const std::string& tree) {
+  const Scene scene = scene_of(letters, tree);
+  const auto result = lean_of(scene);
+  return result ? text_of(result->tree) : "the same";
+}
+
+TEST(EqualOperands, TheLastIsLeft) {
+  EXPECT_EQ(merged("aa", "(+ 0 1)"), "1");
+  EXPECT_EQ(merged("abac", "(+ 0 1 2 3)"), "(+ 1 2 3)");
+  EXPECT_EQ(merged("abab", "(* 0 1 2 3)"), "(* 2 3)");
+  EXPECT_EQ(merged("abcb", "(- 0 1 2 3)"), "(- 0 2 3)");
+  EXPECT_EQ(merged("aaaaa", "(- 0 1 2 3 4)"), "(- 0 4)");
+  // Not by the place in the tree.
+  EXPECT_EQ(merged("aba", "(+ 2 1 0)"), "(+ 2 1)");
+}
+
+TEST(EqualOperands, OfDifferentOperationsAllStay) {
+  EXPECT_EQ(merged("ab", "(+ 0 1)"), "the same");
+  EXPECT_EQ(merged("aa", "(- 0 1)"), "the same");
+  EXPECT_EQ(merged("aba", "(+ 0 (- 1 2))"), "the same");
+  EXPECT_EQ(merged("abab", "(+ (- 0 1) (* 2 3))"), "the same");
+}
+
+TEST(EqualOperands, OperationsOfEqualOperandsAreEqual) {
+  EXPECT_EQ(merged("abab", "(+ (- 0 1) (- 2 3))"), "(- 2 3)");
+  EXPECT_EQ(merged("abcabcd", "(+ (- 0 (* 1 2)) (- 3 (* 4 5)) 6)"), "(+ (- 3 (* 4 5)) 6)");
+  // Once their own equal operands are gone.
+  EXPECT_EQ(merged("abbab", "(+ (- 0 1 2) (- 3 4))"), "(- 3 4)");
+  EXPECT_EQ(merged("abab", "(+ (- 0 1) (- 3 2))"), "the same");
+  // What is left dissolves into the operation around it.
+  EXPECT_EQ(merged("ababc", "(+ (* (+ 0 1) (+ 2 3)) 4)"), "(+ 2 3 4)");
+  // Operands that interleave: of one the top, of the other the side might be the last.
+  EXPECT_EQ(merged("aabb", "(+ (- 0 2) (- 1 3))"), "the same");
+}
+
+TEST(EqualOperands, ToldByShapeNumbersAndMatrixAlone) {
+  Scene scene = scene_of("aa", "(* 0 1)");
+  const auto can_merge = [&] { return lean_of(scene).has_value(); };
+  scene.primitives[1].color = Color{1, 0, 0, 1};
+  scene.primitives[1].id = 7;
+  EXPECT_TRUE(can_merge());
+  const Primitive kept = scene.primitives[1];
+  scene.primitives[1].r_bottom = 3.0000000001;
+  EXPECT_FALSE(can_merge());
+  scene.primitives[1] = kept;
+  scene.primitives[1].local_to_world.linear[1][0] = 1e-9;
+  EXPECT_FALSE(can_merge());
+  scene.primitives[0] = make_frustum(0, 1, 2, 2);
+  for (const Primitive& other : {make_frustum(0, 1, 2, 1), make_frustum(0, 1.5, 2, 2)}) {
+    scene.primitives[1] = other;
+    EXPECT_FALSE(can_merge());
+  }
+  const Box box{Vec3(0.0), Vec3(1, 2, 3)};
+  scene.primitives = {make_polyhedron(Polyhedron::box(box)), make_polyhedron(Polyhedron::box(box))};
+  EXPECT_TRUE(can_merge());
+  scene.primitives[1] = make_polyhedron(Polyhedron::frustum(0, 1, 1, 1, 6));
+  EXPECT_FALSE(can_merge());
+}
+
+TEST(EqualOperands, SayWhatWasLeftOutAndWhatItDependsOn) {
+  const Scene scene = scene_of("abacb", "(+ 0 1 2 (- 3 4))");
+  const auto result = lean_of(scene);
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->equal, ElementsAre(0u));
+  EXPECT_THAT(result->grounds, ElementsAre(0u, 1u, 2u, 4u));
+  const Made made(scene);
+  EXPECT_THAT(made.solid.equal(), ElementsAre(0u));
+  EXPECT_THAT(Made(scene_of("ab", "(+ 0 1)")).solid.equal(), IsEmpty());
+}
+
+std::string lean(std::vector<Primitive> primitives, const std::string& tree) {
+  Scene scene;
+  scene.primitives = std::move(primitives);
+  scene.model = tree_of(tree);
+  const auto result = lean_of(scene);
+  return result ? text_of(result->tree) : "the same";
+}
+
+TEST(InnerOperands, OfAUnionAreLeftOut) {
+  const Primitive large = make_sphere(5), small = make_sphere(1, moved({1, 2, 0}));
+  EXPECT_EQ(lean({large, small}, "(+ 0 1)"), "0");
+  EXPECT_EQ(lean({small, large}, "(+ 0 1)"), "1");
+  EXPECT_EQ(lean({large, small, make_sphere(1, moved({5, 0, 0}))}, "(+ 0 1 2)"), "(+ 0 2)");
+  EXPECT_EQ(lean({make_sphere(9), large, small}, "(- 0 1 2)"), "(- 0 1)");
+  EXPECT_EQ(lean({large, small}, "(* 0 1)"), "the same");
+  EXPECT_EQ(lean({large, small}, "(- 0 1)"), "the same");
+}
+
+/// What touches the surface from inside shows there, if it comes later.
+TEST(InnerOperands, ThatShowAtTheSurfaceStay) {
+  const auto slab = [](double top, double radius) { return make_frustum(0, top, radius, radius); };
+  const auto prism = [](double top, double radius) {
+    return make_polyhedron(Polyhedron::frustum(0, top, radius, radius, 6));
+  };
+  EXPECT_EQ(lean({slab(4, 3), slab(5, 3)}, "(+ 0 1)"), "1");
+  EXPECT_EQ(lean({slab(5, 3), slab(4, 3)}, "(+ 0 1)"), "the same");
+  EXPECT_EQ(lean({prism(4, 3), prism(5, 3)}, "(+ 0 1)"), "1");
+  EXPECT_EQ(lean({prism(5, 3), prism(4, 3)}, "(+ 0 1)"), "the same");
+  EXPECT_EQ(lean({prism(5, 3), make_frustum(1, 4, 2, 1)}, "(+ 0 1)"), "0");
+  EXPECT_EQ(lean({make_frustum(0, 5, 3, 1), make_frustum(1, 4, 1, 1)}, "(+ 0 1)"), "0");
+  EXPECT_EQ(lean({make_frustum(0, 5, 3, 1), make_frustum(1, 4, 2, 2)}, "(+ 0 1)"), "the same");
+  EXPECT_EQ(lean({make_frustum(0, 5, 3, 1), make_frustum(1, 6, 1, 1)}, "(+ 0 1)"), "the same");
+  EXPECT_EQ(lean({make_frustum(1, 4, 2, 2, moved({1.5, 0, 0})), slab(5, 3)}, "(+ 0 1)"),
+            "the same");
+  EXPECT_EQ(lean({make_sphere(1, moved({2, 0, 0})), make_sphere(3)}, "(+ 0 1)"), "1");
+  EXPECT_EQ(lean({make_sphere(3), make_sphere(1, moved({2, 0, 0}))}, "(+ 0 1)"), "the same");
+}
+
+TEST(EqualOperands, AMillionPrimitivesOfFewKinds) {
+  constexpr uint32_t kCount = 1000000;
+  std::vector<Primitive> primitives;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    primitives.push_back(make_sphere(1, moved({double(i * 7919 % 1000), 0, 0})));
+  }
+  const Scene scene = test_support::scene_of(Op::kUnion, std::move(primitives));
+  const auto result = lean_of(scene);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->tree.tokens().size(), 1001u);
+  EXPECT_EQ(result->equal.size(), kCount - 1000);
+}
+
+/// A tree whose primitives are of few kinds, so that many are equal.
+Scene tree_of_few_kinds(uint32_t seed) {
+  std::mt19937 random(seed);
+  Scene scene = test_support::random_tree(2 + random() % 30, seed);
+  const size_t kinds = 1 + scene.primitives.size() / 4;
+  for (size_t i = kinds; i < scene.primitives.size(); ++i) {
+    const uint32_t id = scene.primitives[i].id;
+    scene.primitives[i] = scene.primitives[random() % kinds];
+    scene.primitives[i].id = id;
+  }
+  return scene;
+}
+
+/// The same without merging: nothing is equal that differs by its last bit alone.
+Scene with_tiny_differences(Scene scene) {
+  for (size_t i = 0; i < scene.primitives.size(); ++i) {
+    double& number = scene.primitives[i].local_to_world.linear[0][0];
+    number *= 1 + 1e-15 * static_cast<double>(i);
+  }
+  return scene;
+}
+
+TEST(EqualOperands, PicturesAreThoseOfAllOperands) {
+  std::mt19937 random(7);
+  uint64_t left_out = 0;
+  uint64_t pixels = 0;
+  uint64_t differing = 0;
+  for (uint32_t seed = 1; seed <= 60; ++seed) {
+    const Made made(tree_of_few_kinds(seed));
+    const Made apart(with_tiny_differences(made.scene));
+    if (made.solid.bounds().empty()) continue;
+    left_out += made.solid.equal().size();
+    ASSERT_TRUE(apart.solid.equal().empty());
+    const View view = checks::view_of(made.solid.bounds(), checks::random_direction(random), 4);
+    const Hits hits = checks::trace_by_tiles(made.solid, view);
+    EXPECT_TRUE(checks::same_bits(hits, checks::WholeList(made.solid, view).picture()));
+    const Hits others = checks::trace_by_tiles(apart.solid, view);
+    for (size_t i = 0; i < hits.primitive.size(); ++i) {
+      pixels += hits.primitive[i] != Hits::kMiss;
+      differing += hits.primitive[i] != others.primitive[i];
+    }
+  }
+  EXPECT_GT(left_out, 100u);
+  EXPECT_GT(pixels, 10000u);
+  // At silhouettes and edges the last bit tells.
+  EXPECT_LE(differing, pixels / 1000);
+}
+
+TEST(EqualOperands, AnEditOfOneOfThemIsAsMadeAnew) {
+  std::vector<Primitive> balls(8, make_sphere(2));
+  for (uint32_t i = 0; i < 40; ++i) balls.push_back(make_sphere(1, moved({1.0 * i, 5, 0})));
+  for (uint32_t i = 0; i < balls.size(); ++i) balls[i].id = i;
+  const Made before(test_support::scene_of(Op::kUnion, balls));
+  EXPECT_EQ(before.solid.equal().size(), 7u);
+  for (const uint32_t edited : {0u, 3u, 7u, 20u}) {
+    for (const Vec3& to : {Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
+      Scene scene = before.scene;
+      scene.primitives[edited] = make_sphere(2, moved(to));
+      scene.primitives[edited].id = edited;
+      const SceneEdit edit = compare(before.scene, scene);
+      const Made after(scene, before, edit);
+      const Made anew(scene);
+      const View view = checks::view_of(anew.solid.bounds(), {0.3, -0.5, -0.8}, 4);
+      EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(after.solid, view),
+                                    checks::trace_by_tiles(anew.solid, view)));
+      Subdivision updated(before.solid, {});
+      updated.update(after.solid, edit, edit.model);
+      EXPECT_TRUE(checks::same_bits(checks::trace_by_cells(updated, view),
+                                    checks::trace_by_tiles(anew.solid, view)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace csgcore
