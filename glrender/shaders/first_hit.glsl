@@ -1,7 +1,7 @@
 // Where the ray of a pixel enters the solid within its cell (paper §3). PATH selects how the cell's
 // primitives are combined; every path looks for the first t in (enter, leave].
 
-flat in uvec2 v_list;           // first literal; how many (PATH_UNION: how many come before it)
+flat in uvec2 v_list;           // first literal; how many (PATH_UNION: how many come behind it)
 
 #if TILES
 flat in float v_cut_t;          // the solid holds there, however thin the piece; +inf: nobody knows
@@ -41,6 +41,19 @@ Hit with_speed(Ray ray, Hit hit) {
 // tolerance does not exist.
 bool too_thin(float length_t, float speed) { return length_t * speed <= u_tolerance; }
 
+// The piece that is shown may be too thin, and just measured too long. Then the pixel is marked, and
+// the CPU looks at it (renderer.cpp).
+bool doubtful = false;
+
+// Whether a piece that long does not exist, whatever rounding does to its length. What may or may
+// not exist counts as if it did.
+bool surely_gone(float length_t, float speed) {
+  float thickness = length_t * speed;
+  if (thickness <= LEAST_DOUBT * u_tolerance) return true;
+  doubtful = thickness < MOST_DOUBT * u_tolerance;
+  return false;
+}
+
 // The hit lies in the cell, and the solid does not already hold where the ray enters the cell (step 8).
 bool starts_within(Hit hit, float enter, float leave) { return hit.t > enter && hit.t <= leave; }
 
@@ -71,7 +84,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
   Hit hit = start_of(segment_a, a);
   if (segment_b.start > segment_a.start) hit = start_of(segment_b, b);
   hit = with_speed(ray, hit);
-  bool exists = !too_thin(min(segment_a.end, segment_b.end) - hit.t, hit.speed);
+  bool exists = !surely_gone(min(segment_a.end, segment_b.end) - hit.t, hit.speed);
   return starts_within(hit, enter, leave) && exists ? hit : NO_HIT;
 }
 
@@ -91,12 +104,12 @@ Hit first_hit(Ray ray, float enter, float leave) {
   Segment segment_b = intersect(ray, b.primitive);
   Hit before = with_speed(ray, start_of(segment_a, a));
   float before_ends = min(segment_a.end, segment_b.start);
-  if (starts_within(before, enter, leave) && !too_thin(before_ends - before.t, before.speed)) {
+  if (starts_within(before, enter, leave) && !surely_gone(before_ends - before.t, before.speed)) {
     return before;
   }
   Hit after = segment_a.start > segment_b.end ? start_of(segment_a, a) : end_of(segment_b, b);
   after = with_speed(ray, after);
-  bool exists = !too_thin(segment_a.end - after.t, after.speed);
+  bool exists = !surely_gone(segment_a.end - after.t, after.speed);
   return starts_within(after, enter, leave) && exists ? after : NO_HIT;
 }
 
@@ -113,7 +126,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
   bool a_first = segment_a.end < segment_b.end;
   Hit between = with_speed(ray, a_first ? end_of(segment_a, a) : end_of(segment_b, b));
   float next_start = a_first ? segment_b.start : segment_a.start;
-  if (starts_within(between, enter, leave) && !too_thin(next_start - between.t, between.speed)) {
+  if (starts_within(between, enter, leave) && !surely_gone(next_start - between.t, between.speed)) {
     return between;
   }
   Hit behind = with_speed(ray, a_first ? end_of(segment_b, b) : end_of(segment_a, a));
@@ -163,12 +176,14 @@ Evaluation evaluate(Ray ray, float t) {
 // Whether the piece that starts there is what the ray ends in. Of a cell, also one that covers its
 // front, and hides what lies behind; of a tile, none that covers the eye.
 bool ends_in(Hit from, float piece_ends, bool covered) {
-  bool thin = too_thin(piece_ends - from.t, from.speed);
 #if TILES
   if (covered) return piece_ends == INFINITY;
-  return !thin || from.t <= v_cut_t && v_cut_t < piece_ends;
+  bool is_cut = from.t <= v_cut_t && v_cut_t < piece_ends;
+  bool gone = surely_gone(piece_ends - from.t, from.speed);
+  doubtful = doubtful && !is_cut;
+  return !gone || is_cut;
 #else
-  return !thin;
+  return !surely_gone(piece_ends - from.t, from.speed);
 #endif
 }
 

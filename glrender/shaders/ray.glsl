@@ -70,6 +70,7 @@ struct CanonicalRay {
   float base_t;
   float radius_mid, radius_slope;
   bool is_sphere;  // the primitive, or what encloses a polyhedron
+  bool is_none;    // too thin a primitive to exist
   int faces;       // texel of u_polyhedra
   mat3 world_to_canonical;
 };
@@ -89,6 +90,7 @@ CanonicalRay canonical_ray(Ray ray, uint primitive) {
   result.radius_mid = row_x.w;
   result.radius_slope = row_y.w;
   result.is_sphere = row_z.w == SHAPE_SPHERE;
+  result.is_none = row_z.w == SHAPE_NONE;
   result.faces = int(center.w);
 #if HAS_POLYHEDRON
   // Flat solids are steep in canonical space: there, what passes closest is another point.
@@ -162,6 +164,7 @@ Segment intersect_frustum(CanonicalRay ray) {
 }
 
 Segment intersect_quadric(CanonicalRay ray) {
+  if (ray.is_none) return NO_SEGMENT;
 #if HAS_SPHERE && HAS_FRUSTUM
   if (ray.is_sphere) return intersect_sphere(ray);
   return intersect_frustum(ray);
@@ -234,9 +237,15 @@ vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
   vec3 gradient = q;
   if (!canonical.is_sphere) {
+    // By distances in the world, where t was rounded: a plate's cap is far nearer there than its
+    // wall.
     float radius = canonical.radius_mid + canonical.radius_slope * q.z;
-    bool on_cap = abs(abs(q.z) - 1.0) < abs(length(q.xy) - radius);
-    gradient = on_cap ? vec3(0.0, 0.0, q.z) : vec3(q.xy, -canonical.radius_slope * radius);
+    vec3 cap = vec3(0.0, 0.0, q.z < 0.0 ? -1.0 : 1.0);
+    vec3 wall = vec3(q.xy, -canonical.radius_slope * radius);
+    float from_cap = abs(abs(q.z) - 1.0) * length(wall * canonical.world_to_canonical);
+    float from_wall = 0.5 * abs(dot(q.xy, q.xy) - radius * radius) *
+                      length(cap * canonical.world_to_canonical);
+    gradient = from_cap < from_wall ? cap : wall;
   }
 #if HAS_POLYHEDRON
   if (face > 0) gradient = texelFetch(u_polyhedra, face).xyz;

@@ -11,17 +11,17 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 #elif PATH == PATH_UNION
 
-// In a union the earliest operand with that face draws it. v_list.y operands come before this one.
+// In a union the last operand with that face draws it. v_list.y operands come behind this one.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   seen = hit;
   Hit nearest = NO_HIT;
   float apart = INFINITY;
   for (uint i = 1u; i <= v_list.y; ++i) {
-    Hit earlier = hit_of(ray, fetch_literal(v_list.x - i));
-    float this_apart = abs(earlier.t - hit.t);
+    Hit later = hit_of(ray, fetch_literal(v_list.x + i));
+    float this_apart = abs(later.t - hit.t);
     if (this_apart < apart) {
       apart = this_apart;
-      nearest = earlier;
+      nearest = later;
     }
   }
   return !too_thin(apart, max(crossing_speed(ray, hit), crossing_speed(ray, nearest)));
@@ -29,31 +29,19 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 #elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
 
-// The ray at the hit, where it crosses several faces together: one bit for each of the first
-// literals.
-struct Crossed {
-  uint faces;   // those that start the solid there
-  uint inside;  // the primitives that the ray is inside of behind them
-  float t;      // where the other literals are asked
-};
-
-// Whether the solid holds behind the hit if the ray has not crossed some of the faces.
-bool holds_without(Ray ray, Crossed crossed, uint faces) {
-  uint inside = crossed.inside ^ faces;
-  uint i = 0u;
-  do {
-    Literal literal = fetch_literal(v_list.x + i);
-    bool is_inside = (inside >> i & 1u) != 0u;
-#if PATH == PATH_LIST || SHORT_LIST > SHARED_FACES
-    if (i >= uint(SHARED_FACES)) {
-      Segment segment = segment_of(ray, i, literal.primitive);
-      is_inside = segment.start <= crossed.t && crossed.t < segment.end;
-    }
+#if PATH == PATH_SHORT_LIST
+const uint MOST_SHARED = uint(SHORT_LIST);
+#else
+const uint MOST_SHARED = uint(LONG_LIST);
 #endif
-    i = is_inside ? literal.if_inside : literal.if_outside;
-  } while (i < LIST_FALSE);
-  return (i == LIST_TRUE) != u_eye_inside;
-}
+
+// What a literal, or all of the list from it on, comes to at the faces that are crossed together:
+// ENDS if it does not hold behind them; HOLDS if it holds before and behind them; else it starts to
+// hold there, and the number says by which literal, in file order of the primitives.
+const uint ENDS = 0u;
+const uint HOLDS = 0xFFFFFFFFu;
+uint starts_by(uint index, uint primitive) { return 1u + primitive * MOST_SHARED + index; }
+uint index_of(uint starting) { return (starting - 1u) % MOST_SHARED; }
 
 // Where the literal starts to hold (where it starts not to, if the eye is inside), or ends.
 Hit boundary(Segment segment, Literal literal, bool starts) {
@@ -61,14 +49,17 @@ Hit boundary(Segment segment, Literal literal, bool starts) {
   return end_of(segment, literal);
 }
 
-// Whether another face than the hit's own may start the solid there. Most often none does.
-bool is_shared(Ray ray, Hit hit) {
+// Whether another face than the hit's own may start the solid there (most often none does), and the
+// last in file order of all that start something there.
+bool is_shared(Ray ray, Hit hit, out Hit last) {
   bool shared = false;
-  for (uint i = 0u; i < min(v_list.y, uint(SHARED_FACES)); ++i) {
+  last = hit;
+  for (uint i = 0u; i < v_list.y; ++i) {
     Literal literal = fetch_literal(v_list.x + i);
     Hit start = boundary(segment_of(ray, i, literal.primitive), literal, true);
     bool near = too_thin(abs(start.t - hit.t), hit.speed);
     shared = shared || near && literal.primitive != hit.primitive;
+    if (near && literal.primitive > last.primitive) last = start;
   }
   return shared;
 }
@@ -78,63 +69,60 @@ bool together(Ray ray, Hit hit, Hit other) {
   return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
 }
 
-Crossed crossed_at(Ray ray, Hit hit) {
-  Crossed result = Crossed(0u, 0u, hit.t + u_tolerance / hit.speed);
-  for (uint i = 0u; i < min(v_list.y, uint(SHARED_FACES)); ++i) {
-    Literal literal = fetch_literal(v_list.x + i);
-    Segment segment = segment_of(ray, i, literal.primitive);
-    bool starts = together(ray, hit, boundary(segment, literal, true));
-    bool ends = together(ray, hit, boundary(segment, literal, false));
-    bool inside = segment.start <= hit.t && hit.t < segment.end;
-    if (starts != ends) inside = (literal.complement == u_eye_inside) == starts;
-    if (starts && ends) inside = false;  // only grazed
-    if (starts && !ends) result.faces |= 1u << i;
-    if (inside) result.inside |= 1u << i;
-  }
-  return result;
+uint across_literal(Ray ray, Hit hit, uint index, Literal literal) {
+  Segment segment = segment_of(ray, index, literal.primitive);
+  bool starts = together(ray, hit, boundary(segment, literal, true));
+  bool ends = together(ray, hit, boundary(segment, literal, false));
+  if (starts && !ends) return starts_by(index, literal.primitive);
+  if (ends && !starts) return ENDS;
+  bool inside = !starts && segment.start <= hit.t && hit.t < segment.end;  // not if only grazed
+  return inside == (literal.complement == u_eye_inside) ? HOLDS : ENDS;
 }
 
-// The first of some faces without which the solid would not start, the crossings of others set
-// aside; SHARED_FACES if there is none.
-uint first_decider(Ray ray, Crossed crossed, uint faces, uint aside) {
-  for (uint i = 0u; i < uint(SHARED_FACES); ++i) {
-    if (faces >> i == 0u) break;
-    bool among = (faces >> i & 1u) != 0u;
-    if (among && !holds_without(ray, crossed, aside | 1u << i)) return i;
-  }
-  return uint(SHARED_FACES);
+uint across[MOST_SHARED];  // from a literal on
+
+uint across_target(uint target) {
+  if (target < LIST_FALSE) return across[target];
+  return (target == LIST_TRUE) != u_eye_inside ? HOLDS : ENDS;
 }
 
-// A face without which the solid would not start here: the earliest. If several make do without
-// each other, then of only as many, from the earliest, as make it start.
+// A union starts by the last operand that does, unless one holds before; an intersection by the last
+// of those that have not held before.
+uint either(uint a, uint b) { return max(a, b); }
+uint both(uint a, uint b) {
+  if (a == HOLDS || b == ENDS) return b;
+  if (b == HOLDS || a == ENDS) return a;
+  return max(a, b);
+}
+
+// The last in file order of those operands that start the solid (NUMERICS.md, the definition).
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
+  Hit last;
   seen = hit;
-  if (!is_shared(ray, hit)) return true;
-  Crossed crossed = crossed_at(ray, hit);
-  uint faces = crossed.faces;
-  if (faces == 0u) return true;
-  uint aside = 0u;
-  uint decider = uint(SHARED_FACES);
-  for (int turn = 0; turn < 2; ++turn) {
-    decider = first_decider(ray, crossed, faces & ~aside, aside);
-    if (decider < uint(SHARED_FACES)) break;
-    crossed.t = hit.t - u_tolerance / hit.speed;
-    aside = faces;
-    for (uint i = 0u; aside != 0u && !holds_without(ray, crossed, aside); ++i) aside &= ~(1u << i);
+  if (!is_shared(ray, hit, last)) return true;
+  if (v_list.y > MOST_SHARED) {
+    seen = last;
+    return true;
   }
-  // More than have a bit may be needed.
-  if (decider == uint(SHARED_FACES)) {
-    decider = 0u;
-    while ((faces >> decider & 1u) == 0u) ++decider;
+  // (if_true and the literal) or if_false, from the last literal to the first.
+  uint whole = ENDS;
+  for (uint i = v_list.y; i-- > 0u;) {
+    Literal literal = fetch_literal(v_list.x + i);
+    bool is_true_inside = literal.complement == u_eye_inside;
+    uint if_true = across_target(is_true_inside ? literal.if_inside : literal.if_outside);
+    uint if_false = across_target(is_true_inside ? literal.if_outside : literal.if_inside);
+    whole = either(both(across_literal(ray, hit, i, literal), if_true), if_false);
+    across[i] = whole;
   }
-  Literal literal = fetch_literal(v_list.x + decider);
-  seen = boundary(segment_of(ray, decider, literal.primitive), literal, true);
+  if (whole == ENDS || whole == HOLDS) return true;
+  Literal literal = fetch_literal(v_list.x + index_of(whole));
+  seen = boundary(segment_of(ray, index_of(whole), literal.primitive), literal, true);
   return true;
 }
 
 #else
 
-// Of a pair, each bounds it: the earlier one.
+// Of a pair, each bounds it: the later one, if that does not end there, too.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   Literal a = fetch_literal(v_list.x);
   Literal b = fetch_literal(v_list.x + 1u);
@@ -144,8 +132,9 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
   Hit other = literal.complement ? end_of(segment, literal) : start_of(segment, literal);
   other = with_speed(ray, other);
   seen = hit;
-  float apart = abs(other.t - hit.t);
-  if (other.primitive < hit.primitive && too_thin(apart, max(hit.speed, other.speed))) seen = other;
+  float speed = max(hit.speed, other.speed);
+  bool shared = too_thin(abs(other.t - hit.t), speed) && !too_thin(segment.end - segment.start, speed);
+  if (other.primitive > hit.primitive && shared) seen = other;
   return true;
 }
 

@@ -43,7 +43,7 @@ void main() {
   vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
   if (seen.complement) normal = -normal;
   vec3 color = base_color(seen.primitive, seen.complement && !u_eye_inside);
-  o_color = vec4(shade(color, point, normal, ray.direction), 1.0);
+  o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? 0.0 : 1.0);
 #if MEASURED
   o_measured = vec4(normal, seen.t);
   o_id = texelFetch(u_surfaces, int(seen.primitive)).z;

@@ -69,31 +69,38 @@ void RenderTarget::begin(const glm::vec3& background) const {
   glClearBufferfv(GL_DEPTH, 0, &furthest);
 }
 
-csgcore::Image RenderTarget::read(const Frame& frame) const {
+csgcore::Image RenderTarget::read(const Frame& frame, std::vector<bool>& doubtful) const {
   csgcore::Image image;
   image.width_px = format_.width_px;
   image.height_px = format_.height_px;
   std::vector<uint8_t> rgba(pixels() * 4);
   read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   image.rgb.resize(pixels());
+  doubtful.resize(pixels());
   for (uint32_t y = 0; y < format_.height_px; ++y) {
     const uint8_t* row = rgba.data() + row_start(y) * 4;
     for (uint32_t x = 0; x < format_.width_px; ++x) {
-      image.rgb[size_t{y} * format_.width_px + x] = {row[4 * x], row[4 * x + 1], row[4 * x + 2]};
+      const size_t pixel = size_t{y} * format_.width_px + x;
+      image.rgb[pixel] = {row[4 * x], row[4 * x + 1], row[4 * x + 2]};
+      if (row[4 * x + 3] == 0) doubtful[pixel] = true;
     }
   }
   if (format_.measured) read_measured(frame, image);
   return image;
 }
 
-void RenderTarget::add_colors(std::vector<glm::vec3>& sum) const {
+void RenderTarget::add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& doubtful) const {
   sum.resize(pixels(), glm::vec3(0.0f));
+  doubtful.resize(pixels());
   std::vector<glm::vec4> colors(pixels());
   read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_FLOAT, colors.data());
   for (uint32_t y = 0; y < format_.height_px; ++y) {
     const glm::vec4* row = colors.data() + row_start(y);
-    glm::vec3* sum_row = sum.data() + size_t{y} * format_.width_px;
-    for (uint32_t x = 0; x < format_.width_px; ++x) sum_row[x] += glm::vec3(row[x]);
+    const size_t first = size_t{y} * format_.width_px;
+    for (uint32_t x = 0; x < format_.width_px; ++x) {
+      sum[first + x] += glm::vec3(row[x]);
+      if (row[x].w == 0) doubtful[first + x] = true;
+    }
   }
 }
 

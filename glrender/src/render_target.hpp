@@ -24,11 +24,12 @@ class RenderTarget {
 
   /// Binds it, sets the viewport and clears all channels.
   void begin(const glm::vec3& background) const;
-  /// Throws GlError if anything failed while drawing.
-  csgcore::Image read(const Frame& frame) const;
+  /// Sets what the shaders have marked in `doubtful`, which is as large as the picture, or is made
+  /// so. Throws GlError if anything failed while drawing.
+  csgcore::Image read(const Frame& frame, std::vector<bool>& doubtful) const;
   /// Adds the colours, each in [0, 1], to the pixels of `sum`, in the order of an Image's. An empty
-  /// one starts from 0. Precondition: exact_colors. Throws as read() does.
-  void add_colors(std::vector<glm::vec3>& sum) const;
+  /// one starts from 0. Precondition: exact_colors. Marks and throws as read() does.
+  void add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& doubtful) const;
 
   /// The texture of normals and t; 0 without measured channels.
   GLuint measured_texture() const { return measured_channels_.name(); }

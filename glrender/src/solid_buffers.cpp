@@ -10,6 +10,7 @@
 
 #include "glrender/context.hpp"
 #include "shader_constants.hpp"
+#include "thickness.hpp"
 
 namespace glrender {
 namespace {
@@ -45,6 +46,15 @@ std::vector<LiteralTexel> texels_of(std::span<const Literal> literals) {
                       literal.if_inside, literal.if_outside, 0u});
   }
   return texels;
+}
+
+std::vector<bool> too_thin(const csgcore::Solid& solid, double thinnest_piece) {
+  std::vector<bool> result;
+  result.reserve(solid.primitives().size());
+  for (const CanonicalPrimitive& primitive : solid.primitives()) {
+    result.push_back(is_thinner(primitive, thinnest_piece));
+  }
+  return result;
 }
 
 constexpr const char* kFewerPrimitives = "draw the design in parts";
@@ -113,7 +123,7 @@ void TextureBuffer::bind(GLuint unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
-SolidBuffers::SolidBuffers(const csgcore::Solid& solid)
+SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thinnest_piece)
     : solid_(&solid),
       primitives_(GL_RGBA32F, 4 * sizeof(float), "primitives", kFewerPrimitives),
       surfaces_(GL_RGBA32UI, sizeof(Surface), "primitives", kFewerPrimitives),
@@ -122,7 +132,8 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid)
       tile_literals_(GL_RGBA32UI, sizeof(LiteralTexel), "tiles",
                      "use a smaller --imgsize, or --technique=cells"),
       polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), "faces of polyhedra",
-                 "use a smaller $fn") {
+                 "use a smaller $fn"),
+      is_too_thin_(too_thin(solid, thinnest_piece)) {
   std::vector<Surface> surfaces;
   surfaces.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
@@ -143,7 +154,8 @@ void SolidBuffers::number_faces(const CanonicalPrimitive& primitive) {
   if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
 }
 
-void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit) {
+void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
+                          double thinnest_piece) {
   assert(edit.keeps_indices());
   solid_ = &solid;
   const std::span<const CanonicalPrimitive> primitives = solid.primitives();
@@ -158,11 +170,16 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
   for (const CanonicalPrimitive& primitive : primitives) {
     (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
   }
+  // The tolerance goes by the size of the whole.
+  std::vector<bool> is_too_thin = too_thin(solid, thinnest_piece);
+  for (const uint32_t i : edit.added) is_too_thin_[i] = is_too_thin[i];
+  if (is_too_thin != is_too_thin_) placed_at_.reset();
+  is_too_thin_ = std::move(is_too_thin);
   std::vector<float> texels;
   for (const uint32_t i : edit.added) {
     if (!placed_at_) break;  // nothing is there yet
     texels.clear();
-    append_texels(primitives[i], *placed_at_, texels);
+    append_texels(i, *placed_at_, texels);
     primitives_.update(i * kPrimitiveBytes, texels.data(), kPrimitiveBytes);
   }
   const auto update_surface = [&](uint32_t i) {
@@ -180,13 +197,15 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
   for (const uint32_t i : edit.recolored) update_surface(i);
 }
 
-void SolidBuffers::append_texels(const CanonicalPrimitive& primitive, const Vec3& focus,
-                                 std::vector<float>& texels) {
+void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels) {
+  const CanonicalPrimitive& primitive = solid_->primitives()[index];
+  const float shape = is_too_thin_[index]                     ? kShapeNone
+                      : primitive.enclosure == Shape::kSphere ? kShapeSphere
+                                                              : kShapeFrustum;
   const glm::vec3 center(primitive.center - focus);
   texels.insert(texels.end(), {center.x, center.y, center.z,
                                static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
-  const double beside[] = {primitive.radius_mid, primitive.radius_slope,
-                           primitive.enclosure == Shape::kSphere ? kShapeSphere : kShapeFrustum};
+  const double beside[] = {primitive.radius_mid, primitive.radius_slope, shape};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));
@@ -199,8 +218,8 @@ void SolidBuffers::place(const Frame& frame) {
   if (placed_at_ == frame.focus) return;
   std::vector<float> texels;
   texels.reserve(solid_->primitives().size() * kPrimitiveTexels * 4);
-  for (const CanonicalPrimitive& primitive : solid_->primitives()) {
-    append_texels(primitive, frame.focus, texels);
+  for (uint32_t i = 0; i < solid_->primitives().size(); ++i) {
+    append_texels(i, frame.focus, texels);
   }
   primitives_.upload(texels.data(), texels.size() * sizeof(float));
   placed_at_ = frame.focus;

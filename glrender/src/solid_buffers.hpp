@@ -53,11 +53,12 @@ class SolidBuffers {
   /// Texture units 0 up to this one (exclusive) are bind's.
   static constexpr int kTextureUnits = 4;
 
-  explicit SolidBuffers(const csgcore::Solid& solid);
+  /// Primitives thinner than `thinnest_piece`, in world units, are left out.
+  SolidBuffers(const csgcore::Solid& solid, double thinnest_piece);
 
-  /// Follows an edit that changed primitives in place: uploads those alone. `solid` must outlive
-  /// this from now on.
-  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit);
+  /// Follows an edit that changed primitives in place: uploads those alone, unless others have
+  /// become too thin, or thick enough. `solid` must outlive this from now on.
+  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit, double thinnest_piece);
 
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
@@ -77,14 +78,14 @@ class SolidBuffers {
 
  private:
   void number_faces(const csgcore::CanonicalPrimitive& primitive);
-  void append_texels(const csgcore::CanonicalPrimitive& primitive, const Vec3& focus,
-                     std::vector<float>& texels);
+  void append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels);
 
   const csgcore::Solid* solid_;
   PolyhedronTexels faces_;
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
       numbered_;  // that faces_ knows by address
   TextureBuffer primitives_, surfaces_, literals_, tile_literals_, polyhedra_;
+  std::vector<bool> is_too_thin_;  // by primitive
   std::optional<Vec3> placed_at_;
   bool has_sphere_ = false;
   bool has_frustum_ = false;

@@ -1,6 +1,7 @@
 #include "stream_drawer.hpp"
 
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <iterator>
 
 namespace glrender {
@@ -34,6 +35,10 @@ void StreamDrawer::begin(const Pass& pass) const {
   glDepthFunc(GL_GREATER);
   glEnable(GL_DEPTH_CLAMP);
   glEnable(GL_CULL_FACE);
+  // A mirror turns the order of a box's corners on the screen round; tiles lie on the screen.
+  const csgcore::View& view = pass.frame.view;
+  const bool is_mirrored = glm::dot(glm::cross(view.right, view.up), view.forward) > 0;
+  glFrontFace(is_mirrored && !pass.tiles ? GL_CW : GL_CCW);
   if (conservative_depth_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
@@ -56,7 +61,6 @@ void StreamDrawer::draw(const InstanceStreams& streams, const Pass& pass,
                         const SolidBuffers& buffers, FrameStats& stats) {
   size_t offset = 0;
   for (const bool front : {true, false}) {
-    // The vertex order turns round under a mirror; ours has none.
     glCullFace(front ? GL_BACK : GL_FRONT);
     const auto& group = front ? streams.front_faces : streams.back_faces;
     for (int path = 0; path < kPaths; ++path) {

@@ -97,9 +97,9 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
       if (eye_inside_) {
         push(Path::kList, box, first_literal + i, 1);
       } else {
-        // How many operands before it may have the same face.
-        const uint32_t earlier = leaf.literal_count <= kSharedFaces ? i : 0;
-        push(earlier > 0 ? Path::kUnion : Path::kSingle, box, first_literal + i, earlier);
+        // How many operands behind it may have the same face.
+        const uint32_t later = leaf.literal_count <= kSharedFaces ? leaf.literal_count - 1 - i : 0;
+        push(later > 0 ? Path::kUnion : Path::kSingle, box, first_literal + i, later);
       }
     }
   } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {

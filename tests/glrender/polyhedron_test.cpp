@@ -131,7 +131,7 @@ std::vector<NamedScene> scenes() {
   add("FlushCuts", Op::kDifference,
       {block, cube({-4, -1, 0}, {4, 1, 2}), prism(-2, 0, 1, 6), make_frustum(0, 2, 2, 2)});
   add("InnerCubes", Op::kUnion,
-      {cube({-1, -1, 0}, {1, 1, 2}), block, make_frustum(0, 2, 3, 3), prism(-2, 2, 3, 48)});
+      {cube({-1, -1, 0}, {1, 1, 2}), block, make_frustum(0, 2, 2.9, 2.9), prism(-2, 2, 2.5, 48)});
   return all;
 }
 
@@ -236,9 +236,13 @@ TEST(PolyhedronPictureTest, LongLists) {
 }
 
 TEST(PolyhedronPictureTest, RefusesWhatAShaderCannotEvaluate) {
+  // Of one place, and of almost one size: equal ones would be one.
   const auto draw_equal = [](const Primitive& primitive, size_t count) {
-    const NamedScene equal =
-        combine("equal", Op::kIntersection, std::vector<Primitive>(count, primitive));
+    std::vector<Primitive> primitives(count, primitive);
+    for (size_t i = 0; i < count; ++i) {
+      primitives[i].local_to_world.linear *= 1 + 1e-9 * static_cast<double>(i);
+    }
+    const NamedScene equal = combine("equal", Op::kIntersection, std::move(primitives));
     LoadedScene loaded(equal.scene, leaves_of(8));
     View view = view_of(loaded, Projection::kPerspective, 25, 35);
     view.width_px = view.height_px = 16;

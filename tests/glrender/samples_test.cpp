@@ -159,13 +159,16 @@ TEST_P(SamplesTest, CoverAPixelAsAFaceDoesInPerspective) {
   for (uint32_t y = 0; y < view.height_px; ++y) {
     for (uint32_t x = 0; x < view.width_px; ++x) {
       uint32_t seen = 0;
+      bool at_rim = false;  // of what is so near it float tells no side
       for (uint32_t i = 0; i < samples(); ++i) {
         const auto offset = sample_offset(i, samples());
         const csgcore::Ray ray = csgcore::pixel_ray(view, x + offset[0], y + offset[1]);
         const csgcore::Vec3 point = ray.origin + view.eye.z * ray.direction;
         seen += std::hypot(point.x, point.y) < kRadius;
+        at_rim |= std::abs(std::hypot(point.x, point.y) - kRadius) < 1e-5;
       }
       partly += seen > 0 && seen < samples();
+      if (at_rim) continue;
       EXPECT_NEAR(image.rgb[size_t{y} * 101 + x][0], lit * seen / samples(), 1) << x << ", " << y;
     }
   }

@@ -1,16 +1,21 @@
 // Every shader variant compiles, and GL objects have one owner.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
+#include <glm/gtc/quaternion.hpp>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/primitive.hpp"
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
 #include "polyhedron_texels.hpp"
 #include "shader_program.hpp"
 #include "support/full_run.hpp"
+#include "thickness.hpp"
 
 namespace {
 
@@ -113,6 +118,39 @@ TEST(PolyhedronTexelsTest, RefuseMoreThanFloatsCanCount) {
   const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
   EXPECT_NO_THROW(PolyhedronTexels(9).first_of(box.get()));
   EXPECT_THROW(PolyhedronTexels(7).first_of(box.get()), GlError);
+}
+
+TEST(ThicknessTest, IsThatBetweenTheNearestPlanes) {
+  using csgcore::make_frustum;
+  using csgcore::make_polyhedron;
+  using csgcore::make_sphere;
+  using csgcore::Mat3;
+  using csgcore::Polyhedron;
+  using csgcore::Vec3;
+  const csgcore::Affine turned{glm::mat3_cast(glm::normalize(glm::dquat(0.3, 0.8, -0.4, 0.2))),
+                               {3, -2, 7}};
+  const auto squeezed = [&](double x, double y, double z) {
+    return csgcore::compose(turned, {Mat3{Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}}, Vec3(1)});
+  };
+  const csgcore::Affine sheared =
+      csgcore::compose(turned, {Mat3{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{5, -3, 1}}, Vec3(1)});
+  const auto expect_thickness = [](const csgcore::Primitive& primitive, double thickness) {
+    const csgcore::CanonicalPrimitive canonical = csgcore::canonicalize(primitive);
+    EXPECT_TRUE(is_thinner(canonical, 1.0001 * thickness)) << thickness;
+    EXPECT_FALSE(is_thinner(canonical, 0.9999 * thickness)) << thickness;
+  };
+  expect_thickness(make_sphere(0.5, turned), 1);
+  for (const auto& [x, y, z] :
+       {std::array{1.0, 1e-3, 1.0}, {1e-3, 1e-3, 1.0}, {1e-3, 1.0, 1.01e-3}}) {
+    expect_thickness(make_sphere(0.5, squeezed(x, y, z)), 1e-3);
+  }
+  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 5, turned), 1e-4);
+  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 3, sheared), 1e-4);  // its caps stay as far apart
+  expect_thickness(make_frustum(-8, 8, 1e-3, 1e-3, turned), 2e-3);
+  expect_thickness(make_frustum(-8, 8, 1, 1, squeezed(1e-3, 1, 1)), 2e-3);
+  expect_thickness(make_polyhedron(Polyhedron::box({Vec3(1, 2, 3), Vec3(4, 2 + 1e-5, 7)}), turned),
+                   1e-5);
+  expect_thickness(make_polyhedron(Polyhedron::frustum(0, 1e-4, 5, 5, 30), sheared), 1e-4);
 }
 
 TEST(GlObjectTest, MovesOwnership) {

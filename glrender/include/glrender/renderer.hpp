@@ -8,7 +8,7 @@
 // ARB_clip_control together let the driver skip fragments behind what is drawn already.
 //
 // GL state: works in framebuffers, textures, buffers and programs of its own; leaves depth test,
-// depth clamp, face culling, clip control and viewport as it set them.
+// depth clamp, face culling, front face, clip control and viewport as it set them.
 #pragma once
 
 #include <cstdint>
