@@ -82,14 +82,18 @@ class Run {
     };
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
     frontend::DesignFile file = frontend::read_design(input, reading);
-    frontend::ImportedDesign design = file.import.finish();
+    frontend::ImportedDesign design = frontend::import_design(file);
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
     design.scene.background = {};
     design.scene.highlight = {};
-    return {file.name, std::make_shared<const csgcore::Scene>(std::move(design.scene)),
-            frontend::choose_camera(options_.camera, design.view_box)};
+    const frontend::Camera camera = frontend::choose_camera(options_.camera, design.view_box);
+    if (frontend::sees_nothing(camera, options_.camera.projection)) {
+      throw frontend::Error("", {}, "from the camera's distance nothing is seen",
+                            "give --camera a positive distance, or --viewall");
+    }
+    return {file.name, std::make_shared<const csgcore::Scene>(std::move(design.scene)), camera};
   }
 
   Result measure(const Design& design) {

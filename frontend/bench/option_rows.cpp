@@ -28,7 +28,7 @@ constexpr OptionRow kOptions[] = {
     {"time", Takes::kText, "SECONDS", "and until it took so long in all; default 1"},
     {"json", Takes::kNothing, "", "JSON instead of tables"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
-    {"skip-unsupported", Takes::kNothing, "", "leave out what cannot be drawn, and list it"},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", frontend::kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},

@@ -50,7 +50,6 @@ Options parse_options(const std::vector<std::string>& words) {
   options.camera.height_px = 480;
   frontend::read_image_size(arguments, options.camera);
   frontend::read_camera(arguments, options.camera);
-  options.import.skip_unsupported = arguments.has("skip-unsupported");
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   frontend::RenderSettings render;
   frontend::read_cells_and_threads(arguments, render);

@@ -59,6 +59,9 @@ std::string table_of(const RuleTimes& times) {
   std::snprintf(name, sizeof name, "cells below %g pixels dropped", times.rule.threshold_px);
   text += times.rule.threshold_px > 0 ? name : "no cell dropped";
   text += ": " + grouped(times.cells.leaves) + " leaves";
+  if (times.cells.leaves_given_up > 0) {
+    text += ", " + grouped(times.cells.leaves_given_up) + " of them given up";
+  }
   if (times.gl) {
     text += ", " + grouped(times.gl->cells_drawn) + " cells in " + grouped(times.gl->draw_calls) +
             " draw calls";
@@ -97,6 +100,7 @@ Json json_of(const RuleTimes& times) {
                {"threshold_px", times.rule.threshold_px},
                {"leaves", times.cells.leaves},
                {"leaves_dropped", times.cells.leaves_dropped},
+               {"leaves_given_up", times.cells.leaves_given_up},
                {"S", times.subdivide}};
   if (times.gl) {
     json["gl"] = {{"T_S", times.gl->pass},

@@ -105,8 +105,9 @@ std::vector<std::string> openscad_arguments_of(const Arguments& arguments) {
 }
 
 void read_cells_and_threads(const Arguments& arguments, RenderSettings& render) {
-  render.leaf_primitives = arguments.number<uint32_t>(
-      "leaf-primitives", 1, UINT32_MAX, render.leaf_primitives, "give a whole number from 1");
+  render.leaf_primitives =
+      arguments.number<uint32_t>("leaf-primitives", 1, UINT32_MAX, render.leaf_primitives,
+                                 "give a whole number from 1 to 4294967295");
   render.threshold_px = arguments.number<double>("threshold", 0, HUGE_VAL, render.threshold_px,
                                                  "give a number of pixels from 0");
   render.threads = arguments.number<unsigned>("threads", 1, kMaxThreads, render.threads,

@@ -58,9 +58,12 @@ void draw_gnomon(Canvas& canvas, const View& view, Rgb label_color) {
   const std::array<std::span<const std::string_view>, 3> letters = {kLetterX, kLetterY, kLetterZ};
   const double scale = view.height_px / kGnomonUnits;
   const ScreenPoint origin{kGnomonOrigin * view.width_px, (1 - kGnomonOrigin) * view.height_px, 0};
+  // It stands upright, also in a picture that does not.
+  const bool is_upright = glm::dot(glm::cross(view.right, view.up), view.forward) < 0;
+  const Vec3 up = is_upright ? view.up : -view.up;
   const auto place = [&](std::size_t axis, double units) {
     return ScreenPoint{origin.x + units * scale * glm::dot(kAxes[axis], view.right),
-                       origin.y - units * scale * glm::dot(kAxes[axis], view.up), 0};
+                       origin.y - units * scale * glm::dot(kAxes[axis], up), 0};
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     canvas.set_color(kColors[axis]);

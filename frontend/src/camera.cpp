@@ -88,11 +88,13 @@ Camera choose_camera(const CameraOptions& options, const Box& view_box) {
       if (radius > 0) camera.distance = radius / std::sin(radians(kHalfFov_deg));
     }
   }
-  if (!(camera.distance > 0) || !std::isfinite(camera.distance)) {
-    throw Error("", {}, "the camera's distance is not a positive number",
-                "give --camera another distance, or --viewall");
-  }
   return camera;
+}
+
+bool sees_nothing(const Camera& camera, csgcore::Projection projection) {
+  const bool sees_behind = projection == csgcore::Projection::kOrthographic;
+  return camera.distance == 0 || !std::isfinite(camera.distance) ||
+         (camera.distance < 0 && !sees_behind);
 }
 
 csgcore::View make_view(const Camera& camera, const CameraOptions& options) {
@@ -102,10 +104,12 @@ csgcore::View make_view(const Camera& camera, const CameraOptions& options) {
   view.right = turn[0];
   view.up = turn[1];
   view.forward = -turn[2];
-  view.eye = camera.target + camera.distance * turn[2];
+  const double distance = std::abs(camera.distance);
+  view.eye = camera.target + distance * turn[2];
   view.half_height = std::tan(radians(kHalfFov_deg));
   if (options.projection == csgcore::Projection::kOrthographic) {
-    view.half_height *= camera.distance;
+    view.half_height *= distance;
+    if (camera.distance < 0) view.up = -view.up;
   }
   view.width_px = options.width_px;
   view.height_px = options.height_px;

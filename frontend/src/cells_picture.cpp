@@ -52,7 +52,8 @@ Range clip(Range range, const Ray& ray, const Box& box) {
 
 bool has_surface(const Leaf& leaf) {
   return leaf.kind == LeafKind::kUnion || leaf.kind == LeafKind::kPair ||
-         leaf.kind == LeafKind::kGeneral || leaf.kind == LeafKind::kFull;
+         leaf.kind == LeafKind::kGeneral || leaf.kind == LeafKind::kFull ||
+         leaf.kind == LeafKind::kGivenUp;
 }
 
 struct CellHit {
@@ -70,6 +71,7 @@ class CellFinder {
   }
 
   std::optional<CellHit> find(const Ray& ray) {
+    if (subdivision_.nodes().empty()) return std::nullopt;  // of a model that is nowhere
     visits_.assign(1, {0, clip(seen_, ray, subdivision_.root_box())});
     while (!visits_.empty()) {
       const Visit visit = visits_.back();

@@ -7,6 +7,7 @@
 #include "import_arguments.hpp"
 #include "import_view_box.hpp"
 #include "node_roles.hpp"
+#include "primitive_size.hpp"
 
 namespace frontend {
 namespace {
@@ -39,11 +40,37 @@ bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   });
 }
 
-std::string_view why_not(Convexity convexity) {
-  return convexity == Convexity::kTooLarge
-             ? "it has too many faces"
-             : "it is not the closed boundary of one convex solid, its faces plane and clockwise "
-               "seen from outside";
+constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
+constexpr std::string_view kBecauseManyFaces = "it has too many faces";
+constexpr std::string_view kBecauseNotConvex =
+    "it is not the closed boundary of one convex solid with plane faces";
+constexpr std::string_view kBecauseTooLarge =
+    "it is too large, or too far from the origin: scale the design to between 1e-90 and 1e90 "
+    "across";
+constexpr std::string_view kBecauseTooSmall =
+    "it is too small: scale the design to between 1e-90 and 1e90 across";
+
+constexpr double kLargestSize = 0x1p300;
+static_assert(kLargestExponent == 300);
+
+bool is_near(const csgcore::Vec3& point) {
+  return std::abs(point.x) <= kLargestSize && std::abs(point.y) <= kLargestSize &&
+         std::abs(point.z) <= kLargestSize;
+}
+
+enum class Fit : uint8_t { kFits, kTooLarge, kTooSmall, kFlat /* nothing is left of it */ };
+
+/// Its shape is valid; the matrix may be any.
+Fit fit_of(const Primitive& primitive) {
+  const bool is_valid = csgcore::is_valid(primitive);
+  const Affine& map = primitive.local_to_world;
+  if (!is_valid && !map.finite()) return Fit::kTooLarge;
+  const double size = size_of(primitive);
+  if (size > kLargestSize || !is_near(map.translation)) return Fit::kTooLarge;
+  if (size < 1 / kLargestSize) {
+    return map.linear == csgcore::Mat3(0.0) ? Fit::kFlat : Fit::kTooSmall;
+  }
+  return is_valid ? Fit::kFits : Fit::kFlat;
 }
 
 }  // namespace
@@ -59,39 +86,39 @@ void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
   frame_of.reserve(solids);
   boxes.reserve(solids);
   fragments.reserve(solids);
+  if (options_.keeps_places) places.reserve(solids);
   frames.reserve(matrices);
 }
 
-void Collector::take(uint32_t index) {
+void Collector::take(uint32_t index, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
   primitive_of.push_back(kNoPrimitive);
   const uint32_t id = primitive_nodes;
-  if (is_primitive_node(node.kind)) ++primitive_nodes;
+  if (is_primitive_node(node.kind)) {
+    ++primitive_nodes;
+    if (options_.keeps_places) places.push_back({node.location.line, offset});
+  }
   if (root_ && !is_within(index, *root_)) return;
   if (disabled_ && is_within(index, *disabled_)) return;
   const bool is_disabled = (node.modifiers & kDisable) != 0;
   if (is_disabled) disabled_ = index;
   if (!root_ && !is_disabled && (node.modifiers & kRoot) != 0) select(index);
-  if (error_ || (skipped_ && is_within(index, *skipped_))) return;
+  if (skipped_ && is_within(index, *skipped_)) return;
   any_modifiers = any_modifiers || node.modifiers != 0;
   while (contexts_.size() > 1 && !is_within(index, contexts_.back().node)) contexts_.pop_back();
-  try {
-    if (is_disabled || !visit(index, id)) skipped_ = index;
-  } catch (Error& error) {
-    error_ = std::move(error);
-  }
+  if (is_disabled || !visit(index, id)) skipped_ = index;
 }
 
 void Collector::finish() {
-  if (error_) throw std::move(*error_);
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
   selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
   for (const LeftOut& out : maybe_left_out_) {
     const SyntaxNode& node = tree_.nodes[out.node];
     if (out.unless_empty && node.subtree_end == out.node + 1) continue;
     left_out.push_back(out.node);
-    Unsupported& kind = unsupported[static_cast<size_t>(node.kind)];
-    if (kind.count++ == 0) kind = {1, out.node, out.why};
+    problems.add(node, out.why, [&] {
+      return NodeProblems::Description{" is left out", std::string(out.why)};
+    });
   }
   maybe_left_out_ = {};
 }
@@ -105,12 +132,11 @@ void Collector::select(uint32_t root) {
   boxes.clear();
   fragments.clear();
   frames = {};
-  warnings.clear();
+  problems.clear();
   any_modifiers = false;
   contexts_.resize(1);
   skipped_.reset();
   maybe_left_out_.clear();
-  error_.reset();
 }
 
 /// False: the children do not matter.
@@ -125,12 +151,12 @@ bool Collector::visit(uint32_t index, uint32_t id) {
       if (node.kind == NodeKind::kColor) enter_color(index);
       return true;
     case Role::kUnsupportedOperation:
-      leave_out(index, "", !names_file(tree_, node));
+      leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
       return false;
     case Role::kUnsupportedLeaf:
       break;
   }
-  leave_out(index, "");
+  leave_out(index, kBecauseUnsupported);
   return false;
 }
 
@@ -139,7 +165,7 @@ void Collector::leave_out(uint32_t node, std::string_view why, bool unless_empty
 }
 
 void Collector::enter_matrix(uint32_t node) {
-  const FileMatrix file = read_matrix(tree_, tree_.nodes[node]);
+  const FileMatrix file = read_matrix(tree_, tree_.nodes[node], problems);
   if (is_identity(file)) return;
   Context context = contexts_.back();
   context.node = node;
@@ -153,7 +179,7 @@ void Collector::enter_matrix(uint32_t node) {
 }
 
 void Collector::enter_color(uint32_t node) {
-  const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], warnings);
+  const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
   if (!color || options_.rendered) return;
   if (contexts_.back().color) return;  // the outermost valid one wins
   Context context = contexts_.back();
@@ -162,29 +188,51 @@ void Collector::enter_color(uint32_t node) {
   contexts_.push_back(context);
 }
 
-void Collector::add_solid(uint32_t index, uint32_t id) {
+/// The node as a primitive under the matrices around it, without colour and id. False: it is the
+/// empty set, or left out.
+bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets) {
   const SyntaxNode& node = tree_.nodes[index];
+  const Affine& to_world = frames[contexts_.back().frame].to_world;
+  if (node.kind == NodeKind::kCube) {
+    primitive = polyhedra.box(read_cube(tree_, node, problems), to_world);
+    return csgcore::has_valid_shape(primitive);
+  }
+  if (node.kind == NodeKind::kPolyhedron) {
+    const PolyhedronArguments arguments = read_polyhedron(tree_, node, problems);
+    const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
+    if (convexity == Convexity::kConvex) return true;
+    const bool is_left_out = convexity != Convexity::kNothing && !contexts_.back().flattened;
+    if (is_left_out) {
+      leave_out(index, convexity == Convexity::kTooLarge ? kBecauseManyFaces : kBecauseNotConvex);
+    }
+    return false;
+  }
+  RoundPrimitive round = read_round_primitive(tree_, node, problems);
+  primitive = std::move(round.primitive);
+  if (!csgcore::has_valid_shape(primitive)) return false;
+  primitive.local_to_world = to_world;
+  facets = round.facets;
+  if (options_.fn) facets.fn = *options_.fn;
+  return true;
+}
+
+void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
-  const Affine& to_world = frames[context.frame].to_world;
   Primitive primitive;
   csgcore::FacetSettings facets;
-  if (node.kind == NodeKind::kCube) {
-    primitive = polyhedra.box(read_cube(tree_, node), to_world);
-  } else if (node.kind == NodeKind::kPolyhedron) {
-    const PolyhedronArguments arguments = read_polyhedron(tree_, node);
-    const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
-    if (convexity == Convexity::kNothing || context.flattened) return;
-    if (convexity != Convexity::kConvex) return leave_out(index, why_not(convexity));
-  } else {
-    RoundPrimitive round = read_round_primitive(tree_, node);
-    primitive = std::move(round.primitive);
-    primitive.local_to_world = to_world;
-    facets = round.facets;
-    if (options_.fn) facets.fn = *options_.fn;
+  if (!read_solid(index, primitive, facets) || context.flattened) return;
+  switch (fit_of(primitive)) {
+    case Fit::kFits:
+      break;
+    case Fit::kTooLarge:
+      return leave_out(index, kBecauseTooLarge);
+    case Fit::kTooSmall:
+      return leave_out(index, kBecauseTooSmall);
+    case Fit::kFlat:
+      return;
   }
   primitive.color = context.color;
   primitive.id = id;
-  if (context.flattened || !csgcore::is_valid(primitive)) return;
   primitive_of[index] = static_cast<uint32_t>(primitives.size());
   boxes.push_back(faceted_box(primitive, facets));
   fragments.push_back(keeps_facets(primitive, facets) ? fragment_count(primitive, facets) : 0);

@@ -1,7 +1,6 @@
 // From the nodes of a file to primitives in their frames.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,18 +14,10 @@
 #include "import_polyhedra.hpp"
 #include "marks.hpp"
 #include "matrix_healing.hpp"
+#include "node_problems.hpp"
 #include "node_sink.hpp"
 
 namespace frontend {
-
-constexpr size_t kNodeKinds = kNodeNames.size();
-
-/// The nodes of one kind that cannot be drawn.
-struct Unsupported {
-  uint32_t count = 0;
-  uint32_t first = 0;    // node
-  std::string_view why;  // of the first; empty: no node of the kind can be
-};
 
 /// Takes the nodes in the tree's order, while they are parsed or from a finished tree. What a later
 /// node decides is put right when it comes: `!` makes all before it void.
@@ -36,8 +27,8 @@ class Collector final : public NodeSink {
 
   /// Makes room: growing by doubling would copy, and touch, twice the memory.
   void reserve(size_t nodes, size_t solids, size_t matrices);
-  void take(uint32_t node) override;
-  /// After the last node. Throws the first Error that a node's arguments have caused.
+  void take(uint32_t node, uint32_t offset) override;
+  /// After the last node.
   void finish();
 
   static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
@@ -48,13 +39,13 @@ class Collector final : public NodeSink {
   std::vector<int> fragments;       // by primitive; 0: it is not to be faceted
   PolyhedronPool polyhedra;
   FrameTree frames;
-  std::vector<Warning> warnings;
+  NodeProblems problems;
   uint32_t primitive_nodes = 0;
-  bool any_modifiers = false;  // of the nodes that are drawn
+  std::vector<PrimitivePlace> places;  // by primitive node, where the options want them
+  bool any_modifiers = false;          // of the nodes that are drawn
   // After finish():
   NodeRange selected;
-  std::vector<uint32_t> left_out;  // nodes that cannot be drawn
-  std::array<Unsupported, kNodeKinds> unsupported;
+  std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
 
  private:
   /// What a node hands down to its children.
@@ -79,6 +70,7 @@ class Collector final : public NodeSink {
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   bool keeps_facets(const csgcore::Primitive& primitive,
                     const csgcore::FacetSettings& facets) const;
 
@@ -89,7 +81,6 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
   std::vector<LeftOut> maybe_left_out_;
-  std::optional<Error> error_;
 };
 
 }  // namespace frontend

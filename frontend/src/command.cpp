@@ -89,6 +89,7 @@ class Run {
     }
     if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
     progress_.clear();
+    check_outputs_differ(named_outputs(), named_inputs());  // now that all inputs are known
     write_outputs(outputs);
   }
 
@@ -108,7 +109,7 @@ class Run {
     }
     const Camera camera = choose_camera(options_.camera, design_.view_box);
     const csgcore::View view = make_view(camera, options_.camera);
-    Image image = draw(design_.scene, view);
+    Image image = draw(design_.scene, view, sees_nothing(camera, view.projection));
     encode(image, view, camera, outputs);
   }
 
@@ -142,11 +143,26 @@ class Run {
     return paths;
   }
 
+  std::vector<NamedPath> named_outputs() const {
+    std::vector<NamedPath> outputs;
+    for (std::string& path : picture_paths()) outputs.push_back({"-o", std::move(path)});
+    if (!options_.stats_path.empty()) outputs.push_back({"--stats", options_.stats_path});
+    if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
+    return outputs;
+  }
+
+  /// Those that are known by now.
+  std::vector<NamedPath> named_inputs() const {
+    std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
+    for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
+    return inputs;
+  }
+
   void check_outputs() const {
-    for (const std::string& path : picture_paths()) check_output(path);
-    for (const std::string& path : {options_.stats_path, options_.rule_path}) {
-      if (!path.empty()) check_output(path);
-    }
+    const std::vector<NamedPath> outputs = named_outputs();
+    for (const NamedPath& output : outputs) check_output(output.path);
+    check_outputs_differ(outputs, named_inputs());
+    if (!options_.rule_path.empty()) rule_of({options_.input});
   }
 
   void show_progress(const std::string& stage, double fraction) {
@@ -198,9 +214,10 @@ class Run {
     }
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
-    ImportedDesign design = file.import.finish();
+    ImportedDesign design = import_design(file);
     stats_.import_ms = ms_since(import_start);
     stats_.primitive_nodes = design.primitive_nodes;
+    if (options_.has_hard_warnings && !design.warnings.empty()) throw Error(design.warnings[0]);
     for (const Warning& warning : design.warnings) say(warning.text);
     return design;
   }
@@ -218,7 +235,7 @@ class Run {
     return image;
   }
 
-  Image draw(const csgcore::Scene& scene, const csgcore::View& view) {
+  Image draw(const csgcore::Scene& scene, const csgcore::View& view, bool sees_nothing) {
     RenderSettings settings = options_.render;
     const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
     settings.measured_channels = shows_channel || options_.overlays.any() || writes_exr();
@@ -228,7 +245,9 @@ class Run {
     };
     const Clock::time_point start = Clock::now();
     Image image;
-    if (scene.model.empty() && scene.background.empty() && scene.highlight.empty()) {
+    const bool is_empty =
+        scene.model.empty() && scene.background.empty() && scene.highlight.empty();
+    if (is_empty || sees_nothing) {
       // Nothing to draw needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";
@@ -260,10 +279,13 @@ class Run {
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
   }
 
-  std::string rule() const {
+  std::string rule() const { return rule_of(files_); }
+
+  /// Throws Error for names that no rule can hold.
+  std::string rule_of(const std::vector<std::string>& files) const {
     std::vector<std::string> targets = picture_paths();
     std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
-    return make_rule(targets, files_);
+    return make_rule(targets, files);
   }
 
   const Options& options_;

@@ -22,6 +22,10 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
+  void reset(int number) {
+    if (number_ >= 0) close(number_);
+    number_ = number;
+  }
   /// False if the system reports only now that something could not be written.
   bool close_now() {
     const int result = close(std::exchange(number_, -1));

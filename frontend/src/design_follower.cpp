@@ -149,6 +149,7 @@ class DesignFollower::Follower {
   void finish_reading() {
     reading_.join();
     good_ = std::move(result_.good);
+    is_scad_ = is_scad(path_) || result_.is_scad;
     DesignVersion version = std::move(result_.version);
     if (version.error.empty()) imports_ = std::move(version.files);
     if (is_followed_) watch_.set_files(paths_to_watch(), reading_since_ns_);
@@ -179,7 +180,7 @@ class DesignFollower::Follower {
       paths.push_back(std::move(path));
     };
     add(path_);
-    if (is_scad(path_)) {
+    if (is_scad_) {
       for (const std::string& name : included_.of(absolute(path_))) add(name);
     }
     for (const std::string& name : imports_) add(name);
@@ -204,6 +205,7 @@ class DesignFollower::Follower {
   std::vector<std::string> files_;    // watched, as they are named
   std::vector<std::string> imports_;  // of the last version that could be read
   GoodVersion good_;
+  bool is_scad_ = is_scad(path_);
   uint64_t number_ = 0;
   std::optional<Clock::time_point> noticed_;  // what is still to be read
   int64_t reading_since_ns_ = 0;

@@ -1,7 +1,9 @@
 #include "design_reading.hpp"
 
 #include <exception>
+#include <functional>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "elapsed.hpp"
@@ -12,16 +14,35 @@
 namespace frontend {
 namespace {
 
-GoodVersion import_text(const std::string& name, std::shared_ptr<const FileText> csg,
-                        const ImportOptions& options, DesignVersion& version,
-                        const std::stop_token& stop) {
-  const Clock::time_point parse_start = Clock::now();
-  TextImport import(csg->view(), name, options, stop);
-  version.parse_ms = ms_since(parse_start);
-  const Clock::time_point import_start = Clock::now();
+/// Of what openscad says the first so many bytes are kept: it may say the same for ever.
+constexpr std::size_t kMostMessageBytes = std::size_t{1} << 20;
+
+/// A function that adds lines to the version's messages.
+std::function<void(const std::string&)> keeping_messages(DesignVersion& version) {
+  return [&version, bytes = std::size_t{0}](const std::string& line) mutable {
+    if (bytes > kMostMessageBytes) return;
+    bytes += line.size();
+    version.messages.push_back(bytes > kMostMessageBytes ? "(openscad says more)" : line);
+  };
+}
+
+/// Nothing where the text is that of the version before.
+std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions& options,
+                                     DesignReading& reading, const std::stop_token& stop) {
+  reading.version.unchanged = reading.good.design && reading.good.csg->view() == text.csg.view();
+  if (reading.version.unchanged) return std::nullopt;
+  const Clock::time_point start = Clock::now();
+  TextImport import(text.csg.view(), text.name, options, stop);
+  reading.version.parse_ms = ms_since(start);
+  return import;
+}
+
+GoodVersion finish_import(TextImport& import, DesignText& text, DesignVersion& version,
+                          const std::stop_token& stop) {
+  const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
-  version.import_ms = ms_since(import_start);
-  return {std::move(csg), std::move(design), import.nodes()};
+  version.import_ms = ms_since(start);
+  return {std::make_shared<const FileText>(std::move(text.csg)), std::move(design), import.nodes()};
 }
 
 void read_into(DesignReading& reading, const std::string& path, const FollowOptions& options,
@@ -30,16 +51,23 @@ void read_into(DesignReading& reading, const std::string& path, const FollowOpti
   DesignFileOptions file_options;
   file_options.openscad_arguments = options.openscad_arguments;
   file_options.wants_files = true;
-  file_options.message = [&version](const std::string& line) { version.messages.push_back(line); };
+  file_options.message = keeping_messages(version);
   file_options.progress = [](const char*) {};
   DesignText text = read_design_text(path, file_options, stop);
+  std::optional<TextImport> import;
+  try {
+    import = parse_text(text, options.import, reading, stop);
+  } catch (const Error&) {
+    if (text.is_exported || !may_be_scad(path)) throw;
+    reading.is_scad = true;
+  }
+  if (reading.is_scad) {
+    export_design_text(path, file_options, text, stop);
+    import = parse_text(text, options.import, reading, stop);
+  }
+  if (import) reading.good = finish_import(*import, text, version, stop);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;
-  version.unchanged = reading.good.design && reading.good.csg->view() == text.csg.view();
-  if (!version.unchanged) {
-    reading.good = import_text(text.name, std::make_shared<const FileText>(std::move(text.csg)),
-                               options.import, version, stop);
-  }
   version.files = std::move(text.files);
   version.design = reading.good.design;
   version.csg = reading.good.csg;

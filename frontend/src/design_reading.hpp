@@ -21,7 +21,8 @@ struct DesignReading {
   /// Without its number and the time; `files` are those that it says it has read, none after an
   /// error.
   DesignVersion version;
-  GoodVersion good;  // it, or after an error the one before
+  GoodVersion good;      // it, or after an error the one before
+  bool is_scad = false;  // by what stands in it: its name leaves that open
 };
 
 /// Every failure is version.error; throws Stopped (stop.hpp) alone.

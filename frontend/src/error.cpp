@@ -27,7 +27,8 @@ Error::Error(const std::string& file, Location location, const std::string& what
 
 Warning make_warning(const std::string& file, Location location, const std::string& what,
                      const std::string& todo) {
-  return {message(file, location, "warning", what, todo)};
+  return {message(file, location, "warning", what, todo),
+          message(file, location, "error", what, todo)};
 }
 
 }  // namespace frontend

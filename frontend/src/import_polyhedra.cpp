@@ -21,18 +21,6 @@ Affine resized(const Affine& map, const Vec3& origin, const Vec3& size) {
           map.point(origin)};
 }
 
-/// Of the points that faces have.
-bool is_finite(const PolyhedronArguments& arguments) {
-  for (const std::vector<uint32_t>& face : arguments.faces) {
-    for (const uint32_t index : face) {
-      if (index >= arguments.points.size()) continue;
-      const Vec3& p = arguments.points[index];
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-    }
-  }
-  return true;
-}
-
 double largest_coordinate(const Mesh& mesh) {
   double largest = 0;
   for (const Vec3& v : mesh.vertices) {
@@ -59,14 +47,16 @@ uint64_t face_count(int fragments, bool is_sphere) {
 }  // namespace
 
 Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_world) {
-  if (box.empty()) return csgcore::make_polyhedron(nullptr);
+  const Vec3 size = box.size();
+  const bool is_finite = std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z);
+  const bool is_solid = is_finite && size.x > 0 && size.y > 0 && size.z > 0;
+  if (!is_solid) return csgcore::make_polyhedron(nullptr);
   if (!unit_box_) unit_box_ = csgcore::Polyhedron::box({Vec3(0.0), Vec3(1.0)});
-  return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, box.size()));
+  return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
 }
 
 Convexity PolyhedronPool::convex(const PolyhedronArguments& arguments, const Affine& local_to_world,
                                  Primitive& primitive) {
-  if (!is_finite(arguments)) return Convexity::kNothing;
   Mesh mesh = csgcore::polyhedron_mesh(arguments.points, arguments.faces);
   if (mesh.faces.empty()) return Convexity::kNothing;
   if (mesh.faces.size() * mesh.vertices.size() > kMostConvexitySteps) return Convexity::kTooLarge;

@@ -29,11 +29,10 @@ enum class Convexity : uint8_t { kConvex, kNothing /* the empty set */, kNot, kT
 
 class PolyhedronPool {
  public:
-  /// Invalid (csgcore::is_valid) if the box is empty, flat or infinite.
+  /// Has no polyhedron if the box is empty, flat or infinite.
   csgcore::Primitive box(const csgcore::Box& box, const csgcore::Affine& local_to_world);
 
-  /// `primitive` is set if it is kConvex. A vertex that is inf or nan makes it the empty set, as do
-  /// no faces.
+  /// `primitive` is set if it is kConvex. Without faces it is the empty set.
   Convexity convex(const PolyhedronArguments& arguments, const csgcore::Affine& local_to_world,
                    csgcore::Primitive& primitive);
 

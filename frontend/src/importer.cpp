@@ -100,39 +100,6 @@ class Emitter {
   std::vector<OpenNode> open_;
 };
 
-std::string counted(uint32_t count, NodeKind kind) {
-  return std::to_string(count) + ' ' + std::string(name_of(kind));
-}
-
-[[noreturn]] void throw_unsupported(const SyntaxTree& tree, const Collector& collected) {
-  std::string kinds;
-  for (size_t i = 0; i < kNodeKinds; ++i) {
-    if (collected.unsupported[i].count == 0) continue;
-    if (!kinds.empty()) kinds += ", ";
-    kinds += counted(collected.unsupported[i].count, static_cast<NodeKind>(i));
-  }
-  const SyntaxNode& first = tree.nodes[collected.left_out.front()];
-  const std::string why(collected.unsupported[static_cast<size_t>(first.kind)].why);
-  throw Error(tree.file_name, first.location,
-              std::string(name_of(first.kind)) + " cannot be drawn" +
-                  (why.empty() ? "" : ", since " + why) + "; of all nodes " +
-                  std::to_string(collected.left_out.size()) + " cannot: " + kinds,
-              "--skip-unsupported draws the rest");
-}
-
-void warn_of_unsupported(const SyntaxTree& tree, const Collector& collected,
-                         std::vector<Warning>& warnings) {
-  for (size_t i = 0; i < kNodeKinds; ++i) {
-    const Unsupported& kind = collected.unsupported[i];
-    if (kind.count == 0) continue;
-    warnings.push_back(make_warning(
-        tree.file_name, tree.nodes[kind.first].location,
-        counted(kind.count, static_cast<NodeKind>(i)) +
-            (kind.count == 1 ? " node is left out" : " nodes are left out; this is the first"),
-        kind.why.empty() ? "it cannot be drawn" : std::string(kind.why)));
-  }
-}
-
 /// Healing is done by then: it knows axes and caps of what is round.
 void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& warnings) {
   uint32_t count = 0;
@@ -180,12 +147,10 @@ Box union_of(std::span<const Box> boxes) {
 ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
   collected.finish();
-  if (!collected.left_out.empty() && !options.skip_unsupported) throw_unsupported(tree, collected);
-
   ImportedDesign design;
-  design.warnings = std::move(collected.warnings);
-  warn_of_unsupported(tree, collected, design.warnings);
+  design.warnings = collected.problems.warnings(tree.file_name);
   design.primitive_nodes = collected.primitive_nodes;
+  design.places = std::move(collected.places);
 
   const std::vector<Box>& boxes = collected.boxes;
   merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
@@ -210,16 +175,11 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
 
 }  // namespace
 
-Location place_of_primitive(const SyntaxTree& tree, uint32_t id) {
-  for (const SyntaxNode& node : tree.nodes) {
-    if (is_primitive_node(node.kind) && id-- == 0) return node.location;
-  }
-  return {};
-}
-
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
                              const std::stop_token& stop) {
-  Collector collected(tree, options);
+  ImportOptions without_places = options;
+  without_places.keeps_places = false;
+  Collector collected(tree, without_places);
   size_t solids = 0;
   size_t matrices = 0;
   for (const SyntaxNode& node : tree.nodes) {
@@ -229,7 +189,7 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
   collected.reserve(tree.nodes.size(), solids, matrices);
   for (uint32_t i = 0; i < tree.nodes.size(); ++i) {
     throw_if_stopped(stop);
-    collected.take(i);
+    collected.take(i, 0);
   }
   return finish_import(tree, collected, options, stop);
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <string_view>
 
 #include "frontend/error.hpp"
 #include "frontend/options.hpp"
@@ -18,32 +19,50 @@ namespace {
 constexpr std::size_t kSlots = kMaxPictures + 2;  // the pictures, statistics, rule
 std::array<std::atomic<const char*>, kSlots> files_to_remove;
 std::atomic<pid_t> child_group{0};
+std::atomic<int> holders{0};  // living HoldInterrupts
 static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<pid_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
 
-/// For a child that another thread is just starting, in ms: long, and yet an end.
-constexpr int kMostWaits = 2000;
+/// For another thread's HoldInterrupts, in ms: long, and yet an end.
+constexpr int kMostWaits = 5000;
 
-void on_interrupt(int) {
-  pid_t group = child_group.load();
-  for (int waits = 0; group == kStartingChild && waits < kMostWaits; ++waits) {
-    poll(nullptr, 0, 1);
-    group = child_group.load();
-  }
-  if (group > 0) kill(-group, SIGKILL);
+/// By default these end a program, and nothing shows why it was interrupted but their number.
+constexpr int kInterruptions[] = {SIGINT,  SIGTERM, SIGHUP,  SIGALRM, SIGVTALRM, SIGPROF,
+                                  SIGUSR1, SIGUSR2, SIGPOLL, SIGPWR,  SIGSTKFLT, SIGXCPU};
+/// By default these dump core, which is wanted of them.
+constexpr int kCrashes[] = {SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
+
+void clean_up() {
+  if (const pid_t group = child_group.load(); group > 0) kill(-group, SIGKILL);
   for (std::atomic<const char*>& slot : files_to_remove) {
     if (const char* path = slot.exchange(nullptr)) unlink(path);
   }
-  constexpr char kText[] = "error: interrupted\n";
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
+}
+
+void on_interrupt(int signal_number) {
+  for (int waits = 0; holders.load() > 0 && waits < kMostWaits; ++waits) poll(nullptr, 0, 1);
+  clean_up();
+  const std::string_view text =
+      signal_number == SIGXCPU
+          ? "error: the limit on processor time is reached (raise it, by ulimit -t)\n"
+          : "error: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
   _exit(1);
 }
 
-void handle(int signal_number) {
+void on_crash(int signal_number) {
+  clean_up();
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);  // when the handler returns: until then it is blocked
+}
+
+/// Leaves alone what the caller ignores, and what a sanitizer or profiler handles already.
+void handle(int signal_number, void (*handler)(int)) {
   struct sigaction action {};
-  if (sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+  if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
   action = {};
-  action.sa_handler = on_interrupt;
+  action.sa_handler = handler;
   sigfillset(&action.sa_mask);
   sigaction(signal_number, &action, nullptr);
 }
@@ -51,10 +70,11 @@ void handle(int signal_number) {
 }  // namespace
 
 void handle_interrupts() {
-  handle(SIGINT);
-  handle(SIGTERM);
-  handle(SIGHUP);
+  for (const int number : kInterruptions) handle(number, on_interrupt);
+  for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) handle(number, on_interrupt);
+  for (const int number : kCrashes) handle(number, on_crash);
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 RemoveOnInterrupt::RemoveOnInterrupt(const char* path) : slot_(0) {
@@ -68,5 +88,18 @@ RemoveOnInterrupt::RemoveOnInterrupt(const char* path) : slot_(0) {
 RemoveOnInterrupt::~RemoveOnInterrupt() { files_to_remove[slot_].store(nullptr); }
 
 void set_child_group(pid_t group) { child_group.store(group); }
+
+HoldInterrupts::HoldInterrupts() {
+  // In this order: a handler on this thread would wait for itself.
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before_);
+  ++holders;
+}
+
+HoldInterrupts::~HoldInterrupts() {
+  --holders;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
 
 }  // namespace frontend

@@ -66,7 +66,14 @@ class Lexer {
   /// "expected X, found Y" at the cursor; at the end of the text it says that the file is cut off.
   [[noreturn]] void fail_expected(const std::string& expected, const std::string& todo) const;
 
+  /// After a failure: whether it may be the end of the text that has failed, so that more text
+  /// could mend it.
+  bool may_be_cut_off() const { return seeks_end_ || end_ - at_ <= kLongestRest; }
+
  private:
+  /// What is left unread of a token that the end has cut: "e+" of a number, "text = " of a text.
+  static constexpr ptrdiff_t kLongestRest = 16;
+
   static constexpr std::string_view kTextStart = "text = \"";
   static constexpr std::string_view kTextEnd = "\", size = ";
 
@@ -92,6 +99,7 @@ class Lexer {
   const char* text_end_ = nullptr;  // where kTextEnd was found last, so that no stretch is searched
                                     // twice
   uint32_t line_ = 1;
+  bool seeks_end_ = false;  // of a comment, string or text, which is not in the text
   const std::string& file_name_;
 };
 
@@ -182,7 +190,10 @@ inline void Lexer::skip_comment() {
     at_ += std::min(rest().find('\n'), rest().size());
   } else if (ahead("/*")) {
     const size_t close = rest().find("*/", 2);
-    if (close == std::string_view::npos) fail("the comment is not closed", "end it with */");
+    if (close == std::string_view::npos) {
+      seeks_end_ = true;
+      fail("the comment is not closed", "end it with */");
+    }
     move_over(at_ + close + 2);
   } else {
     fail("'/' outside a comment", "a .csg holds values, no expressions");
@@ -212,8 +223,11 @@ inline double Lexer::number_by_library() {
   if (error == std::errc::invalid_argument) fail_expected("a number", "write digits");
   const bool out_of_range = error == std::errc::result_out_of_range || std::isinf(value);
   if (out_of_range) {
-    if (!is_below_one({at_, static_cast<size_t>(end - at_)})) {
-      fail("the number is too large", "the largest is 1.79769e+308; infinity is written inf");
+    const char* const start = at_;
+    at_ = end;
+    if (!is_below_one({start, static_cast<size_t>(end - start)})) {
+      fail(start, "the number is too large",
+           "the largest is 1.79769e+308; infinity is written inf");
     }
     value = 0;
   }
@@ -232,7 +246,10 @@ inline const char* Lexer::closing_quote(const char* from, const char* to) {
 inline std::string_view Lexer::quoted_string() {
   const char* const first = at_ + 1;
   const char* const quote = closing_quote(first, end_);
-  if (quote == end_) fail("the string is not closed", "end it with '\"'");
+  if (quote == end_) {
+    seeks_end_ = true;
+    fail("the string is not closed", "end it with '\"'");
+  }
   move_over(quote + 1);
   return {first, static_cast<size_t>(quote - first)};
 }
@@ -271,7 +288,10 @@ inline bool Lexer::raw_text(std::string_view& text) {
     const std::string_view left(first, static_cast<size_t>(end_ - first));
     text_end_ = first + std::min(left.find(kTextEnd), left.size());
   }
-  if (text_end_ == end_) return false;
+  if (text_end_ == end_) {
+    seeks_end_ = true;
+    return false;
+  }
   const char* const quote = closing_quote(first, text_end_);
   if (quote < text_end_ && ends_by_hand({quote + 1, static_cast<size_t>(text_end_ - quote - 1)})) {
     return false;

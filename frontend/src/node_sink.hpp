@@ -13,8 +13,9 @@ class NodeSink {
  public:
   virtual ~NodeSink() = default;
   /// The node that was parsed last, with its arguments. Of its descendants none is known yet: until
-  /// it is closed its subtree_end is kOpenSubtree.
-  virtual void take(uint32_t node) = 0;
+  /// it is closed its subtree_end is kOpenSubtree. `offset`: of its name, in bytes from the text's
+  /// start.
+  virtual void take(uint32_t node, uint32_t offset) = 0;
 };
 
 /// The end of what is still being parsed: beyond every node.

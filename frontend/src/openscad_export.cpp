@@ -1,14 +1,11 @@
 #include "frontend/openscad_export.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -16,16 +13,16 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
+#include "child_process.hpp"
 #include "descriptor.hpp"
 #include "frontend/error.hpp"
-#include "frontend/interrupt.hpp"
 #include "frontend/stop.hpp"
+#include "growing_text.hpp"
 #include "make_rule.hpp"
-
-extern char** environ;
 
 namespace frontend {
 namespace {
@@ -47,35 +44,11 @@ Error cannot_run(const std::string& program, int error_number) {
                "check $OPENSCAD and PATH");
 }
 
-/// A pipe whose ends are closed with it, unless closed before.
-class Pipe {
- public:
-  Pipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw cannot_run("a pipe", errno);
-  }
-  ~Pipe() {
-    close_end(0);
-    close_end(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  int read_end() const { return ends_[0]; }
-  int write_end() const { return ends_[1]; }
-  void close_write_end() { close_end(1); }
-
- private:
-  void close_end(std::size_t end) {
-    if (ends_[end] >= 0) close(ends_[end]);
-    ends_[end] = -1;
-  }
-  std::array<int, 2> ends_{-1, -1};
-};
-
 /// A file without a name, in memory.
 class MemoryFile {
  public:
   MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
-    if (file_ < 0) throw cannot_run("a file in memory", errno);
+    if (file_ < 0) throw std::system_error(errno, std::generic_category(), "a file in memory");
   }
   ~MemoryFile() { close(file_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -90,91 +63,6 @@ class MemoryFile {
   int file_;
 };
 
-/// A running program in a process group of its own, killed if it is not waited for.
-class Child {
- public:
-  /// `kept`: a file that the program gets, too; null: none.
-  Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err,
-        const MemoryFile* kept);
-  ~Child() {
-    if (pid_ <= 0) return;
-    kill(-pid_, SIGKILL);
-    wait();
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// Returns when it has ended, or `stop` is to be read from. Without one (-1) wait() does.
-  void wait_for_end(int stop) const {
-    if (stop < 0) return;
-    // glibc 2.36 declares pidfd_open() for C only.
-    const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
-    if (child.number() < 0) return;  // a kernel before 5.3
-    std::array<pollfd, 2> waits = {pollfd{child.number(), POLLIN, 0}, pollfd{stop, POLLIN, 0}};
-    while (poll(waits.data(), waits.size(), -1) < 0 && errno == EINTR) {
-    }
-  }
-
-  /// The exit code; 128 and the signal's number where one ended it.
-  int wait() {
-    siginfo_t info{};
-    while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-    }
-    set_child_group(0);  // while the number cannot be another's yet
-    int status = 0;
-    waitpid(std::exchange(pid_, 0), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_ = 0;
-};
-
-Child::Child(const std::vector<std::string>& command, const Pipe& out, const Pipe& err,
-             const MemoryFile* kept) {
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) {
-    arguments.push_back(const_cast<char*>(argument.c_str()));  // execve's signature; not written to
-  }
-  arguments.push_back(nullptr);
-
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, out.write_end(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, err.write_end(), STDERR_FILENO);
-  // Onto itself: it stays open.
-  if (kept) posix_spawn_file_actions_adddup2(&files, kept->descriptor(), kept->descriptor());
-
-  // An interruption must find the child's group registered once it runs, so none may come between.
-  sigset_t all, before, defaults;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  sigemptyset(&defaults);
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
-    sigaddset(&defaults, signal_number);
-  }
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setsigmask(&attributes, &before);
-
-  set_child_group(kStartingChild);
-  const int failed =
-      posix_spawnp(&pid_, arguments[0], &files, &attributes, arguments.data(), environ);
-  set_child_group(failed == 0 ? pid_ : 0);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  if (failed != 0) {
-    pid_ = 0;
-    throw cannot_run(command[0], failed);
-  }
-}
-
 /// What openscad says, line by line. The first ERROR is kept back, to be thrown.
 class Messages {
  public:
@@ -187,6 +75,7 @@ class Messages {
       line(pending_.substr(start, end - start));
     }
     pending_.erase(0, start);
+    if (pending_.size() > kLongestLine) finish();
   }
   void finish() {
     if (!pending_.empty()) line(pending_);
@@ -195,6 +84,9 @@ class Messages {
   const std::optional<std::string>& first_error() const { return first_error_; }
 
  private:
+  /// A longer one is shown in pieces, so that it need not end to be shown.
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
+
   void line(const std::string& text) {
     if (text.empty()) return;
     if (text.starts_with("ERROR: ") && !first_error_) {
@@ -233,40 +125,99 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
   return Error(file, location, text.substr(0, file_at), kTodo);
 }
 
-/// Reads both pipes to their ends, so that neither fills up while we wait for the other. Throws
-/// Stopped when `stop` is to be read from (-1: never).
-std::string read_both(const Pipe& out, const Pipe& err, const std::string& scad_path,
-                      Messages& messages, const std::function<void()>& waiting, int stop) {
-  std::string csg;
-  std::array<pollfd, 3> waits = {pollfd{out.read_end(), POLLIN, 0},
-                                 pollfd{err.read_end(), POLLIN, 0},
-                                 pollfd{stop, POLLIN, 0}};  // poll passes over -1
-  std::array<char, 65536> buffer;
-  while (waits[0].fd >= 0 || waits[1].fd >= 0) {
-    const int ready = poll(waits.data(), waits.size(), kWait_ms);
-    if (ready < 0 && errno != EINTR) throw cannot_run("openscad's output", errno);
-    if (ready <= 0) {
-      waiting();
-      continue;
-    }
-    if (waits[2].revents != 0) throw Stopped{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (waits[i].fd < 0 || waits[i].revents == 0) continue;
-      const ssize_t count = read(waits[i].fd, buffer.data(), buffer.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) {
-        waits[i].fd = -1;
-      } else if (i == 0) {
-        csg.append(buffer.data(), static_cast<std::size_t>(count));
-      } else {
-        messages.add({buffer.data(), static_cast<std::size_t>(count)});
+/// What the running openscad writes and says.
+class Listener {
+ public:
+  Listener(const ChildProcess& openscad, const Pipe& out, const Pipe& err, Messages& messages,
+           const std::string& scad_path)
+      : openscad_(openscad),
+        pipes_{out.read_end(), err.read_end()},
+        messages_(messages),
+        scad_path_(scad_path) {}
+
+  /// Until it has ended, or what it writes will be no .csg, whatever comes. What it has started may
+  /// hold the pipes open for longer: they are not read to their ends. Throws Stopped when
+  /// `stop_event` is to be read from (-1: never).
+  void listen(const std::function<void()>& waiting, int stop_event, const std::stop_token& stop) {
+    while (!is_hopeless_) {
+      if (openscad_.has_ended()) {
+        drain();
+        return;
       }
-    }
-    if (csg.size() > kMaxInputBytes) {
-      throw Error(scad_path, {}, "its .csg is larger than 4 GiB", "split the design");
+      std::array<pollfd, 4> waits = {pollfd{pipes_[0], POLLIN, 0}, pollfd{pipes_[1], POLLIN, 0},
+                                     pollfd{openscad_.end_descriptor(), POLLIN, 0},
+                                     pollfd{stop_event, POLLIN, 0}};  // poll passes over -1
+      const int ready = poll(waits.data(), waits.size(), kWait_ms);
+      if (ready < 0 && errno != EINTR) {
+        throw std::system_error(errno, std::generic_category(), "openscad's output");
+      }
+      if (ready == 0) waiting();
+      if (ready <= 0) continue;
+      if (waits[3].revents != 0) throw Stopped{};
+      for (std::size_t i = 0; i < pipes_.size(); ++i) {
+        if (waits[i].revents != 0) read_from(i);
+      }
+      is_hopeless_ = check_.fails(csg_.view(), stop);
     }
   }
-  return csg;
+  bool is_hopeless() const { return is_hopeless_; }
+  FileText take_csg() { return csg_.take(); }
+
+ private:
+  /// Standard output or standard error; as much as there is at once. The count of bytes.
+  std::size_t read_from(std::size_t pipe) {
+    std::array<char, 65536> said;
+    std::span<char> room = said;
+    if (pipe == 0) {
+      room = csg_.room();
+      room = room.first(std::min(room.size(), check_.until_next(csg_.size())));
+    }
+    const ssize_t count = read(pipes_[pipe], room.data(), room.size());
+    if (count < 0 && errno == EINTR) return 0;
+    if (count <= 0) {
+      pipes_[pipe] = -1;
+      return 0;
+    }
+    const auto bytes = static_cast<std::size_t>(count);
+    if (pipe == 1) {
+      messages_.add({said.data(), bytes});
+      return bytes;
+    }
+    csg_.add(bytes);
+    if (csg_.is_too_large()) {
+      throw Error(scad_path_, {}, "its .csg is larger than 4 GiB", "split the design");
+    }
+    return bytes;
+  }
+
+  /// What stands in the pipes now; more may come for ever.
+  void drain() {
+    for (std::size_t i = 0; i < pipes_.size(); ++i) {
+      int left = 0;
+      if (pipes_[i] < 0 || ioctl(pipes_[i], FIONREAD, &left) != 0) continue;
+      while (left > 0 && pipes_[i] >= 0) {
+        left -= static_cast<int>(read_from(i));
+        is_hopeless_ = is_hopeless_ || check_.fails(csg_.view(), {});
+        if (i == 0 && is_hopeless_) break;
+      }
+    }
+  }
+
+  const ChildProcess& openscad_;
+  std::array<int, 2> pipes_;  // its standard output and standard error; -1: at its end
+  Messages& messages_;
+  const std::string& scad_path_;
+  GrowingText csg_{0};
+  CsgCheck check_{0};
+  bool is_hopeless_ = false;
+};
+
+ChildProcess start(const ChildSetup& setup) {
+  try {
+    return ChildProcess(setup);
+  } catch (const std::system_error& error) {
+    throw cannot_run(setup.command[0], error.code().value());
+  }
 }
 
 }  // namespace
@@ -291,29 +242,32 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   command.push_back(scad_path);
 
   Pipe out, err;
-  Child child(command, out, err, rule ? &*rule : nullptr);
+  ChildProcess openscad =
+      start({command, out.write_end(), err.write_end(), rule ? rule->descriptor() : -1});
   out.close_write_end();
   err.close_write_end();
   Messages messages(message);
-  const std::string csg = read_both(out, err, scad_path, messages, waiting, stop_descriptor);
-  child.wait_for_end(stop_descriptor);
+  Listener listener(openscad, out, err, messages, scad_path);
+  listener.listen(waiting, stop_descriptor, stop);
   throw_if_stopped(stop);
   messages.finish();
-  const int exit_code = child.wait();
+  OpenScadExport result;
+  result.csg = listener.take_csg();
 
+  if (listener.is_hopeless()) {
+    if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());
+    return result;  // the parser says what is wrong
+  }
+  const int exit_code = openscad.wait();
   if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());
   if (exit_code != 0) {
     throw Error(scad_path, {}, "openscad failed with exit code " + std::to_string(exit_code),
                 "see what it says above");
   }
-  if (csg.empty()) {
+  if (result.csg.view().empty()) {
     throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
   }
-  OpenScadExport result;
   if (rule) result.files = prerequisites_of(rule->text().view());
-  auto bytes = std::make_unique_for_overwrite<char[]>(csg.size());
-  std::memcpy(bytes.get(), csg.data(), csg.size());
-  result.csg = FileText(std::move(bytes), csg.size());
   return result;
 }
 

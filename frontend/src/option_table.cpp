@@ -37,14 +37,15 @@ constexpr OptionRow kOpenScadOptions[] = {
     {"view", Takes::kText, "WHAT",
      "axes, crosshairs, edges, scales, with commas between; scales with axes only", kViewList},
     {"animate", Takes::kText, "N",
-     "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name"},
+     "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name; at most 4096 "
+     "pictures in all"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
     {"d,d", Takes::kText, "DEPS",
      "write a rule for make: the pictures, and all files that the design reads", kAnyFile},
     {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses", kAnyCommand},
-    {"hardwarnings", Takes::kNothing, "", "a .scad's first warning stops it"},
+    {"hardwarnings", Takes::kNothing, "", "the design's first warning is an error"},
     {"check-parameters", Takes::kText, "BOOL",
      "check the parameters of a .scad's modules and functions", kOneOf<kTruthValues>},
     {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters",
@@ -84,7 +85,7 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW", "openscad or phong; default openscad", kOneOf<kShadings>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
-    {"skip-unsupported", Takes::kNothing, "", "draw what is supported and list the rest"},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
 };
 

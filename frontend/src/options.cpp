@@ -97,7 +97,7 @@ void read_facets(const Arguments& arguments, ImportOptions& import) {
   } else if (const std::optional<uint32_t> fragments = parse_number<uint32_t>(value)) {
     import.few_fragments = *fragments;
   } else {
-    bad_value("facets", value, "give a whole number from 0, all or none");
+    bad_value("facets", value, "give a whole number from 0 to 4294967295, all or none");
   }
 }
 
@@ -176,21 +176,27 @@ void read_outputs(const Arguments& arguments, Options& options) {
   if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
-  constexpr uint32_t kMostFrames = 99999;  // of five digits
-  options.frames =
-      arguments.number<uint32_t>("animate", 0, kMostFrames, 0, "give a number of frames");
+  static_assert(kMaxPictures <= 99999, "a frame's number has five digits");
+  options.frames = arguments.number<uint32_t>("animate", 0, kMaxPictures, 0);
   if (options.frames > 0 && to_stdout > 0) {
     fail("--animate does not go to standard output", "give -o a file's name");
   }
   if (options.outputs.size() * std::max(options.frames, 1u) > kMaxPictures) {
-    fail("more than " + std::to_string(kMaxPictures) + " pictures", "give fewer -o or frames");
+    const std::string most = std::to_string(kMaxPictures);
+    fail("more than " + most + " pictures: " + std::to_string(options.outputs.size()) + " of -o" +
+             (options.frames > 0 ? ", for each of " + std::to_string(options.frames) + " frames"
+                                 : ""),
+         options.frames > 0 && options.outputs.size() <= kMaxPictures
+             ? "give --animate at most " + std::to_string(kMaxPictures / options.outputs.size()) +
+                   ", or fewer -o"
+             : "give -o at most " + most + " times");
   }
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
   constexpr const char* kForScad[] = {
-      "D", "p", "P", "m", "hardwarnings", "check-parameters", "check-parameter-ranges"};
+      "D", "p", "P", "m", "check-parameters", "check-parameter-ranges"};
   const auto given = [&arguments](std::span<const char* const> names) {
     std::string list;
     for (const char* name : names) {
@@ -258,7 +264,6 @@ Options parse_options(const std::vector<std::string>& words) {
   options.input = files[0];
   options.quiet = arguments.has("quiet");
   options.info = arguments.has("info");
-  options.import.skip_unsupported = arguments.has("skip-unsupported");
   options.has_image_size = arguments.has("imgsize");
   options.import.rendered = arguments.has("render") && !arguments.has("preview");
   read_image_size(arguments, options.camera);
@@ -269,6 +274,7 @@ Options parse_options(const std::vector<std::string>& words) {
   read_outputs(arguments, options);
   if (options.outputs.empty()) options.action = Action::kOpenWindow;
   options.openscad_arguments = openscad_arguments_of(arguments);
+  options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);
   return options;
 }

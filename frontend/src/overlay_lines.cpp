@@ -23,7 +23,7 @@ double snapped(double position_px) { return std::round(position_px * kSubpixels)
 LinePainter::LinePainter(Canvas& canvas, const csgcore::View& view, const Camera& camera)
     : canvas_(canvas),
       view_(view),
-      distance_(camera.distance),
+      distance_(std::abs(camera.distance)),
       is_perspective_(view.projection == csgcore::Projection::kPerspective) {}
 
 void LinePainter::draw(const Vec3& from, const Vec3& to, LineStyle style) {

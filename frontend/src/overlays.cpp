@@ -24,13 +24,15 @@ void draw_crosshairs(LinePainter& painter, const Camera& camera) {
 
 void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
                    const Overlays& overlays, const ColorScheme& scheme) {
-  if (overlays.edges) draw_edges(image, view, scheme.background);
   Canvas canvas(image, scheme.crosshair);
-  LinePainter painter(canvas, view, camera);
-  if (overlays.crosshairs) draw_crosshairs(painter, camera);
-  canvas.set_color(scheme.axes);
-  if (overlays.axes) draw_axes(painter, camera);
-  if (overlays.axes && overlays.scales) draw_scale_marks(painter, camera);
+  if (!sees_nothing(camera, view.projection)) {
+    if (overlays.edges) draw_edges(image, view, scheme.background);
+    LinePainter painter(canvas, view, camera);
+    if (overlays.crosshairs) draw_crosshairs(painter, camera);
+    canvas.set_color(scheme.axes);
+    if (overlays.axes) draw_axes(painter, camera);
+    if (overlays.axes && overlays.scales) draw_scale_marks(painter, camera);
+  }
   if (overlays.axes) draw_gnomon(canvas, view, scheme.axes);
 }
 

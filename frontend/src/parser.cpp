@@ -85,6 +85,7 @@ class Parser {
   /// `tree` has a file name and nothing else. Without a sink it keeps all arguments.
   Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink);
   void run(const std::stop_token& stop);
+  const Lexer& lexer() const { return lexer_; }
 
  private:
   uint8_t modifiers();
@@ -100,7 +101,7 @@ class Parser {
   bool list_of_numbers(Value& list);
   Value string();
   Value store(std::string_view text);
-  void hand_over();
+  void hand_over(uint32_t offset);
   void give_names();
   uint32_t open_list(uint32_t parent);
   uint32_t close_list(uint32_t list);
@@ -110,6 +111,7 @@ class Parser {
 
   SyntaxTree& tree_;
   NodeSink* const sink_;
+  const char* const text_;
   Lexer lexer_;
   struct OpenNode {
     uint32_t node;
@@ -125,7 +127,7 @@ class Parser {
 };
 
 Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
-    : tree_(tree), sink_(sink), lexer_(text, tree.file_name) {
+    : tree_(tree), sink_(sink), text_(text.data()), lexer_(text, tree.file_name) {
   // About what OpenSCAD's files have, so that most never move; a vector that is not used in full
   // costs addresses, not memory.
   constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
@@ -166,10 +168,10 @@ void Parser::give_names() {
 }
 
 /// The last node, whose arguments are not needed after that.
-void Parser::hand_over() {
+void Parser::hand_over(uint32_t offset) {
   give_names();
   SyntaxNode& node = tree_.nodes.back();
-  sink_->take(static_cast<uint32_t>(tree_.nodes.size() - 1));
+  sink_->take(static_cast<uint32_t>(tree_.nodes.size() - 1), offset);
   node.first_argument = node.argument_count = 0;
   tree_.arguments.clear();
   tree_.values.clear();
@@ -187,6 +189,7 @@ uint8_t Parser::modifiers() {
 
 void Parser::node(uint8_t modifiers) {
   SyntaxNode node;
+  const auto offset = static_cast<uint32_t>(lexer_.position() - text_);
   node.location = lexer_.location();
   node.kind = node_kind();
   node.modifiers = modifiers;
@@ -198,7 +201,7 @@ void Parser::node(uint8_t modifiers) {
   const bool single = !is_leaf(node.kind) && (lexer_.at_word() || is_modifier(lexer_.peek()));
   open_.push_back({static_cast<uint32_t>(tree_.nodes.size()), single});
   tree_.nodes.push_back(node);
-  if (sink_ != nullptr) hand_over();
+  if (sink_ != nullptr) hand_over(offset);
   if (lexer_.take(';')) {
     close_node();
   } else if (!single && !lexer_.take('{')) {
@@ -425,6 +428,12 @@ void Parser::fail_word(const char* start, std::string_view word) const {
   lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
+/// For a parser that only looks.
+class NoSink : public NodeSink {
+ public:
+  void take(uint32_t, uint32_t) override {}
+};
+
 void check_size(std::string_view text, const std::string& file_name) {
   if (text.size() <= kMaxTextBytes) return;
   throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
@@ -439,6 +448,18 @@ SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_t
   check_size(text, tree.file_name);
   Parser(text, tree, nullptr).run(stop);
   return tree;
+}
+
+bool is_beyond_repair(std::string_view start, const std::stop_token& stop) {
+  SyntaxTree tree;
+  NoSink sink;
+  Parser parser(start, tree, &sink);
+  try {
+    parser.run(stop);
+  } catch (const Error&) {
+    return !parser.lexer().may_be_cut_off();
+  }
+  return false;
 }
 
 void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,

@@ -51,6 +51,7 @@ class SceneRenderer::Impl {
       auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
       prepare_ms_ = ms_since(start);
       if (renderer_) renderer_->forget();
+      edited_ = {};
       scene_ = std::move(prepared);
     }
     exponent_ = exponent;
@@ -95,12 +96,31 @@ class SceneRenderer::Impl {
     Image image;
   };
 
+  /// What the last load() changed.
+  struct Edited {
+    std::weak_ptr<const PreparedScene> before;
+    csgcore::SceneEdit edit;
+  };
+
   void follow(ScenePointer scene, Clock::time_point start) {
-    const csgcore::SceneEdit edit = csgcore::compare(scene_->scene(), *scene);
+    csgcore::SceneEdit edit = compared(scene_->scene(), *scene);
     auto prepared = std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
     prepare_ms_ = ms_since(start);
     if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit, edit.model);
+    edited_ = {scene_, std::move(edit)};
     scene_ = std::move(prepared);
+  }
+
+  csgcore::SceneEdit compared(const csgcore::Scene& before, const csgcore::Scene& after) {
+    ++comparisons_;
+    return csgcore::compare(before, after);
+  }
+
+  /// From that scene to the loaded one: most often what load() has found out.
+  csgcore::SceneEdit edit_since(const std::shared_ptr<const PreparedScene>& before) {
+    Edited last = std::exchange(edited_, {});
+    if (last.before.lock() == before) return std::move(last.edit);
+    return compared(before->scene(), scene_->scene());
   }
 
   csgcore::View scaled_view(const csgcore::View& view) const {
@@ -118,7 +138,7 @@ class SceneRenderer::Impl {
 
   Image draw_changes(Kept before, const RenderSettings& settings, RenderStats& stats) {
     const csgcore::View drawn = scaled_view(before.view);
-    const csgcore::SceneEdit edit = csgcore::compare(before.scene->scene(), scene_->scene());
+    const csgcore::SceneEdit edit = edit_since(before.scene);
     with_renderer(settings, stats, [&] {
       stats.edit.primitives_changed =
           std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
@@ -152,6 +172,7 @@ class SceneRenderer::Impl {
     stats = {};
     stats.primitives = scene_->scene().primitives.size();
     stats.edit.primitives = stats.edit.primitives_changed = stats.primitives;
+    stats.edit.comparisons = std::exchange(comparisons_, 0);
     stats.prepare_ms = std::exchange(prepare_ms_, 0.0);
   }
 
@@ -185,6 +206,8 @@ class SceneRenderer::Impl {
   bool is_replaceable_ = false;  // by the CPU, should it fail
   std::string reason_;           // for which kAuto chose it
   Kept kept_;                    // redraw()'s last
+  Edited edited_;                // until it is drawn
+  uint64_t comparisons_ = 0;     // not reported yet
 };
 
 SceneRenderer::SceneRenderer() : SceneRenderer(GpuFolders{}) {}

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "csgcore/polyhedron.hpp"
 #include "frontend/error.hpp"
+#include "primitive_size.hpp"
 
 namespace frontend {
 namespace {
@@ -16,40 +16,19 @@ using csgcore::Primitive;
 /// of a camera a million times as far, are well within a float's 2^±126.
 constexpr int kOrdinaryExponent = 40;
 
-/// Beyond 2^±300 (1e±90) the determinant of a matrix, a product of three, nears the end of the
-/// doubles.
-constexpr int kLargestExponent = 300;
+/// What is healed or faceted may have grown a little since its size was found to be one that can be
+/// drawn.
+constexpr int kSpareExponents = 2;
+
+/// A primitive that has no volume in doubles when the scene is of size 1 is thinner there than
+/// 2^-340, which nothing shows. A speck of this size, which nothing shows either, stands for it.
+constexpr int kSpeckExponent = -100;
+/// The volume of what a smaller matrix makes is not in the doubles.
+constexpr int kLeastMatrixExponent = -330;
 
 [[noreturn]] void throw_unscalable() {
   throw Error({}, {}, "the design is too large or too small to be drawn",
               "scale it to between 1e-90 and 1e90 across");
-}
-
-/// No coordinate of the local solid is larger. Of a polyhedron a bound, of the order of its size.
-double local_extent(const Primitive& primitive) {
-  if (primitive.shape == csgcore::Shape::kPolyhedron) {
-    const csgcore::Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      extent = std::max(extent, std::abs(canonical.center[axis]) + canonical.scale[axis]);
-    }
-    return extent;
-  }
-  return std::max(
-      {primitive.r_bottom, primitive.r_top, std::abs(primitive.z_min), std::abs(primitive.z_max)});
-}
-
-/// The least e, or a few more, with |x| < 2^e for all extents x of the primitive.
-int size_exponent(const Primitive& primitive) {
-  const double local = local_extent(primitive);
-  double stretch = 0;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      stretch = std::max(stretch, std::abs(primitive.local_to_world.linear[column][row]));
-    }
-  }
-  // The exponents are added, as the product may not be representable.
-  return std::ilogb(local) + std::ilogb(stretch) + 2;
 }
 
 csgcore::Vec3 scaled(const csgcore::Vec3& v, int exponent) {
@@ -60,13 +39,15 @@ csgcore::Vec3 scaled(const csgcore::Vec3& v, int exponent) {
 
 int scale_exponent(const csgcore::Scene& scene) {
   if (scene.primitives.empty()) return 0;
-  int largest = size_exponent(scene.primitives.front());
+  double largest = 0;
   for (const Primitive& primitive : scene.primitives) {
-    largest = std::max(largest, size_exponent(primitive));
+    largest = std::max(largest, size_of(primitive));
   }
-  if (std::abs(largest) <= kOrdinaryExponent) return 0;
-  if (std::abs(largest) > kLargestExponent) throw_unscalable();
-  return -largest;
+  if (largest == 0 || !std::isfinite(largest)) throw_unscalable();
+  const int exponent = std::ilogb(largest) + 1;
+  if (std::abs(exponent) <= kOrdinaryExponent) return 0;
+  if (std::abs(exponent) > kLargestExponent + kSpareExponents) throw_unscalable();
+  return -exponent;
 }
 
 csgcore::Scene scaled(const csgcore::Scene& scene, int exponent) {
@@ -77,7 +58,10 @@ csgcore::Scene scaled(const csgcore::Scene& scene, int exponent) {
       map.linear[column] = scaled(map.linear[column], exponent);
     }
     map.translation = scaled(map.translation, exponent);
-    if (!csgcore::is_valid(primitive)) throw_unscalable();
+    if (csgcore::is_valid(primitive)) continue;
+    map.linear = csgcore::Mat3(1.0);
+    const int local_exponent = std::ilogb(size_of(primitive));
+    map.linear *= std::ldexp(1.0, std::max(kSpeckExponent - local_exponent, kLeastMatrixExponent));
   }
   return result;
 }

@@ -11,8 +11,8 @@ namespace frontend {
 /// a sensible size. Throws Error if it is beyond what even a scaled scene can hold.
 int scale_exponent(const csgcore::Scene& scene);
 
-/// The same scene and view in units 2^−exponent times as large. Throws Error if a primitive of the
-/// scene becomes too small to have a volume.
+/// The same scene and view in units 2^−exponent times as large. What is too thin there to have a
+/// volume becomes a speck.
 csgcore::Scene scaled(const csgcore::Scene& scene, int exponent);
 csgcore::View scaled(const csgcore::View& view, int exponent);
 

@@ -20,7 +20,9 @@ class SubdivisionProgress {
   csgcore::BatchSink sink() {
     if (!settings_.progress) return {};
     return [this](const csgcore::LeafBatch& batch) {
-      for (const csgcore::Leaf& leaf : batch.leaves) done_ += volume(leaf.box);
+      for (const csgcore::Leaf& leaf : batch.leaves) {
+        if (leaf.kind != LeafKind::kReplaced) done_ += volume(leaf.box);
+      }
       settings_.progress("subdividing", std::min(done_ / volume_, 1.0));
     };
   }
@@ -109,6 +111,7 @@ void count_cells(const Subdivision& subdivision, RenderStats& stats) {
   stats.leaves_general = of(LeafKind::kGeneral);
   stats.leaves_full = of(LeafKind::kFull);
   stats.leaves_dropped = of(LeafKind::kDropped);
+  stats.leaves_given_up = of(LeafKind::kGivenUp);
   stats.leaf_primitives = leaves.literals;
   stats.bytes = subdivision.bytes();
 }

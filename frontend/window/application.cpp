@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
@@ -47,7 +48,7 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
   frontend::FollowOptions result;
   result.openscad_arguments = options.openscad_arguments;
   result.import = options.import;
-  result.import.skip_unsupported = true;  // and listed among the messages
+  result.import.keeps_places = true;
   return result;
 }
 
@@ -247,6 +248,8 @@ void Application::write_picture(const Painting& painting) {
   const std::string path = std::exchange(save_path_, {});
   saving_ = 0;
   try {
+    const frontend::NamedPath picture{"a picture", path};
+    frontend::check_outputs_differ({&picture, 1}, inputs());
     const frontend::PendingOutput output{
         path, frontend::encode_picture(painting.image, frontend::picture_format(path))};
     frontend::write_outputs({&output, 1});
@@ -254,6 +257,17 @@ void Application::write_picture(const Painting& painting) {
   } catch (const frontend::Error& error) {
     state_.notice = error.what();
   }
+}
+
+/// All that is known to be read.
+std::vector<frontend::NamedPath> Application::inputs() const {
+  std::vector<frontend::NamedPath> inputs =
+      frontend::design_inputs(options_.input, options_.openscad_arguments);
+  if (!state_.version) return inputs;
+  for (const std::string& file : state_.version->files) {
+    inputs.push_back({"a file of the design", file});
+  }
+  return inputs;
 }
 
 void Application::run_command(Command command) {

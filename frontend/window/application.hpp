@@ -4,8 +4,10 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "frontend/design_follower.hpp"
+#include "frontend/files.hpp"
 #include "frontend/options.hpp"
 #include "glfw_window.hpp"
 #include "motion_meter.hpp"
@@ -46,6 +48,7 @@ class Application final : private WindowEvents {
   void take_painting(Painting painting);
   void take_finding(const Finding& finding);
   void write_picture(const Painting& painting);
+  std::vector<frontend::NamedPath> inputs() const;
 
   void order_picture();
   PaintOrder wanted_picture() const;

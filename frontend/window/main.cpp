@@ -1,9 +1,9 @@
 // The program that `scadray FILE` executes where there is no -o: the live window.
 #include <cstdio>
-#include <exception>
 
 #include "application.hpp"
 #include "frontend/command.hpp"
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
 
@@ -13,6 +13,11 @@ void run(const std::vector<std::string>& arguments) {
   const frontend::Options options = frontend::parse_options(arguments);
   if (options.action != frontend::Action::kOpenWindow) {
     throw frontend::Error("", {}, "scadray-window only opens a window", "run scadray");
+  }
+  if (!options.stats_path.empty()) {
+    const frontend::NamedPath stats{"--stats", options.stats_path};
+    frontend::check_outputs_differ(
+        {&stats, 1}, frontend::design_inputs(options.input, options.openscad_arguments));
   }
   if (!options.quiet) {
     for (const std::string& warning : options.warnings) {
@@ -26,13 +31,10 @@ void run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   frontend::handle_interrupts();
-  try {
-    run({argv + (argc > 0 ? 1 : 0), argv + argc});
-    return static_cast<int>(frontend::ExitCode::kDone);
-  } catch (const frontend::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-  }
-  return static_cast<int>(frontend::ExitCode::kFailure);
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  const auto program = [&] {
+    run(arguments);
+    return frontend::ExitCode::kDone;
+  };
+  return static_cast<int>(frontend::run_program(program, "a smaller --imgsize or design"));
 }

@@ -45,6 +45,13 @@ Vec3 rotation_of(StandardView view) {
 
 }  // namespace
 
+Navigation::Navigation(const frontend::Camera& camera, csgcore::Projection projection)
+    : camera_(camera), projection_(projection) {
+  camera_.distance = camera.distance == 0
+                         ? frontend::Camera{}.distance
+                         : std::clamp(std::abs(camera.distance), kLeastDistance, kLargestDistance);
+}
+
 csgcore::View Navigation::view(Size size) const {
   frontend::CameraOptions options;
   options.projection = projection_;

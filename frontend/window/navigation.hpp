@@ -20,8 +20,8 @@ struct Size {
 /// and y downwards; a place in the picture counts from its upper left corner.
 class Navigation {
  public:
-  Navigation(const frontend::Camera& camera, csgcore::Projection projection)
-      : camera_(camera), projection_(projection) {}
+  /// The distance becomes positive: the mouse leads nowhere from where nothing is seen.
+  Navigation(const frontend::Camera& camera, csgcore::Projection projection);
 
   bool operator==(const Navigation&) const = default;
 

@@ -8,7 +8,6 @@
 
 #include "elapsed.hpp"
 #include "frontend/channel_picture.hpp"
-#include "frontend/parser.hpp"
 
 namespace window {
 namespace {
@@ -29,13 +28,11 @@ constexpr double kLeastShare = 1.0 / 6;
 /// Shares this near to 1 are drawn whole: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
-/// "line 12: sphere(…)" of a primitive. The text was parsed before, so that it can be.
-std::string line_of(std::string_view csg, uint32_t id) {
-  const uint32_t line = frontend::place_of_primitive(frontend::parse(csg, ""), id).line;
-  std::size_t start = 0;
-  for (uint32_t i = 1; i < line; ++i) start = csg.find('\n', start) + 1;
+/// "line 12: sphere(…)" of the primitive at that place.
+std::string line_of(std::string_view csg, const frontend::PrimitivePlace& place) {
+  std::size_t start = csg.rfind('\n', place.offset) + 1;  // 0 on the first line
   start = csg.find_first_not_of(" \t", start);
-  return "line " + std::to_string(line) + ": " +
+  return "line " + std::to_string(place.line) + ": " +
          std::string(
              csg.substr(start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
 }
@@ -208,8 +205,9 @@ Finding Painter::find(const Probe& probe) {
     finding.position = hits.position[0];
     finding.normal = hits.normal[0];
     finding.id = scene_->primitives[hits.primitive[0]].id;
-    finding.line =
-        finding.id == kSectionId ? "section plane" : line_of(probe.csg->view(), finding.id);
+    finding.line = finding.id == kSectionId
+                       ? "section plane"
+                       : line_of(probe.csg->view(), probe.order.design->places.at(finding.id));
   } catch (const std::exception&) {
     // Then there is no picture either, and its error is shown.
   }

@@ -49,7 +49,7 @@ struct Probe {
   PaintOrder order;
   double x_px = 0;
   double y_px = 0;
-  std::shared_ptr<const frontend::FileText> csg;  // the design's text
+  std::shared_ptr<const frontend::FileText> csg;  // the design's text; the design has its places
 };
 
 /// What lies there.

@@ -125,13 +125,21 @@ void Panels::draw_schemes(State& state) {
 float Panels::draw_status(const State& state) const {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   if (!state.shows_status) return size.y;
-  const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float width = std::max(size.x - 2 * padding.x, 1.0f);
+  const auto fits = [width](const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str()).x <= width;
+  };
+  // What there is no shorter way to say is wrapped.
+  const std::string line = state.notice.empty() ? status_line(state, fits) : state.notice;
+  const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, width).y + 2 * padding.y;
   ImGui::SetNextWindowPos({0, size.y - height});
   ImGui::SetNextWindowSize({size.x, height});
   constexpr ImGuiWindowFlags kBar = kOverlay & ~ImGuiWindowFlags_AlwaysAutoResize;
   if (ImGui::Begin("##status", nullptr, kBar | ImGuiWindowFlags_NoInputs)) {
-    const std::string line = state.notice.empty() ? status_line(state) : state.notice;
+    ImGui::PushTextWrapPos(padding.x + width);
     ImGui::TextUnformatted(line.c_str());
+    ImGui::PopTextWrapPos();
   }
   ImGui::End();
   return size.y - height;

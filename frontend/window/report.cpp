@@ -28,7 +28,8 @@ json edit_of(const csgcore::EditStats& edit) {
           {"cells_made", edit.cells_made},
           {"pixels", edit.pixels},
           {"pixels_traced", edit.pixels_traced},
-          {"bytes_uploaded", edit.bytes_uploaded}};
+          {"bytes_uploaded", edit.bytes_uploaded},
+          {"comparisons", edit.comparisons}};
 }
 
 json points_of(const State& state) {

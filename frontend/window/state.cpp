@@ -1,5 +1,6 @@
 #include "state.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace window {
@@ -190,33 +191,78 @@ bool State::is_checked(Command command) const {
   }
 }
 
-std::string status_line(const State& state) {
-  if (!state.version) return "reading " + state.name;
-  std::string line;
-  const auto part = [&line](const std::string& words) {
-    line += (line.empty() ? "" : "  |  ") + words;
-  };
+namespace {
+
+/// A part of the status line. That of the highest rank is left out first where there is no room.
+struct StatusPart {
+  std::string words;
+  int rank;
+  bool is_time = false;  // of a stage; these stand together
+};
+
+/// A driver's name may be as long as all the rest.
+constexpr size_t kShortName = 12;
+
+std::vector<StatusPart> status_parts(const State& state) {
+  if (!state.version) return {{"reading " + state.name, 0}};
+  std::vector<StatusPart> parts;
   const frontend::DesignVersion& version = *state.version;
-  if (state.design) part(std::to_string(state.design->scene.primitives.size()) + " primitives");
-  std::string times;
-  if (version.export_ms > 0) times += "openscad " + text("%.0f, ", version.export_ms);
-  times +=
-      "parse " + text("%.1f", version.parse_ms) + ", import " + text("%.1f", version.import_ms);
+  if (state.design) {
+    parts.push_back({std::to_string(state.design->scene.primitives.size()) + " primitives", 0});
+  }
+  const auto time = [&parts](const char* format, double ms, int rank) {
+    parts.push_back({text(format, ms), rank, true});
+  };
+  if (version.export_ms > 0) time("openscad %.0f", version.export_ms, 3);
+  time("parse %.1f", version.parse_ms, 9);
+  time("import %.1f", version.import_ms, 8);
   if (state.painting) {
     const frontend::RenderStats& stats = state.painting->stats;
-    if (stats.prepare_ms > 0) times += ", prepare " + text("%.1f", stats.prepare_ms);
-    if (stats.subdivide_ms > 0) times += ", subdivide " + text("%.1f", stats.subdivide_ms);
-    times += ", draw " + text("%.1f ms", stats.traverse_ms + stats.render_ms);
+    if (stats.prepare_ms > 0) time("prepare %.1f", stats.prepare_ms, 7);
+    if (stats.subdivide_ms > 0) time("subdivide %.1f", stats.subdivide_ms, 6);
+    time("draw %.1f ms", stats.traverse_ms + stats.render_ms, 1);
   }
-  part(times);
-  if (state.frames_per_second > 0) part(text("%.0f frames/s", state.frames_per_second));
+  if (state.frames_per_second > 0) {
+    parts.push_back({text("%.0f frames/s", state.frames_per_second), 2});
+  }
   if (state.painting) {
-    part(state.painting->stats.renderer);
-    part(std::to_string(state.painting->order.size.width_px) + " x " +
-         std::to_string(state.painting->order.size.height_px));
+    const std::string& renderer = state.painting->stats.renderer;
+    parts.push_back({renderer, renderer.size() <= kShortName ? 5 : 10});
+    parts.push_back({std::to_string(state.painting->order.size.width_px) + " x " +
+                         std::to_string(state.painting->order.size.height_px),
+                     4});
   }
-  if (state.is_reading) part("reading");
+  if (state.is_reading) parts.push_back({"reading", 0});
+  return parts;
+}
+
+std::string joined(const std::vector<StatusPart>& parts) {
+  std::string line;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) line += parts[i - 1].is_time && parts[i].is_time ? ", " : "  |  ";
+    line += parts[i].words;
+  }
   return line;
+}
+
+}  // namespace
+
+std::string status_line(const State& state, const std::function<bool(const std::string&)>& fits) {
+  std::vector<StatusPart> parts = status_parts(state);
+  std::string line = joined(parts);
+  while (!fits(line)) {
+    const auto highest =
+        std::max_element(parts.begin(), parts.end(),
+                         [](const StatusPart& a, const StatusPart& b) { return a.rank < b.rank; });
+    if (highest->rank == 0) break;
+    parts.erase(highest);
+    line = joined(parts);
+  }
+  return line;
+}
+
+std::string status_line(const State& state) {
+  return status_line(state, [](const std::string&) { return true; });
 }
 
 }  // namespace window

@@ -1,6 +1,7 @@
 // What the window shows: all that its user can change, and what is known of the design.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,5 +60,8 @@ struct State {
 
 /// The status line: what is drawn, how long each stage took, and by what.
 std::string status_line(const State& state);
+/// Of it what matters most, as much as `fits`: the number of primitives, and that the design is
+/// being read, stay in any case.
+std::string status_line(const State& state, const std::function<bool(const std::string&)>& fits);
 
 }  // namespace window

@@ -168,18 +168,41 @@ TEST(Camera, ADesignWithoutExtentKeepsTheDistance) {
   EXPECT_EQ(choose_camera({}, box({1, 2, 3}, {1, 2, 3})).distance, 140);
 }
 
-TEST(Camera, DistanceMustBePositiveUnlessViewAllReplacesIt) {
+TEST(Camera, DistanceMayBeAnyUnlessViewAllReplacesIt) {
   CameraOptions options;
   for (const double distance : {0.0, -1.0}) {
     options.camera = camera_of({0, 0, 0, 0, 0, 0, distance});
     options.view_all = false;
-    EXPECT_THROW(choose_camera(options, box({0, 0, 0}, {1, 1, 1})), Error);
+    EXPECT_EQ(choose_camera(options, box({0, 0, 0}, {1, 1, 1})).distance, distance);
     options.view_all = true;
     EXPECT_GT(choose_camera(options, box({0, 0, 0}, {1, 1, 1})).distance, 0);
   }
-  options.camera = camera_of({1, 2, 3, 1, 2, 3});  // the eye on the target
-  options.view_all = false;
-  EXPECT_THROW(choose_camera(options, Box{}), Error);
+}
+
+TEST(Camera, SeesNothingWhereOpenScadDrawsNothing) {
+  const auto sees_nothing = [](const std::vector<double>& numbers, Projection projection) {
+    return frontend::sees_nothing(camera_of(numbers), projection);
+  };
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    EXPECT_FALSE(sees_nothing({0, 0, 0, 0, 0, 0, 1}, projection));
+    EXPECT_TRUE(sees_nothing({0, 0, 0, 0, 0, 0, 0}, projection));
+    EXPECT_TRUE(sees_nothing({1, 2, 3, 1, 2, 3}, projection));           // the eye on the target
+    EXPECT_TRUE(sees_nothing({-1e308, 0, 0, 1e308, 0, 0}, projection));  // beyond the doubles
+  }
+  EXPECT_TRUE(sees_nothing({0, 0, 0, 0, 0, 0, -1}, Projection::kPerspective));
+  EXPECT_FALSE(sees_nothing({0, 0, 0, 0, 0, 0, -1}, Projection::kOrthographic));
+}
+
+TEST(Camera, ANegativeDistanceTurnsAnOrthographicPictureUpsideDown) {
+  CameraOptions options;
+  options.projection = Projection::kOrthographic;
+  const View upright = make_view(camera_of({1, 2, 3, 40, 10, 70, 50}), options);
+  const View view = make_view(camera_of({1, 2, 3, 40, 10, 70, -50}), options);
+  EXPECT_EQ(view.eye, upright.eye);
+  EXPECT_EQ(view.right, upright.right);
+  EXPECT_EQ(view.up, -upright.up);
+  EXPECT_EQ(view.forward, upright.forward);
+  EXPECT_EQ(view.half_height, upright.half_height);
 }
 
 }  // namespace

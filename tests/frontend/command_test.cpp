@@ -232,6 +232,35 @@ TEST_F(Command, AnEmptyDesignIsBackgroundWithoutARenderer) {
   EXPECT_EQ(drawings_, 0);
 }
 
+TEST_F(Command, ACameraThatSeesNothingIsBackgroundWithoutARenderer) {
+  for (const char* camera :
+       {"--camera=0,0,0,0,0,0,0", "--camera=0,0,0,0,0,0,-5", "--camera=1,2,3,1,2,3"}) {
+    const Outcome outcome = run({"-o", png_, "-o", folder_ / "x.exr", "--imgsize=2,2",
+                                 "--colorscheme=Starnight", "--info", camera, file_});
+    EXPECT_EQ(outcome.code, ExitCode::kDone) << camera;
+    EXPECT_THAT(decode(folder_.read("x.png")).pixels, testing::Each(Pixel{0, 0, 0}));
+    EXPECT_THAT(outcome.err, HasSubstr("renderer: none"));
+  }
+  EXPECT_EQ(drawings_, 0);
+  EXPECT_EQ(run({"-o", png_, "--camera=0,0,0,0,0,0,-5", "--projection=o", file_}).err, "");
+  EXPECT_EQ(drawings_, 1);
+}
+
+/// As in OpenSCAD, whose corner of axes stands in every picture.
+TEST_F(Command, WhereNothingIsSeenOfTheAxesTheirCornerStandsAlone) {
+  const auto picture = [&](const std::string& camera, const char* view) {
+    run({"-o", png_, "--imgsize=64,64", camera, view, file_});
+    return decode(folder_.read("x.png")).pixels;
+  };
+  const auto blind = picture("--camera=0,0,0,55,0,25,0", "--view=axes,scales,crosshairs,edges");
+  EXPECT_EQ(blind, picture("--camera=0,0,0,55,0,25,-9", "--view=axes"));
+  const Pixel background = blind.front();
+  const auto drawn =
+      blind.size() - static_cast<size_t>(std::count(blind.begin(), blind.end(), background));
+  EXPECT_GT(drawn, 10u);
+  EXPECT_LT(drawn, 200u);
+}
+
 TEST_F(Command, Statistics) {
   const Outcome outcome = run({"-o", png_, "--imgsize=4,3", "--stats=-", file_});
   EXPECT_TRUE(settings_.all_stats);
@@ -279,8 +308,8 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
                           "paper_ms", "primitive_nodes", "primitives", "primitives_intersected",
                           "primitives_skipped", "rays", "renderer", "resolved_rays",
                           "subdivision_bytes", "technique", "tiles", "times_ms", "width_px"));
-  EXPECT_THAT(keys(json["leaves"]),
-              ElementsAre("dropped", "empty", "full", "general", "pair", "total", "union"));
+  EXPECT_THAT(keys(json["leaves"]), ElementsAre("dropped", "empty", "full", "general", "given_up",
+                                                "pair", "total", "union"));
   EXPECT_THAT(keys(json["primitives_skipped"]),
               ElementsAre("cancelled", "hidden", "inside", "off_screen", "sub_pixel"));
   EXPECT_THAT(keys(json["times_ms"]),
@@ -323,8 +352,8 @@ TEST_F(Command, QuietShowsErrorsOnly) {
 /// Each is run where x.png exists already; none may touch it.
 TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   folder_.write("x.png", "before");
+  folder_.write("x00001.png", kSphere);
   folder_.write("bad.csg", "sphere(r = 1);\ncube(;\n");
-  folder_.write("surface.csg", "sphere(r = 1);\n  surface(file = \"x.dat\");\n");
   const auto names = folder_.names();
   const auto expect_failure = [&](const std::vector<std::string>& arguments,
                                   const std::string& text) {
@@ -344,12 +373,24 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   expect_failure({"-o", png_, folder_.path()}, "is a folder");
   expect_failure({"-o", png_, "validate"}, "validate: error: ");
   expect_failure({"-o", png_, folder_ / "bad.csg"}, "bad.csg:2:");
-  expect_failure({"-o", png_, folder_ / "surface.csg"}, "surface.csg:2:3: error: ");
   expect_failure({"-o", png_, "-o", folder_ / "none/y.png", file_}, "none/y.png: error: ");
   expect_failure({"-o", png_, "--stats", folder_ / "none/s.json", file_}, "none/s.json");
   expect_failure({"-o", png_, "-d", folder_ / "none/x.d", file_}, "none/x.d");
   expect_failure({"-o", png_, "-d", "-", "--stats=-", file_}, "standard output");
-  expect_failure({"-o", png_, "--camera=0,0,0,0,0,0,0", file_}, "distance");
+  expect_failure({"-o", png_, "/dev/zero"}, "/dev/zero:1:1: error: expected a node, found '\\x00'");
+  expect_failure({"-o", png_, "-o", png_, file_}, "x.png: error: -o would overwrite -o (");
+  expect_failure({"-o", png_, "--stats", png_, file_}, "--stats would overwrite -o (");
+  expect_failure({"-o", png_, "-d", folder_ / "./x.png", file_},
+                 "-d would overwrite -o, which is " + png_);
+  expect_failure({"-o", png_, "--stats", folder_ / "y", "-d", folder_ / "y", file_},
+                 "-d would overwrite --stats (");
+  expect_failure({"-o", png_, "--stats", file_, file_}, "--stats would overwrite the design (");
+  expect_failure({"-o", png_, "-p", folder_ / "bad.csg", "-d", folder_ / "bad.csg", file_},
+                 "-d would overwrite what -p reads (");
+  expect_failure({"-o", folder_ / "x.png", "--animate=2", folder_ / "x00001.png"},
+                 "-o would overwrite the design (");
+  expect_failure({"-o", folder_ / "x\n.png", "-d", folder_ / "x.d", file_},
+                 "error: no rule for make can name ");
   EXPECT_EQ(drawings_, 0) << "what can be seen beforehand is";
   renderer_ = [](const auto&, const auto&, const auto&, auto&) -> Image {
     throw Error("", {}, "no OpenGL", "install a driver");
@@ -364,12 +405,42 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   expect_failure({"-o", png_, file_}, "something else");
 }
 
-TEST_F(Command, SkipUnsupportedDrawsTheRest) {
-  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\nsquare(size = 1);\n");
-  const Outcome outcome = run({"-o", png_, "--skip-unsupported", mixed});
+TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
+  const std::string warning = "mixed.csg:2:2: warning: square is left out (it cannot be drawn)\n";
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n square(size = 1);\n");
+  // The option, which once had to ask for it, stays for scripts.
+  for (const char* option : {"--imgsize=64,64", "--skip-unsupported"}) {
+    drawings_ = 0;
+    const Outcome outcome = run({"-o", png_, option, mixed});
+    EXPECT_EQ(outcome.code, ExitCode::kDone);
+    EXPECT_EQ(outcome.err, folder_.path() + "/" + warning);
+    EXPECT_EQ(drawings_, 1);
+    EXPECT_EQ(run({"-q", "-o", png_, option, mixed}).err, "");
+  }
+  // Where it is all, there is a picture of the background.
+  std::filesystem::remove(png_);
+  drawings_ = 0;
+  const std::string flat = folder_.write("flat.csg", "square(size = 1); cube(1e308);");
+  const Outcome outcome = run({"-o", png_, flat});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
-  EXPECT_THAT(outcome.err, HasSubstr("square"));
-  EXPECT_EQ(drawings_, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("flat.csg:1:1: warning: square is left out"),
+                                 HasSubstr("flat.csg:1:19: warning: cube is left out")));
+  EXPECT_TRUE(std::filesystem::exists(png_));
+  EXPECT_EQ(drawings_, 0);
+}
+
+TEST_F(Command, HardWarningsAreErrors) {
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n square(size = 1);\n");
+  for (const char* quiet : {"--quiet", "--info"}) {
+    const Outcome outcome = run({"-o", png_, "--hardwarnings", quiet, mixed});
+    EXPECT_EQ(outcome.code, ExitCode::kFailure);
+    EXPECT_THAT(outcome.err, HasSubstr("mixed.csg:2:2: error: square is left out (it cannot be"));
+    EXPECT_FALSE(std::filesystem::exists(png_));
+    EXPECT_EQ(drawings_, 0);
+  }
+  const Outcome outcome = run({"-o", png_, "--hardwarnings", file_});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_EQ(outcome.err, "");
 }
 
 TEST_F(Command, ReadsStandardInput) {
@@ -431,6 +502,39 @@ TEST_F(Command, ARuleForMake) {
   EXPECT_EQ(run({"-o", png_, "-d", "-", file_}).out, png_ + ": \\\n\t" + file_ + "\n");
 }
 
+TEST_F(Command, WhatTheDesignReadsIsNotOverwrittenEither) {
+  const std::string used = folder_.write("used.scad", "module used() sphere(1);");
+  const Environment openscad("OPENSCAD",
+                             folder_.script("openscad",
+                                            "while [ \"$1\" != -d ]; do shift; done\n"
+                                            "printf 'x: \\\\\n\t" +
+                                                used + "\n' >$2\necho 'sphere(r = 1);'"));
+  const std::string scad = folder_.write("a.scad", "use <used.scad>\nused();");
+  const auto names = folder_.names();
+  const Outcome outcome = run({"-o", png_, "-d", folder_ / "x.d", "--stats", used, scad});
+  EXPECT_EQ(outcome.code, ExitCode::kFailure);
+  EXPECT_EQ(outcome.err, used +
+                             ": error: --stats would overwrite a file of the design (give "
+                             "--stats a file of its own)\n");
+  EXPECT_EQ(folder_.names(), names);
+  EXPECT_EQ(folder_.read("used.scad"), "module used() sphere(1);");
+}
+
+TEST_F(Command, DevicesMayRepeat) {
+  const Outcome outcome = run({"-o", "/dev/null", "-o", "/dev/null", "--export-format=png",
+                               "--stats=/dev/null", "-d", "/dev/null", file_});
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+}
+
+TEST_F(Command, AnEndlessExportIsRefused) {
+  const std::string scad = folder_.write("a.scad", "sphere(1);");
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "yes"));
+  EXPECT_THAT(run({"-o", png_, scad}).err,
+              StartsWith(scad + " (its .csg):1:1: error: unknown node 'y'"));
+  EXPECT_FALSE(folder_.has("x.png"));
+}
+
 /// An openscad that says what $t it is given, and draws a ball of that size.
 constexpr const char* kAnimated =
     "while [ \"$1\" != -- ]; do case \"$1\" in '$t='*) t=${1#*=};; -d) d=$2;; esac; shift; done\n"
@@ -486,8 +590,9 @@ TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
 TEST_F(Command, MakeDrawsAgainWhatItReads) {
   if (std::system("(command -v openscad && command -v make) >/dev/null") != 0)
     GTEST_SKIP() << "no openscad or make";
-  folder_.write("a part.scad", "module part() sphere(1);");
-  const std::string scad = folder_.write("a.scad", "use <a part.scad>\npart();");
+  const std::string part = "a part: 100%; #1 $x = [y].scad";
+  folder_.write(part, "module part() sphere(1);");
+  const std::string scad = folder_.write("a.scad", "use <" + part + ">\npart();");
   EXPECT_EQ(run({"-o", png_, "-d", folder_ / "x.d", scad}).err, "");
   folder_.write("makefile", png_ + ":\n\techo drawn again\n-include x.d\n");
   const auto make = [this] {
@@ -496,9 +601,15 @@ TEST_F(Command, MakeDrawsAgainWhatItReads) {
     EXPECT_EQ(std::system(command.c_str()), 0);
     return folder_.read("said");
   };
+  const auto set_age = [this](const std::string& path, int hours) {
+    std::filesystem::last_write_time(
+        path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
+  };
+  set_age(scad, 3);
+  set_age(folder_ / part, 3);
+  set_age(png_, 2);
   EXPECT_THAT(make(), testing::Not(HasSubstr("drawn again")));
-  const auto before = std::filesystem::last_write_time(png_) - std::chrono::hours(1);
-  std::filesystem::last_write_time(png_, before);
+  set_age(folder_ / part, 1);
   EXPECT_EQ(make(), "drawn again\n");
 }
 
@@ -506,7 +617,7 @@ TEST_F(Command, PlacesInAnExportedCsgAreNotShownAsPlacesInTheScad) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'square(size = 1);'"));
   const std::string scad = folder_.write("a.scad", "// a comment\nsquare(1);");
   EXPECT_THAT(run({"-o", png_, scad}).err,
-              StartsWith(scad + " (its .csg):1:1: error: square cannot be drawn"));
+              StartsWith(scad + " (its .csg):1:1: warning: square is left out"));
 }
 
 TEST_F(Command, AFailedExportLeavesNothing) {

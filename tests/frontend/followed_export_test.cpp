@@ -178,6 +178,47 @@ TEST_F(FakeOpenScad, AMissingOpenScadIsAnErrorThatGoesAway) {
   design.next_of(1);
 }
 
+/// As an editor's plugin may hand it over: what it is shows when it is read.
+TEST_F(FakeOpenScad, IsRunForAScadOfAnyName) {
+  const Environment openscad("OPENSCAD", folder_.script("openscad2",
+                                                        "for path; do :; done\n"
+                                                        "if grep -q broken \"$path\"; then\n"
+                                                        "  echo 'ERROR: broken' >&2; exit 1\n"
+                                                        "fi\n"
+                                                        "grep -h sphere " +
+                                                            (folder_ / "b.scad")));
+  folder_.write("b.scad", spheres(1));
+  const std::string path = folder_.write("scad-x7Qf", "include <b.scad>");
+  Followed design(path);
+  const DesignVersion first = design.next_of(1);
+  EXPECT_GT(first.export_ms, 0);
+  EXPECT_THAT(first.files, ElementsAre(path, folder_ / "b.scad"));
+  folder_.write("b.scad", spheres(2));
+  design.next_of(2);
+  folder_.write("scad-x7Qf", "include <b.scad> // broken");
+  EXPECT_THAT(design.next_error().error, StartsWith(path + ": error: broken ("));
+  folder_.write("scad-x7Qf", "include <b.scad>");
+  design.next_of(2);
+  folder_.write("scad-x7Qf", spheres(5));  // now a .csg
+  EXPECT_EQ(design.next_of(5).export_ms, 0);
+  // What is named so is a .csg, whatever stands in it.
+  Followed named(folder_.write("a.csg", "include <b.scad>"));
+  EXPECT_THAT(named.next_error().error, StartsWith(folder_ / "a.csg:1:1: error: unknown node"));
+}
+
+TEST_F(FakeOpenScad, ThatSaysTheSameAgainAndAgainIsNotKept) {
+  const Environment openscad(
+      "OPENSCAD",
+      folder_.script("openscad2", "yes 'WARNING: again' | head -c 5000000 >&2; echo ';'"));
+  Followed design(path_);
+  const std::vector<std::string> messages = design.next_of(0).messages;
+  std::size_t bytes = 0;
+  for (const std::string& line : messages) bytes += line.size();
+  EXPECT_GT(bytes, std::size_t{1} << 19);
+  EXPECT_LE(bytes, (std::size_t{1} << 20) + 100);
+  EXPECT_EQ(messages.back(), "(openscad says more)");
+}
+
 TEST_F(FakeOpenScad, IsNotRunForACsg) {
   Followed design(folder_.write("a.csg", spheres(2)));
   EXPECT_THAT(design.next_of(2).files, ElementsAre(folder_ / "a.csg"));
@@ -190,11 +231,7 @@ class FollowedScad : public testing::Test {
   void SetUp() override {
     if (std::system("command -v openscad >/dev/null") != 0) GTEST_SKIP() << "no openscad";
   }
-  static FollowOptions options() {
-    FollowOptions options = by_inotify();
-    options.import.skip_unsupported = true;
-    return options;
-  }
+  static FollowOptions options() { return by_inotify(); }
   TemporaryFolder folder_;
 };
 

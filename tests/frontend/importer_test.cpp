@@ -65,6 +65,19 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
+std::vector<std::string> warnings_of(const std::string& text) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : import_text(text).warnings) texts.push_back(warning.text);
+  return texts;
+}
+
+/// There must be one.
+std::string warning_of(const std::string& text) {
+  const std::vector<std::string> texts = warnings_of(text);
+  EXPECT_THAT(texts, SizeIs(1)) << text;
+  return texts.empty() ? "" : texts.front();
+}
+
 /// The tree with its primitives' ids: "(0-1-(2+3))", "-" for the empty set.
 std::string shape_of(const csgcore::CsgTree& tree, const std::vector<Primitive>& primitives) {
   std::vector<std::string> stack;
@@ -138,15 +151,85 @@ TEST(ImporterCylinder, TakesEverySpellingOfItsSizes) {
   expect_frustum("cylinder();", 0, 1, 1, 1);
 }
 
-TEST(ImporterPrimitives, RefuseArgumentsOfTheWrongType) {
-  EXPECT_EQ(error_of("group();\n sphere(r = \"a\");"),
-            "a.csg:2:2: error: sphere: r is a string (it must be a number)");
-  EXPECT_THAT(error_of("cylinder(h = [1]);"), HasSubstr("h is a list"));
-  EXPECT_THAT(error_of("cylinder(center = 1);"), HasSubstr("center is a number"));
-  EXPECT_THAT(error_of("multmatrix(3) sphere();"), HasSubstr("error: "));
-  EXPECT_THAT(error_of("multmatrix([[1, true]]) { sphere(); }"),
-              HasSubstr("an entry of the matrix"));
-  EXPECT_THAT(error_of("color(true) { sphere(); }"), HasSubstr("the colour is a boolean"));
+/// As OpenSCAD 2021.01 reads them, which for some of them says nothing.
+TEST(ImporterPrimitives, TakeArgumentsOfTheWrongTypeForMissing) {
+  const auto expect_as = [](const std::string& text, const std::string& meant,
+                            const std::string& warning) {
+    EXPECT_THAT(warning_of(text), HasSubstr(warning));
+    const ImportedDesign a = import_text(text), b = import_text(meant);
+    EXPECT_TRUE(csgcore::compare(a.scene, b.scene).nothing()) << text;
+    EXPECT_THAT(b.warnings, IsEmpty()) << meant;
+  };
+  EXPECT_EQ(warning_of("group();\n sphere(r = \"a\");"),
+            "a.csg:2:2: warning: sphere: r is a string, and counts as missing (it must be a "
+            "number)");
+  expect_as("sphere(r = [2]);", "sphere();", "r is a list");
+  expect_as("sphere(d = true, r = 3);", "sphere(r = 3);", "d is a boolean");
+  expect_as("cylinder(h = [1], r = 2);", "cylinder(r = 2);", "h is a list");
+  expect_as("cylinder(r1 = \"a\", r2 = 2);", "cylinder(r2 = 2);", "r1 is a string");
+  expect_as("cylinder(center = 1);", "cylinder();", "center is a number");
+  expect_as("cylinder(r = 2, $fn = \"6\");", "cylinder(r = 2);", "$fn is a string");
+  expect_as("cube(size = [1, 2]);", "cube();",
+            "cube: size is a list of 2, and counts as missing (it must be a number or a list of "
+            "three numbers)");
+  expect_as("cube([1, undef, 2]);", "cube();", "size is a list with undef");
+  expect_as("cube([1, 2, 3, 4]);", "cube();", "size is a list of 4");
+  expect_as("cube(\"a\");", "cube();", "size is a string");
+  expect_as("cube(3, 1);", "cube(3);", "center is a number");
+  expect_as("multmatrix(3) { sphere(); }", "sphere();", "the matrix is a number");
+  expect_as("multmatrix([[1,0,0,5], 7, [0,0,2]]) { sphere(); }",
+            "multmatrix([[1,0,0,5], [], [0,0,2]]) { sphere(); }", "a row of the matrix");
+  expect_as("multmatrix([[\"a\",0,0,5],[0,1,0,3]]) { sphere(); }",
+            "multmatrix([[1,0,0,5],[0,1,0,3]]) { sphere(); }", "an entry of the matrix");
+  expect_as("color(true) { sphere(); }", "sphere();", "the colour is a boolean");
+  expect_as("color([1, \"a\", 1]) { sphere(); }", "color([1, 0, 1]) { sphere(); }",
+            "a channel is a string, and counts as 0");
+  expect_as("color(\"red\", \"x\") { sphere(); }", "color(\"red\") { sphere(); }",
+            "alpha is a string");
+}
+
+TEST(ImporterPrimitives, HaveAWarningForEachKindOfProblem) {
+  EXPECT_THAT(
+      warnings_of("cube(\"a\"); sphere(\"a\");\ncube([1]); cylinder(\"a\", \"b\"); cube(1, 1);"
+                  "surface(); cube([2]); surface();"),
+      ElementsAre("a.csg:1:1: warning: cube: size is a string, and counts as missing; the "
+                  "first of 3 (it must be a number or a list of three numbers)",
+                  HasSubstr("a.csg:1:12: warning: sphere: r is a string, and"),
+                  HasSubstr("a.csg:2:12: warning: cylinder: h is a string, and"),
+                  HasSubstr("a.csg:2:12: warning: cylinder: r1 is a string, and"),
+                  HasSubstr("a.csg:2:32: warning: cube: center is a number, and"),
+                  "a.csg:2:43: warning: surface is left out; the first of 2 (it cannot be "
+                  "drawn)"));
+}
+
+TEST(ImporterPrimitives, AreLeftOutWhereNoScaleMakesThemDrawable) {
+  const std::string far = "multmatrix([[1,0,0,-1e100]]) { ";
+  for (const std::string& large :
+       {std::string("cube(1e308);"), std::string("cube(1e308, center = true);"),
+        std::string("cube(1e200);"), std::string("sphere(1e100);"),
+        std::string("cylinder(h = 1e308, r = 1);"),
+        std::string("polyhedron([[-1e308,0,0],[1e308,0,0],[0,1e308,0],[0,0,1e308]], "
+                    "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);")}) {
+    const ImportedDesign design = import_text("cube();\n" + large);
+    EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0") << large;
+    EXPECT_EQ(design.view_box.max, Vec3(1)) << large;
+    ASSERT_THAT(design.warnings, SizeIs(1)) << large;
+    EXPECT_THAT(design.warnings[0].text, testing::StartsWith("a.csg:2:1: warning: ")) << large;
+    EXPECT_THAT(design.warnings[0].text,
+                HasSubstr(" is left out (it is too large, or too far from the origin: scale the "
+                          "design to between 1e-90 and 1e90 across)"));
+    // What is cut from it goes with it.
+    EXPECT_EQ(model_of("difference() {" + large + "sphere(); } cube();"), "2") << large;
+  }
+  EXPECT_THAT(warning_of(far + "cube(); }"), HasSubstr(":1:32: warning: cube is left out (it is"));
+  const std::string grown = "multmatrix([[1e300,0,0,0],[0,1e300,0,0],[0,0,1e300,0]]) { ";
+  EXPECT_THAT(warning_of(grown + grown + "cube(1); } }"), HasSubstr("too large"));
+  EXPECT_EQ(only_primitive(grown + "cube(1e-300); }").local_to_world.linear[0][0], 1);
+  for (const char* small : {"cube(1e-100);", "cube(1e-320);", "sphere(1e-200);"}) {
+    EXPECT_THAT(warning_of(small), HasSubstr("is left out (it is too small: scale the design"));
+  }
+  EXPECT_EQ(model_of("multmatrix([[0,0,0],[0,0,0],[0,0,0]]) { cube(); }"), "-");
+  EXPECT_THAT(warnings_of("multmatrix([[0,0,0],[0,0,0],[0,0,0]]) { cube(); }"), IsEmpty());
 }
 
 TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
@@ -166,8 +249,7 @@ TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
 TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
   const ImportedDesign design = import_text(
       "surface(); *sphere(); hull() { circle(); sphere(); } sphere(0); %sphere(); sphere(); "
-      "text();",
-      {.skip_unsupported = true});
+      "text();");
   EXPECT_EQ(design.primitive_nodes, 8u);
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");
   EXPECT_EQ(shape_of(design.scene.background, design.scene.primitives), "5");
@@ -265,6 +347,8 @@ TEST(ImporterColor, AnUnknownNameIsAWarning) {
   ASSERT_THAT(design.warnings, SizeIs(1));
   EXPECT_THAT(design.warnings[0].text,
               HasSubstr("a.csg:1:1: warning: color: \"rad\" is no colour"));
+  EXPECT_THAT(warning_of("color(\"rad\"); color(\"blu\");"),
+              HasSubstr("\"rad\" is no colour, and is ignored; the first of 2 (use a CSS"));
 }
 
 // --- Operations -----------------------------------------------------------------------------
@@ -394,8 +478,8 @@ TEST(ImporterModifiers, RootAndDisable) {
   EXPECT_EQ(only_primitive("multmatrix([[1,0,0,3]]) { color([1,0,0]) { !sphere(); } }")
                 .local_to_world.translation,
             Vec3(0.0));
-  EXPECT_EQ(error_of("!sphere(); surface();"), "no error");
-  EXPECT_EQ(error_of("sphere(); *surface();"), "no error");
+  EXPECT_THAT(warnings_of("!sphere(); surface();"), IsEmpty());
+  EXPECT_THAT(warnings_of("sphere(); *surface();"), IsEmpty());
 }
 
 // --- Polyhedra ------------------------------------------------------------------------------
@@ -484,27 +568,80 @@ TEST(ImporterPolyhedron, OfAnySize) {
   }
 }
 
-TEST(ImporterPolyhedron, IsUnsupportedWhereItIsNotConvexAndClosed) {
+TEST(ImporterPolyhedron, IsLeftOutWhereItIsNotConvexAndClosed) {
   const std::string open = "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3]]);";
-  const std::string inverted =
-      "polyhedron(" + kCorner + "faces = [[2,1,0],[1,3,0],[3,2,0],[2,3,1]]);";
   const std::string flat = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);";
   // An octahedron with one vertex pushed in.
   const std::string dented =
       "polyhedron([[1,0,0],[0,1,0],[-1,0,0],[0,-1,0],[0,0,1],[0,0,0.5]], [[4,1,0],[4,2,1],[4,3,2],"
       "[4,0,3],[0,1,5],[1,2,5],[2,3,5],[3,0,5]]);";
-  for (const std::string& text : {open, inverted, flat, dented}) {
-    EXPECT_EQ(error_of("sphere();\n " + text),
-              "a.csg:2:2: error: polyhedron cannot be drawn, since it is not the closed boundary "
-              "of one convex solid, its faces plane and clockwise seen from outside; of all nodes "
-              "1 cannot: 1 polyhedron (--skip-unsupported draws the rest)");
-    const ImportedDesign design =
-        import_text("difference() { cube(); " + text + " }", {.skip_unsupported = true});
-    EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
-    ASSERT_THAT(design.warnings, SizeIs(1));
-    EXPECT_EQ(design.warnings[0].text,
-              "a.csg:1:24: warning: 1 polyhedron node is left out (it is not the closed boundary "
-              "of one convex solid, its faces plane and clockwise seen from outside)");
+  for (const std::string& text : {open, flat, dented}) {
+    const std::string cut = "difference() { cube(); " + text + " }";
+    EXPECT_EQ(model_of(cut), "0") << text;
+    EXPECT_EQ(warning_of(cut),
+              "a.csg:1:24: warning: polyhedron is left out (it is not the closed boundary of one "
+              "convex solid with plane faces)");
+  }
+}
+
+TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
+  const Primitive wanted = only_primitive("polyhedron(" + kCorner + kFaces + ");");
+  for (const char* faces :
+       {"[[2,1,0],[1,3,0],[3,2,0],[2,3,1]]", "[[0,1,2],[1,3,0],[0,2,3],[2,3,1]]"}) {
+    const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
+    EXPECT_THAT(warnings_of(text), IsEmpty());
+    const Primitive primitive = only_primitive(text);
+    expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
+    EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+    for (size_t i = 0; i < 4; ++i) {
+      const csgcore::HalfSpace& found = primitive.polyhedron->half_spaces()[i];
+      EXPECT_NEAR(found.offset, wanted.polyhedron->half_spaces()[i].offset, 1e-15);
+    }
+  }
+}
+
+/// geometry.md §8: what OpenSCAD 2021.01 makes of them.
+TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
+  const auto expect_whole = [](const std::string& faces, const std::string& warning) {
+    const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
+    EXPECT_EQ(warning_of(text), "a.csg:1:1: warning: polyhedron: " + warning);
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
+  };
+  expect_whole("[[0,1,2,4],[0,3,1],[-1,0,2,3],[1,3,nan,2]]",
+               "4 is no index of its 4 points, and is left out; the first of 3 (the first point "
+               "is 0)");
+  expect_whole("[[\"a\",1,2],[undef,3,1],[[1],2,3],[1,3,2]]",
+               "an index of a face is a string, and counts as 0; the first of 3 (it must be a "
+               "number)");
+  expect_whole("[[0,1,2],[0,3,1],7,[0,2,3],undef,[1,3,2]]",
+               "a face is a number, and is left out; the first of 2 (it must be a list of indices "
+               "of points)");
+}
+
+TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
+  for (const auto& [point, words] : {std::pair("undef", "undef"),
+                                     {"7", "a number"},
+                                     {"[]", "a list of 0"},
+                                     {"[1]", "a list of 1"},
+                                     {"[1,2,3,4]", "a list of 4"},
+                                     {"[1,\"a\",3]", "a list with a string"},
+                                     {"[1,nan,3]", "a list with nan"},
+                                     {"[-inf,2,3]", "a list with inf"},
+                                     {"[1,2,true]", "a list with a boolean"}}) {
+    const std::string points =
+        "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]," + std::string(point) + "], ";
+    // As if the points beyond it were none.
+    const std::string late = points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2,4,0],[4,4,9]]);";
+    EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: a point is " + std::string(words) +
+                                    ", and the faces from there on are left out (it must be a "
+                                    "list of three finite numbers)");
+    expect_box(box_of(only_primitive(late)), Vec3(0.0), Vec3(3, 4, 5), 0);
+    const std::string early = points + "faces = [[0,1,2],[0,4,1],[0,2,3],[1,3,2]]); cube();";
+    EXPECT_EQ(model_of(early), "1") << point;
+    EXPECT_THAT(warnings_of(early),
+                ElementsAre(HasSubstr("a point is "), HasSubstr("is left out (it is not")));
+    // No face has it.
+    EXPECT_THAT(warnings_of(points + kFaces + ");"), IsEmpty()) << point;
   }
 }
 
@@ -519,30 +656,22 @@ TEST(ImporterPolyhedron, OfTooManyFacesIsNotLookedAt) {
     points += ",[" + std::to_string(std::cos(angle)) + "," + std::to_string(std::sin(angle)) + "]";
     faces += (i == 0 ? "[" : ",[") + b + "," + a + ",0],[" + a + "," + b + ",1]";
   }
-  EXPECT_THAT(error_of("polyhedron([" + points + "],[" + faces + "]);"),
-              HasSubstr("polyhedron cannot be drawn, since it has too many faces; "));
+  EXPECT_THAT(warning_of("polyhedron([" + points + "],[" + faces + "]);"),
+              HasSubstr("polyhedron is left out (it has too many faces)"));
 }
 
-TEST(ImporterPrimitives, RefuseSizesAndFacesOfTheWrongType) {
-  EXPECT_EQ(error_of("cube(size = [1, 2]);"),
-            "a.csg:1:1: error: cube: size is a list of 2 (it must be a number or a list of three "
-            "numbers)");
-  EXPECT_THAT(error_of("cube([1, undef, 2]);"), HasSubstr("size is a list with undef"));
-  EXPECT_THAT(error_of("cube([1, 2, 3, 4]);"), HasSubstr("size is a list of 4"));
-  EXPECT_THAT(error_of("cube(\"a\");"), HasSubstr("size is a string"));
-  EXPECT_THAT(error_of("cube(1, 1);"), HasSubstr("center is a number"));
-  EXPECT_THAT(error_of("polyhedron(points = 3);"), HasSubstr("points is a number"));
-  EXPECT_THAT(error_of("polyhedron(points = [3]);"), HasSubstr("a point is a number"));
-  EXPECT_THAT(error_of("polyhedron(points = [[3]]);"), HasSubstr("a point is a list of 1"));
-  EXPECT_THAT(error_of("polyhedron([[1,2,true]]);"), HasSubstr("a point is a list with a boolean"));
-  EXPECT_THAT(error_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
-  EXPECT_THAT(error_of("polyhedron([], [1]);"), HasSubstr("a face is a number"));
-  EXPECT_THAT(error_of("polyhedron([], [[[]]]);"), HasSubstr("an index of a face is a list"));
+TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {
+  EXPECT_THAT(
+      warnings_of("polyhedron(points = 3, faces = [[0,1]]);"),
+      ElementsAre(HasSubstr("points is a number, and counts as missing (it must be a list)"),
+                  HasSubstr("0 is no index of its 0 points, and is left out; the first of 2")));
+  EXPECT_THAT(warning_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
+  EXPECT_THAT(warning_of("polyhedron([], triangles = true);"), HasSubstr("triangles is a boolean"));
 }
 
 TEST(ImporterPrimitives, PolyhedraThatAreTheEmptySetCount) {
-  const std::string infinite = "polyhedron([[0,0,0],[3,0,0],[0,4,0],[0,0,inf]], " + kFaces + ");";
-  const std::string nan = "polyhedron([[0,0,0],[nan,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
+  const std::string infinite = "polyhedron([[inf,0,0],[3,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
+  const std::string nan = "polyhedron([[nan,0,0],[3,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
   const std::string flattened =
       "multmatrix([[inf,0,0,0]]) { polyhedron(" + kCorner + "faces = [[0,1,2]]); }";
   for (const std::string& empty :
@@ -684,42 +813,37 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
 
 // --- What cannot be drawn -------------------------------------------------------------------
 
-TEST(ImporterUnsupported, IsAnErrorThatNamesTheFirstAndCounts) {
-  EXPECT_EQ(
-      error_of("sphere();\n linear_extrude(height = 1) { square(); circle(); }\n"
-               "surface(); surface();"),
-      "a.csg:2:2: error: linear_extrude cannot be drawn; of all nodes 3 cannot: 1 linear_extrude, "
-      "2 surface (--skip-unsupported draws the rest)");
-}
-
-TEST(ImporterUnsupported, IsSkippedOnDemandWithAWarningPerKind) {
-  const ImportedDesign design = import_text(
-      "sphere();\nsurface();\n hull() { sphere(); }\nsurface();", {.skip_unsupported = true});
+TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
+  const ImportedDesign design =
+      import_text("sphere();\nsurface();\n hull() { sphere(); }\nsurface();");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(design.warnings[0].text,
-            "a.csg:3:2: warning: 1 hull node is left out (it cannot be drawn)");
-  EXPECT_EQ(
-      design.warnings[1].text,
-      "a.csg:2:1: warning: 2 surface nodes are left out; this is the first (it cannot be drawn)");
+            "a.csg:2:1: warning: surface is left out; the first of 2 (it cannot be drawn)");
+  EXPECT_EQ(design.warnings[1].text, "a.csg:3:2: warning: hull is left out (it cannot be drawn)");
+  EXPECT_STREQ(Error(design.warnings[1]).what(),
+               "a.csg:3:2: error: hull is left out (it cannot be drawn)");
+}
+
+TEST(ImporterUnsupported, MayBeAllThereIs) {
+  const ImportedDesign design = import_text("surface();");
+  EXPECT_TRUE(design.scene.primitives.empty());
+  EXPECT_TRUE(design.view_box.empty());
+  EXPECT_THAT(design.warnings, SizeIs(1));
 }
 
 TEST(ImporterUnsupported, LeavesTheRestAsItWouldBeWithout) {
-  const ImportOptions skip{.skip_unsupported = true};
-  EXPECT_EQ(model_of("difference() { sphere(); surface(); sphere(); }", skip), "(0-2)");
-  EXPECT_EQ(model_of("intersection() { sphere(); group() { surface(); } }", skip), "0");
-  EXPECT_EQ(model_of("union() { surface(); sphere(); }", skip), "1");
+  EXPECT_EQ(model_of("difference() { sphere(); surface(); sphere(); }"), "(0-2)");
+  EXPECT_EQ(model_of("intersection() { sphere(); group() { surface(); } }"), "0");
+  EXPECT_EQ(model_of("union() { surface(); sphere(); }"), "1");
 }
 
 TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
-  const ImportOptions skip{.skip_unsupported = true};
   // The holes of a plate that is not drawn must not appear as bodies.
-  EXPECT_EQ(model_of("difference() { surface(); sphere(); } sphere();", skip), "2");
-  EXPECT_EQ(model_of("difference() { group() { surface(); group(); } sphere(); } sphere();", skip),
-            "2");
-  EXPECT_EQ(model_of("difference() { group() { surface(); sphere(); } sphere(); }", skip), "(1-2)");
-  EXPECT_EQ(model_of("intersection() { difference() { surface(); sphere(); } sphere(); }", skip),
-            "2");
+  EXPECT_EQ(model_of("difference() { surface(); sphere(); } sphere();"), "2");
+  EXPECT_EQ(model_of("difference() { group() { surface(); group(); } sphere(); } sphere();"), "2");
+  EXPECT_EQ(model_of("difference() { group() { surface(); sphere(); } sphere(); }"), "(1-2)");
+  EXPECT_EQ(model_of("intersection() { difference() { surface(); sphere(); } sphere(); }"), "2");
 }
 
 // --- What --viewall looks at -----------------------------------------------------------------
@@ -775,18 +899,17 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   EXPECT_TRUE(import_text("").view_box.empty());
 }
 
-/// Errors of the text go before those of the nodes' arguments, and `!` makes these void.
-TEST(TextImport, TellsErrorsInTheirOrder) {
+/// `!` makes the problems void of all that it does not select.
+TEST(TextImport, TellsWhatIsWrongWithWhatItSelects) {
   const std::string wrong = "sphere(r = \"1\");";
-  EXPECT_THAT(error_of(wrong + "cube(size = true);"), HasSubstr("a.csg:1:1: error: sphere"));
+  EXPECT_THAT(
+      warnings_of(wrong + "cube(size = true);"),
+      ElementsAre(HasSubstr("a.csg:1:1: warning: sphere"), HasSubstr(":1:17: warning: cube")));
   EXPECT_THAT(error_of(wrong + "cube(size = "), HasSubstr("a.csg:1:29: error: expected a value"));
-  EXPECT_EQ(error_of(wrong + "group() { !sphere(); } " + wrong), "no error");
-  EXPECT_EQ(error_of("*group() {" + wrong + "}"), "no error");
-  EXPECT_THAT(error_of("hull() {" + wrong + "}" + wrong), HasSubstr(":1:26: error: sphere"));
-  // Only what the text itself says wrong is an error before the end.
-  TextImport import(wrong + "square();", "a.csg");
-  EXPECT_EQ(import.nodes(), 2u);
-  EXPECT_THROW(import.finish(), Error);
+  EXPECT_THAT(warnings_of(wrong + "group() { !sphere(); } " + wrong), IsEmpty());
+  EXPECT_THAT(warnings_of("*group() {" + wrong + "}"), IsEmpty());
+  EXPECT_THAT(warnings_of("hull() {" + wrong + "}" + wrong),
+              ElementsAre(HasSubstr(":1:1: warning: hull"), HasSubstr(":1:26: warning: sphere")));
 }
 
 TEST(TextImport, SelectsWhateverCameBefore) {
@@ -799,6 +922,27 @@ TEST(TextImport, SelectsWhateverCameBefore) {
   EXPECT_EQ(design.scene.primitives[0].id, 4u);
   EXPECT_EQ(design.scene.primitives[0].local_to_world.translation, Vec3(0));
   EXPECT_EQ(design.primitive_nodes, 7u);
+}
+
+TEST(TextImport, KeepsThePlacesOfAllPrimitiveNodes) {
+  const std::string text =
+      "\xEF\xBB\xBF/* sphere();\r\n */ sphere();  cube();\r\n\n"
+      "*group() {\n\tcircle(); }\n!union() { color(\"x\") cylinder(); }\n%text(text = "
+      "\"\n\");cube();";
+  EXPECT_THAT(TextImport(text, "a.csg").finish().places, IsEmpty());
+  ImportOptions options;
+  options.keeps_places = true;
+  const ImportedDesign design = TextImport(text, "a.csg", options).finish();
+  const std::string_view names[] = {"sphere", "cube", "circle", "cylinder", "text", "cube"};
+  ASSERT_EQ(design.primitive_nodes, std::size(names));
+  ASSERT_THAT(design.places, SizeIs(std::size(names)));
+  for (size_t i = 0; i < std::size(names); ++i) {
+    const PrimitivePlace& place = design.places[i];
+    EXPECT_EQ(text.substr(place.offset, names[i].size()), names[i]);
+    EXPECT_EQ(place.line, 1 + std::count(text.begin(), text.begin() + place.offset, '\n')) << i;
+  }
+  ASSERT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_EQ(design.scene.primitives[0].id, 3u);
 }
 
 TEST(TextImport, StopsWhenAsked) {

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,6 +83,19 @@ TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
   }
 }
 
+TEST(DesignFile, ThatTakesTooMuchMemoryIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.csg", "sphere(r = 1);");
+  DesignFileOptions options;
+  options.progress = [](const char*) { throw std::bad_alloc(); };
+  try {
+    read_design(path, options);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), path + ": error: out of memory (try a smaller design)");
+  }
+}
+
 TEST_F(FakeOpenScad, ItsMessagesAreShownLineByLine) {
   const Result result = run("echo 'WARNING: one' >&2; printf 'ECHO: two' >&2; echo ';'");
   EXPECT_THAT(result.messages, ElementsAre("WARNING: one", "ECHO: two"));
@@ -145,33 +159,99 @@ TEST_F(FakeOpenScad, ReadsNothingFromOurStandardInput) {
   EXPECT_EQ(result.csg, "end\n");
 }
 
-TEST_F(FakeOpenScad, AnInterruptionKillsItAndWhatItStarted) {
-  const std::string pid_file = folder_ / "pid";
-  const Environment openscad(
-      "OPENSCAD", folder_.script("openscad", "sleep 60 & echo $! > " + pid_file + ".new; mv " +
-                                                 pid_file + ".new " + pid_file + "; wait"));
-  const pid_t pid = fork();
-  if (pid == 0) {
-    handle_interrupts();
-    run_export("a.scad");
-    _exit(99);
-  }
-  while (!folder_.has("pid")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  const pid_t grandchild = std::stoi(folder_.read("pid"));
-  kill(pid, SIGTERM);
-  int status = 0;
-  waitpid(pid, &status, 0);
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  // Killed at once; it is gone when whoever adopts it has reaped it, or a zombie until then.
-  const auto is_running = [grandchild] {
-    std::ifstream stat("/proc/" + std::to_string(grandchild) + "/stat");
+/// Killed, it is gone when whoever adopts it has reaped it, or a zombie until then.
+bool ends_soon(pid_t pid) {
+  const auto is_running = [pid] {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
     std::string number, name, state;
     return stat >> number >> name >> state && state != "Z";
   };
-  for (int i = 0; i < 200 && is_running(); ++i) {
+  for (int i = 0; i < 1000 && is_running(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  EXPECT_FALSE(is_running());
+  return !is_running();
+}
+
+/// Part of a script: starts a program that runs on, and writes its number to a file.
+std::string starting_another(const std::string& pid_file, const std::string& program) {
+  return program + " & echo $! >" + pid_file + ".new; mv " + pid_file + ".new " + pid_file + "; ";
+}
+
+TEST_F(FakeOpenScad, ADeathKillsItAndWhatItStarted) {
+  const std::string pid_file = folder_ / "pid";
+  const Environment openscad(
+      "OPENSCAD",
+      folder_.script("openscad", starting_another(pid_file, "sleep 1000") + "echo $$ >" + pid_file +
+                                     "2; mv " + pid_file + "2 " + pid_file + "_own; wait"));
+  for (const int signal_number : {SIGTERM, SIGUSR1, SIGXCPU, SIGQUIT, SIGABRT, SIGKILL}) {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      const rlimit no_core{};
+      setrlimit(RLIMIT_CORE, &no_core);
+      handle_interrupts();
+      // Not the main thread: whatever depends on the thread that starts it would show.
+      std::thread([] { run_export("a.scad"); }).join();
+      _exit(99);
+    }
+    while (!folder_.has("pid_own")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const pid_t own = std::stoi(folder_.read("pid_own"));
+    const pid_t started = std::stoi(folder_.read("pid"));
+    std::filesystem::remove(folder_ / "pid_own");
+    kill(pid, signal_number);
+    int status = 0;
+    waitpid(pid, &status, 0);
+    EXPECT_NE(WEXITSTATUS(status), 99);
+    EXPECT_TRUE(ends_soon(own)) << signal_number;
+    EXPECT_TRUE(ends_soon(started)) << signal_number;
+  }
+}
+
+TEST_F(FakeOpenScad, EndsWithoutWhatItStartedAndLeavesNothing) {
+  const std::string text(60000, ' ');
+  const std::string body = starting_another(folder_ / "pid", "sleep 1000");
+  const Result result = run(body + "cat " + folder_.write("text", text) +
+                            "; echo 'WARNING: late' >&2; echo 'sphere(r = 1);'");
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.csg, text + "sphere(r = 1);\n");
+  EXPECT_THAT(result.messages, ElementsAre("WARNING: late"));
+  EXPECT_TRUE(ends_soon(std::stoi(folder_.read("pid"))));
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left
+}
+
+TEST_F(FakeOpenScad, EndsThoughWhatItStartedWritesOn) {
+  const Result result = run(starting_another(folder_ / "pid", "yes //") + "exit 0");
+  EXPECT_TRUE(ends_soon(std::stoi(folder_.read("pid"))));
+  EXPECT_THAT(run(starting_another(folder_ / "pid", "yes // >&2") + "exit 3").error,
+              HasSubstr("exit code 3"));
+}
+
+TEST_F(FakeOpenScad, WhatItWritesEndsWhereItIsSeenToBeNoCsg) {
+  EXPECT_EQ(run("yes").csg.substr(0, 4), "y\ny\n");
+  EXPECT_EQ(run("cat /dev/zero").csg.size(), 4096u);
+  EXPECT_THAT(run("echo 'ERROR: bad in file a.scad, line 2' >&2; sleep 0.1; yes").error,
+              StartsWith("dir/a.scad:2: error: bad ("));
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left
+}
+
+TEST_F(FakeOpenScad, ALineWithoutAnEndIsShownInPieces) {
+  const Result result = run("head -c 300000 /dev/zero | tr '\\000' x >&2; echo 'sphere(r = 1);'");
+  EXPECT_EQ(result.error, "");
+  EXPECT_GE(result.messages.size(), 3u);
+  std::string all;
+  for (const std::string& line : result.messages) all += line;
+  EXPECT_EQ(all, std::string(300000, 'x'));
+}
+
+TEST_F(FakeOpenScad, HasTheSignalsThatItsCallerHad) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    handle_interrupts();
+    const std::string error = run("kill -XFSZ $$; echo 'sphere(r = 1);'").error;
+    _exit(error.find("exit code " + std::to_string(128 + SIGXFSZ)) != std::string::npos ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(pid, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 /// `begun`: what the program writes as its last deed before it sleeps.
@@ -231,10 +311,10 @@ TEST_F(InstalledOpenScad, Exports) {
 
 TEST_F(InstalledOpenScad, SaysWhatItReads) {
   const std::string used = folder_.write("the used.scad", "module used() sphere(2);");
-  const std::string included = folder_.write("#1$.scad", "use <the used.scad>\n");
+  const std::string included = folder_.write("#1$;%=:.scad", "use <the used.scad>\n");
   const std::string mesh = folder_ / "missing.stl";
   const std::string path =
-      folder_.write("a design.scad", "include <#1$.scad>\nused(); import(\"missing.stl\");");
+      folder_.write("a design.scad", "include <#1$;%=:.scad>\nused(); import(\"missing.stl\");");
   const Result result = run_export(path, {}, true);
   EXPECT_EQ(result.error, "");
   EXPECT_THAT(result.files, UnorderedElementsAre(used, included, mesh, path));

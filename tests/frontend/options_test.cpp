@@ -57,7 +57,7 @@ TEST(Options, Defaults) {
   EXPECT_EQ(options.render.renderer, RendererKind::kAuto);
   EXPECT_EQ(options.render.technique, Technique::kAuto);
   EXPECT_EQ(options.render.samples, 1u);
-  EXPECT_FALSE(options.import.skip_unsupported);
+  EXPECT_FALSE(options.has_hard_warnings);
   EXPECT_FALSE(options.overlays.any());
   EXPECT_FALSE(options.import.rendered);
   EXPECT_FALSE(options.quiet);
@@ -99,7 +99,10 @@ TEST(Options, OutputsThatCannotBe) {
   Words many;
   for (std::size_t i = 0; i <= kMaxPictures; ++i) many.insert(many.end(), {"-o", "x.png"});
   many.push_back("a");
-  EXPECT_THAT(error_of(many), HasSubstr("-o"));
+  EXPECT_EQ(error_of(many),
+            "error: more than 4096 pictures: 4097 of -o (give -o at most 4096 times)");
+  many.insert(many.begin(), "--animate=2");
+  EXPECT_THAT(error_of(many), HasSubstr("for each of 2 frames (give -o at most 4096 times)"));
 }
 
 TEST(Options, WithoutAnOutputAWindowIsOpened) {
@@ -121,8 +124,12 @@ TEST(Options, Animation) {
     EXPECT_THAT(drawing_error({"--animate", value}), HasSubstr("--animate=")) << value;
   }
   EXPECT_EQ(parse_options({"-o", "x.png", "-o", "y.png", "--animate=2048", "a"}).frames, 2048u);
-  EXPECT_THAT(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
-              HasSubstr("more than 4096 pictures"));
+  // The limit is said, and what it leaves.
+  EXPECT_EQ(drawing_error({"--animate=4097"}),
+            "error: --animate=4097 is not understood (give a number from 0 to 4096)");
+  EXPECT_EQ(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
+            "error: more than 4096 pictures: 2 of -o, for each of 2049 frames (give --animate at "
+            "most 2048, or fewer -o)");
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
               HasSubstr("standard output"));
 }
@@ -304,7 +311,7 @@ TEST(Options, Facets) {
 
 TEST(Options, OtherFlags) {
   const Options options = parse_drawing({"--skip-unsupported", "-q", "--info", "--stats=s.json"});
-  EXPECT_TRUE(options.import.skip_unsupported);
+  EXPECT_THAT(options.warnings, IsEmpty());
   EXPECT_TRUE(options.quiet);
   EXPECT_TRUE(options.info);
   EXPECT_EQ(options.stats_path, "s.json");
@@ -335,7 +342,9 @@ TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
                           "--hardwarnings", "--check-parameters=true",
                           "--check-parameter-ranges=false", "-m", "make"));
   EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_TRUE(options.has_hard_warnings);
   EXPECT_THAT(parse_drawing({"-D", "a=1"}).warnings, ElementsAre(HasSubstr(".csg: -D")));
+  EXPECT_THAT(parse_drawing({"--hardwarnings"}).warnings, IsEmpty());
   EXPECT_THAT(parse_options({"-o", "x.png", "-D", "a=1", "scad-x7Qf"}).warnings, IsEmpty());
 }
 

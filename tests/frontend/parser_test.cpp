@@ -493,6 +493,40 @@ TEST(Malformed, EveryByteEverywhereIsATreeOrAnError) {
 
 // ---- Sizes
 
+TEST(BeyondRepair, IsWhatFailsBeforeItsEnd) {
+  const std::string more(20, ' ');
+  for (const std::string& start :
+       {std::string("y\ny\n"), std::string("sphere(;"), std::string("sphere(r = 1e400);"),
+        std::string("}"), std::string("/ "), std::string(1, '\0')}) {
+    EXPECT_TRUE(is_beyond_repair(start + more)) << start;
+    EXPECT_FALSE(is_beyond_repair(start)) << start;  // too near the end to be sure
+  }
+}
+
+TEST(BeyondRepair, IsNothingThatMayGoOn) {
+  const std::string more(100, 'x');
+  for (const std::string& start :
+       {std::string(), std::string(100, ' '), "sphere(r = 1);" + more, "/* " + more, "// " + more,
+        "text(text = \"a\" b" + more, "text(text = \"" + more, "cube(size = \"" + more,
+        "union() { " + std::string(100, ';'), "cube(size = " + std::string(400, '9'),
+        "cube(size = [" + std::string(100, '[')}) {
+    EXPECT_FALSE(is_beyond_repair(start)) << start;
+  }
+}
+
+/// Of good texts no start is, wherever it is cut.
+TEST(BeyondRepair, IsNoStartOfAGoodText) {
+  const std::string text =
+      "\xEF\xBB\xBF// a comment\n%group() { /* another one */ multmatrix([[1, 0, 0, -1e+02], [0, "
+      "1, 0, 2.5e-300], [0, 0, 1, nan], [0, 0, 0, 1]]) sphere($fn = 0, r = 1e-7); }\n"
+      "text(text = \"a \"quoted\"\nword, 1/2\", size = 10, font = \"\", direction = \"ltr\");\n"
+      "cube(size = [1, 2, 3], center = true);\n";
+  ASSERT_NO_THROW(parse(text, "a.csg"));
+  for (std::size_t length = 0; length <= text.size(); ++length) {
+    EXPECT_FALSE(is_beyond_repair(text.substr(0, length))) << length;
+  }
+}
+
 TEST(Sizes, AMillionLevelsOfNodes) {
   constexpr size_t kLevels = 1'000'000;
   const std::string head = repeated("union(){", kLevels);

@@ -147,6 +147,49 @@ TEST_P(Redrawn, WhatTheSaveLeftAloneIsNotDrawn) {
   EXPECT_EQ(stats_.edit.cells_made, 0u);
 }
 
+TEST_P(Redrawn, ASaveComparesTheScenesOnce) {
+  if (!can_draw()) GTEST_SKIP() << "no OpenGL";
+  std::mt19937 random(3);
+  Design design(csgcore::checks::framed_tree(12, 5));
+  load(design.scene());
+  const csgcore::View view = view_of(*scene_, csgcore::Projection::kPerspective);
+  redraw(view);
+  for (int save = 0; save < 3; ++save) {
+    design.edit(random);
+    load(design.scene());
+    expect_drawn_anew(redraw(view), view);
+    EXPECT_EQ(stats_.edit.comparisons, 1u);
+  }
+  // Of two saves between two pictures, each, and then both together.
+  for (int save = 0; save < 2; ++save) {
+    design.edit(random);
+    load(design.scene());
+  }
+  expect_drawn_anew(redraw(view), view);
+  EXPECT_EQ(stats_.edit.comparisons, 3u);
+}
+
+TEST_P(Redrawn, ASizeThatComesAndGoesIsNoEdit) {
+  if (!can_draw()) GTEST_SKIP() << "no OpenGL";
+  const auto bitten = [](double size, double bite) {
+    csgcore::Affine aside;
+    aside.translation = {0, 0, size};
+    return test_support::scene_of(
+        csgcore::Op::kDifference,
+        {csgcore::make_sphere(size), csgcore::make_sphere(bite * size, aside)});
+  };
+  csgcore::View view;
+  view.eye = {0, 0, 4};
+  view.half_height = 0.5;
+  view.width_px = view.height_px = kSide_px;
+  load(bitten(1, 0.5));
+  redraw(view);
+  load(bitten(1, 0.5));      // followed, and not drawn
+  load(bitten(1e-30, 0.5));  // scaled
+  load(bitten(1, 0.7));
+  expect_drawn_anew(redraw(view), view);
+}
+
 TEST_P(Redrawn, AStoppedPictureCountsAsNone) {
   if (GetParam().renderer == RendererKind::kGl) GTEST_SKIP() << "OpenGL is not stopped";
   load(csgcore::checks::framed_tree(12, 5));

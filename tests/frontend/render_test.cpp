@@ -89,6 +89,24 @@ TEST(Render, PolyhedraOfAnySize) {
   EXPECT_THROW(draw_cube(std::ldexp(1, 305)), Error);
 }
 
+/// Beside something so large nothing shows it, nor does it harm.
+TEST(Render, WhatIsTooSmallForTheScaleShowsNothing) {
+  const double size = std::ldexp(1, 250);
+  for (const auto& tiny :
+       {csgcore::make_sphere(std::ldexp(1, -250)),
+        csgcore::make_sphere(std::ldexp(1, 290), {csgcore::Mat3(std::ldexp(1, -300)), {}})}) {
+    csgcore::Affine aside;
+    aside.translation = {0, 0, size};
+    const csgcore::Scene scene = test_support::scene_of(
+        Op::kDifference,
+        {csgcore::make_sphere(size), csgcore::make_sphere(0.5 * size, aside), tiny});
+    for (const RendererKind renderer : {RendererKind::kCpu, RendererKind::kGl}) {
+      const Image image = draw(scene, size, Projection::kPerspective, renderer);
+      EXPECT_EQ(image.rgb, draw(bitten_ball(size), size, Projection::kPerspective, renderer).rgb);
+    }
+  }
+}
+
 TEST(Render, RefusesWhatNoScaleMakesDrawable) {
   for (const double size : {1e100, 1e-100}) {
     try {

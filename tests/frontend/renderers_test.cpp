@@ -146,6 +146,39 @@ TEST_F(Renderers, DrawTheSamePicture) {
   }
 }
 
+/// From a negative distance an orthographic picture is upside down, and lit accordingly.
+TEST_F(Renderers, MirrorOrthographicPicturesAlike) {
+  const std::vector<std::vector<std::string>> ways = {
+      {"--technique=tiles"},
+      {"--technique=cells"},
+      {"--samples=4"},
+      {"--shading=phong", "--technique=cells"},
+      {"--show=cells", "--leaf-primitives=1"},
+  };
+  for (std::vector<std::string> way : ways) {
+    SCOPED_TRACE(testing::PrintToString(way));
+    way.insert(way.end(), {"--projection=o", "-o", folder_ / "x.exr"});
+    const auto with_distance = [&](const char* camera) {
+      std::vector<std::string> words = way;
+      words.push_back(camera);
+      return words;
+    };
+    const Image upright = cpu(with_distance("--camera=0,0,0,55,0,25,70")).image;
+    const auto mirrored = with_distance("--camera=0,0,0,55,0,25,-70");
+    const Image image = cpu(mirrored).image;
+    EXPECT_LE(different_pixels(image, gl(mirrored).image), kEdgePixels);
+    for (uint32_t y = 0; y < image.height_px; ++y) {
+      for (uint32_t x = 0; x < image.width_px; ++x) {
+        const size_t here = size_t{y} * image.width_px + x;
+        const size_t there = size_t{image.height_px - 1 - y} * image.width_px + x;
+        ASSERT_EQ(image.id[here], upright.id[there]) << x << ' ' << y;
+        ASSERT_EQ(image.z[here], upright.z[there]) << x << ' ' << y;
+      }
+    }
+    EXPECT_GT(pixels_unlike(image, {0xff, 0xff, 0xe5}), 1000u) << "nothing to compare";
+  }
+}
+
 TEST_F(Renderers, ShadeAsTheyAreTold) {
   for (const char* renderer : {"--renderer=cpu", "--renderer=gl"}) {
     const Image openscad = run({renderer, "--shading=openscad"}).image;
@@ -278,6 +311,46 @@ difference() {
     const Drawn plain = cpu({technique, camera, "--projection=o"});
     EXPECT_EQ(plain.stats.trace.skipped.cancelled, 0u) << "not asked for";
     EXPECT_EQ(plain.image.rgb, drawn.image.rgb);
+  }
+}
+
+/// Nothing is left of the model: no cell has a surface, and no ray meets anything of it.
+TEST_F(Renderers, AModelThatIsNowhereLeavesTranslucentPartsAlone) {
+  struct Case {
+    std::string design;
+    bool is_seen;
+  };
+  const std::string cube = "cube(size = [1, 1, 1]);";
+  const Case cases[] = {
+      {"%" + cube, true},
+      {"#" + cube, true},
+      {"difference() { %" + cube + " }", true},
+      {"intersection() { " + cube + " multmatrix([[1, 0, 0, 5]]) { " + cube + " } }", false},
+      {"difference() { " + cube + " cube(size = 3, center = true); }", false},
+  };
+  const std::vector<std::vector<std::string>> ways = {
+      {"--technique=tiles"}, {"--technique=cells"},
+      {"--show=cells"},      {"--show=cells", "--view=axes,edges", "--shading=phong"},
+      {"--samples=4"},       {"--show=depth"}};
+  for (const Case& each : cases) {
+    file_ = folder_.write("a.csg", each.design);
+    for (const std::vector<std::string>& way : ways) {
+      SCOPED_TRACE(each.design + " " + testing::PrintToString(way));
+      const Drawn plain = cpu(way);
+      std::vector<std::string> counted = way;
+      counted.insert(counted.end(), {"--stats", folder_ / "s.json"});
+      const Drawn by_cpu = cpu(counted);
+      const Drawn by_gl = gl(counted);
+      for (const Drawn* drawn : {&plain, &by_cpu, &by_gl}) {
+        EXPECT_EQ(drawn->code, ExitCode::kDone);
+        EXPECT_EQ(drawn->err, "");
+      }
+      EXPECT_EQ(by_cpu.image.rgb, plain.image.rgb);
+      EXPECT_LE(different_pixels(by_cpu.image, by_gl.image), kEdgePixels);
+      // Cells are the model's alone.
+      const bool is_seen = each.is_seen && (way[0] != "--show=cells" || each.design[0] == '#');
+      EXPECT_EQ(pixels_unlike(by_cpu.image, {0xff, 0xff, 0xe5}) > 0, is_seen);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "csgcore/solid.hpp"
+#include "csgcore/subdivision.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/error.hpp"
 #include "support/models.hpp"
@@ -41,6 +42,32 @@ RenderSettings settings_of(RendererKind renderer, Technique technique = Techniqu
   settings.technique = technique;
   settings.measured_channels = true;
   return settings;
+}
+
+/// Cells along rims that no division separates are counted, and drawn.
+TEST(SceneRenderer, CountsTheCellsThatWereGivenUp) {
+  const auto scene = std::make_shared<const Scene>(test_support::stacked_frusta(100));
+  CameraOptions camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  const csgcore::View view = make_view({Vec3(0, 0, 25), {55, 0, 25}, 180}, camera);
+  const auto draw = [&](Technique technique, RenderStats& stats) {
+    RenderSettings settings;
+    settings.renderer = RendererKind::kCpu;
+    settings.technique = technique;
+    settings.leaf_primitives = 2;
+    settings.threshold_px = 1;
+    SceneRenderer renderer;
+    renderer.load(scene);
+    return renderer.draw(view, settings, stats);
+  };
+  RenderStats cells, tiles;
+  draw(Technique::kCells, cells);
+  EXPECT_GT(cells.leaves_given_up, 0u);
+  EXPECT_LT(cells.leaves_given_up, cells.leaves);
+  EXPECT_LE(cells.bytes, csgcore::subdivision_budget(200));
+  draw(Technique::kTiles, tiles);
+  EXPECT_EQ(tiles.leaves_given_up, 0u);
 }
 
 void expect_same(const Image& a, const Image& b) {

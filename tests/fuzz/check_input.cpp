@@ -61,8 +61,6 @@ std::string fault_of(const SyntaxTree& tree) {
   return "";
 }
 
-constexpr frontend::ImportOptions kOptions{.skip_unsupported = true};
-
 /// What came of a text: a design, or an error.
 struct Outcome {
   frontend::ImportedDesign design;
@@ -90,22 +88,47 @@ std::string difference_of(const Outcome& by_tree, const Outcome& by_text) {
   return "";
 }
 
+/// Where a start of the text is beyond repair, the text must fail, and at the start's place.
+std::string fault_of_starts(std::string_view text) {
+  const auto place_of = [](std::string_view part) {
+    const std::string error =
+        outcome_of([&] { return frontend::TextImport(part, "fuzz.csg").finish(); }).error;
+    return error.substr(0, error.find(": error: "));
+  };
+  constexpr size_t kParts = 4;
+  for (size_t i = 1; i < kParts; ++i) {
+    const std::string_view start = text.substr(0, text.size() * i / kParts);
+    if (!frontend::is_beyond_repair(start)) continue;
+    const std::string place = place_of(start);
+    if (place.empty() || place != place_of(text)) {
+      return std::to_string(start.size()) + " bytes of it are beyond repair, it is not";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string fault_of(std::string_view text) {
   std::optional<SyntaxTree> tree;
   const Outcome by_tree = outcome_of([&] {
     tree = frontend::parse(text, "fuzz.csg");
-    return frontend::import_design(*tree, kOptions);
+    return frontend::import_design(*tree);
   });
   const Outcome by_text =
-      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg", kOptions).finish(); });
+      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg").finish(); });
   if (tree) {
     const std::string fault = fault_of(*tree);
     if (!fault.empty()) return fault;
   }
   if (const std::string fault = difference_of(by_tree, by_text); !fault.empty()) return fault;
+  if (std::string fault = fault_of_starts(text); !fault.empty()) return fault;
   const std::string& message = by_tree.error;
+  if (tree && !message.empty()) return "a text without an error of its own is refused: " + message;
+  for (const frontend::Warning& warning : by_tree.design.warnings) {
+    if (!warning.text.starts_with("fuzz.csg:"))
+      return "a warning without its place: " + warning.text;
+  }
   if (message.empty()) return "";
   if (!message.starts_with("fuzz.csg:")) return "an error without its place: " + message;
   if (message.find(": error: ") == std::string::npos) return "an error of another form";

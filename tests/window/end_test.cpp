@@ -88,7 +88,7 @@ class EndingDuringAnExport : public LiveWindow {
     ASSERT_TRUE(wait_until([this] { return folder_.has("running"); }));
     exporting_ = std::stoi(folder_.read("running"));
     EXPECT_TRUE(is_running(exporting_));
-    EXPECT_EQ(children(program().pid()), 1u);
+    EXPECT_EQ(children(program().pid()), 2u);  // with its guard (child_process.hpp)
   }
   void expect_nothing_left() {
     EXPECT_TRUE(wait_until([this] { return !is_running(exporting_); }));
@@ -103,6 +103,13 @@ TEST_F(EndingDuringAnExport, ByASignal) {
   start();
   program().send(SIGTERM);
   EXPECT_EQ(program().wait(), 1);
+  expect_nothing_left();
+}
+
+TEST_F(EndingDuringAnExport, ByAKill) {
+  start();
+  program().send(SIGKILL);
+  EXPECT_EQ(program().wait(), 128 + SIGKILL);
   expect_nothing_left();
 }
 

@@ -113,6 +113,16 @@ TEST_F(Saving, WritesThePictureOfTheCommand) {
   EXPECT_EQ(read_png(folder_ / "a.png"), drawn(design_, first_["camera"]));
 }
 
+TEST_F(Saving, DoesNotOverwriteTheDesign) {
+  const std::string design = folder_.write("a.png", kBlock);  // which it proposes
+  open(design);
+  next();
+  save();
+  key("Return");
+  next();  // when it would have been written
+  EXPECT_EQ(folder_.read("a.png"), kBlock);
+}
+
 TEST_F(Saving, WritesMeasurements) {
   start();
   save(folder_ / "b.exr");

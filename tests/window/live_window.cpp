@@ -1,5 +1,6 @@
 #include "live_window.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -65,8 +66,13 @@ void LiveWindow::open(const std::string& design, const std::vector<std::string>&
   read_ = 0;
   id_.clear();
   std::filesystem::remove(folder_ / "stats");
-  setup.words = {SCADRAY_PROGRAM, "--stats=" + (folder_ / "stats"),
-                 "--imgsize=" + std::to_string(kWidth) + "," + std::to_string(kHeight)};
+  setup.words = {SCADRAY_PROGRAM, "--stats=" + (folder_ / "stats")};
+  const bool has_size = std::any_of(options.begin(), options.end(), [](const std::string& option) {
+    return option.starts_with("--imgsize=");
+  });
+  if (!has_size) {
+    setup.words.push_back("--imgsize=" + std::to_string(kWidth) + "," + std::to_string(kHeight));
+  }
   setup.words.insert(setup.words.end(), options.begin(), options.end());
   setup.words.push_back(design);
   setup.environment["DISPLAY"] = display_->name();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 
 #include "projection.hpp"
@@ -27,6 +28,18 @@ void expect_near(const Vec3& a, const Vec3& b, double error = 1e-12) {
 /// With numbers that no axis is the same for.
 Navigation tilted(Projection projection = Projection::kPerspective) {
   return {Camera{{1, -2, 3}, {40, 10, 70}, 90}, projection};
+}
+
+TEST(Navigation, BeginsAtAPositiveDistance) {
+  for (const auto& [given, taken] :
+       {std::pair(-90.0, 90.0), {0.0, 140.0}, {std::numeric_limits<double>::infinity(), 1e90}}) {
+    Navigation navigation({{1, -2, 3}, {40, 10, 70}, given}, Projection::kOrthographic);
+    EXPECT_EQ(navigation.camera().distance, taken);
+    navigation.zoom(1, 10, 20, kSize);
+    navigation.pan(10, 20, kSize);
+    EXPECT_GT(navigation.camera().distance, 0);
+    EXPECT_TRUE(std::isfinite(navigation.camera().target.x));
+  }
 }
 
 TEST(Navigation, ADragTurnsBySevenTenthsOfADegreeAPixel) {

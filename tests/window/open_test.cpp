@@ -78,7 +78,54 @@ TEST_F(Opening, WhatCannotBeDrawnIsLeftOutAndListed) {
   const Picture with_messages = shown();
   key("m");  // they go
   wait_until_other(with_messages);
-  expect_drawn(design, line, {"--skip-unsupported", "-q"});
+  expect_drawn(design, line, {"-q"});
+}
+
+TEST_F(Opening, AScadWithoutASuffix) {
+  if (missing_program({"openscad"})) GTEST_SKIP() << "no openscad";
+  const std::string design =
+      folder_.write("scad-x7Qf", "module two() cube(9);\ntwo();\nsphere(6);");
+  open(design);
+  const json line = next();
+  EXPECT_EQ(line["error"], "");
+  EXPECT_EQ(line["primitives"], 2);
+  EXPECT_GT(line["times_ms"]["export"].get<double>(), 0);
+  expect_drawn(design, line);
+}
+
+/// Whether all of a status line so many pixels high lies within the window: nothing stands in its
+/// right margin.
+bool is_status_whole(const Picture& shown, uint32_t height) {
+  constexpr uint32_t kMargin = 6;  // less than ImGui's
+  const uint32_t bottom = shown.height - kMargin;
+  for (uint32_t y = shown.height - height + kMargin; y < bottom; ++y) {
+    for (uint32_t x = shown.width - kMargin; x < shown.width - 1; ++x) {
+      if (shown.at(x, y) != shown.at(x, bottom)) return false;
+    }
+  }
+  return true;
+}
+
+TEST_F(Opening, TheStatusLineIsWholeInNarrowWindows) {
+  constexpr uint32_t kLine = 16;
+  const std::string design = folder_.write("a.csg", kBlock);
+  for (const int width : {640, 200}) {
+    SCOPED_TRACE(width);
+    open(design, {"--imgsize=" + std::to_string(width) + ",300", "--show=cells"});
+    const json line = next();
+    EXPECT_GT(7 * line["status"].get<std::string>().size(), 640u);  // a letter is 7 pixels wide
+    EXPECT_TRUE(wait_until([this] { return is_status_whole(shown(), kLine); }));
+  }
+  // A notice is wrapped: that a picture cannot have this name.
+  const Picture before = shown();
+  key("ctrl+s");
+  wait_until_settled(before);
+  display().drive({"key", "ctrl+a", "type", "x.bmp"});
+  wait_until_settled(before);
+  const Picture dialogue = shown();
+  key("Return");
+  wait_until_settled(dialogue);
+  EXPECT_TRUE(is_status_whole(shown(), 6 * kLine));
 }
 
 TEST_F(Opening, WithoutADisplayItSaysSo) {
@@ -102,6 +149,16 @@ TEST_F(Opening, StatisticsThatCannotBeWritten) {
   EXPECT_EQ(Process(setup).wait(), 1);
   EXPECT_THAT(errors(),
               AllOf(HasSubstr("none/stats: error: cannot be written: "), HasSubstr("--stats")));
+}
+
+TEST_F(Opening, StatisticsThatWouldOverwriteTheDesign) {
+  const std::string design = folder_.write("a.csg", kBlock);
+  ProcessSetup setup;
+  setup.words = {SCADRAY_PROGRAM, "--stats=" + design, design};
+  setup.errors = folder_ / "errors";
+  EXPECT_EQ(Process(setup).wait(), 1);
+  EXPECT_THAT(errors(), HasSubstr("a.csg: error: --stats would overwrite the design ("));
+  EXPECT_EQ(folder_.read("a.csg"), kBlock);
 }
 
 }  // namespace

@@ -4,14 +4,18 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <condition_variable>
+#include <future>
+#include <memory>
+#include <string_view>
+#include <utility>
 
 #include "designs.hpp"
 #include "followed.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/overlays.hpp"
-#include "frontend/parser.hpp"
 #include "support/models.hpp"
 #include "temporary_folder.hpp"
 
@@ -31,7 +35,9 @@ const std::string kDesign = window_test::kBlock +
                             " cylinder($fn = 0, h = 30, r1 = 2, r2 = 3, center = false);\n";
 
 std::shared_ptr<const ImportedDesign> design_of(const std::string& text) {
-  return std::make_shared<ImportedDesign>(frontend::import_design(frontend::parse(text, "")));
+  frontend::ImportOptions options;
+  options.keeps_places = true;
+  return std::make_shared<ImportedDesign>(frontend::TextImport(text, "", options).finish());
 }
 
 std::shared_ptr<const ImportedDesign> design_of(csgcore::Scene scene) {
@@ -144,6 +150,44 @@ TEST_F(PainterTest, DrawsWhatTheCommandDraws) {
   check();
 }
 
+TEST_F(PainterTest, DrawsWhatIsEmpty) {
+  Painter& painter = this->painter();
+  const std::string cubes = "{ cube(1); multmatrix([[1, 0, 0, 5]]) { cube(1); } }";
+  PaintOrder order;
+  uint64_t number = 0;
+  // The designs follow each other in one renderer.
+  const std::string designs[] = {"",
+                                 "%cube(1);",
+                                 "intersection() " + cubes,
+                                 "cube(0);",
+                                 "union() " + cubes,
+                                 "#cube(1);",
+                                 "intersection() " + cubes,
+                                 "%cube(1);",
+                                 ""};
+  for (const std::string& design : designs) {
+    for (const bool is_cut : {false, true}) {
+      for (const Show show : {Show::kSurface, Show::kCells, Show::kDepth, Show::kNormals}) {
+        SCOPED_TRACE(design + (is_cut ? ", cut, " : ", ") + std::to_string(static_cast<int>(show)));
+        order = order_of(design_of(design));
+        order.number = ++number;
+        order.settings.show = show;
+        order.settings.all_stats = true;
+        order.overlays = {true, true, true, true};
+        order.section = {is_cut, 0, false, 0.5};
+        painter.order(order);
+        const Painting painting = next_final();
+        EXPECT_EQ(painting.error, "");
+        EXPECT_TRUE(painting.image.rgb == command_picture(order).rgb);
+      }
+    }
+  }
+  Probe probe;
+  probe.order = order;
+  painter.probe(probe);
+  EXPECT_FALSE(next_finding().is_hit);
+}
+
 TEST_F(PainterTest, MeasuresWhereItIsAskedTo) {
   Painter& painter = this->painter();
   PaintOrder order = order_of(design_of(kDesign));
@@ -212,14 +256,37 @@ TEST_F(PainterTest, ANewerOrderReplacesAnOlderOne) {
   }
 }
 
+/// An order that takes seconds, and tells when its drawing begins.
+class LargeOrder {
+ public:
+  LargeOrder() : order_(order_of(design_of(test_support::cylinder_minus_spheres(2000)))) {
+    order_.size = {8000, 8000};
+    order_.settings.samples = 64;
+    order_.settings.technique = frontend::Technique::kCells;  // which reports progress
+    order_.settings.progress = [this](const char* stage, double) {
+      if (std::string_view(stage) == "drawing" && !std::exchange(is_begun_, true)) {
+        begun_.set_value();
+      }
+    };
+  }
+  const PaintOrder& order() const { return order_; }
+  /// False if it never does.
+  bool begins() {
+    return begun_.get_future().wait_for(frontend::kPatience) == std::future_status::ready;
+  }
+
+ private:
+  PaintOrder order_;
+  bool is_begun_ = false;  // the painter's thread's
+  std::promise<void> begun_;
+};
+
 TEST_F(PainterTest, ALargePictureIsGivenUpForANewerOrder) {
+  LargeOrder large;
   Painter& painter = this->painter();
-  PaintOrder order = order_of(design_of(test_support::cylinder_minus_spheres(2000)));
-  PaintOrder large = order;
-  large.size = {8000, 8000};
-  large.settings.samples = 64;
-  painter.order(large);
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // so that it is begun, mostly
+  painter.order(large.order());
+  ASSERT_TRUE(large.begins());
+  PaintOrder order = order_of(large.order().design);
   order.number = 2;
   painter.order(order);
   const Painting painting = next_painting();
@@ -228,10 +295,14 @@ TEST_F(PainterTest, ALargePictureIsGivenUpForANewerOrder) {
 }
 
 TEST_F(PainterTest, EndsInTheMiddleOfAPicture) {
-  PaintOrder order = order_of(design_of(test_support::cylinder_minus_spheres(2000)));
-  order.size = {8000, 8000};
-  order.settings.samples = 64;
-  Painter(1e6, [] {}).order(order);
+  LargeOrder large;
+  std::atomic<int> pictures = 0;
+  {
+    Painter painter(1e6, [&pictures] { ++pictures; });
+    painter.order(large.order());
+    ASSERT_TRUE(large.begins());
+  }
+  EXPECT_EQ(pictures, 0) << "it was drawn to its end";
 }
 
 /// The ball from above.
@@ -294,6 +365,16 @@ TEST_F(ProbeTest, LongLinesAreCut) {
   EXPECT_EQ(next_finding().line, "line 1: sphere(r = 10);");
 }
 
+TEST_F(ProbeTest, NoClickParsesTheDesign) {
+  Painter& painter = this->painter();
+  Probe probe = probe_of("\n" + window_test::kBall, 80, 60);
+  // The text goes on as no .csg does: only the primitive's own line may be looked at.
+  probe.csg = std::make_shared<frontend::FileText>(
+      frontend::read_file(folder_.write("broken.csg", "\n" + window_test::kBall + "}} (")));
+  painter.probe(probe);
+  EXPECT_EQ(next_finding().line, "line 2: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+}
+
 TEST_F(ProbeTest, EachIsAnsweredInTurn) {
   Painter& painter = this->painter();
   for (uint64_t number = 1; number <= 5; ++number) {
@@ -308,8 +389,9 @@ TEST_F(ProbeTest, EachIsAnsweredInTurn) {
 
 TEST_F(PainterTest, ErrorsComeInPlaceOfPictures) {
   Painter& painter = this->painter();
-  // Beyond what even a scaled scene can hold.
-  painter.order(order_of(design_of("cube(1e95);")));
+  // Beyond what even a scaled scene can hold: no file has that.
+  painter.order(order_of(
+      design_of(test_support::scene_of(csgcore::Op::kUnion, {csgcore::make_sphere(1e95)}))));
   const Painting failed = next_painting();
   EXPECT_THAT(failed.error, HasSubstr("error: "));
   EXPECT_TRUE(failed.image.rgb.empty());

@@ -169,5 +169,40 @@ TEST_F(StateTest, StatusLine) {
             "cpu  |  640 x 480  |  reading");
 }
 
+TEST_F(StateTest, StatusLineIsShortenedByWhatMattersLeast) {
+  const auto shortened = [this](size_t letters) {
+    return status_line(state_,
+                       [letters](const std::string& line) { return line.size() <= letters; });
+  };
+  state_.name = "a.scad";
+  EXPECT_EQ(shortened(1), "reading a.scad");
+  frontend::DesignVersion version;
+  version.export_ms = 80;
+  version.parse_ms = 1.25;
+  version.import_ms = 2;
+  state_.version = version;
+  Painting painting;
+  painting.order.size = {640, 480};
+  painting.stats.renderer = "cpu";
+  painting.stats.render_ms = 7.5;
+  painting.stats.prepare_ms = 1;
+  painting.stats.subdivide_ms = 3;
+  state_.painting = painting;
+  state_.frames_per_second = 59.6;
+  state_.is_reading = true;
+  EXPECT_EQ(shortened(1000), status_line(state_));
+  EXPECT_EQ(shortened(status_line(state_).size()), status_line(state_));
+  const std::string shorter =
+      "1 primitives  |  openscad 80, subdivide 3.0, draw 7.5 ms  |  60 frames/s  |  cpu  |  "
+      "640 x 480  |  reading";
+  EXPECT_EQ(shortened(shorter.size()), shorter);
+  EXPECT_EQ(shortened(70), "1 primitives  |  openscad 80, draw 7.5 ms  |  60 frames/s  |  reading");
+  EXPECT_EQ(shortened(1), "1 primitives  |  reading");
+  for (size_t letters = 24; letters < 120; ++letters) EXPECT_LE(shortened(letters).size(), letters);
+  state_.painting->stats.renderer = "gl: a driver's name";
+  EXPECT_EQ(shortened(status_line(state_).size() - 1).find("gl: "), std::string::npos);
+  EXPECT_NE(shortened(status_line(state_).size() - 1).find("parse"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace window

@@ -37,10 +37,15 @@ Camera camera_from_numbers(std::span<const double> numbers);
 inline bool sees_all(const CameraOptions& options) { return options.view_all || !options.camera; }
 
 /// Applies view_all and auto_center to the design's box. An empty box leaves the camera as it is.
-/// Throws Error where the distance is not positive and nothing replaces it.
 Camera choose_camera(const CameraOptions& options, const csgcore::Box& view_box);
 
-/// The rays of that camera. Precondition: the distance is positive.
+/// Whether the picture is the background whatever there is, as in OpenSCAD 2021.01: the distance is
+/// 0, not finite, or in perspective negative.
+bool sees_nothing(const Camera& camera, csgcore::Projection projection);
+
+/// The rays of that camera; of one that sees nothing only the directions hold. OpenSCAD's
+/// orthographic picture from a negative distance is that from the positive one upside down: `up`
+/// points downwards there, and right × up = forward.
 csgcore::View make_view(const Camera& camera, const CameraOptions& options);
 
 }  // namespace frontend

@@ -46,14 +46,32 @@ struct DesignFileOptions {
 /// By its name: whether openscad has to export it.
 bool is_scad(const std::string& path);
 
+/// Whether openscad has to export it if it cannot be parsed: a regular file of any name but .csg's,
+/// as editors' plugins hand over temporary files without a suffix. (What is no regular file can be
+/// read only once.)
+bool may_be_scad(const std::string& path);
+
+/// What reading a design is known to read, before it is read: the design, openscad's parameters.
+std::vector<NamedPath> design_inputs(const std::string& path,
+                                     const std::vector<std::string>& openscad_arguments);
+
 /// `path` is a .csg; a .scad, which the installed openscad exports; or "-", a .csg from standard
 /// input. A file of another name is a .csg if it parses as one, else a .scad. Throws Error, also
-/// where openscad does not say which files it reads and they are wanted.
+/// where openscad does not say which files it reads and they are wanted, and where memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
-/// The same without parsing it. What openscad does not say is left out of `files`. Throws Error,
-/// and Stopped (stop.hpp) where `stop` asks for it.
+/// `file.import`, finished, once. Throws what that throws, and Error where memory runs out.
+ImportedDesign import_design(DesignFile& file);
+
+// The two steps of it, which can be stopped: Stopped (stop.hpp) is thrown where `stop` asks for it.
+
+/// A .scad by its name is exported, everything else is read only; it may end where it is seen that
+/// it cannot be parsed. What openscad does not say is left out of `files`. Throws Error.
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop = {});
+
+/// In the place of a `text` that cannot be parsed, where may_be_scad(). Throws Error.
+void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
+                        const std::stop_token& stop = {});
 
 }  // namespace frontend

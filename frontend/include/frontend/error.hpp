@@ -13,17 +13,19 @@ struct Location {
   uint32_t column = 0;
 };
 
+/// Not thrown, collected and shown on stderr.
+struct Warning {
+  std::string text;        // as an Error's, with "warning" for "error"
+  std::string error_text;  // what() of the Error that it is where warnings are errors
+};
+
 /// what() is "file:line:column: error: what (what to do)" (design.md §2), without the places that
 /// are not known.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& file, Location location, const std::string& what,
         const std::string& todo);
-};
-
-/// The same text with "warning" for "error"; not thrown, collected and shown on stderr.
-struct Warning {
-  std::string text;
+  explicit Error(const Warning& warning) : std::runtime_error(warning.error_text) {}
 };
 
 /// Any of `file`, `location` and `todo` may be empty; the text is then without them.

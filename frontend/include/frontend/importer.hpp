@@ -26,9 +26,6 @@ enum class Facets : uint8_t {
 };
 
 struct ImportOptions {
-  /// Leave out nodes that cannot be drawn, with one warning for each kind and its count, instead of
-  /// throwing an Error.
-  bool skip_unsupported = false;
   Facets facets = Facets::kFew;
   /// Of kFew. People who choose no more than 8 fragments mean the polygon (openscad.md §3).
   double few_fragments = 8;
@@ -37,6 +34,14 @@ struct ImportOptions {
   /// As OpenSCAD's --render: the solid alone. No color() counts, `#` parts are like others, and `%`
   /// parts are left out.
   bool rendered = false;
+  /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
+  bool keeps_places = false;
+};
+
+/// Where a primitive node stands in its file.
+struct PrimitivePlace {
+  uint32_t line = 0;    // from 1
+  uint32_t offset = 0;  // of its name, in bytes from the text's start
 };
 
 struct ImportedDesign {
@@ -47,17 +52,16 @@ struct ImportedDesign {
   csgcore::Box view_box;
   /// Primitive nodes in the file, empty, invalid and `%` ones included.
   uint32_t primitive_nodes = 0;
+  /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
+  std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
 };
 
-/// Where the primitive node stands whose index in file order is `id` (Primitive::id), which must be
-/// below ImportedDesign::primitive_nodes.
-Location place_of_primitive(const SyntaxTree& tree, uint32_t id);
-
-/// Throws Error for a node that cannot be drawn (it names the first with its place, and says how
-/// many there are) and for arguments of the wrong type. A round primitive whose facets would take
-/// too much memory stays smooth, with one warning for all. Throws Stopped (stop.hpp) where `stop`
-/// asks for it.
+/// A node that cannot be drawn is left out, and an argument of the wrong type counts as missing,
+/// as in OpenSCAD: there is one warning for each kind of node and reason, which names the first
+/// with its place and says how many there are. A round primitive whose facets would take too much
+/// memory stays smooth, with one warning for all. Throws nothing but Stopped (stop.hpp), where
+/// `stop` asks for it.
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {},
                              const std::stop_token& stop = {});
 
@@ -65,7 +69,7 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
 /// what is drawn, so that large designs take a fraction of the time and the memory.
 class TextImport {
  public:
-  /// Throws what parse() throws (parser.hpp), and nothing that import_design() does.
+  /// Throws what parse() throws (parser.hpp).
   TextImport(std::string_view text, std::string file_name, const ImportOptions& options = {},
              const std::stop_token& stop = {});
   TextImport(TextImport&&) noexcept;

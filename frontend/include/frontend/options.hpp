@@ -38,6 +38,7 @@ struct Options {
   std::vector<std::string> warnings;            // what is ignored, without the word "warning"
   uint32_t frames = 0;  // of an animation, each in files of its own; 0: a single picture
   bool quiet = false;
+  bool has_hard_warnings = false;  // a warning of the design ends the run
   bool info = false;
 };
 

@@ -15,4 +15,8 @@ namespace frontend {
 /// it.
 SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop = {});
 
+/// Whether no text that begins with `start` can be parsed: parse(start), and that of all of them,
+/// throws the same Error. So what never ends is refused without reading it all.
+bool is_beyond_repair(std::string_view start, const std::stop_token& stop = {});
+
 }  // namespace frontend

@@ -83,6 +83,7 @@ struct RenderStats {
   uint64_t leaves_general = 0;   // up to K primitives
   uint64_t leaves_full = 0;      // more than K, where no subdivision separates them
   uint64_t leaves_dropped = 0;   // case 4
+  uint64_t leaves_given_up = 0;  // more than K, where the budget of cells was used up
   uint64_t leaf_primitives = 0;  // literals in all leaves
   uint64_t bytes = 0;
 
