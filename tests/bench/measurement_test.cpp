@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/report.hpp"
 #include "frontend/camera.hpp"
 #include "support/models.hpp"
 
@@ -65,6 +66,20 @@ TEST(Measurement, OfTheCpu) {
     expect_sound(times.first);
     expect_sound(times.steady);
   }
+}
+
+TEST(Measurement, ReportsCellsThatWereGivenUp) {
+  RuleTimes times;
+  times.rule = kPaperRule;
+  times.cells.leaves = 1234567;
+  Result result;
+  result.rules = {times};
+  EXPECT_THAT(table_of("x.csg", result), testing::Not(testing::HasSubstr("given up")));
+  EXPECT_EQ(json_of(times)["leaves_given_up"], 0);
+  result.rules[0].cells.leaves_given_up = 23456;
+  EXPECT_THAT(table_of("x.csg", result),
+              testing::HasSubstr("1,234,567 leaves, 23,456 of them given up"));
+  EXPECT_EQ(json_of(result.rules[0])["leaves_given_up"], 23456);
 }
 
 TEST(Measurement, OfThePapersTimes) {

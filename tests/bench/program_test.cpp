@@ -97,8 +97,9 @@ TEST_F(Bench, PrintsJson) {
   EXPECT_THAT(keys_of(r9["frames"][0]["steady"]),
               testing::ElementsAre("count", "least", "median", "quartiles"));
   ASSERT_EQ(r9["rules"].size(), 2u);
-  EXPECT_THAT(keys_of(r9["rules"][0]), testing::ElementsAre("S", "cpu", "leaf_primitives", "leaves",
-                                                            "leaves_dropped", "threshold_px"));
+  EXPECT_THAT(keys_of(r9["rules"][0]),
+              testing::ElementsAre("S", "cpu", "leaf_primitives", "leaves", "leaves_dropped",
+                                   "leaves_given_up", "threshold_px"));
   EXPECT_THAT(keys_of(r9["rules"][0]["cpu"]), testing::ElementsAre("T_R", "wrong_pixels"));
 }
 
@@ -155,6 +156,7 @@ TEST_F(Bench, MeasuresTheRuleThatIsAskedFor) {
   EXPECT_EQ(four[0]["leaf_primitives"], 4);
   EXPECT_EQ(four[0]["threshold_px"], 0);
   EXPECT_EQ(four[0]["leaves_dropped"], 0);
+  EXPECT_EQ(four[0]["leaves_given_up"], 0);
   const json coarse = rules({"--leaf-primitives=2", "--threshold=4"});
   EXPECT_EQ(coarse[0]["threshold_px"], 4);
   EXPECT_GT(coarse[0]["leaves_dropped"], 0);
@@ -202,10 +204,10 @@ TEST_F(Bench, Failures) {
   expect_failure({"-", "-"}, "standard input is given twice");
   expect_failure({r9, "missing.csg"}, "missing.csg: error: cannot be read");
   expect_failure({r9, folder_.write("bad.csg", "group() {\n  sphere(r = \n")}, "bad.csg:3:");
-  expect_failure({folder_.write("flat.csg", "square(size = 1);")}, "flat.csg:1:1: error: square");
   expect_failure({"--no-such", r9}, "no-such");
   expect_failure({"--imgsize=80", r9}, "--imgsize=80 is not understood");
   expect_failure({"--camera=1,2,x", r9}, "--camera=1,2,x");
+  expect_failure({"--camera=0,0,0,0,0,0,-5", r9}, "nothing is seen (give --camera a positive");
   expect_failure({"--projection=flat", r9}, "--projection=flat");
   expect_failure({"--renderer=ink", r9}, "give auto, gl or cpu");
   expect_failure({"--leaf-primitives=0", r9}, "--leaf-primitives=0");
@@ -213,7 +215,15 @@ TEST_F(Bench, Failures) {
   expect_failure({"--threads=0", r9}, "--threads=0");
   expect_failure({"--repeat=0", r9}, "--repeat=0 is not understood (give a number from 1 to ");
   expect_failure({"--time=nan", r9}, "--time=nan");
-  EXPECT_EQ(run_few({"--skip-unsupported", folder_ / "flat.csg"}).code, 0);
+}
+
+TEST_F(Bench, WhatCannotBeDrawnIsLeftOut) {
+  const std::string flat = folder_.write("flat.csg", "square(size = 1);");
+  for (const char* option : {"--skip-unsupported", "--threads=1"}) {
+    const Outcome outcome = run_few({option, flat});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: square is left out"));
+  }
 }
 
 TEST_F(Bench, ExportsAScadAndShowsItsWarningsUnlessQuiet) {

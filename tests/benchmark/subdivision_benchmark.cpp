@@ -109,6 +109,7 @@ void run(benchmark::State& state, Model model, uint32_t n, const SubdivisionOpti
   state.counters["general"] = of_kind(LeafKind::kGeneral);
   state.counters["full"] = of_kind(LeafKind::kFull);
   state.counters["dropped"] = of_kind(LeafKind::kDropped);
+  state.counters["given_up"] = of_kind(LeafKind::kGivenUp);
 }
 
 void add(const std::string& name, Model model, uint32_t n, const SubdivisionOptions& options) {

@@ -21,7 +21,8 @@ constexpr size_t kRays = 400;
 bool has_surface(const csgcore::Leaf& leaf) {
   using csgcore::LeafKind;
   return leaf.kind == LeafKind::kUnion || leaf.kind == LeafKind::kPair ||
-         leaf.kind == LeafKind::kGeneral || leaf.kind == LeafKind::kFull;
+         leaf.kind == LeafKind::kGeneral || leaf.kind == LeafKind::kFull ||
+         leaf.kind == LeafKind::kGivenUp;
 }
 
 bool meets(const Ray& ray, const Box& box) {
