@@ -119,7 +119,8 @@ TEST_F(PovRayScenes, AreThoseThatScadrayDraws) {
   EXPECT_GT(hits, ids.size() / 10);
   // Edges that run through a pixel's centre; none was seen.
   EXPECT_LE(other_colour, hits / 1000);
-  EXPECT_LE(other_primitive, hits / 1000);
+  // And faces that parts share, of which POV-Ray shows the first.
+  EXPECT_LE(other_primitive, hits / 100);
 }
 #endif
 
