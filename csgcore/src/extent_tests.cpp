@@ -169,25 +169,6 @@ uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell
   return outside;
 }
 
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side) {
-  const hn::CappedTag<float, kRowPadding> d;
-  // A rectangle's corner that lies furthest towards the line.
-  const auto furthest = [&](const float* low, const float* high, int axis, float towards) {
-    const auto end =
-        towards > 0 ? hn::Min(hn::LoadU(d, high), hn::Set(d, static_cast<float>(cell.max[axis])))
-                    : hn::Max(hn::LoadU(d, low), hn::Set(d, static_cast<float>(cell.min[axis])));
-    return hn::Mul(end, hn::Set(d, towards));
-  };
-  uint64_t on_side = 0;
-  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(d))) {
-    const auto along_x = furthest(rows.low_x + i, rows.high_x + i, 0, side.x);
-    const auto along_y = furthest(rows.low_y + i, rows.high_y + i, 1, side.y);
-    on_side |= bits_of(d, hn::Lt(hn::Add(along_x, along_y), hn::Set(d, side.limit))) << i;
-  }
-  return on_side;
-}
-
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
 using Counters = hn::Vec<Unsigned>;
 
@@ -269,7 +250,6 @@ CSGCORE_SIMD_EXPORT(test_extents);
 CSGCORE_SIMD_EXPORT(test_boxes);
 CSGCORE_SIMD_EXPORT(test_rectangles);
 CSGCORE_SIMD_EXPORT(find_outside);
-CSGCORE_SIMD_EXPORT(find_on_side);
 CSGCORE_SIMD_EXPORT(count_ends);
 
 namespace {
@@ -304,11 +284,6 @@ ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives,
 
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
   return CSGCORE_SIMD(find_outside)(rows, count, cell);
-}
-
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side) {
-  return CSGCORE_SIMD(find_on_side)(rows, count, cell, side);
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

@@ -47,22 +47,6 @@ ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives,
 /// The bits of those that lie outside of the box's x and y, closed as they are. 1 ≤ count ≤ 64.
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell);
 
-/// Where a tile shows nothing beyond a depth: the side of a line of the screen, the points p of the
-/// tile, in pixels, with x·p.x + y·p.y < limit. (x, y) is of length 1; or 0, where that is all of
-/// the tile.
-struct HiddenSide {
-  float x, y;
-  /// Lower than the line, and `rays_limit` higher, by more than rounding: rays that may have lost
-  /// something are never taken for others.
-  float limit, rays_limit;
-  double depth;  // τ
-};
-
-/// The bits of those of whose rectangles all that lies within the box lies on the side, too. Of
-/// rectangles that meet the box. 1 ≤ count ≤ 64.
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side);
-
 /// Bins of equal width across each axis of a cell. More of them cost more to count than the better
 /// plane saves.
 constexpr int kSplitBins = 8;

@@ -106,7 +106,7 @@ void Restrictor::restrict(const CellList& list, std::span<const Decision> decisi
 }
 
 void Restrictor::open(const CellList& list, const OperandGroups& groups,
-                      std::span<const uint8_t> marked, const OpenedCell& cell, CellList& result) {
+                      std::span<const uint8_t> marked, const Box& cell, CellList& result) {
   uint32_t most = list.count();
   for (uint32_t i = 0; i < list.count(); ++i) {
     if (!marked[i]) continue;
@@ -160,11 +160,11 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
 }
 
 ExtentAnswers Restrictor::answers_of_members(const OperandGroups::Members& members, uint32_t first,
-                                             uint32_t count, const OpenedCell& cell) const {
+                                             uint32_t count, const Box& cell) const {
   if (const auto outside = open_.members_outside(members, first, count, cell)) {
     return {{*outside, *outside}, {0, 0}, 0};
   }
-  return answers_of<1>(members.primitive.data() + first, count, {cell.box, cell.box, 0});
+  return answers_of<1>(members.primitive.data() + first, count, {cell, cell, 0});
 }
 
 template <int kSides>

@@ -13,13 +13,6 @@
 
 namespace csgcore {
 
-/// A cell that groups are opened in.
-struct OpenedCell {
-  Box box;
-  /// What it does not show. Null: it may show everything.
-  const HiddenSide* hidden = nullptr;
-};
-
 /// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a
 /// picture a box on the screen: the extents and this are all that differs.
 class OpenClassifier {
@@ -34,10 +27,9 @@ class OpenClassifier {
   /// the cell.
   virtual Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const = 0;
   /// Of up to 64 members of a group, from `first` on, the bits of those that are certainly outside
-  /// the cell or hidden there, by what is kept for members of groups. None: nothing is.
+  /// the cell, by what is kept for members of groups. None: nothing is.
   virtual std::optional<uint64_t> members_outside(const OperandGroups::Members&, uint32_t /*first*/,
-                                                  uint32_t /*count*/,
-                                                  const OpenedCell& /*cell*/) const {
+                                                  uint32_t /*count*/, const Box& /*cell*/) const {
     return std::nullopt;
   }
 };
@@ -85,11 +77,11 @@ class Restrictor {
   /// far as they matter in the cell. `list` comes from a restriction to the cell, and is not
   /// `result`.
   void open(const CellList& list, const OperandGroups& groups, std::span<const uint8_t> marked,
-            const OpenedCell& cell, CellList& result);
+            const Box& cell, CellList& result);
 
  private:
   ExtentAnswers answers_of_members(const OperandGroups::Members& members, uint32_t first,
-                                   uint32_t count, const OpenedCell& cell) const;
+                                   uint32_t count, const Box& cell) const;
   template <int kSides>
   ExtentAnswers answers_of(const uint32_t* primitives, uint32_t count, const Halves& halves) const;
   template <int kSides>

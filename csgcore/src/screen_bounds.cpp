@@ -139,28 +139,24 @@ OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint6
 
 std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Members& members,
                                                       uint32_t first, uint32_t count,
-                                                      const OpenedCell& cell) const {
-  const Box& box = cell.box;
-  const HiddenSide* const hidden =
-      cell.hidden && nearest_t(screen_[members.group]) > cell.hidden->depth ? cell.hidden : nullptr;
+                                                      const Box& cell) const {
   const uint32_t* const primitives = members.primitive.data() + first;
   const auto [low_x, high_x, low_y, high_y] = members.rows(rectangles_.get());
-  const RectangleRows rows{low_x + first, high_x + first, low_y + first, high_y + first};
-  uint64_t outside = find_outside(rows, count, box);
-  if (hidden) outside |= find_on_side(rows, count, box, *hidden);
+  uint64_t outside =
+      find_outside({low_x + first, high_x + first, low_y + first, high_y + first}, count, cell);
   const uint64_t near = ~outside & first_bits(count);
   if (near == 0) return outside;
   bound_members(members, first, near);
   uint64_t open = 0;
   for (uint64_t left = near; left != 0; left &= left - 1) {
     const Extent& extent = screen_[primitives[std::countr_zero(left)] & kPrimitiveBits];
-    if (!meets(extent, box) || (hidden && hides(*hidden, extent, box))) {
+    if (!meets(extent, cell)) {
       outside |= left & -left;
     } else if (extent.inside2 < 0) {
       open |= left & -left;
     }
   }
-  if (open != 0) outside |= classify(primitives, open, box).outside;
+  if (open != 0) outside |= classify(primitives, open, cell).outside;
   return outside;
 }
 

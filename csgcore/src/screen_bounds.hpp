@@ -33,9 +33,9 @@ class ScreenBounds final : public OpenClassifier {
 
   /// In screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
-  /// Of a group that is bounded; bounds those that are neither outside nor hidden.
+  /// Of a group that is bounded; bounds those that are not outside.
   std::optional<uint64_t> members_outside(const OperandGroups::Members& members, uint32_t first,
-                                          uint32_t count, const OpenedCell& cell) const override;
+                                          uint32_t count, const Box& cell) const override;
 
  private:
   void narrow_to_members(uint32_t group) const;

@@ -384,62 +384,6 @@ TEST(MemberRectangles, EveryInstructionSetAgrees) {
   }
 }
 
-/// What of a rectangle the box leaves is on the side, or not.
-TEST(MemberRectangles, LieOnASideOfALineOrNot) {
-  std::mt19937 random(5);
-  constexpr uint32_t kCount = 61;
-  const Box box{{-2, -3, 0}, {4, 1, 0}};
-  uint32_t found = 0, missed = 0;
-  for (int round = 0; round < 50; ++round) {
-    // Low x, high x, low y, high y: all meet the box.
-    std::vector<float> rows[4];
-    for (int row = 0; row < 4; ++row) {
-      const int axis = row / 2;
-      for (uint32_t i = 0; i < kCount + kRowPadding; ++i) {
-        const double bound = row % 2 == 0 ? uniform(random, -9, box.max[axis])
-                                          : std::max<double>(rows[row - 1][i], box.min[axis]) +
-                                                uniform(random, 0, 5);
-        rows[row].push_back(static_cast<float>(bound));
-      }
-    }
-    const double angle = uniform(random, 0, 7);
-    const HiddenSide side{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
-                          static_cast<float>(uniform(random, -3, 3)), 0, 0};
-    checks::for_each_simd_level([&](SimdLevel level) {
-      SCOPED_TRACE(checks::name_of(level));
-      const uint64_t on_side = find_on_side(
-          {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data()}, kCount, box, side);
-      for (uint32_t i = 0; i < kCount; ++i) {
-        Extent screen{};
-        double furthest = -std::numeric_limits<double>::infinity();
-        const double x[] = {std::max<double>(rows[0][i], box.min.x),
-                            std::min<double>(rows[1][i], box.max.x)};
-        const double y[] = {std::max<double>(rows[2][i], box.min.y),
-                            std::min<double>(rows[3][i], box.max.y)};
-        for (const int corner : {0, 1, 2, 3}) {
-          const double along = side.x * x[corner % 2] + side.y * y[corner / 2];
-          furthest = std::max(furthest, along);
-        }
-        for (const int axis : {0, 1}) {
-          screen.center[axis] = 0.5 * (double(rows[2 * axis][i]) + rows[2 * axis + 1][i]);
-          screen.half[axis] = 0.5 * (double(rows[2 * axis + 1][i]) - rows[2 * axis][i]);
-        }
-        screen.center[2] = 1;               // behind the side's depth
-        constexpr double kRounding = 1e-5;  // some roundings in float of coordinates below 10
-        if (std::abs(furthest - side.limit) < kRounding) continue;
-        const bool is_on_side = furthest < side.limit;
-        EXPECT_EQ((on_side >> i & 1) != 0, is_on_side);
-        EXPECT_EQ(hides(side, screen, box), is_on_side);
-        screen.half[2] = 1;
-        EXPECT_FALSE(hides(side, screen, box));
-        ++(is_on_side ? found : missed);
-      }
-    });
-  }
-  EXPECT_GT(found, 1000u);
-  EXPECT_GT(missed, 1000u);
-}
-
 Solid solid_of(std::vector<Primitive> primitives,
                const std::function<void(CsgTreeBuilder&)>& build) {
   Scene scene;
