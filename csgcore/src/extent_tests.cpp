@@ -114,44 +114,6 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
   return answers;
 }
 
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves) {
-  const Doubles d;
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
-  const int axis = static_cast<int>(halves.axis);
-  const Vector below_end = hn::Set(d, halves.below.max[axis]);
-  const Vector above_start = hn::Set(d, halves.above.min[axis]);
-  ExtentAnswers answers{};
-  for (uint32_t i = 0; i < count; i += lanes) {
-    const Gather gather(extents, primitives + i);
-    const Vector center = gather.center(axis);
-    const Vector half = gather.half(axis);
-    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
-    answers.outside[0] |= bits_of(hn::Gt(hn::Sub(center, below_end), half)) << i;
-    answers.outside[1] |= bits_of(hn::Gt(hn::Sub(above_start, center), half)) << i;
-  }
-  return answers;
-}
-
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell) {
-  const Doubles d;
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
-  const Box& box = cell.below;
-  ExtentAnswers answers{};
-  for (uint32_t i = 0; i < count; i += lanes) {
-    const Gather gather(extents, primitives + i);
-    const auto apart = [&](int axis) {
-      const Vector half = gather.half(axis);
-      const AxisTest test = test_axis(gather.center(axis), half, box.min[axis], box.max[axis]);
-      return hn::Or(test.apart, hn::Lt(half, hn::Zero(d)));
-    };
-    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
-    answers.outside[0] |= bits_of(hn::Or(apart(0), apart(1))) << i;
-  }
-  return answers;
-}
-
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
   const hn::CappedTag<float, kRowPadding> d;
   const auto min_x = hn::Set(d, static_cast<float>(cell.min.x));
@@ -247,39 +209,19 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(test_extents);
-CSGCORE_SIMD_EXPORT(test_boxes);
-CSGCORE_SIMD_EXPORT(test_rectangles);
 CSGCORE_SIMD_EXPORT(find_outside);
 CSGCORE_SIMD_EXPORT(count_ends);
 
-namespace {
-
-/// Vectors read past the last primitive.
-ExtentAnswers of_first(uint32_t count, ExtentAnswers answers) {
-  const uint64_t wanted = first_bits(count);
+ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                           const Halves& halves) {
+  ExtentAnswers answers = CSGCORE_SIMD(test_extents)(extents, primitives, count, halves);
+  const uint64_t wanted = first_bits(count);  // vectors read past the last primitive
   answers.open &= wanted;
   for (const int side : {0, 1}) {
     answers.outside[side] &= wanted;
     answers.inside[side] &= wanted;
   }
   return answers;
-}
-
-}  // namespace
-
-ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                           const Halves& halves) {
-  return of_first(count, CSGCORE_SIMD(test_extents)(extents, primitives, count, halves));
-}
-
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves) {
-  return of_first(count, CSGCORE_SIMD(test_boxes)(extents, primitives, count, halves));
-}
-
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell) {
-  return of_first(count, CSGCORE_SIMD(test_rectangles)(extents, primitives, count, cell));
 }
 
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {

@@ -34,16 +34,6 @@ struct ExtentAnswers {
 ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
                            const Halves& halves);
 
-/// The same for boxes alone, of primitives that meet the undivided cell: only the divided axis can
-/// tell, and nothing is inside.
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves);
-
-/// The same for rectangles, the boxes' x and y, against one cell, the half below. Empty rectangles
-/// are outside.
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell);
-
 /// The bits of those that lie outside of the box's x and y, closed as they are. 1 ≤ count ≤ 64.
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell);
 

@@ -171,10 +171,7 @@ template <int kSides>
 ExtentAnswers Restrictor::answers_of(const uint32_t* primitives, uint32_t count,
                                      const Halves& halves) const {
   constexpr int kLast = kSides - 1;
-  const auto test = space_ == Space::kWorld ? test_extents
-                    : kSides == 2           ? test_boxes
-                                            : test_rectangles;
-  ExtentAnswers answers = test(extents_.data(), primitives, count, halves);
+  ExtentAnswers answers = test_extents(extents_.data(), primitives, count, halves);
   // Balls are decided by their extents alone. Of the others, only those that reach both halves
   // need to be asked about: what reaches one half only was found to cross the whole cell, and so
   // crosses that half.
@@ -217,15 +214,6 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
 
 /// Whether some jump leads to each literal but the root.
 bool Restrictor::all_have_jumps(const CellList& list) {
-  constexpr uint32_t kWordBits = 64;
-  if (list.root < kWordBits) {
-    uint64_t targets = 0;
-    for (uint32_t i = 0; i < list.count(); ++i) {
-      targets |= uint64_t{1} << list.if_inside[i] | uint64_t{1} << list.if_outside[i];
-    }
-    const uint64_t below_root = (uint64_t{1} << list.root) - 1;
-    return (targets >> CellList::kFirst) == (below_root >> CellList::kFirst);
-  }
   reached_.assign(list.root + 1, 0);
   for (uint32_t i = 0; i < list.count(); ++i) {
     reached_[list.if_inside[i]] = 1;

@@ -48,15 +48,9 @@ class WorldClassifier final : public OpenClassifier {
 /// Not to be shared between threads: it keeps its working memory.
 class Restrictor {
  public:
-  /// What extents tell.
-  enum class Space : uint8_t {
-    kWorld,   // boxes, and balls by their distances
-    kScreen,  // boxes alone
-  };
   /// Keeps references to extents and classifier.
-  Restrictor(std::span<const Extent> extents, const OpenClassifier& open,
-             Space space = Space::kWorld)
-      : extents_(extents), open_(open), space_(space) {}
+  Restrictor(std::span<const Extent> extents, const OpenClassifier& open)
+      : extents_(extents), open_(open) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
   /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
@@ -91,7 +85,6 @@ class Restrictor {
 
   std::span<const Extent> extents_;
   const OpenClassifier& open_;
-  Space space_;
   std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
   std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
 };

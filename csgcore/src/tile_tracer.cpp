@@ -12,11 +12,6 @@
 namespace csgcore {
 namespace {
 
-/// Tiles larger than kTileSide_px whose list is this short are not divided: that costs more than it
-/// saves.
-constexpr uint32_t kShortList = 3;
-constexpr uint32_t kShortListSide_px = 32;
-
 /// Tiles of so few pixels a side are never divided.
 constexpr uint32_t kLeastSide_px = 2;
 
@@ -99,7 +94,7 @@ struct TileTracer::Level {
 /// What one task works with.
 struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
-      : restrictor(owner.bounds_.extents(), owner.bounds_, Restrictor::Space::kScreen),
+      : restrictor(owner.bounds_.extents(), owner.bounds_),
         simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
                    owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
                    owner.subject_.thinnest_piece, owner.fates_) {}
@@ -236,8 +231,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
   const bool is_packet = tile.width <= kPacketWidth_px && tile.height <= kPacketHeight_px;
   const auto is_short = [&] {
     return side <= kLeastSide_px || (is_packet && list->count() <= rules_.packet_list) ||
-           (side <= kTileSide_px && list->count() <= rules_.tile_list) ||
-           (side <= kShortListSide_px && list->count() <= kShortList);
+           (side <= kTileSide_px && list->count() <= rules_.tile_list);
   };
   const auto simplify_list = [&](bool is_new) {
     bool cuts = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "checks.hpp"
@@ -150,18 +151,18 @@ TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
   }
 }
 
-TEST_P(GroupsOf, RandomTreeOwnEachIndexOnce) {
-  std::multiset<uint32_t> owned(groups_.common().begin(), groups_.common().end());
-  std::set<uint32_t> standing;
-  const auto note = [&](std::span<const uint32_t> primitives) {
-    for (const uint32_t entry : primitives) standing.insert(entry & kPrimitiveBits);
-  };
-  note(groups_.list().primitives());
+/// And all others in one group each.
+TEST_P(GroupsOf, RandomTreeNamesWhatStandsInNoGroupOrInSeveral) {
+  std::map<uint32_t, int> uses;  // in groups
   for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
-    note(groups_.members(group).primitive);
-    owned.insert(groups_.own(group).begin(), groups_.own(group).end());
+    for (const uint32_t entry : groups_.members(group).primitive) ++uses[entry & kPrimitiveBits];
   }
-  EXPECT_TRUE(std::equal(owned.begin(), owned.end(), standing.begin(), standing.end()));
+  std::set<uint32_t> expected;
+  for (const uint32_t entry : groups_.list().primitives()) expected.insert(entry & kPrimitiveBits);
+  for (const auto& [index, count] : uses) {
+    if (count > 1) expected.insert(index);
+  }
+  EXPECT_TRUE(std::ranges::equal(groups_.common(), expected));
 }
 
 TEST_P(GroupsOf, RandomTreeShowTheSame) {
@@ -452,56 +453,6 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
   });
   EXPECT_TRUE(less.groups().list().is_constant());
   EXPECT_EQ(less.groups().list().root, CellList::kFalse);
-}
-
-/// Their boxes meet.
-TEST(OperandGroups, LeaveOutIntersectionsOfWhatIsApart) {
-  const auto intersect = [](CsgTreeBuilder& builder) {
-    builder.open(Op::kIntersection);
-    builder.primitive(0);
-    builder.primitive(1);
-    builder.close();
-  };
-  const auto cone_at = [](double x) {
-    return make_frustum(0, 2, 1, 0, checks::moved({x, 1, 0.2}));
-  };
-  const Primitive ball = make_sphere(1);
-  EXPECT_TRUE(solid_of({ball, cone_at(1.75)}, intersect).groups().list().is_constant());
-  EXPECT_FALSE(solid_of({ball, cone_at(0.1)}, intersect).groups().list().is_constant());
-}
-
-/// A primitive that moves on to another which it was apart from, while no box of an operation
-/// changes.
-TEST(OperandGroups, FindWhatIsNoLongerApart) {
-  const auto scene_with = [](double z) {
-    Scene scene;
-    CsgTreeBuilder builder;
-    builder.open(Op::kUnion);
-    for (uint32_t i = 0; i < 150; ++i) {
-      scene.primitives.push_back(make_sphere(0.1, checks::moved({3, 0.3 * (i % 12), 0.3 * i})));
-      builder.primitive(i);
-    }
-    builder.open(Op::kIntersection);
-    // Of the long one's box, all holds that of the ball.
-    const double angle = std::acos(-1.0) / 4;
-    Affine turned = checks::moved({-20, 0, z});
-    turned.linear = {
-        {std::cos(angle), 0, std::sin(angle)}, {0, 1, 0}, {-std::sin(angle), 0, std::cos(angle)}};
-    scene.primitives.push_back(make_frustum(-20, 20, 1, 1, turned));
-    scene.primitives.push_back(make_sphere(1, checks::moved({-20, 0, 8})));
-    builder.primitive(150);
-    builder.primitive(151);
-    builder.close();
-    builder.close();
-    scene.model = builder.finish();
-    return scene;
-  };
-  const checks::Made before(scene_with(0));
-  const Scene later = scene_with(8);
-  const checks::Made after(later, before, compare(before.scene, later));
-  EXPECT_EQ(after.solid.groups().list().count(), before.solid.groups().list().count() + 2);
-  EXPECT_FALSE(before.solid.contains({-20, 0, 8}));
-  EXPECT_TRUE(after.solid.contains({-20, 0, 8}));
 }
 
 TEST(OperandGroups, ManyOperandsAreFewLiterals) {

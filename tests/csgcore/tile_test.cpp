@@ -339,7 +339,9 @@ TEST(ScreenOutlines, EveryInstructionSetAgrees) {
   }
 }
 
+/// The screen's extents against a tile, which has any depth.
 TEST(ScreenExtents, RectanglesMeetATileOrNot) {
+  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
   std::mt19937 random(6);
   Extents extents(200);
   for (Extent& extent : extents) {
@@ -348,14 +350,16 @@ TEST(ScreenExtents, RectanglesMeetATileOrNot) {
       extent.center[axis] = uniform(random, -10, 10);
       extent.half[axis] = uniform(random, -1, 5);  // empty ones too
     }
+    const bool is_empty = std::min(extent.half[0], extent.half[1]) < 0;
+    extent.outside2 = is_empty ? -1 : std::numeric_limits<double>::infinity();
     extent.inside2 = random() % 2 ? 0.0 : -1.0;
   }
-  const Box tile{{-2, -3, 0}, {4, 1, 0}};
+  const Box tile{{-2, -3, -kAnyDepth}, {4, 1, kAnyDepth}};
   const std::vector<uint32_t> all = indices(static_cast<uint32_t>(extents.size()));
   checks::for_each_simd_level([&](SimdLevel level) {
     for (uint32_t first = 0; first + 64 < extents.size(); first += 13) {
       const ExtentAnswers answers =
-          test_rectangles(extents.data(), all.data() + first, 64, {tile, tile, 0});
+          test_extents(extents.data(), all.data() + first, 64, {tile, tile, 0});
       for (uint32_t bit = 0; bit < 64; ++bit) {
         const Extent& extent = extents[first + bit];
         bool meets = true;
@@ -366,6 +370,7 @@ TEST(ScreenExtents, RectanglesMeetATileOrNot) {
         }
         EXPECT_EQ((answers.outside[0] >> bit & 1) == 0, meets) << checks::name_of(level);
         EXPECT_EQ((answers.open >> bit & 1) != 0, extent.inside2 < 0);
+        EXPECT_EQ(answers.inside[0] >> bit & 1, 0u);
       }
     }
   });
@@ -380,7 +385,7 @@ class Simplifying {
       : solid_(canonical_primitives(scene), scene.model),
         whole_(solid_, view),
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
-        restrictor_(bounds_.extents(), bounds_, Restrictor::Space::kScreen),
+        restrictor_(bounds_.extents(), bounds_),
         simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
                     0.0, thinnest_piece(solid_.bounds()), fates_) {
     bounds_.bound_all();
