@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "csgcore/hits.hpp"
 #include "csgcore/short_circuit_list.hpp"
 #include "csgcore/solid.hpp"
-#include "csgcore/tracer.hpp"
 #include "csgcore/view.hpp"
 
 namespace csgcore {

@@ -15,18 +15,14 @@
 #include <vector>
 
 #include "csgcore/frame_settings.hpp"
+#include "csgcore/hits.hpp"
 #include "csgcore/image.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/subdivision.hpp"
+#include "csgcore/tolerance.hpp"
 #include "csgcore/view.hpp"
 
 namespace csgcore {
-
-/// Which boundary of the solid a ray shows.
-enum class Boundary : uint8_t {
-  kFirst,  // where it first enters the solid; where it first leaves it, if the eye is inside
-  kBehind  // the next one after kFirst: where it leaves the piece (or gap) whose front kFirst shows
-};
 
 struct TraceOptions {
   /// Worker threads; 0: as many as there are. The picture does not depend on it.
@@ -74,24 +70,9 @@ struct TraceStats {
   double trace_ms = 0;         // all the rest
 };
 
-/// What each pixel's centre sees, in double. Row-major from the top left corner.
-struct Hits {
-  static constexpr uint32_t kMiss = 0xFFFFFFFFu;
-  uint32_t width_px = 0;
-  uint32_t height_px = 0;
-  std::vector<double> s;            // View's s; +inf at a miss
-  std::vector<Vec3> position;       // world space; 0 at a miss
-  std::vector<Vec3> normal;         // unit, world space, outward of the solid; 0 at a miss
-  std::vector<uint32_t> primitive;  // index into Solid::primitives(); kMiss at a miss
-};
-
 /// What an image with measured channels shows, in floats. Primitives are found by their ids: those
 /// of the scene that was drawn.
 Hits hits_of(const Image& image, const Scene& scene);
-
-/// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
-/// along the normal, in world units (design.md §3; NUMERICS.md).
-double thinnest_piece(const Box& solid_bounds);
 
 /// Traces the solid by screen tiles.
 void draw(const Solid& solid, const View& view, const FrameSettings& settings,

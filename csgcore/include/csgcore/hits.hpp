@@ -1,0 +1,28 @@
+// What rays show of a solid, in double.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+/// Which boundary of the solid a ray shows.
+enum class Boundary : uint8_t {
+  kFirst,  // where it first enters the solid; where it first leaves it, if the eye is inside
+  kBehind  // the next one after kFirst: where it leaves the piece (or gap) whose front kFirst shows
+};
+
+/// What each pixel's centre sees, in double. Row-major from the top left corner.
+struct Hits {
+  static constexpr uint32_t kMiss = 0xFFFFFFFFu;
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  std::vector<double> s;            // View's s; +inf at a miss
+  std::vector<Vec3> position;       // world space; 0 at a miss
+  std::vector<Vec3> normal;         // unit, world space, outward of the solid; 0 at a miss
+  std::vector<uint32_t> primitive;  // index into Solid::primitives(); kMiss at a miss
+};
+
+}  // namespace csgcore

@@ -1,0 +1,40 @@
+#include "base/simd.hpp"
+
+#include <atomic>
+
+namespace csgcore {
+namespace {
+
+/// The features that Highway compiles its targets for (its set_macros-inl.h); clang 14 cannot ask
+/// for F16C, which every processor with AVX2 has.
+SimdLevel widest_supported() {
+#if defined(__x86_64__) || defined(__i386__)
+  const bool sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
+                    __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+                    __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw");
+  if (avx512) return SimdLevel::kAvx512;
+  if (avx2) return SimdLevel::kAvx2;
+  if (sse4) return SimdLevel::kSse4;
+#endif
+  return SimdLevel::kBaseline;
+}
+
+std::atomic<SimdLevel>& current() {
+  static std::atomic<SimdLevel> level{widest_supported()};
+  return level;
+}
+
+}  // namespace
+
+SimdLevel simd_level() { return current().load(std::memory_order_relaxed); }
+
+void limit_simd_level(SimdLevel widest) {
+  const SimdLevel supported = widest_supported();
+  current() = widest > supported ? widest : supported;
+}
+
+}  // namespace csgcore

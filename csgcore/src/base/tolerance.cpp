@@ -1,0 +1,31 @@
+#include "csgcore/tolerance.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace csgcore {
+namespace {
+
+/// Thinnest piece over the diagonal of the solid's box: NUMERICS.md says why.
+constexpr double kThinnestPiece = 1e-9;
+
+/// Every cell's function is valid this far beyond the cell, as a fraction of the root box's largest
+/// side: 16 times the rounding (2^-24) of a float coordinate in the model's own units, which is how
+/// far a renderer in float may misplace a cell's boundary.
+constexpr double kOverlap = 0x1p-20;
+/// And at least some steps of a double this far from the origin, as a fraction of the coordinate.
+constexpr double kCoordinateRounding = 0x1p-50;
+
+}  // namespace
+
+double thinnest_piece(const Box& solid_bounds) { return kThinnestPiece * solid_bounds.diagonal(); }
+
+double cell_overlap(const Box& solid_bounds) {
+  if (solid_bounds.empty()) return 0;
+  const Vec3 size = solid_bounds.size();
+  const Vec3 reach = glm::max(glm::abs(solid_bounds.min), glm::abs(solid_bounds.max));
+  return std::max(kOverlap * std::max({size.x, size.y, size.z}),
+                  kCoordinateRounding * std::max({reach.x, reach.y, reach.z}));
+}
+
+}  // namespace csgcore

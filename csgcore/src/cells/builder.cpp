@@ -1,0 +1,492 @@
+#include "cells/builder.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "cells/assembler.hpp"
+#include "cells/cell_budget.hpp"
+
+namespace csgcore {
+namespace {
+
+/// A cell whose longest side is below this many overlaps is not divided further.
+constexpr double kSmallestCellOverlaps = 16;
+
+/// A cell in whose ancestors' last so many divisions not one primitive left, and hardly any empty
+/// space was cut off, is not divided further: what still crosses it coincides with, or meets, the
+/// rest there (paper, figure 2). With a pixel threshold the paper's own rule (case 4) ends the
+/// cells where surfaces meet in a point, which one half of each division contains. Surfaces that
+/// coincide over a face stand in both halves; such cells end here under every rule, as else the
+/// whole face would be dropped.
+constexpr uint32_t kStalledDivisions = 9;
+/// Where it is the view that never ends a division (at the eye), coincident surfaces end after so
+/// many of which both halves kept every primitive.
+constexpr uint32_t kCoincidentDivisions = 14;
+/// A cell below the threshold is asked whether its surfaces coincide if so many divisions in a row
+/// have repeated them all. If so, all of them cross at least n² of n³ smaller cells; surfaces that
+/// meet in a point or along a curve cross about n or fewer.
+constexpr uint32_t kSuspectDivisions = 4;
+
+/// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
+/// literals for each of the solid's, and this many in any case; a cell whose share is used up is
+/// not divided further. It bounds memory and time where surfaces lie so close that dividing hardly
+/// separates them (a thousand nested shells). CSn and CCn need 3 to 6 for each at K = 8, and 70 to
+/// 120 by the paper's rule.
+constexpr double kLiteralsPerLiteral = 128;
+constexpr double kLiteralsInAnyCase = 0x1p18;
+/// With a pixel threshold, which bounds the number of cells, lists this short go on all the same:
+/// so short are they where surfaces meet in points, whose cells the paper's rule alone ends.
+constexpr uint32_t kFewLiterals = 32;
+
+/// Lists longer than this are divided as two tasks. A property of the data alone, so that the
+/// result is the same for every number of threads.
+constexpr uint32_t kTaskLiterals = 256;
+/// So many paused cells, which are small, are resumed by one task.
+constexpr size_t kResumedTogether = 64;
+/// And so many, at least, in parallel.
+constexpr size_t kPausedForTasks = 1024;
+/// Before cells are first paused these shares of the budget may be used up: a larger one by tasks,
+/// since few designs, if any, should pause cells; a smaller one by one task alone, so that what is
+/// dear is divided in parallel.
+constexpr uint64_t kFirstShare = 2;
+constexpr uint64_t kFirstShareAlone = 8;
+/// And as long as they last each cell may take so many times its share.
+constexpr uint64_t kOvercommitment = 256;
+
+bool has_repeats(std::span<const Literal> literals, size_t primitives) {
+  std::vector<bool> seen(primitives);
+  for (const Literal& literal : literals) {
+    if (seen[literal.primitive]) return true;
+    seen[literal.primitive] = true;
+  }
+  return false;
+}
+
+/// Whether the list has at most `limit` distinct primitives. `seen` is working memory.
+bool has_at_most(uint32_t limit, const CellList& list, std::vector<uint32_t>& seen) {
+  seen.clear();
+  for (const uint32_t primitive : list.primitives()) {
+    const uint32_t index = primitive & kPrimitiveBits;
+    if (std::find(seen.begin(), seen.end(), index) != seen.end()) continue;
+    if (seen.size() == limit) return false;
+    seen.push_back(index);
+  }
+  return true;
+}
+
+Cell child_of(const Cell& cell, const Split& split, bool above) {
+  Cell child = cell;
+  (above ? child.box.min : child.box.max)[static_cast<int>(split.axis)] = split.position;
+  ++child.depth;
+  return child;
+}
+
+/// One half of a divided cell; `count` literals were divided into `halves`, at this cost.
+Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
+              const CellList (&halves)[2], int64_t cost) {
+  Cell child = child_of(cell, split, above);
+  const CellList& other = halves[!above];
+  if (halves[above].count() < count) {
+    child.stalled = child.doubled = 0;
+  } else {
+    // Cutting off more than half of the cell as empty space is progress too.
+    const int axis = static_cast<int>(split.axis);
+    const bool halved = child.box.size()[axis] >= 0.5 * cell.box.size()[axis];
+    if (!other.is_constant() || halved) ++child.stalled;
+    if (!other.is_constant()) child.doubled = other.count() == count ? cell.doubled + 1 : 0;
+  }
+  const uint64_t both = uint64_t{halves[0].count()} + halves[1].count();
+  if (both == 0) return child;
+  child.allowance = cell.allowance * count / static_cast<double>(both);
+  child.credit = (cell.credit - static_cast<uint64_t>(cost)) * halves[above].count() / both;
+  return child;
+}
+
+void add_leaf(const Cell& cell, const CellList& list, LeafKind kind, Chunk& chunk) {
+  chunk.nodes.push_back({0, KdNode::kLeafAxis, static_cast<uint32_t>(chunk.leaves.size()), 0});
+  chunk.leaves.push_back(
+      {cell.box, chunk.literals.size(), list.count(), kind, list.root == CellList::kTrue});
+  append(chunk.literals, list);
+}
+
+void pause(const Cell& cell, const CellList& list, uint64_t needed, Chunk& chunk) {
+  chunk.paused_nodes.push_back(static_cast<uint32_t>(chunk.nodes.size()));
+  chunk.paused.push_back({cell, needed});
+  add_leaf(cell, list, LeafKind::kReplaced, chunk);
+}
+
+/// A subtree that begins with a paused cell, or is an empty one.
+void add_start(const Cell& cell, const CellList& list, uint64_t needed, Chunk& starts) {
+  starts.begin_root();
+  if (list.is_constant()) {
+    add_leaf(cell, list, LeafKind::kEmpty, starts);
+  } else {
+    pause(cell, list, needed, starts);
+  }
+}
+
+uint64_t mean_test_cost(const Solid& solid) {
+  uint64_t sum = 0;
+  for (const Literal& literal : solid.list().literals) {
+    sum += test_cost(solid.primitives()[literal.primitive]);
+  }
+  const uint64_t count = solid.list().literals.size();
+  return (sum + count / 2) / std::max<uint64_t>(count, 1);
+}
+
+double first_allowance(const CellList& list) {
+  return kLiteralsPerLiteral + kLiteralsInAnyCase / std::max(list.count(), 1u);
+}
+
+/// The part's chunks in the order of their nodes. As deep as parts are.
+void collect_chunks(Part& part, std::vector<Chunk*>& chunks) {
+  if (part.split.axis == KdNode::kLeafAxis) {
+    chunks.push_back(&part.chunk);
+    return;
+  }
+  collect_chunks(*part.below, chunks);
+  collect_chunks(*part.above, chunks);
+}
+
+}  // namespace
+
+Builder::Builder(const Solid& solid, const SubdivisionOptions& options, double overlap,
+                 const BatchSink& sink)
+    : solid_(solid),
+      options_(options),
+      overlap_(overlap),
+      sink_(sink),
+      repeats_(has_repeats(solid.list().literals, solid.primitives().size())),
+      costs_(mean_test_cost(solid)),
+      budget_(options.budget_bytes > 0 ? std::min(options.budget_bytes, kLargestBudget)
+                                       : subdivision_budget(solid.list().literals.size())) {}
+
+/// Calls `work`, with as many threads as the options say if in parallel.
+template <typename Work>
+void Builder::run(bool in_parallel, Work&& work) {
+  in_parallel_ = in_parallel && options_.threads != 1;
+  if (!in_parallel_) {
+    work();
+    return;
+  }
+  const unsigned threads =
+      options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
+  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    std::max(threads, 1u));
+  tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));
+  arena.execute(work);
+}
+
+Chunk Builder::build(const Box& root_box) {
+  Cell cell{root_box};
+  CellList whole, list;
+  assign(whole, solid_.list().literals);
+  auto workspace = acquire();
+  workspace->restrictor.restrict(whole, inflated(cell.box), list);
+  release(std::move(workspace));
+  cell.allowance = first_allowance(list);
+  const uint64_t left = budget_ - std::min(budget_, leaf_bytes(list.count()));
+  // Small scenes don't start the thread pool; one task alone needs no assembling afterwards.
+  const bool small = list.count() <= size_t{kTaskLiterals} * options_.leaf_primitives;
+  cell.credit = left / (small ? kFirstShareAlone : kFirstShare);
+  std::unique_ptr<Part> part;
+  run(!small, [&] { part = small && !sink_ ? finish_part(cell, list) : build_part(cell, list); });
+  std::vector<Chunk*> chunks;
+  collect_chunks(*part, chunks);
+  resume_paused(chunks, static_cast<int64_t>(left));
+  return assemble(std::move(part));
+}
+
+void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const Literal> literals,
+                    Chunk& starts) {
+  CellList whole, list;
+  assign(whole, literals);
+  auto workspace = acquire();
+  workspace->restrictor.restrict(whole, inflated(leaf.box), list);
+  release(std::move(workspace));
+  Cell cell{leaf.box, depth};
+  cell.allowance = first_allowance(list);
+  add_start(cell, list, costs_.most_division(list.count()), starts);
+}
+
+void Builder::start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts) {
+  Cell cell{leaf.box, depth};
+  cell.allowance = kLiteralsPerLiteral;
+  // What no division separated is divided again only where that now helps at once: else it would
+  // become hundreds of cells, and each of them again with the next edit.
+  if (leaf.kind == LeafKind::kFull) cell.stalled = kStalledDivisions - 1;
+  add_start(cell, list, costs_.most_division(list.count()), starts);
+}
+
+int64_t Builder::left_to(const Chunk& starts, uint64_t stored_bytes) const {
+  return static_cast<int64_t>(budget_) - static_cast<int64_t>(stored_bytes + bytes_of(starts));
+}
+
+bool Builder::can_divide(const Chunk& starts, uint64_t stored_bytes) const {
+  int64_t needed = 0;
+  for (const Paused& paused : starts.paused) needed += static_cast<int64_t>(paused.needed);
+  return needed <= left_to(starts, stored_bytes);
+}
+
+bool Builder::finish(Chunk& starts, uint64_t stored_bytes) {
+  return resume_paused({&starts}, left_to(starts, stored_bytes));
+}
+
+/// `left` of the budget is left to the chunks and what they have paused.
+bool Builder::resume_paused(const std::vector<Chunk*>& chunks, int64_t left) {
+  size_t paused = 0;
+  for (const Chunk* chunk : chunks) {
+    left -= chunk->cost;
+    paused += chunk->paused.size();
+  }
+  bool suffices = true;
+  if (paused == 0) return suffices;
+  run(paused >= kPausedForTasks, [&] { suffices = resume_in_rounds(chunks, left); });
+  return suffices;
+}
+
+bool Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
+  while (true) {
+    int64_t needed = 0;
+    Deal deal{0, 0};
+    for (const Chunk* chunk : chunks) {
+      for (size_t i = 0; i < chunk->paused.size(); ++i) {
+        needed += static_cast<int64_t>(chunk->paused[i].needed);
+        deal.literals += chunk->paused_leaf(i).literal_count;
+      }
+    }
+    if (needed == 0) return true;
+    if (needed > left) break;
+    deal.rest = static_cast<uint64_t>(left - needed);
+    std::vector<Resumption> resumptions;
+    for (Chunk* chunk : chunks) {
+      const size_t count = chunk->paused.size();
+      chunk->resumed.resize((count + kResumedTogether - 1) / kResumedTogether);
+      for (size_t i = 0; i < chunk->resumed.size(); ++i) {
+        const size_t first = i * kResumedTogether;
+        resumptions.push_back(
+            {chunk, first, std::min(first + kResumedTogether, count), &chunk->resumed[i]});
+      }
+    }
+    if (in_parallel_) {
+      tbb::parallel_for(size_t{0}, resumptions.size(),
+                        [&](size_t i) { resume(resumptions[i], deal); });
+    } else {
+      for (const Resumption& resumption : resumptions) resume(resumption, deal);
+    }
+    for (Chunk* chunk : chunks) chunk->paused = {};
+    chunks.clear();
+    for (const Resumption& resumption : resumptions) {
+      left -= resumption.result->cost;
+      if (!resumption.result->paused.empty()) chunks.push_back(resumption.result);
+    }
+  }
+  for (Chunk* chunk : chunks) give_up(*chunk);
+  return false;
+}
+
+void Builder::resume(const Resumption& resumption, const Deal& deal) {
+  const Chunk& owner = *resumption.owner;
+  Chunk& chunk = *resumption.result;
+  auto workspace = acquire();
+  CellList list;
+  for (size_t i = resumption.first; i < resumption.end; ++i) {
+    const Paused& paused = owner.paused[i];
+    const Leaf& leaf = owner.paused_leaf(i);
+    assign(list, std::span(owner.literals).subspan(leaf.first_literal, leaf.literal_count));
+    Cell cell = paused.cell;
+    cell.credit = paused.needed + deal.rest * list.count() / deal.literals;
+    chunk.begin_root();
+    divide(cell, list, 0, *workspace, chunk);
+  }
+  release(std::move(workspace));
+  deliver(chunk.leaves, chunk);
+}
+
+void Builder::give_up(Chunk& chunk) {
+  std::vector<Leaf> leaves;
+  for (size_t i = 0; i < chunk.paused.size(); ++i) {
+    Leaf& leaf = chunk.paused_leaf(i);
+    leaf.kind = LeafKind::kGivenUp;
+    if (sink_) leaves.push_back(leaf);
+  }
+  chunk.paused = {};
+  deliver(leaves, chunk);
+}
+
+void Builder::deliver(std::span<const Leaf> leaves, const Chunk& chunk) {
+  if (!sink_) return;
+  const std::lock_guard lock(sink_mutex_);
+  sink_({leaves, chunk.literals});
+}
+
+std::unique_ptr<Part> Builder::build_part(const Cell& cell, const CellList& list) {
+  if (list.count() <= kTaskLiterals) return finish_part(cell, list);
+  auto workspace = acquire();
+  if (cell.credit < costs_.most_division(list.count()) ||
+      leaf_kind(cell, list, workspace->distinct) != LeafKind::kEmpty) {
+    release(std::move(workspace));
+    return finish_part(cell, list);
+  }
+  auto part = std::make_unique<Part>();
+  part->split = choose_split(cell, list);
+  CellList halves[2];
+  workspace->restrictor.restrict(list, halves_of(cell, part->split), halves[0], halves[1]);
+  release(std::move(workspace));
+  const int64_t cost = part->chunk.cost =
+      costs_.division(list.count(), halves[0].count(), halves[1].count());
+  const auto side = [&](bool above) {
+    return build_part(child_of(cell, part->split, above, list.count(), halves, cost),
+                      halves[above]);
+  };
+  if (!in_parallel_) {
+    part->below = side(false);
+    part->above = side(true);
+  } else {
+    tbb::parallel_invoke([&] { part->below = side(false); }, [&] { part->above = side(true); });
+  }
+  return part;
+}
+
+/// The part as one chunk, delivered to the sink.
+std::unique_ptr<Part> Builder::finish_part(const Cell& cell, const CellList& list) {
+  auto part = std::make_unique<Part>();
+  auto workspace = acquire();
+  part->chunk.begin_root();
+  part->chunk.limit = static_cast<int64_t>(cell.credit);
+  Cell start = cell;
+  start.credit = std::min(cell.credit * kOvercommitment, kLargestBudget);
+  divide(start, list, 0, *workspace, part->chunk);
+  release(std::move(workspace));
+  deliver(part->chunk.leaves, part->chunk);
+  return part;
+}
+
+/// Recursion is bounded: a division halves the cell's longest side, or takes an eighth off a side
+/// where that separates primitives, down to kSmallestCellOverlaps.
+void Builder::divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
+                     Chunk& chunk) const {
+  LeafKind kind = list.is_constant() ? LeafKind::kEmpty : leaf_kind(cell, list, workspace.distinct);
+  const uint64_t credit = std::min(cell.credit, chunk.credit());
+  if (kind == LeafKind::kDropped && cell.doubled >= kSuspectDivisions) {
+    uint64_t needed = 0;
+    const std::optional<bool> coincident = coincides(cell, list, credit, workspace, needed);
+    if (!coincident) {
+      pause(cell, list, needed, chunk);
+      return;
+    }
+    chunk.cost += static_cast<int64_t>(needed);
+    if (*coincident) kind = LeafKind::kFull;
+  }
+  if (list.is_constant() || kind != LeafKind::kEmpty) {
+    add_leaf(cell, list, kind, chunk);
+    return;
+  }
+  const uint64_t needed = costs_.most_division(list.count());
+  if (credit < needed) {
+    pause(cell, list, needed, chunk);
+    return;
+  }
+  if (workspace.levels.size() <= level) workspace.levels.push_back(std::make_unique<Level>());
+  auto& halves = workspace.levels[level]->halves;
+  const Split split = choose_split(cell, list);
+  workspace.restrictor.restrict(list, halves_of(cell, split), halves[0], halves[1]);
+  const int64_t cost = costs_.division(list.count(), halves[0].count(), halves[1].count());
+  chunk.cost += cost;
+  const size_t node = chunk.nodes.size();
+  chunk.nodes.push_back({split.position, split.axis, 0, 0});
+  for (const bool above : {false, true}) {
+    const uint32_t index = static_cast<uint32_t>(chunk.nodes.size());
+    (above ? chunk.nodes[node].above : chunk.nodes[node].below) = index;
+    divide(child_of(cell, split, above, list.count(), halves, cost), halves[above], level + 1,
+           workspace, chunk);
+  }
+}
+
+/// Whether the cell's surfaces coincide over a face, as far as grids of smaller cells tell: a
+/// coarse one, which answers no to most, and a finer one. None where the credit does not suffice
+/// for the answer. `cost` gets what it costs, or would cost at most.
+std::optional<bool> Builder::coincides(const Cell& cell, const CellList& list, uint64_t credit,
+                                       Workspace& workspace, uint64_t& cost) const {
+  uint32_t probed = 0;
+  for (const uint32_t side : {2, 4}) {
+    const uint32_t wanted = side * side, probes = wanted * side;
+    cost = costs_.probes(list.count(), probed + probes);
+    if (credit < cost) return std::nullopt;
+    const Vec3 step = cell.box.size() / double(side);
+    uint32_t crossed = 0, probe = 0;
+    for (; crossed < wanted && crossed + (probes - probe) >= wanted; ++probe) {
+      const Vec3 place{probe % side, probe / side % side, probe / (side * side)};
+      const Vec3 low = cell.box.min + step * place;
+      crossed += workspace.restrictor.decides_none(list, inflated({low, low + step}));
+    }
+    probed += probe;
+    cost = costs_.probes(list.count(), probed);
+    if (crossed < wanted) return false;
+  }
+  return true;
+}
+
+/// The paper's conditions (§2.2), generalised by K; kEmpty: none holds, the cell is divided.
+LeafKind Builder::leaf_kind(const Cell& cell, const CellList& list,
+                            std::vector<uint32_t>& distinct) const {
+  const uint32_t limit = options_.leaf_primitives;
+  const bool coincident = cell.doubled >= kCoincidentDivisions;
+  if ((options_.stop_at_unions || list.count() <= limit) && is_union(list)) {
+    return LeafKind::kUnion;
+  }
+  if (list.count() <= limit || (repeats_ && has_at_most(limit, list, distinct))) {
+    return list.count() == 2 ? LeafKind::kPair : LeafKind::kGeneral;
+  }
+  if (!coincident && options_.threshold_px > 0 &&
+      projects_below(*options_.view, cell.box, options_.threshold_px)) {
+    return LeafKind::kDropped;
+  }
+  const bool stalled = options_.threshold_px <= 0 && cell.stalled >= kStalledDivisions;
+  const bool few = options_.threshold_px > 0 && list.count() <= kFewLiterals;
+  const bool spent = cell.allowance < 1 && !few;
+  return stalled || coincident || spent || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
+}
+
+bool Builder::is_small(const Cell& cell) const {
+  const Vec3 size = cell.box.size();
+  return std::max({size.x, size.y, size.z}) < kSmallestCellOverlaps * overlap_;
+}
+
+Split Builder::choose_split(const Cell& cell, const CellList& list) const {
+  const Split split = options_.split == SplitRule::kCyclic
+                          ? cyclic_split(cell.box, cell.depth)
+                          : surface_area_split(solid_.extents(), list, cell.box);
+  // Where coordinates are too coarse for a plane there, the longest side still has room for one
+  // (is_small).
+  const int axis = static_cast<int>(split.axis);
+  const bool divides = split.position > cell.box.min[axis] && split.position < cell.box.max[axis];
+  return divides ? split : longest_split(cell.box);
+}
+
+Halves Builder::halves_of(const Cell& cell, const Split& split) const {
+  return {inflated(child_of(cell, split, false).box), inflated(child_of(cell, split, true).box),
+          split.axis};
+}
+
+std::unique_ptr<Builder::Workspace> Builder::acquire() {
+  const std::lock_guard lock(workspaces_mutex_);
+  if (workspaces_.empty()) return std::make_unique<Workspace>(solid_);
+  auto workspace = std::move(workspaces_.back());
+  workspaces_.pop_back();
+  return workspace;
+}
+
+void Builder::release(std::unique_ptr<Workspace> workspace) {
+  const std::lock_guard lock(workspaces_mutex_);
+  workspaces_.push_back(std::move(workspace));
+}
+
+}  // namespace csgcore

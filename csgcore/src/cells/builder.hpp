@@ -1,0 +1,99 @@
+// Builds kd subtrees: the recursive division of paper §2.2, as tasks.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "cells/cell_budget.hpp"
+#include "cells/chunk.hpp"
+#include "csgcore/kd_tree.hpp"
+#include "csgcore/solid.hpp"
+#include "solid/restriction.hpp"
+
+namespace csgcore {
+
+class Builder {
+ public:
+  /// Keeps references to all but the overlap.
+  Builder(const Solid& solid, const SubdivisionOptions& options, double overlap,
+          const BatchSink& sink);
+
+  /// The whole tree. Uses as many threads as the options say; the result does not depend on them.
+  Chunk build(const Box& root_box);
+
+  /// Adds to `starts` a cell that is to be divided, of a tree that is there: a leaf at this depth
+  /// that was dropped, with its literals;
+  void start(const Leaf& leaf, uint32_t depth, std::span<const Literal> literals, Chunk& starts);
+  /// or one whose function has become `list`, which is restricted to it.
+  void start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts);
+  /// Whether the budget, of which `stored_bytes` are used, takes all of them a step further.
+  bool can_divide(const Chunk& starts, uint64_t stored_bytes) const;
+  /// Divides them: `starts` gets a subtree for each, in order. Returns whether the budget sufficed.
+  bool finish(Chunk& starts, uint64_t stored_bytes);
+
+ private:
+  /// The lists of one level of the recursion, reused by all cells of that level.
+  struct Level {
+    CellList halves[2];
+  };
+  /// What a task works with.
+  struct Workspace {
+    explicit Workspace(const Solid& solid)
+        : classifier(solid.primitives()), restrictor(solid.extents(), classifier) {}
+    WorldClassifier classifier;
+    Restrictor restrictor;
+    std::vector<std::unique_ptr<Level>> levels;
+    std::vector<uint32_t> distinct;
+  };
+
+  /// Paused cells of one chunk that one task resumes.
+  struct Resumption {
+    Chunk* owner;
+    size_t first, end;
+    Chunk* result;
+  };
+  /// What is dealt out to paused cells: to each what it needs, and its share of the rest.
+  struct Deal {
+    uint64_t rest, literals;
+  };
+
+  template <typename Work>
+  void run(bool in_parallel, Work&& work);
+  std::unique_ptr<Part> build_part(const Cell& cell, const CellList& list);
+  std::unique_ptr<Part> finish_part(const Cell& cell, const CellList& list);
+  void divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
+              Chunk& chunk) const;
+  int64_t left_to(const Chunk& starts, uint64_t stored_bytes) const;
+  bool resume_paused(const std::vector<Chunk*>& chunks, int64_t left);
+  bool resume_in_rounds(std::vector<Chunk*> chunks, int64_t left);
+  void resume(const Resumption& resumption, const Deal& deal);
+  void give_up(Chunk& chunk);
+  void deliver(std::span<const Leaf> leaves, const Chunk& chunk);
+
+  LeafKind leaf_kind(const Cell& cell, const CellList& list, std::vector<uint32_t>& distinct) const;
+  std::optional<bool> coincides(const Cell& cell, const CellList& list, uint64_t credit,
+                                Workspace& workspace, uint64_t& cost) const;
+  bool is_small(const Cell& cell) const;
+  Split choose_split(const Cell& cell, const CellList& list) const;
+  Box inflated(const Box& box) const { return {box.min - overlap_, box.max + overlap_}; }
+  Halves halves_of(const Cell& cell, const Split& split) const;
+
+  std::unique_ptr<Workspace> acquire();
+  void release(std::unique_ptr<Workspace> workspace);
+
+  const Solid& solid_;
+  const SubdivisionOptions& options_;
+  const double overlap_;
+  const BatchSink& sink_;
+  bool repeats_ = false;  // some primitive stands in the list more than once
+  bool in_parallel_ = false;
+  const CellCosts costs_;
+  const uint64_t budget_;  // bytes
+  std::mutex sink_mutex_;
+  std::mutex workspaces_mutex_;
+  std::vector<std::unique_ptr<Workspace>> workspaces_;  // not in use
+};
+
+}  // namespace csgcore

@@ -1,0 +1,77 @@
+// What a subdivision may cost, and how cells share it.
+//
+// No rule of the paper bounds the number of cells where surfaces meet along curves or coincide over
+// faces: however small a cell at a shared rim is, it holds all the primitives that share the rim.
+// With K below their number, the cells along the rim are divided down to the pixel threshold, and
+// the tree holds (length of the rim in pixels) cells for every rim: gigabytes for a vase of 200
+// frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes). It is spent in rounds:
+//
+// - The root gets a credit. A division is paid for from its cell's credit, and hands the rest on to
+//   the two halves, in proportion to their literals. A cell that cannot pay is paused. The first
+//   round may use up a part of the budget only, and as long as that lasts a cell may take many
+//   times its share: cells of ordinary designs are then hardly ever paused.
+// - When all others are done, what is left of the budget (most subtrees need less than their share)
+//   is dealt out to the paused cells, in proportion to their literals, and they go on: each of them
+//   by a division at least.
+// - Where what is left does not take every paused cell one step further, all of them are given up:
+//   they become leaves with more than K primitives (LeafKind::kGivenUp).
+//
+// So all parts of a design go equally short, no cell depends on when another one was divided, and
+// the tree is the same for every number of threads. A design that stays within the budget gets the
+// cells that it would have without one.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/kd_tree.hpp"
+#include "csgcore/polyhedron.hpp"
+
+namespace csgcore {
+
+/// Above all memory; times a number of literals it does not overflow.
+constexpr uint64_t kLargestBudget = uint64_t{1} << 40;
+
+/// What it costs to test one primitive against a cell. Time is paid for in bytes, too: it takes
+/// about as long as to make so many bytes of leaves.
+inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
+  if (!primitive.polyhedron) return 1;
+  constexpr uint64_t kFewFaces = 8, kFacesPerByte = 4;
+  const uint64_t faces = primitive.polyhedron->entries().size();
+  return 4 + (std::max(faces, kFewFaces) - kFewFaces) / kFacesPerByte;
+}
+
+/// Costs in bytes. Of a solid's primitives, the mean is taken.
+class CellCosts {
+ public:
+  explicit CellCosts(uint64_t test_cost) : test_cost_(test_cost) {}
+
+  /// What the division of a list may cost at most: both halves keep all of it.
+  uint64_t most_division(uint32_t count) const {
+    return kDivision + count * (sizeof(Literal) + test_cost_);
+  }
+  /// What it did cost. Negative where more literals went than the cells take.
+  int64_t division(uint32_t count, uint32_t below, uint32_t above) const {
+    return static_cast<int64_t>(kDivision + count * test_cost_) +
+           static_cast<int64_t>(sizeof(Literal)) * (int64_t{below} + above - count);
+  }
+  /// To test a whole list against some boxes.
+  uint64_t probes(uint32_t count, uint32_t boxes) const {
+    return boxes * (kProbe + count * test_cost_);
+  }
+
+ private:
+  /// A division replaces a leaf by a node and two leaves.
+  static constexpr uint64_t kDivision = 2 * sizeof(KdNode) + sizeof(Leaf);
+  static constexpr uint64_t kProbe = 8;
+
+  uint64_t test_cost_;
+};
+
+/// Bytes of a tree that is one leaf.
+constexpr uint64_t leaf_bytes(uint32_t count) {
+  return sizeof(KdNode) + sizeof(Leaf) + count * sizeof(Literal);
+}
+
+}  // namespace csgcore

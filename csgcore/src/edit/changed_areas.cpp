@@ -1,0 +1,149 @@
+#include "csgcore/changed_areas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "csgcore/tolerance.hpp"
+#include "screen/screen_extents.hpp"
+#include "tree/subtree_boxes.hpp"
+
+namespace csgcore {
+namespace {
+
+/// More changed primitives than this are taken together: to find out which of their rectangles
+/// overlap takes time that grows with the square of their number.
+constexpr size_t kManyPrimitives = 64;
+
+PixelArea whole_picture(const View& view) { return {0, 0, view.width_px, view.height_px}; }
+
+uint64_t size_of(const PixelArea& area) { return uint64_t{area.width} * area.height; }
+
+PixelArea hull(const PixelArea& a, const PixelArea& b) {
+  const uint32_t left = std::min(a.x, b.x), top = std::min(a.y, b.y);
+  return {left, top, std::max(a.x + a.width, b.x + b.width) - left,
+          std::max(a.y + a.height, b.y + b.height) - top};
+}
+
+bool overlap(const PixelArea& a, const PixelArea& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+/// Whether the two are better taken as one.
+bool belong_together(const PixelArea& a, const PixelArea& b) {
+  return overlap(a, b) || size_of(hull(a, b)) <= size_of(a) + size_of(b);
+}
+
+/// Until none overlap. All before `next` are known to stand apart.
+void merge(std::vector<PixelArea>& areas) {
+  for (size_t next = 1; next < areas.size();) {
+    const auto at = areas.begin() + static_cast<long>(next);
+    const auto other = std::find_if(
+        areas.begin(), at, [&](const PixelArea& area) { return belong_together(area, *at); });
+    if (other == at) {
+      ++next;
+      continue;
+    }
+    *other = hull(*other, *at);
+    areas.erase(at);
+    next = std::max<size_t>(1, static_cast<size_t>(other - areas.begin()));
+  }
+}
+
+/// Finds areas on the screen.
+class Screen {
+ public:
+  /// `bounds`: of the solids, outside of which nothing is seen.
+  Screen(const View& view, const Box& bounds) : view_(view), frame_(frame_rays(view, bounds)) {
+    // Far beyond what rounding does to a ray, far below a pixel.
+    const double margin = cell_overlap(bounds);
+    bounds_ = {bounds.min - margin, bounds.max + margin};
+  }
+
+  /// The pixels through any point of which a ray may meet the primitive within the solid's bounds.
+  std::optional<PixelArea> area_of(const CanonicalPrimitive& primitive) const {
+    CanonicalPrimitive box;
+    box.bounds = intersection(primitive.bounds, bounds_);
+    if (box.bounds.empty()) return std::nullopt;
+    const Extent extents[] = {extent_of(primitive), extent_of(box)};
+    const uint32_t indices[] = {0, 1};
+    Extent on_screen[2];
+    find_screen_extents(extents, indices, frame_, {false}, on_screen);
+    std::optional<PixelArea> area = whole_picture(view_);
+    for (const Extent& extent : on_screen) {
+      if (fate_on_screen(extent) == ScreenFate::kOffScreen) return std::nullopt;
+      const Range x = pixels(extent, 0, view_.width_px), y = pixels(extent, 1, view_.height_px);
+      const uint32_t left = std::max(area->x, x.first), top = std::max(area->y, y.first);
+      const uint32_t right = std::min(area->x + area->width, x.end);
+      const uint32_t bottom = std::min(area->y + area->height, y.end);
+      if (left >= right || top >= bottom) return std::nullopt;
+      area = PixelArea{left, top, right - left, bottom - top};
+    }
+    return area;
+  }
+
+ private:
+  struct Range {
+    uint32_t first, end;
+  };
+  /// Those that the extent reaches any point of.
+  static Range pixels(const Extent& extent, int axis, uint32_t size_px) {
+    const double low = std::ceil(extent.center[axis] - extent.half[axis] - 0.5);
+    const double high = std::floor(extent.center[axis] + extent.half[axis] + 0.5) + 1;
+    const auto within = [&](double x) {
+      return static_cast<uint32_t>(std::clamp(x, 0.0, double(size_px)));
+    };
+    return {within(low), within(high)};
+  }
+
+  const View& view_;
+  FrameRays frame_;
+  Box bounds_;
+};
+
+/// By index, whether the solid's tree names the primitive.
+std::vector<uint8_t> named(const Solid& solid) {
+  std::vector<uint8_t> result(solid.primitives().size());
+  for (const Literal& literal : solid.list().literals) result[literal.primitive] = 1;
+  return result;
+}
+
+}  // namespace
+
+std::vector<PixelArea> changed_areas(const Solid& before, const Solid& after, const SceneEdit& edit,
+                                     TreeEdit tree_edit, const View& view,
+                                     const FrameSettings& settings) {
+  const bool same_bounds =
+      before.bounds().min == after.bounds().min && before.bounds().max == after.bounds().max;
+  if (tree_edit == TreeEdit::kAnywhere || !same_bounds ||
+      (settings.measured_channels && edit.has_other_ids)) {
+    return {whole_picture(view)};
+  }
+  if (after.bounds().empty()) return {};
+  const Screen screen(view, after.bounds());
+  std::vector<PixelArea> areas;
+  const auto add = [&](const Solid& solid, const std::vector<uint32_t>& primitives) {
+    if (primitives.empty()) return;
+    const std::vector<uint8_t> is_named = named(solid);
+    for (const uint32_t i : primitives) {
+      if (!is_named[i]) continue;
+      if (const auto area = screen.area_of(solid.primitives()[i])) areas.push_back(*area);
+    }
+  };
+  add(before, edit.removed);
+  add(after, edit.added);
+  add(after, edit.recolored);
+  if (areas.size() > kManyPrimitives) {
+    areas = {std::accumulate(areas.begin(), areas.end(), areas.front(), hull)};
+  }
+  merge(areas);
+  return areas;
+}
+
+uint64_t count_pixels(const std::vector<PixelArea>& areas) {
+  return std::accumulate(areas.begin(), areas.end(), uint64_t{0},
+                         [](uint64_t sum, const PixelArea& area) { return sum + size_of(area); });
+}
+
+}  // namespace csgcore

@@ -1,0 +1,231 @@
+// Following an edit: only the cells that a changed primitive reaches are subdivided anew.
+#include <algorithm>
+#include <utility>
+
+#include "cells/assembler.hpp"
+#include "cells/builder.hpp"
+#include "csgcore/subdivision.hpp"
+#include "solid/restriction.hpp"
+
+namespace csgcore {
+namespace {
+
+/// To subdivide more than this share of the literals cell by cell takes as long as all at once.
+constexpr double kMostReplacedAtOnce = 1.0 / 3;
+/// More may be garbage only until all is subdivided anew.
+constexpr double kMostReplaced = 0.5;
+/// Each node is held against all changes that reach it: no more than this share of the primitives.
+constexpr double kMostChanges = 0.02;
+
+/// A primitive before and after the edit; null where it is not there.
+struct Change {
+  const CanonicalPrimitive* before;
+  const CanonicalPrimitive* after;
+};
+
+std::vector<Change> changes_of(const Solid& before, const Solid& after, const SceneEdit& edit) {
+  std::vector<Change> changes;
+  if (edit.keeps_indices()) {
+    for (const uint32_t i : edit.added) {
+      changes.push_back({&before.primitives()[i], &after.primitives()[i]});
+    }
+    return changes;
+  }
+  for (const uint32_t i : edit.removed) changes.push_back({&before.primitives()[i], nullptr});
+  for (const uint32_t i : edit.added) changes.push_back({nullptr, &after.primitives()[i]});
+  return changes;
+}
+
+/// Whether the function of the cell may be another.
+bool concerns(const Change& change, const Box& cell) {
+  const auto place = [&](const CanonicalPrimitive* primitive) {
+    return primitive ? classify(*primitive, cell) : Classification::kOutside;
+  };
+  const Classification before = place(change.before);
+  return before == Classification::kCrosses || place(change.after) != before;
+}
+
+Box half_of(const Box& box, const KdNode& node, bool above) {
+  Box half = box;
+  (above ? half.min : half.max)[static_cast<int>(node.axis)] = node.split;
+  return half;
+}
+
+class Updater {
+ public:
+  /// Keeps references to all but the overlap.
+  Updater(const Solid& solid, const SubdivisionOptions& options, double overlap, Chunk& tree)
+      : overlap_(overlap),
+        tree_(tree),
+        classifier_(solid.primitives()),
+        restrictor_(solid.extents(), classifier_),
+        builder_(solid, options, overlap, no_sink_),
+        is_changed_(tree.nodes.size()) {}
+
+  /// Marks nodes whose leaves name a primitive that is gone. They are mostly found by their cells,
+  /// too; but a cell may name what a closer look finds outside of it.
+  void mark_gone(const std::vector<uint32_t>& later_indices) {
+    // Nodes come after the one above them.
+    for (size_t i = tree_.nodes.size(); i-- > 0;) {
+      const KdNode& node = tree_.nodes[i];
+      if (node.axis != KdNode::kLeafAxis) {
+        is_changed_[i] = is_changed_[node.below] | is_changed_[node.above];
+        continue;
+      }
+      for (const Literal& literal : literals_of(tree_.leaves[node.below])) {
+        if (later_indices[literal.primitive] == SceneEdit::kGone) is_changed_[i] = 1;
+      }
+    }
+  }
+
+  /// Marks the node if some leaf below it is concerned.
+  bool mark(uint32_t node, const Box& box, std::span<const Change> changes) {
+    const Box cell = inflated(box);
+    std::vector<Change> own;
+    for (const Change& change : changes) {
+      if (concerns(change, cell)) own.push_back(change);
+    }
+    if (own.empty()) return is_changed_[node] != 0;
+    const KdNode& at = tree_.nodes[node];
+    bool changed = at.axis == KdNode::kLeafAxis;
+    if (!changed) {
+      for (const bool above : {false, true}) {
+        changed |= mark(above ? at.above : at.below, half_of(box, at, above), own);
+      }
+    }
+    is_changed_[node] |= changed;
+    return is_changed_[node] != 0;
+  }
+
+  /// Of the leaves that are to be replaced.
+  struct Count {
+    uint64_t leaves = 0, literals = 0;
+  };
+  Count count() const {
+    Count count;
+    for (size_t i = 0; i < tree_.nodes.size(); ++i) {
+      if (!is_changed_[i] || tree_.nodes[i].axis != KdNode::kLeafAxis) continue;
+      ++count.leaves;
+      count.literals += tree_.leaves[tree_.nodes[i].below].literal_count;
+    }
+    return count;
+  }
+
+  /// Replaces the marked leaves. `literals` are the whole solid's. Returns whether the budget
+  /// sufficed.
+  bool replace_all(const Box& root_box, std::span<const Literal> literals) {
+    if (!is_changed_[0]) return true;
+    CellList whole, list;
+    assign(whole, literals);
+    restrictor_.restrict(whole, inflated(root_box), list);
+    const uint64_t stored_bytes = bytes_of(tree_);
+    start(0, root_box, 0, list);
+    if (!builder_.can_divide(starts_, stored_bytes)) return false;
+    if (!builder_.finish(starts_, stored_bytes)) return false;
+    place(std::move(starts_), slots_, tree_);
+    return true;
+  }
+
+ private:
+  Box inflated(const Box& box) const { return {box.min - overlap_, box.max + overlap_}; }
+
+  std::span<const Literal> literals_of(const Leaf& leaf) const {
+    return std::span(tree_.literals).subspan(leaf.first_literal, leaf.literal_count);
+  }
+
+  /// Starts what replaces the marked leaves at and below the node. As deep as the tree. `list` is
+  /// the solid's function within the node's cell.
+  void start(uint32_t index, const Box& box, uint32_t depth, const CellList& list) {
+    const KdNode& node = tree_.nodes[index];
+    if (node.axis == KdNode::kLeafAxis) {
+      Leaf& leaf = tree_.leaves[node.below];
+      builder_.start(leaf, depth, list, starts_);
+      slots_.push_back(index);
+      leaf.kind = LeafKind::kReplaced;
+      leaf.solid = false;
+      return;
+    }
+    CellList halves[2];
+    const Box boxes[2] = {half_of(box, node, false), half_of(box, node, true)};
+    if (list.is_constant()) {
+      for (CellList& half : halves) half.finish(list.root);
+    } else {
+      restrictor_.restrict(list, {inflated(boxes[0]), inflated(boxes[1]), node.axis}, halves[0],
+                           halves[1]);
+    }
+    if (is_changed_[node.below]) start(node.below, boxes[0], depth + 1, halves[0]);
+    if (is_changed_[node.above]) start(node.above, boxes[1], depth + 1, halves[1]);
+  }
+
+  const double overlap_;
+  Chunk& tree_;
+  const BatchSink no_sink_;
+  WorldClassifier classifier_;
+  Restrictor restrictor_;
+  Builder builder_;
+  Chunk starts_;
+  std::vector<uint32_t> slots_;      // nodes whose places the subtrees of `starts_` take
+  std::vector<uint8_t> is_changed_;  // by node, of those before the edit
+};
+
+}  // namespace
+
+SubdivisionUpdate Subdivision::update(const Solid& solid, const SceneEdit& edit,
+                                      TreeEdit tree_edit) {
+  const Solid& before = *solid_;
+  const auto leaves_of_tree = [&] { return (nodes_.size() + 1) / 2; };
+  const uint64_t leaves_before = leaves_of_tree();
+  const auto all_anew = [&] {
+    SubdivisionUpdate result;
+    result.is_anew = true;
+    result.leaves_replaced = leaves_before;
+    *this = Subdivision(solid, options_);
+    result.leaves_made = leaves_.size();
+    return result;
+  };
+  const bool has_same_root =
+      before.bounds().min == solid.bounds().min && before.bounds().max == solid.bounds().max;
+  const double most_changes = std::max(1.0, kMostChanges * edit.primitives_after);
+  if (tree_edit == TreeEdit::kAnywhere || !has_same_root || nodes_.empty() ||
+      solid.list().literals.empty() || options_.threshold_px > 0 ||
+      edit.removed.size() + edit.added.size() > 2 * most_changes) {
+    return all_anew();
+  }
+
+  Chunk tree;
+  tree.nodes = std::move(nodes_);
+  tree.leaves = std::move(leaves_);
+  tree.literals = std::move(literals_);
+  Updater updater(solid, options_, overlap_, tree);
+  if (!edit.keeps_indices()) updater.mark_gone(edit.later_indices());
+  updater.mark(0, root_box_, changes_of(before, solid, edit));
+  const Updater::Count count = updater.count();
+  const double stored = static_cast<double>(tree.literals.size());
+  if (static_cast<double>(count.literals) > kMostReplacedAtOnce * stored ||
+      static_cast<double>(replaced_literals_ + count.literals) > kMostReplaced * stored) {
+    return all_anew();
+  }
+
+  SubdivisionUpdate result;
+  result.first_new_leaf = tree.leaves.size();
+  result.first_new_literal = tree.literals.size();
+  result.leaves_replaced = count.leaves;
+  if (!edit.keeps_indices()) {
+    const std::vector<uint32_t> later_indices = edit.later_indices();
+    for (Literal& literal : tree.literals) {
+      const uint32_t later = later_indices[literal.primitive];
+      literal.primitive = (later == SceneEdit::kGone ? 0 : later) & 0x7FFFFFFFu;
+    }
+  }
+  if (!updater.replace_all(root_box_, solid.list().literals)) return all_anew();
+  nodes_ = std::move(tree.nodes);
+  leaves_ = std::move(tree.leaves);
+  literals_ = std::move(tree.literals);
+  solid_ = &solid;
+  replaced_literals_ += count.literals;
+  result.leaves_made = leaves_.size() - result.first_new_leaf;
+  result.leaves_kept = leaves_of_tree() - result.leaves_made;
+  return result;
+}
+
+}  // namespace csgcore

@@ -1,0 +1,236 @@
+#include "csgcore/tracer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <thread>
+#include <unordered_map>
+
+#include "base/worker_threads.hpp"
+#include "frame/cell_tracer.hpp"
+#include "frame/edge_samples.hpp"
+#include "rays/packet_blocks.hpp"
+
+namespace csgcore {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Stopwatch {
+ public:
+  double lap_ms() {
+    const Clock::time_point now = Clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+};
+
+TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
+  TraceSubject subject;
+  subject.thinnest_piece = options.thinnest_piece.value_or(thinnest_piece(solid.bounds()));
+  subject.boundary = options.boundary;
+  subject.stop = options.stop;
+  return subject;
+}
+
+/// Each pixel through its centre.
+class PixelVisitor final : public TileVisitor {
+ public:
+  PixelVisitor(const FrameRays& frame, HitSink& sink) : frame_(frame), sink_(sink) {}
+
+  void visit_empty(const Tile& tile) override { sink_.clear(tile); }
+
+  void visit(const Tile& tile, TileRays& rays) override {
+    for_each_block(tile,
+                   [&](const PacketBlock& block) { trace_block(frame_, block, rays, sink_); });
+  }
+
+ private:
+  const FrameRays& frame_;
+  HitSink& sink_;
+};
+
+void count_fates(const Solid& solid, const Fates& fates, TraceStats& stats) {
+  stats.skipped.cancelled = solid.equal().size();
+  stats.skipped.inside = solid.inner().size();
+  stats.primitives = solid.equal().size() + solid.inner().size();
+  std::vector<bool> seen(solid.primitives().size());
+  for (const Literal& literal : solid.list().literals) {
+    if (seen[literal.primitive]) continue;
+    seen[literal.primitive] = true;
+    ++stats.primitives;
+    switch (static_cast<Fate>(fates.all()[literal.primitive])) {
+      case Fate::kIntersected:
+        ++stats.intersected;
+        break;
+      case Fate::kOffScreen:
+        ++stats.skipped.off_screen;
+        break;
+      case Fate::kSubPixel:
+        ++stats.skipped.sub_pixel;
+        break;
+      case Fate::kHidden:
+        ++stats.skipped.hidden;
+        break;
+      case Fate::kInside:
+        ++stats.skipped.inside;
+        break;
+      case Fate::kUnknown:
+      case Fate::kCancelled:
+        ++stats.skipped.cancelled;
+        break;
+    }
+  }
+}
+
+/// One frame of a solid.
+class Frame {
+ public:
+  Frame(const Solid& solid, const View& view, const TraceOptions& options, TraceStats& stats)
+      : solid_(solid),
+        options_(options),
+        stats_(stats),
+        area_(options.area.value_or(PixelArea{0, 0, view.width_px, view.height_px})),
+        rays_(frame_rays(view, solid.bounds())),
+        subject_(subject_of(solid, options)) {
+    stats = {};
+    assert(area_.x + area_.width <= view.width_px && area_.y + area_.height <= view.height_px);
+    if (options.count_skipped) fates_.resize(solid.primitives().size());
+  }
+
+  const FrameRays& rays() const { return rays_; }
+
+  /// By a kd-tree, or by tiles without one.
+  void trace(const Subdivision* subdivision, HitSink& sink) { trace(subdivision, area_, sink); }
+
+  void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
+    ImageSink sink(rays_, settings, solid_.bounds(), image);
+    if (options_.samples <= 1 || area_.empty()) {
+      trace(subdivision, area_, sink);
+      return;
+    }
+    // The area's pixels may make edges of those beside them, and whether these are edges depends on
+    // those beyond: on the colours of their centres, which `image` holds no longer.
+    const PixelArea sampled = grown(area_, 1, rays_.view);
+    const PixelArea looked_at = grown(area_, 2, rays_.view);
+    const KeptColors kept(image, looked_at == sampled ? PixelArea{} : looked_at);
+    trace(subdivision, looked_at, sink);
+    if (!subject_.stop.stop_requested()) sample_edges(sampled, sink, image);
+    kept.restore_around(sampled, image);
+  }
+
+  /// Counts what was skipped, if wanted.
+  void finish() {
+    if (fates_.wanted()) count_fates(solid_, fates_, stats_);
+  }
+
+ private:
+  void trace(const Subdivision* subdivision, const PixelArea& area, HitSink& sink) {
+    if (area.empty()) return;
+    with_threads(options_.threads, [&] {
+      Stopwatch watch;
+      if (subdivision) {
+        CellTracer tracer(*subdivision, rays_, subject_, sink, fates_);
+        tracer.trace(area);
+        add(tracer.counts());
+        stats_.tiles = 0;
+        // What stands in some cell, and was not met there, lies behind what was.
+        for (const Literal& literal : subdivision->literals()) {
+          fates_.note(literal.primitive, Fate::kHidden);
+        }
+      } else {
+        TileTracer tracer(solid_, rays_, subject_, TileRules{}, fates_);
+        stats_.cull_ms = watch.lap_ms();
+        PixelVisitor visitor(rays_, sink);
+        tracer.visit(area, visitor);
+        add(tracer.counts());
+        if (fates_.wanted()) tracer.note_screen_fates();
+      }
+      stats_.trace_ms += watch.lap_ms();
+    });
+  }
+
+  void sample_edges(const PixelArea& area, const ImageSink& sink, Image& image) {
+    with_threads(options_.threads, [&] {
+      Stopwatch watch;
+      const EdgeMap edges(image, area);
+      stats_.edge_pixels = edges.count();
+      TileTracer tracer(solid_, rays_, subject_, TileRules{.centers_only = false}, fates_);
+      EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
+      tracer.visit(area, visitor);
+      add(tracer.counts());
+      stats_.trace_ms += watch.lap_ms();
+    });
+  }
+
+  void add(const TileTracer::Counts& counts) {
+    stats_.tiles += counts.tiles;
+    stats_.intersections += counts.intersections;
+    stats_.resolved_rays += counts.resolved_rays;
+    stats_.rays += counts.rays;
+  }
+
+  const Solid& solid_;
+  const TraceOptions& options_;
+  TraceStats& stats_;
+  const PixelArea area_;
+  const FrameRays rays_;
+  const TraceSubject subject_;
+  Fates fates_;
+};
+
+void draw_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
+                const FrameSettings& settings, const TraceOptions& options, Image& image,
+                TraceStats& stats) {
+  Frame frame(solid, view, options, stats);
+  frame.draw(subdivision, settings, image);
+  frame.finish();
+}
+
+void trace_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
+                 const TraceOptions& options, Hits& hits, TraceStats& stats) {
+  Frame frame(solid, view, options, stats);
+  MemorySink sink(frame.rays(), hits);
+  frame.trace(subdivision, sink);
+  frame.finish();
+}
+
+}  // namespace
+
+Hits hits_of(const Image& image, const Scene& scene) {
+  std::unordered_map<uint32_t, uint32_t> primitive_of;
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) primitive_of[scene.primitives[i].id] = i;
+  primitive_of[kNoPrimitive] = Hits::kMiss;
+  Hits hits{image.width_px, image.height_px, {}, {}, {}, {}};
+  hits.s.assign(image.z.begin(), image.z.end());
+  for (const glm::vec3& p : image.position) hits.position.emplace_back(p);
+  for (const glm::vec3& n : image.normal) hits.normal.emplace_back(n);
+  for (const uint32_t id : image.id) hits.primitive.push_back(primitive_of.at(id));
+  return hits;
+}
+
+void draw(const Solid& solid, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, TraceStats& stats) {
+  draw_frame(solid, nullptr, view, settings, options, image, stats);
+}
+
+void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
+           TraceStats& stats) {
+  trace_frame(solid, nullptr, view, options, hits, stats);
+}
+
+void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,
+          const TraceOptions& options, Image& image, TraceStats& stats) {
+  draw_frame(subdivision.solid(), &subdivision, view, settings, options, image, stats);
+}
+
+void trace(const Subdivision& subdivision, const View& view, const TraceOptions& options,
+           Hits& hits, TraceStats& stats) {
+  trace_frame(subdivision.solid(), &subdivision, view, options, hits, stats);
+}
+
+}  // namespace csgcore

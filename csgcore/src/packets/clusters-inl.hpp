@@ -1,0 +1,299 @@
+// The crossings that coincide with those at which the lanes of a packet stand, where it is plain
+// which those are (NUMERICS.md, "Clusters"). Included once per instruction set.
+#if defined(CSGCORE_CLUSTERS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef CSGCORE_CLUSTERS_INL_HPP
+#undef CSGCORE_CLUSTERS_INL_HPP
+#else
+#define CSGCORE_CLUSTERS_INL_HPP
+#endif
+
+#include <algorithm>
+
+#include "packets/walk-inl.hpp"
+#include "tree/list_expression.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+/// A cluster is told here if this many times the tolerance lies between its crossings and all
+/// others; and none of its faces is met at an angle at which a primitive kApart away might be
+/// together with it, so many times over. The rest is the RayResolver's: rays that pass within some
+/// tolerances of an edge, or along a face.
+constexpr double kPlain = 2.0;
+
+/// The clusters at which lanes stand.
+struct Clusters {
+  LaneMask plain = 0;   // lanes whose cluster is told
+  LaneMask turned = 0;  // of these, the lanes whose value behind it is another one than before
+  PacketV end;          // its last crossing
+};
+
+/// Finds clusters, of one packet and list.
+class ClusterFinder {
+ public:
+  ClusterFinder(const FrameRays& frame, const RayPacket& rays, const TraceList& trace,
+                const TraceSubject& subject, ListSegments& segments, PacketWorkspace& workspace)
+      : frame_(frame),
+        rays_(rays),
+        trace_(trace),
+        subject_(subject),
+        segments_(segments),
+        expression_(workspace.expression),
+        states_(workspace.states) {
+    const Wide d;
+    expression_.parse(*trace.list);
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV inverse_length2 = hn::Load(d, rays.inverse_length2 + first_lane(c));
+      near_.chunk[c] = hn::Mul(hn::Set(d, subject.thinnest_piece), hn::Sqrt(inverse_length2));
+    }
+  }
+
+  /// Finds the clusters of lanes that stand at a boundary, up to which their value is `value`;
+  /// crossings up to `from` are behind them.
+  HWY_NOINLINE Clusters find(const Walk& walk, LaneMask lanes, bool value, const PacketV& from) {
+    const Wide d;
+    lanes_ = lanes;
+    value_ = value;
+    t_ = walk.t;
+    from_ = from;
+    furthest_t_ = furthest_of(walk.t, lanes);
+    any_apart_ = false;
+    for (int c = 0; c < kChunks; ++c) {
+      gap_.chunk[c] = facing_.chunk[c] = hn::Set(d, kInfinity);
+      end_.chunk[c] = t_.chunk[c];
+    }
+    size_t depth = 0;
+    uint32_t index = 0;
+    for (const ListExpression::Step step : expression_.steps()) {
+      if (step == ListExpression::Step::kLiteral) {
+        if (states_.size() <= depth) states_.resize(2 * depth + 1);
+        write_state(index++, states_[depth++]);
+      } else {
+        --depth;
+        const bool is_union = (step == ListExpression::Step::kUnion) != value;
+        combine(is_union, states_[depth], states_[depth - 1]);
+      }
+    }
+    Clusters clusters;
+    clusters.plain = depth == 1 ? plain_lanes() : 0;
+    clusters.turned = clusters.plain & turned_lanes();
+    clusters.end = end_;
+    return clusters;
+  }
+
+  /// Keeps in the hits what those lanes show whose cluster turned: the last find's.
+  HWY_NOINLINE void show(LaneMask lanes, PacketHits& hits) {
+    const int32_t* const shown = states_[0].lane;
+    for (LaneMask left = lanes; left != 0;) {
+      const auto primitive = static_cast<uint32_t>(shown[std::countr_zero(left)]);
+      LaneMask same = 0;
+      for (LaneMask others = left; others != 0; others &= others - 1) {
+        const int lane = std::countr_zero(others);
+        if (static_cast<uint32_t>(shown[lane]) == primitive) same |= LaneMask{1} << lane;
+      }
+      left &= ~same;
+      show_primitive(primitive, same, hits);
+    }
+  }
+
+ private:
+  using Ints = hn::CappedTag<int32_t, 16>;
+
+  /// Keeps what the primitive shows.
+  void show_primitive(uint32_t primitive, LaneMask lanes, PacketHits& hits) {
+    const Wide d;
+    for (uint32_t index = 0; lanes != 0 && index < trace_.list->count(); ++index) {
+      const uint32_t entry = trace_.list->primitive[index];
+      if ((entry & kPrimitiveBits) != primitive) continue;
+      const bool complement = (entry & CellList::kComplementBit) != 0;
+      // If a primitive stands in the list both ways, one of its literals turns so.
+      const bool at_end = complement != value_;
+      const PacketSegments& segment = segments_.compute(index, lanes);
+      const double* const own = at_end ? segment.end : segment.start;
+      const double* const other = at_end ? segment.start : segment.end;
+      PacketV t;
+      LaneMask here = 0;
+      for (int c = 0; c < kChunks; ++c) {
+        t.chunk[c] = hn::Load(d, own + first_lane(c));
+        const WideM turns =
+            hn::AndNot(is_near(hn::Load(d, other + first_lane(c)), c), is_near(t.chunk[c], c));
+        here |= bits_of(turns, c);
+      }
+      here &= lanes;
+      if (here == 0) continue;
+      lanes &= ~here;
+      const LaneMask on_cap = at_end ? segment.end_on_cap : segment.start_on_cap;
+      Lanes3<Wide> normals[kChunks];
+      find_normals(frame_, rays_, here, segments_.primitive(index), t, on_cap, normals);
+      hits.hits |= here;
+      hits.on_cap = (hits.on_cap & ~here) | (on_cap & here);
+      fill_lanes(here, index, hits.index);
+      const WideV sign = hn::Set(d, complement ? -1.0 : 1.0);
+      for (const int c : ChunksOf(here)) {
+        const WideM mask = mask_of(here, c);
+        const size_t first = first_lane(c);
+        const Lanes3<Wide> before = load3(d, hits.normal, first);
+        store3(d, if_then_else(mask, scaled(normals[c], sign), before), hits.normal, first);
+        hn::Store(hn::IfThenElse(mask, t.chunk[c], hn::Load(d, hits.t + first)), d, hits.t + first);
+      }
+    }
+  }
+
+  /// Whether a crossing coincides with that where the lanes stand, as far as length tells: no
+  /// normal is longer than the ray's direction.
+  HWY_INLINE WideM is_near(WideV crossing, int chunk) const {
+    const WideV gap = hn::Abs(hn::Sub(crossing, t_.chunk[chunk]));
+    return hn::And(hn::Lt(gap, near_.chunk[chunk]), hn::Lt(from_.chunk[chunk], crossing));
+  }
+
+  /// The lanes that are to be intersected with a primitive; the others are outside of it there.
+  HWY_INLINE LaneMask lanes_to_ask(uint32_t index) {
+    const Wide d;
+    LaneMask asked = lanes_ & segments_.reached(index);
+    if (asked == 0 || segments_.are_known(index, asked)) return asked;
+    const double nearest_t = trace_.nearest_t[index];
+    if (furthest_t_ < nearest_t) {
+      for (int c = 0; c < kChunks; ++c) {
+        const WideV ahead = hn::Sub(hn::Set(d, nearest_t), t_.chunk[c]);
+        WideV& gap = gap_.chunk[c];
+        gap = hn::IfThenElse(mask_of(asked, c), hn::Min(gap, ahead), gap);
+      }
+      return 0;
+    }
+    const LaneMask apart = segments_.apart(index, t_, asked);
+    any_apart_ |= apart != 0;
+    return asked & ~apart;
+  }
+
+  /// What becomes of the literal (of its negation, where the solid ends) in the cluster.
+  HWY_INLINE void write_state(uint32_t index, PacketStates& states) {
+    const Wide d;
+    const uint32_t entry = trace_.list->primitive[index];
+    const LaneMask asked = lanes_to_ask(index);
+    LaneMask before = 0;
+    LaneMask behind = 0;
+    if (asked != 0) {
+      const PacketSegments& segment = segments_.compute(index, asked);
+      LaneMask starts = 0;
+      LaneMask ends = 0;
+      PacketV start, end;
+      for (int c = 0; c < kChunks; ++c) {
+        const WideV t = t_.chunk[c];
+        start.chunk[c] = hn::Load(d, segment.start + first_lane(c));
+        end.chunk[c] = hn::Load(d, segment.end + first_lane(c));
+        const WideM starts_here = is_near(start.chunk[c], c);
+        const WideM ends_here = is_near(end.chunk[c], c);
+        const WideM was_in = hn::AndNot(starts_here, hn::Le(start.chunk[c], t));
+        const WideM was_out = hn::AndNot(ends_here, hn::Le(end.chunk[c], t));
+        before |= bits_of(hn::AndNot(was_out, was_in), c);
+        behind |= bits_of(hn::AndNot(hn::Or(was_out, ends_here), hn::Or(was_in, starts_here)), c);
+        starts |= bits_of(starts_here, c);
+        ends |= bits_of(ends_here, c);
+        keep_gap(starts_here, start.chunk[c], c);
+        keep_gap(ends_here, end.chunk[c], c);
+      }
+      before &= asked;
+      behind &= asked;
+      keep_facing(index, starts & asked, segment.start_on_cap, start);
+      keep_facing(index, ends & asked, segment.end_on_cap, end);
+    }
+    const bool is_negated = ((entry & CellList::kComplementBit) != 0) != value_;
+    if (is_negated) before = ~before, behind = ~behind;
+    const Ints i;
+    const auto primitive = hn::Set(i, static_cast<int32_t>(entry & kPrimitiveBits));
+    for (size_t first = 0; first < kPacketRays; first += hn::Lanes(i)) {
+      const auto held = mask_from(i, before >> first);
+      const auto holds = mask_from(i, behind >> first);
+      const auto if_holds = hn::IfThenElse(held, hn::Set(i, turning::kHolds), primitive);
+      hn::Store(hn::IfThenElse(holds, if_holds, hn::Set(i, turning::kFails)), i,
+                states.lane + first);
+    }
+  }
+
+  /// How far from the cluster the nearest of all other crossings is; and where the cluster ends.
+  HWY_INLINE void keep_gap(WideM is_near, WideV crossing, int c) {
+    WideV& gap = gap_.chunk[c];
+    const WideV other = hn::Abs(hn::Sub(crossing, t_.chunk[c]));
+    gap = hn::IfThenElse(is_near, gap, hn::Min(gap, other));
+    WideV& end = end_.chunk[c];
+    end = hn::IfThenElse(is_near, hn::Max(end, crossing), end);
+  }
+
+  /// The least |n·d| of the cluster's crossings: thickness per τ.
+  HWY_INLINE void keep_facing(uint32_t index, LaneMask lanes, LaneMask on_cap, const PacketV& t) {
+    if (lanes == 0) return;
+    Lanes3<Wide> normals[kChunks];
+    find_normals(frame_, rays_, lanes, segments_.primitive(index), t, on_cap, normals);
+    for (const int c : ChunksOf(lanes)) {
+      const Lanes3<Wide> direction = load3(Wide(), rays_.direction, first_lane(c));
+      const WideV own = hn::Abs(dot(Wide(), normals[c], direction));
+      WideV& facing = facing_.chunk[c];
+      facing = hn::IfThenElse(mask_of(lanes, c), hn::Min(facing, own), facing);
+    }
+  }
+
+  HWY_INLINE static void combine(bool is_union, const PacketStates& from, PacketStates& to) {
+    const Ints i;
+    const auto holds = hn::Set(i, turning::kHolds);
+    const auto fails = hn::Set(i, turning::kFails);
+    for (size_t first = 0; first < kPacketRays; first += hn::Lanes(i)) {
+      const auto a = hn::Load(i, from.lane + first);
+      const auto b = hn::Load(i, to.lane + first);
+      const auto last = hn::Max(a, b);
+      const auto first_of_both = hn::Min(a, b);
+      // What holds all along does not count in an intersection.
+      const auto turned = hn::IfThenElse(hn::Eq(last, holds), first_of_both, last);
+      const auto both = hn::IfThenElse(hn::Eq(first_of_both, fails), fails, turned);
+      hn::Store(is_union ? last : both, i, to.lane + first);
+    }
+  }
+
+  /// Whether nothing beside the cluster can be together with it.
+  LaneMask plain_lanes() const {
+    const Wide d;
+    LaneMask plain = 0;
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV facing = facing_.chunk[c];
+      const WideV thickness = hn::Mul(hn::Sub(gap_.chunk[c], near_.chunk[c]), facing);
+      WideM is_plain = hn::Ge(thickness, hn::Set(d, kPlain * subject_.thinnest_piece));
+      if (any_apart_) {
+        const WideV cosine2 =
+            hn::Mul(hn::Mul(facing, facing), hn::Load(d, rays_.inverse_length2 + first_lane(c)));
+        constexpr double kLeast = kPlain / kApart;
+        is_plain = hn::And(is_plain, hn::Ge(cosine2, hn::Set(d, kLeast * kLeast)));
+      }
+      plain |= bits_of(is_plain, c);
+    }
+    return plain & lanes_;
+  }
+
+  LaneMask turned_lanes() const {
+    LaneMask turned = 0;
+    for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+      turned |= LaneMask{turning::is_turned(states_[0].lane[lane])} << lane;
+    }
+    return turned;
+  }
+
+  const FrameRays& frame_;
+  const RayPacket& rays_;
+  const TraceList& trace_;
+  const TraceSubject& subject_;
+  ListSegments& segments_;
+  ListExpression& expression_;
+  std::vector<PacketStates>& states_;
+  PacketV near_;  // in τ: crossings nearer than that are together, whatever their normals
+  // What one find works with:
+  LaneMask lanes_ = 0;
+  bool value_ = false;
+  bool any_apart_ = false;
+  double furthest_t_ = 0;
+  PacketV t_, from_, gap_, facing_, end_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

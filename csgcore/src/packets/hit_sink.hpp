@@ -1,0 +1,58 @@
+// Where traced packets go: pictures, or hits in memory.
+#pragma once
+
+#include "csgcore/hits.hpp"
+#include "csgcore/image.hpp"
+#include "packets/packet.hpp"
+#include "packets/shading.hpp"
+#include "rays/packet_blocks.hpp"
+
+namespace csgcore {
+
+/// Called by all threads, for each pixel from one of them.
+class HitSink {
+ public:
+  virtual ~HitSink() = default;
+  /// Nothing is seen in the tile.
+  virtual void clear(const Tile& tile) = 0;
+  /// Lanes that hit nothing are misses.
+  virtual void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                     const PacketHits& hits) = 0;
+};
+
+/// Fills a Hits.
+class MemorySink final : public HitSink {
+ public:
+  MemorySink(const FrameRays& frame, Hits& hits);
+  void clear(const Tile& tile) override;
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override;
+
+ private:
+  const FrameRays& frame_;
+  Hits& hits_;
+};
+
+/// Shades an Image.
+class ImageSink final : public HitSink {
+ public:
+  ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,
+            Image& image);
+  void clear(const Tile& tile) override;
+  void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+             const PacketHits& hits) override;
+  const ShadeSettings& shade() const { return shade_; }
+  Rgb8 background() const { return background_; }
+
+ private:
+  void store_channels(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
+                      const PacketHits& hits);
+
+  const FrameRays& frame_;
+  bool measured_;
+  ShadeSettings shade_;
+  Rgb8 background_;
+  Image& image_;
+};
+
+}  // namespace csgcore

@@ -1,0 +1,301 @@
+// Compiled once per instruction set by Highway. Multiplications and additions are never fused, and
+// what one lane gets does not depend on the others: every instruction set gives the same bits.
+#include "packets/packet.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "base/simd.hpp"
+
+// Vectors whose length is not known to the compiler cannot stand in arrays.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "packets/packet.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for every instruction set
+#include <hwy/highway.h>
+
+#include "packets/clusters-inl.hpp"
+#include "packets/resolve-inl.hpp"
+#include "packets/walk-inl.hpp"
+#include "primitives/primitive-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+/// What makes the primitive's normals those of the solid (paper §3.2, step 4).
+HWY_INLINE WideV outward_sign(const TraceList& list, uint32_t index) {
+  return hn::Set(Wide(), is_complement(list, index) ? -1.0 : 1.0);
+}
+
+/// The literal's normals at its crossings τ = t, outward of the solid.
+HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
+                                       const TraceList& list, uint32_t index, WideV t,
+                                       LaneMask on_cap, int chunk) {
+  const Wide d;
+  const uint32_t entry = list.list->primitive[index];
+  const CanonicalPrimitive& primitive = list.primitives[entry & kPrimitiveBits];
+  return scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first_lane(chunk)), t,
+                          mask_of(on_cap, chunk)),
+                outward_sign(list, index));
+}
+
+/// What lies where the lanes stand.
+struct Crossings {
+  Lanes3<Wide> normal[kChunks];
+  PacketV facing;    // |n·d|: thickness per τ
+  LaneMask unclear;  // lanes with no crossing there, or several together
+};
+
+/// Looks for the crossings at which the lanes stand, and keeps in the hits what they show.
+HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& rays,
+                                    const TraceList& trace, const TraceSubject& subject,
+                                    ListSegments& segments, const Walk& walk, LaneMask lanes,
+                                    PacketHits& hits) {
+  const Wide d;
+  Crossings result;
+  PacketV gap;  // to the next other crossing
+  for (int c = 0; c < kChunks; ++c) {
+    gap.chunk[c] = hn::Set(d, kInfinity);
+    result.normal[c] = broadcast(d, Vec3{0.0});
+  }
+  LaneMask found = 0;
+  LaneMask several = 0;
+  bool any_apart = false;
+  const double furthest_t = furthest_of(walk.t, lanes);
+  const uint32_t count = trace.list->count();
+  for (uint32_t index = 0; index < count; ++index) {
+    LaneMask reached = lanes & segments.reached(index);
+    if (reached == 0) continue;
+    if (!segments.are_known(index, reached)) {
+      const double nearest_t = trace.nearest_t[index];
+      if (furthest_t < nearest_t) {
+        for (int c = 0; c < kChunks; ++c) {
+          const WideV ahead = hn::Sub(hn::Set(d, nearest_t), walk.t.chunk[c]);
+          WideV& own = gap.chunk[c];
+          own = hn::IfThenElse(mask_of(reached, c), hn::Min(own, ahead), own);
+        }
+        continue;
+      }
+      const LaneMask apart = segments.apart(index, walk.t, reached);
+      any_apart |= apart != 0;
+      reached &= ~apart;
+      if (reached == 0) continue;
+    }
+    const PacketSegments& segment = segments.compute(index, reached);
+    LaneMask at_start = 0;
+    LaneMask at_end = 0;
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV t = walk.t.chunk[c];
+      const WideV to_start = hn::Abs(hn::Sub(hn::Load(d, segment.start + first_lane(c)), t));
+      const WideV to_end = hn::Abs(hn::Sub(hn::Load(d, segment.end + first_lane(c)), t));
+      const WideM is_start = hn::Eq(to_start, hn::Zero(d));
+      const WideM is_end = hn::Eq(to_end, hn::Zero(d));
+      gap.chunk[c] = hn::IfThenElse(is_start, gap.chunk[c], hn::Min(gap.chunk[c], to_start));
+      gap.chunk[c] = hn::IfThenElse(is_end, gap.chunk[c], hn::Min(gap.chunk[c], to_end));
+      at_start |= bits_of(is_start, c);
+      at_end |= bits_of(is_end, c);
+    }
+    const LaneMask here = (at_start | at_end) & reached;
+    several |= here & found;
+    const LaneMask own = here & ~found;
+    if (own == 0) continue;
+    found |= own;
+    const LaneMask on_cap = (at_start & segment.start_on_cap) | (at_end & segment.end_on_cap);
+    hits.on_cap |= on_cap & own;
+    fill_lanes(own, index, hits.index);
+    Lanes3<Wide> normals[kChunks];
+    find_normals(frame, rays, own, segments.primitive(index), walk.t, on_cap, normals);
+    const WideV sign = outward_sign(trace, index);
+    for (const int c : ChunksOf(own)) {
+      result.normal[c] = if_then_else(mask_of(own, c), scaled(normals[c], sign), result.normal[c]);
+    }
+  }
+  LaneMask together = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    const Lanes3<Wide> direction = load3(d, rays.direction, first_lane(c));
+    const WideV facing = hn::Abs(dot(d, result.normal[c], direction));
+    const WideV thickness = hn::Mul(gap.chunk[c], facing);
+    together |= bits_of(hn::Le(thickness, hn::Set(d, subject.thinnest_piece)), c);
+    if (any_apart) {
+      // The cosine at which kApart is the thinnest piece.
+      const WideV cosine2 =
+          hn::Mul(hn::Mul(facing, facing), hn::Load(d, rays.inverse_length2 + first_lane(c)));
+      together |= bits_of(hn::Le(cosine2, hn::Set(d, 1 / (kApart * kApart))), c);
+    }
+    store3(d, result.normal[c], hits.normal, first_lane(c));
+    result.facing.chunk[c] = facing;
+  }
+  result.unclear = lanes & (together | several | ~found);
+  return result;
+}
+
+HWY_INLINE void take_hits(const Walk& walk, LaneMask lanes, PacketHits& hits) {
+  for (int c = 0; c < kChunks; ++c) hn::Store(walk.t.chunk[c], Wide(), hits.t + first_lane(c));
+  hits.hits = lanes;
+  hits.on_cap = 0;
+  std::fill_n(hits.index, kPacketRays, 0u);
+}
+
+HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
+  const Wide d;
+  Walk walk;
+  walk.live = lanes;
+  for (int c = 0; c < kChunks; ++c) {
+    walk.t.chunk[c] = hn::Load(d, start + first_lane(c));
+  }
+  return walk;
+}
+
+HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                              const TraceList& list, const TraceSubject& subject,
+                              ListSegments& segments, PacketWorkspace& workspace,
+                              PacketHits& hits) {
+  if (lanes == 0) return;
+  segments.compute_all(lanes);
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
+    const LaneMask bit = LaneMask{1} << lane;
+    RayResolver resolver(frame, rays, lane, list, subject, workspace);
+    const auto shown = resolver.resolve(hits.t[lane], (hits.eye_inside & bit) != 0);
+    if (!shown) continue;
+    hits.hits |= bit;
+    hits.t[lane] = shown->event.t;
+    hits.index[lane] = shown->event.index;
+    hits.on_cap = (hits.on_cap & ~bit) | (shown->on_cap ? bit : 0);
+    const int chunk = static_cast<int>(lane / kLanes);
+    const WideV t = hn::Set(Wide(), shown->event.t);
+    const auto normal =
+        outward_normal(frame, rays, list, shown->event.index, t, hits.on_cap, chunk);
+    hn::BlendedStore(normal.x, mask_of(bit, chunk), Wide(), hits.normal[0] + first_lane(chunk));
+    hn::BlendedStore(normal.y, mask_of(bit, chunk), Wide(), hits.normal[1] + first_lane(chunk));
+    hn::BlendedStore(normal.z, mask_of(bit, chunk), Wide(), hits.normal[2] + first_lane(chunk));
+  }
+}
+
+/// The hits of lanes that stand at their first boundary, with which other crossings may coincide,
+/// or which want the one behind it. Lanes whose cluster is plain go on from cluster to cluster
+/// together; the others are left to the resolver, one by one.
+HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                                     const TraceList& list, const TraceSubject& subject,
+                                     const double* leave, Walk walk, ListSegments& segments,
+                                     PacketWorkspace& workspace, PacketHits& hits) {
+  if (lanes == 0) return;
+  workspace.resolved_rays += static_cast<uint64_t>(std::popcount(lanes));
+  hits.hits &= ~lanes;
+  ClusterFinder finder(frame, rays, list, subject, segments, workspace);
+  LaneMask unclear = 0;
+  LaneMask shows_next = subject.boundary == Boundary::kFirst ? lanes : 0;
+  LaneMask value = hits.eye_inside;
+  PacketV from;
+  for (int c = 0; c < kChunks; ++c) from.chunk[c] = hn::Set(Wide(), frame.first_t);
+  for (LaneMask open = lanes; open != 0;) {
+    LaneMask ended = 0;
+    LaneMask turned = 0;
+    for (const bool held : {false, true}) {
+      const LaneMask group = open & (held ? value : ~value);
+      if (group == 0) continue;
+      const Clusters clusters = finder.find(walk, group, held, from);
+      finder.show(clusters.turned & shows_next, hits);
+      unclear |= group & ~clusters.plain;
+      ended |= (group & ~clusters.plain) | (clusters.turned & shows_next);
+      turned |= clusters.turned;
+      for (int c = 0; c < kChunks; ++c) {
+        const WideM mask = mask_of(group, c);
+        from.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], from.chunk[c]);
+        walk.t.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], walk.t.chunk[c]);
+      }
+    }
+    segments.forget_apart(open);
+    shows_next |= turned;
+    value ^= turned;
+    walk.live = open & ~ended;
+    open = walk_to_change(list, segments, value, leave, walk);
+  }
+  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
+}
+
+void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                  const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
+                  PacketHits& hits) {
+  constexpr double kEndless = std::numeric_limits<double>::max();
+  alignas(64) double start[kPacketRays], leave[kPacketRays];
+  std::fill_n(start, kPacketRays, frame.first_t);
+  std::fill_n(leave, kPacketRays, kEndless);
+  workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
+  ListSegments segments(frame, rays, list, subject, workspace);
+  Walk walk = walk_from(start, lanes);
+  if (list.earliest_t > frame.first_t) {
+    const bool value = walk_to_first_crossing(list, segments, walk);
+    hits.eye_inside = value ? kAllLanes : 0;
+  } else {
+    hits.eye_inside = value_of(list, segments, walk);
+  }
+  const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, leave, walk);
+  take_hits(walk, arrived, hits);
+  hits.undecided = 0;
+  if (arrived == 0) return;
+  const LaneMask unclear =
+      subject.boundary == Boundary::kBehind
+          ? arrived
+          : show_crossings(frame, rays, list, subject, segments, walk, arrived, hits).unclear;
+  resolve_coincidences(frame, rays, unclear, list, subject, leave, walk, segments, workspace, hits);
+}
+
+void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                           const PacketRange& range, const TraceList& list,
+                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           PacketWorkspace& workspace, PacketHits& hits) {
+  const Wide d;
+  ListSegments segments(frame, rays, list, subject, workspace);
+  Walk walk = walk_from(range.enter, lanes);
+  hits.eye_inside = eye_inside & known;
+  if ((lanes & ~known) != 0) hits.eye_inside |= value_of(list, segments, walk) & ~known;
+  const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, range.leave, walk);
+  take_hits(walk, arrived, hits);
+  hits.undecided = subject.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
+  const LaneMask left = arrived & ~hits.undecided;
+  if (left == 0) return;
+  const Crossings crossings =
+      show_crossings(frame, rays, list, subject, segments, walk, left, hits);
+  hits.undecided |= crossings.unclear;
+  // What may be together with the hit must lie where the list is valid.
+  const auto thinnest2 = hn::Set(d, subject.thinnest_piece * subject.thinnest_piece);
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV facing = crossings.facing.chunk[c];
+    const auto valid2 = hn::Mul(hn::Set(d, range.margin * range.margin),
+                                hn::Load(d, rays.inverse_length2 + first_lane(c)));
+    const auto thickness2 = hn::Mul(hn::Mul(facing, facing), valid2);
+    hits.undecided |= bits_of(hn::Not(hn::Ge(thickness2, thinnest2)), c) & left;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace csgcore {
+
+CSGCORE_SIMD_EXPORT(trace_packet);
+CSGCORE_SIMD_EXPORT(trace_packet_in_range);
+
+void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                  const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
+                  PacketHits& hits) {
+  CSGCORE_SIMD(trace_packet)(frame, rays, lanes, list, subject, workspace, hits);
+}
+
+void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
+                           const PacketRange& range, const TraceList& list,
+                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           PacketWorkspace& workspace, PacketHits& hits) {
+  CSGCORE_SIMD(trace_packet_in_range)
+  (frame, rays, lanes, range, list, subject, known, eye_inside, workspace, hits);
+}
+
+}  // namespace csgcore
+#endif  // HWY_ONCE

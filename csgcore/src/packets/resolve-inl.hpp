@@ -1,0 +1,311 @@
+// One ray on which crossings coincide: they are taken together (NUMERICS.md, "Clusters"). Included
+// once per instruction set.
+#if defined(CSGCORE_RESOLVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef CSGCORE_RESOLVE_INL_HPP
+#undef CSGCORE_RESOLVE_INL_HPP
+#else
+#define CSGCORE_RESOLVE_INL_HPP
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "packets/trace_list.hpp"
+#include "primitives/primitive-inl.hpp"
+#include "tree/list_expression.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+using Event = PacketWorkspace::Event;
+
+/// Crossings at which the solid's value changes are its boundaries. Two crossings are together if
+/// they lie less than the tolerance apart, measured along the normal of that of the two which the
+/// ray meets more squarely. A cluster is a maximal run of boundaries each together with the next.
+class RayResolver {
+  static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+ public:
+  /// All of the list's segments are computed for the lane.
+  RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
+              const TraceList& trace, const TraceSubject& subject, PacketWorkspace& workspace)
+      : frame_(frame),
+        rays_(load_rays(Single(), packet, lane)),
+        length_(std::sqrt(1.0 / packet.inverse_length2[lane])),
+        lane_(lane),
+        trace_(trace),
+        subject_(subject),
+        events_(workspace.events),
+        changed_(workspace.changed),
+        inside_(workspace.inside),
+        repeats_(workspace.repeats),
+        order_(workspace.order),
+        is_first_(workspace.is_first),
+        has_changed_(workspace.has_changed),
+        operands_(workspace.operands),
+        expression_(workspace.expression),
+        segments_(workspace.segments) {}
+
+  struct Shown {
+    Event event;
+    bool on_cap;
+  };
+  /// The crossing that the ray shows, if any. No boundary lies before t; `value` is that at the
+  /// eye.
+  std::optional<Shown> resolve(double t, bool value) {
+    collect();
+    const auto at_t = std::lower_bound(events_.begin(), events_.end(), t,
+                                       [](const Event& event, double at) { return event.t < at; });
+    pass_until(static_cast<size_t>(at_t - events_.begin()));
+    int turns_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
+    size_t begin = 0;
+    for (size_t first = next_boundary(value); first < events_.size();) {
+      const Cluster cluster = cluster_of(begin, first, value);
+      if (cluster.turns && --turns_left == 0) {
+        const Event event = shown_of(cluster, value);
+        return Shown{event, is_on_cap(event)};
+      }
+      if (cluster.turns) value = !value;
+      begin = cluster.last + 1;
+      first = cluster.end;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Boundaries [first, last] of which each is together with the next. The boundaries next to them
+  /// lie before `begin` and not before `end`.
+  struct Cluster {
+    size_t begin, first, last, end;
+    bool turns;  // the value after it is not that before it
+  };
+
+  const CellList& list() const { return *trace_.list; }
+  uint32_t primitive_of(const Event& event) const {
+    return list().primitive[event.index] & kPrimitiveBits;
+  }
+
+  /// What was crossed up to the eye is behind it. A primitive that stands in the list more than
+  /// once is crossed once, by the first of its literals.
+  void collect() {
+    find_repeats();
+    events_.clear();
+    inside_.resize(list().count());
+    for (uint32_t i = 0; i < list().count(); ++i) {
+      const double start = segments_[i].start[lane_];
+      const double end = segments_[i].end[lane_];
+      inside_[i] = start <= frame_.first_t && end > frame_.first_t;
+      if (!(start < end) || !is_first_[i]) continue;
+      if (start > frame_.first_t) events_.push_back({start, i, false});
+      if (end > frame_.first_t) events_.push_back({end, i, true});
+    }
+    std::sort(events_.begin(), events_.end(), [&](const Event& a, const Event& b) {
+      return a.t != b.t ? a.t < b.t : primitive_of(a) < primitive_of(b);
+    });
+    passed_ = 0;
+  }
+
+  /// For each literal the next one of the same primitive.
+  void find_repeats() {
+    const uint32_t count = list().count();
+    repeats_.assign(count, kNone);
+    is_first_.assign(count, 1);
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto primitive = [&](uint32_t index) { return list().primitive[index] & kPrimitiveBits; };
+    std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+      return primitive(a) != primitive(b) ? primitive(a) < primitive(b) : a < b;
+    });
+    for (uint32_t i = 1; i < count; ++i) {
+      if (primitive(order_[i]) != primitive(order_[i - 1])) continue;
+      repeats_[order_[i - 1]] = order_[i];
+      is_first_[order_[i]] = 0;
+    }
+  }
+
+  // `inside_` is that of a point after the first passed_ crossings.
+  void flip(uint32_t index) {
+    for (; index != kNone; index = repeats_[index]) inside_[index] = !inside_[index];
+  }
+  void pass_until(size_t count) {
+    while (passed_ < count) flip(events_[passed_++].index);
+    while (passed_ > count) flip(events_[--passed_].index);
+  }
+
+  bool holds() const {
+    uint32_t number = list().root;
+    while (number >= CellList::kFirst) {
+      const uint32_t i = number - CellList::kFirst;
+      number = inside_[i] ? list().if_inside[i] : list().if_outside[i];
+    }
+    return number == CellList::kTrue;
+  }
+
+  /// Passes the first crossing that changes the value, which is `value` now; the crossing's place.
+  size_t next_boundary(bool value) {
+    while (passed_ < events_.size()) {
+      flip(events_[passed_++].index);
+      if (holds() != value) return passed_ - 1;
+    }
+    return events_.size();
+  }
+
+  /// `first` was passed, and changed the value from what it is before the cluster.
+  Cluster cluster_of(size_t begin, size_t first, bool value) {
+    Cluster cluster{begin, first, first, events_.size(), true};
+    for (;;) {
+      cluster.end = next_boundary(value == !cluster.turns);
+      if (cluster.end == events_.size() || !together(events_[cluster.last], events_[cluster.end])) {
+        return cluster;
+      }
+      cluster.last = cluster.end;
+      cluster.turns = !cluster.turns;
+    }
+  }
+
+  bool is_on_cap(const Event& event) const {
+    const PacketSegments& segments = segments_[event.index];
+    return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
+  }
+
+  /// |n·d| there: thickness per τ.
+  double facing(const Event& event) const {
+    const Single d;
+    const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
+    const auto normal = normal_of(d, trace_.primitives[primitive_of(event)], frame_.pivot, rays_,
+                                  hn::Set(d, event.t), on_cap);
+    return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
+  }
+
+  bool together(const Event& a, const Event& b) const {
+    const double gap = std::abs(b.t - a.t);
+    if (gap * length_ < subject_.thinnest_piece) return true;  // |n·d| ≤ |d|
+    return gap * std::max(facing(a), facing(b)) < subject_.thinnest_piece;
+  }
+
+  /// The crossings by which a cluster changes the primitives: its own, and those together with its
+  /// first or last boundary, which rounding alone may have kept from being boundaries. In order of
+  /// the primitives; `inside_` is left as it is after all of them.
+  void collect_changes(const Cluster& cluster) {
+    const auto place = [&](size_t i) { return events_.begin() + static_cast<long>(i); };
+    changed_.assign(place(cluster.first), place(cluster.last + 1));
+    const Event& first = events_[cluster.first];
+    const double before = subject_.thinnest_piece / facing(first);
+    for (size_t i = cluster.first; i-- > cluster.begin && first.t - events_[i].t < before;) {
+      if (together(first, events_[i])) changed_.push_back(events_[i]);
+    }
+    const Event& last = events_[cluster.last];
+    const double after = subject_.thinnest_piece / facing(last);
+    size_t end = cluster.last + 1;
+    for (size_t i = end; i < cluster.end && events_[i].t - last.t < after; ++i) {
+      if (!together(last, events_[i])) continue;
+      changed_.push_back(events_[i]);
+      end = i + 1;
+    }
+    pass_until(end);
+    drop_what_came_back();
+  }
+
+  /// What is both entered and left has not changed.
+  void drop_what_came_back() {
+    std::sort(changed_.begin(), changed_.end(), [&](const Event& a, const Event& b) {
+      const uint32_t primitives[] = {primitive_of(a), primitive_of(b)};
+      return primitives[0] != primitives[1] ? primitives[0] < primitives[1] : a.index < b.index;
+    });
+    size_t kept = 0;
+    for (size_t i = 0; i < changed_.size(); ++i) {
+      if (i + 1 < changed_.size() && changed_[i + 1].index == changed_[i].index) {
+        ++i;
+      } else {
+        changed_[kept++] = changed_[i];
+      }
+    }
+    changed_.resize(kept);
+  }
+
+  /// Whether the literal becomes true by the crossing, or, if `value`, false.
+  bool turns(const Event& event, bool value) const {
+    const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
+    return (event.at_end == complement) != value;
+  }
+
+  /// Of a primitive that is both added and subtracted, the literal by which it turns the value.
+  Event as_turning(Event event, bool value) const {
+    const Event first = event;
+    for (; event.index != kNone; event.index = repeats_[event.index]) {
+      if (turns(event, value)) return event;
+    }
+    return first;
+  }
+
+  /// The primitive by which the cluster turns the value (turning, in list_expression.hpp), or what
+  /// tells that none does.
+  int32_t turning_primitive(bool value) {
+    using Step = ListExpression::Step;
+    has_changed_.assign(list().count(), 0);
+    for (const Event& event : changed_) {
+      for (uint32_t i = event.index; i != kNone; i = repeats_[i]) has_changed_[i] = 1;
+    }
+    expression_.parse(list());
+    operands_.clear();
+    uint32_t index = 0;
+    for (const Step step : expression_.steps()) {
+      if (step == Step::kLiteral) {
+        const uint32_t entry = list().primitive[index];
+        const bool is_negated = ((entry & CellList::kComplementBit) != 0) != value;
+        const bool behind = (inside_[index] != 0) != is_negated;
+        const bool before = behind != (has_changed_[index] != 0);
+        operands_.push_back(turning::state_of(before, behind, entry & kPrimitiveBits));
+        ++index;
+        continue;
+      }
+      const int32_t last = operands_.back();
+      operands_.pop_back();
+      int32_t& other = operands_.back();
+      const bool is_union = (step == Step::kUnion) != value;
+      other = is_union ? turning::union_of(other, last) : turning::intersection_of(other, last);
+    }
+    return operands_.size() == 1 ? operands_.back() : turning::kFails;
+  }
+
+  /// The crossing that is seen of a cluster which turns the value from `value`.
+  Event shown_of(const Cluster& cluster, bool value) {
+    collect_changes(cluster);
+    const int32_t primitive = turning_primitive(value);
+    if (turning::is_turned(primitive)) {
+      for (const Event& event : changed_) {
+        if (primitive_of(event) == static_cast<uint32_t>(primitive)) {
+          return as_turning(event, value);
+        }
+      }
+    }
+    return as_turning(events_[cluster.first], value);
+  }
+
+  const FrameRays& frame_;
+  const Rays<Single> rays_;
+  const double length_;
+  const uint32_t lane_;
+  const TraceList& trace_;
+  const TraceSubject& subject_;
+  std::vector<Event>& events_;   // by τ
+  std::vector<Event>& changed_;  // by a cluster
+  std::vector<uint8_t>& inside_;
+  std::vector<uint32_t>& repeats_;
+  std::vector<uint32_t>& order_;
+  std::vector<uint8_t>& is_first_;
+  std::vector<uint8_t>& has_changed_;
+  std::vector<int32_t>& operands_;
+  ListExpression& expression_;
+  const std::vector<PacketSegments>& segments_;
+  size_t passed_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,0 +1,159 @@
+// Compiled once per instruction set by Highway. Multiplications and additions are never fused: every
+// instruction set gives the same bits.
+#include "packets/shading.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/simd.hpp"
+
+// Vectors whose length is not known to the compiler cannot stand in arrays.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "packets/shading.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for every instruction set
+#include <hwy/highway.h>
+
+#include "rays/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+/// 0.2 + |n · light| (openscad.md §4).
+HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits& hits, int chunk) {
+  const Wide d;
+  constexpr double kAmbient = 0.2;
+  const auto normal = load3(d, hits.normal, first_lane(chunk));
+  return hn::Add(hn::Set(d, kAmbient), hn::Abs(dot(d, normal, broadcast(d, settings.light_world))));
+}
+
+HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& frame,
+                            const RayPacket& rays, LaneMask lanes, const Vec3& base,
+                            const PacketHits& hits, PacketColors& colors) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    const auto at = [lane](const double(&v)[3][kPacketRays]) {
+      return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+    };
+    const Vec3 direction = at(rays.direction);
+    const Vec3 position = frame.pivot + (at(rays.origin) + hits.t[lane] * direction);
+    const Vec3 color =
+        phong_color(base / 255.0, position, at(hits.normal), direction, settings.phong);
+    for (int channel = 0; channel < 3; ++channel)
+      colors.rgb[channel][lane] = 255.0 * color[channel];
+  }
+}
+
+/// Lanes of `lanes` that show the same literal as the lowest of them.
+HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
+  const uint32_t index = hits.index[std::countr_zero(lanes)];
+  LaneMask same = 0;
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    same |= LaneMask{hits.index[lane] == index} << lane;
+  }
+  return same & lanes;
+}
+
+HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list, uint32_t index,
+                           bool eye_inside) {
+  const std::optional<Color>& own =
+      list.primitives[list.list->primitive[index] & kPrimitiveBits].color;
+  if (own) return 255.0 * Vec3{own->r, own->g, own->b};
+  return is_complement(list, index) && !eye_inside ? settings.back : settings.front;
+}
+
+void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors) {
+  const Wide d;
+  PacketV colors_of[3];  // of the faces, by channel
+  for (PacketV& channel : colors_of) {
+    for (int c = 0; c < kChunks; ++c) channel.chunk[c] = hn::Zero(d);
+  }
+  for (LaneMask lanes = hits.hits; lanes != 0;) {
+    const int first = std::countr_zero(lanes);
+    const bool eye_inside = (hits.eye_inside >> first & 1) != 0;
+    const LaneMask same =
+        lanes_of_first(hits, lanes) & (eye_inside ? hits.eye_inside : ~hits.eye_inside);
+    const Vec3 base = base_color(settings, list, hits.index[first], eye_inside);
+    lanes &= ~same;
+    if (settings.shading == Shading::kPhong) {
+      shade_phong(settings, frame, rays, same, base, hits, colors);
+      continue;
+    }
+    for (int c = 0; c < kChunks; ++c) {
+      const WideM own = mask_of(same, c);
+      for (int channel = 0; channel < 3; ++channel) {
+        WideV& color = colors_of[channel].chunk[c];
+        color = hn::IfThenElse(own, hn::Set(d, base[channel]), color);
+      }
+    }
+  }
+  if (settings.shading == Shading::kPhong) return;
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV shade = openscad_shade(settings, hits, c);
+    for (int channel = 0; channel < 3; ++channel) {
+      const WideV value = hn::Mul(colors_of[channel].chunk[c], shade);
+      hn::Store(hn::Min(value, hn::Set(d, 255.0)), d, colors.rgb[channel] + first_lane(c));
+    }
+  }
+}
+
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels) {
+  const Wide d;
+  const hn::Rebind<int32_t, Wide> integers;
+  alignas(64) int32_t rgb[kPacketRays];  // from the lowest byte on
+  for (int c = 0; c < kChunks; ++c) {
+    const WideM own = mask_of(lanes, c);
+    const auto channel = [&](size_t i) {
+      const WideV value = hn::Load(d, colors.rgb[i] + first_lane(c));
+      const WideV chosen = hn::IfThenElse(own, value, hn::Set(d, others[i]));
+      return hn::DemoteTo(integers, hn::Add(chosen, hn::Set(d, 0.5)));
+    };
+    const auto green_blue = hn::Or(hn::ShiftLeft<8>(channel(1)), hn::ShiftLeft<16>(channel(2)));
+    hn::Store(hn::Or(channel(0), green_blue), integers, rgb + first_lane(c));
+  }
+  for (size_t lane = 0; lane < kPacketRays; ++lane) {
+    const uint32_t bits = static_cast<uint32_t>(rgb[lane]);
+    pixels.rgb[lane] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8),
+                        static_cast<uint8_t>(bits >> 16)};
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace csgcore {
+
+CSGCORE_SIMD_EXPORT(shade_packet);
+CSGCORE_SIMD_EXPORT(round_colors);
+
+void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors) {
+  CSGCORE_SIMD(shade_packet)(settings, frame, rays, list, hits, colors);
+}
+
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels) {
+  CSGCORE_SIMD(round_colors)(colors, lanes, others, pixels);
+}
+
+ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
+                             const Box& solid_bounds) {
+  ShadeSettings shade;
+  shade.shading = settings.shading;
+  // The light of openscad.md §4, (−1, 1, 1)/√3 in eye space.
+  shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
+  shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
+  shade.front = 255.0 * Vec3(settings.front);
+  shade.back = 255.0 * Vec3(settings.back);
+  return shade;
+}
+
+}  // namespace csgcore
+#endif  // HWY_ONCE

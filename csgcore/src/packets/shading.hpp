@@ -1,0 +1,39 @@
+// How the hits of a packet turn into colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "csgcore/frame_settings.hpp"
+#include "csgcore/phong.hpp"
+#include "packets/trace_list.hpp"
+#include "rays/frame_rays.hpp"
+
+namespace csgcore {
+
+/// How hits turn into colours.
+struct ShadeSettings {
+  Shading shading = Shading::kOpenScad;
+  Vec3 light_world{0.0};  // kOpenScad: shade = 0.2 + |n · light_world|
+  PhongLight phong;
+  glm::dvec3 front{1.0}, back{1.0};  // 0…255
+};
+ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
+                             const Box& solid_bounds);
+
+/// Each 0…255, not rounded.
+struct alignas(64) PacketColors {
+  double rgb[3][kPacketRays];
+};
+void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
+                  const TraceList& list, const PacketHits& hits, PacketColors& colors);
+
+using Rgb8 = std::array<uint8_t, 3>;
+struct PacketPixels {
+  Rgb8 rgb[kPacketRays];
+};
+/// The colours of `lanes`, rounded; that of the others is given.
+void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
+                  PacketPixels& pixels);
+
+}  // namespace csgcore

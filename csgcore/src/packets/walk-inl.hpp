@@ -1,0 +1,418 @@
+// Walks a packet along its rays from crossing to crossing until the solid's value changes. Included
+// once per instruction set.
+#if defined(CSGCORE_WALK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef CSGCORE_WALK_INL_HPP
+#undef CSGCORE_WALK_INL_HPP
+#else
+#define CSGCORE_WALK_INL_HPP
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "packets/trace_list.hpp"
+#include "primitives/apart-inl.hpp"
+#include "primitives/primitive-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace csgcore {
+namespace HWY_NAMESPACE {
+
+/// The lanes that are intersected with any of these: four at a time, so that whose segments are
+/// known does not depend on the vectors' width.
+HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
+  lanes |= lanes >> 1;
+  lanes |= lanes >> 2;
+  return (lanes & 0x11111111u) * 0xFu;
+}
+
+/// The segments of a list's primitives, computed where first needed. Once any lane's is known,
+/// those of the others are empty; or right, where a vector holds more than four.
+class ListSegments {
+ public:
+  ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
+               const TraceSubject& subject, PacketWorkspace& workspace)
+      : frame_(frame),
+        rays_(rays),
+        list_(list),
+        apart_(kApart * subject.thinnest_piece),
+        workspace_(workspace) {
+    const uint32_t count = list.list->count();
+    if (workspace.standing.size() < count + CellList::kFirst) {
+      workspace.segments.resize(count);
+      workspace.computed.resize(count);
+      workspace.reached.resize(count);
+      workspace.apart.resize(count);
+      workspace.standing.resize(count + CellList::kFirst, 0);
+    }
+    entries_ = list.list->primitive.data();
+    segments_ = workspace.segments.data();
+    computed_ = workspace.computed.data();
+    reached_ = workspace.reached.data();
+    apart_of_ = workspace.apart.data();
+    const uint32_t* const if_inside = list.list->if_inside.data();
+    const uint32_t* const if_outside = list.list->if_outside.data();
+    uint32_t next = CellList::kTrue;
+    for (uint32_t i = 0; i < count; ++i) {
+      const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
+      reached_[i] = reached;
+      computed_[i] = apart_of_[i] = 0;
+      // Of a large scene, they come from far away.
+      if (reached != 0) prefetch_rays_part(primitive(i));
+      all_must_hold_ &= (if_inside[i] == CellList::kFalse && if_outside[i] == next) ||
+                        (if_inside[i] == next && if_outside[i] == CellList::kFalse);
+      next = i + CellList::kFirst;
+    }
+    all_must_hold_ &= list.list->root == next;
+  }
+  /// Whether the list holds where all of its literals do: each makes it false, or hands on to the
+  /// next one.
+  HWY_INLINE bool all_must_hold() const { return all_must_hold_; }
+  /// The lanes that may meet the primitive: the others are outside of it all along.
+  HWY_INLINE LaneMask reached(uint32_t index) const { return reached_[index]; }
+  /// Whether their segments are computed.
+  HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
+    return (lanes & ~computed_[index]) == 0;
+  }
+  /// Those of the lanes.
+  HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
+    PacketSegments& segments = segments_[index];
+    if (!are_known(index, lanes)) {
+      LaneMask& computed = computed_[index];
+      const LaneMask missing = whole_fours(lanes & ~computed);
+      if (computed == 0 && missing != kAllLanes) clear(segments);
+      intersect_lanes(frame_, rays_, missing, primitive(index), segments);
+      computed |= missing;
+      if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
+      workspace_.intersections += static_cast<uint64_t>(std::popcount(missing));
+    }
+    return segments;
+  }
+  /// Those of `lanes`, which stand at t, that are kApart from the primitive. Of a ball it takes as
+  /// long to tell as to intersect it: nobody knows.
+  HWY_INLINE LaneMask apart(uint32_t index, const PacketV& t, LaneMask lanes) {
+    if (primitive(index).ball_radius > 0) return 0;
+    LaneMask& known = apart_of_[index];
+    if ((lanes & ~known) != 0) {
+      if (!has_points_) find_points(rays_, t, apart_, points_);
+      known |= lanes_apart(primitive(index), frame_.pivot, points_, apart_);
+      has_points_ = any_apart_ = true;
+    }
+    return lanes & known;
+  }
+  /// The lanes have gone on.
+  HWY_INLINE void forget_apart(LaneMask lanes) {
+    has_points_ = false;
+    if (!any_apart_) return;
+    for (uint32_t i = 0; i < list_.list->count(); ++i) apart_of_[i] &= ~lanes;
+  }
+
+  /// For who reads all of the lanes': what they miss has segments too.
+  void compute_all(LaneMask lanes) {
+    for (uint32_t i = 0; i < list_.list->count(); ++i) {
+      const LaneMask wanted = lanes & reached(i);
+      if (wanted != 0) {
+        compute(i, wanted);
+      } else if (computed_[i] == 0) {
+        clear(segments_[i]);
+      }
+    }
+  }
+  HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
+    return list_.primitives[entries_[index] & kPrimitiveBits];
+  }
+  /// By a literal's number, or a constant: the lanes whose evaluation stands there. Between
+  /// evaluations, none stand at literals.
+  HWY_INLINE LaneMask* standing() { return workspace_.standing.data(); }
+
+ private:
+  static HWY_INLINE void clear(PacketSegments& segments) {
+    const Wide d;
+    for (int c = 0; c < kChunks; ++c) {
+      hn::Store(hn::Set(d, kInfinity), d, segments.start + first_lane(c));
+      hn::Store(hn::Set(d, -kInfinity), d, segments.end + first_lane(c));
+    }
+  }
+
+  const FrameRays& frame_;
+  const RayPacket& rays_;
+  const TraceList& list_;
+  const double apart_;
+  // What the vectors of the list and the workspace hold, whose own pointers the compiler would read
+  // again after every store of a mask:
+  const uint32_t* entries_;
+  PacketSegments* segments_;
+  LaneMask* computed_;
+  LaneMask* reached_;
+  LaneMask* apart_of_;
+  bool all_must_hold_ = true;
+  bool any_apart_ = false;
+  bool has_points_ = false;
+  PacketPoints points_;  // where the lanes stand
+  PacketWorkspace& workspace_;
+};
+
+/// Where the packet stands.
+struct Walk {
+  PacketV t;
+  LaneMask live = 0;
+  LaneMask moved = 0;  // lanes that no longer stand where they began, but at a crossing
+};
+
+/// The list's value at t, and how far it surely keeps that before.
+struct Evaluation {
+  LaneMask value = 0;
+  PacketV next_t;
+};
+
+/// Lanes whose value is at least as large.
+HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
+  const Wide d;
+  LaneMask result = 0;
+  for (int c = 0; c < kChunks; ++c) result |= bits_of(hn::Ge(v.chunk[c], hn::Set(d, least)), c);
+  return result;
+}
+
+/// The largest value of any of the lanes; −∞ of none.
+HWY_INLINE double furthest_of(const PacketV& v, LaneMask lanes) {
+  const Wide d;
+  WideV furthest = hn::Set(d, -kInfinity);
+  for (int c = 0; c < kChunks; ++c) {
+    furthest = hn::Max(furthest, hn::IfThenElse(mask_of(lanes, c), v.chunk[c], furthest));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, furthest));
+}
+
+/// Lowers `next_t` of `lanes` to what lies ahead of them.
+HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const PacketV& t,
+                        PacketV& next_t) {
+  for (int c = 0; c < kChunks; ++c) {
+    const WideM stops = hn::And(mask_of(lanes, c), hn::Lt(t.chunk[c], ahead[c]));
+    const WideV sooner = hn::Min(next_t.chunk[c], ahead[c]);
+    next_t.chunk[c] = hn::IfThenElse(stops, sooner, next_t.chunk[c]);
+  }
+}
+
+/// Short-circuit evaluation of all lanes at once: those that stand at the literal whose turn it is
+/// are tested and jump. Only literals that decide are visited; what no lane can have reached at its
+/// t is not intersected. `before`: the lanes' value up to here; how far another one lasts is not
+/// found. A literal one of whose jumps ends with the value before cannot change that by jumping, so
+/// that nobody needs to know where.
+HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const Walk& walk,
+                         LaneMask before, Evaluation& result) {
+  const Wide d;
+  const CellList& list = *trace.list;
+  const uint32_t* const if_inside = list.if_inside.data();
+  const uint32_t* const if_outside = list.if_outside.data();
+  LaneMask* const standing = segments.standing();
+  standing[CellList::kFalse] = standing[CellList::kTrue] = 0;
+  standing[list.root] = walk.live;
+  const LaneMask other[] = {before, ~before};  // whose value before is not false, true
+  const auto changing = [&](uint32_t number) {
+    return number < CellList::kFirst ? other[number] : kAllLanes;
+  };
+  for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
+  const double furthest_t = furthest_of(walk.t, walk.live);
+  for (uint32_t index = list.count(); index-- > 0;) {
+    const LaneMask standing_here = standing[index + CellList::kFirst];
+    if (standing_here == 0) continue;
+    standing[index + CellList::kFirst] = 0;
+    LaneMask& outer = standing[if_outside[index]];
+    LaneMask active = standing_here & segments.reached(index);
+    outer |= standing_here & ~active;
+    if (active == 0) continue;
+    const LaneMask may_enter = active & changing(if_inside[index]);
+    WideV ahead[kChunks];
+    if (!segments.are_known(index, active)) {
+      const double nearest_t = trace.nearest_t[index];
+      if (furthest_t < nearest_t) {
+        // Outside as yet, until there at the earliest.
+        for (int c = 0; c < kChunks; ++c) ahead[c] = hn::Set(d, nearest_t);
+        if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
+        outer |= active;
+        continue;
+      }
+      if (may_enter == 0) {
+        const LaneMask apart = segments.apart(index, walk.t, active);
+        outer |= apart;
+        active &= ~apart;
+        if (active == 0) continue;
+      }
+    }
+    const PacketSegments& segment = segments.compute(index, active);
+    const LaneMask may_leave = active & changing(if_outside[index]);
+    LaneMask inside = 0;
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV start = hn::Load(d, segment.start + first_lane(c));
+      const WideV end = hn::Load(d, segment.end + first_lane(c));
+      const WideV t = walk.t.chunk[c];
+      ahead[c] = start;
+      WideV& next_t = result.next_t.chunk[c];
+      const WideM is_inside = hn::AndNot(hn::Lt(t, start), hn::Lt(t, end));
+      const WideM leaves = hn::And(mask_of(may_leave, c), is_inside);
+      next_t = hn::IfThenElse(leaves, hn::Min(next_t, end), next_t);
+      inside |= bits_of(is_inside, c);
+    }
+    if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
+    standing[if_inside[index]] |= active & inside;
+    outer |= active & ~inside;
+  }
+  result.value = standing[CellList::kTrue];
+}
+
+/// Moves lanes that are outside of all primitives to the first crossing that may change the list's
+/// value; lanes that meet none are no longer live. What follows such a crossing decides the value,
+/// whatever precedes it, since nothing is entered before. Returns the value up to there.
+HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& segments, Walk& walk) {
+  const Wide d;
+  const CellList& list = *trace.list;
+  for (int c = 0; c < kChunks; ++c) walk.t.chunk[c] = hn::Set(d, kInfinity);
+  uint32_t number = list.root;
+  while (number >= CellList::kFirst) {
+    const uint32_t index = number - CellList::kFirst;
+    number = list.if_outside[index];
+    const LaneMask lanes = walk.live & segments.reached(index);
+    if ((lanes_from(walk.t, trace.nearest_t[index]) & lanes) == 0) continue;
+    const PacketSegments& segment = segments.compute(index, lanes);
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV start = hn::Load(d, segment.start + first_lane(c));
+      walk.t.chunk[c] = hn::Min(start, walk.t.chunk[c]);
+    }
+  }
+  walk.live &= ~lanes_from(walk.t, kInfinity);
+  walk.moved = walk.live;
+  return number == CellList::kTrue;
+}
+
+/// Where the lanes of a packet stand against a segment.
+struct Sides {
+  LaneMask before, within;
+};
+HWY_INLINE Sides sides_of(const PacketSegments& segment, const PacketV& t) {
+  const Wide d;
+  LaneMask before_start = 0;
+  LaneMask before_end = 0;
+  for (int c = 0; c < kChunks; ++c) {
+    const auto is_before = [&](const double* ends) {
+      return bits_of(hn::Lt(t.chunk[c], hn::Load(d, ends + first_lane(c))), c);
+    };
+    before_start |= is_before(segment.start);
+    before_end |= is_before(segment.end);
+  }
+  return {before_start, before_end & ~before_start};
+}
+
+/// Moves lanes to where `to` says, no further than `leave`; returns those that got there.
+/// `furthest_t` becomes that of all that go on, or more.
+HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* leave, Walk& walk,
+                               double& furthest_t) {
+  const Wide d;
+  LaneMask arrived = 0;
+  WideV furthest = hn::Set(d, furthest_t);
+  for (int c = 0; c < kChunks; ++c) {
+    const WideV next = hn::Load(d, to + first_lane(c));
+    const WideM further =
+        hn::And(mask_of(lanes, c), hn::Le(next, hn::Load(d, leave + first_lane(c))));
+    arrived |= bits_of(further, c);
+    walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
+    furthest = hn::IfThenElse(further, hn::Max(furthest, next), furthest);
+  }
+  furthest_t = hn::GetLane(hn::MaxOfLanes(d, furthest));
+  walk.moved |= arrived;
+  return arrived;
+}
+
+/// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
+/// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
+/// that fails is passed over at once: to where it holds again. The least t that none moves any
+/// further is the first where all hold (design.md §4, the fixed point of an intersection).
+HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
+                                Walk& walk) {
+  const CellList& list = *trace.list;
+  const uint32_t* const if_inside = list.if_inside.data();
+  double furthest_t = furthest_of(walk.t, walk.live);
+  LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some literal
+  uint32_t last_moved = 0;         // by it, moved last
+  bool is_first_round = true;
+  const auto end = [&](LaneMask lanes) {
+    walk.live &= ~lanes;
+    unsettled &= ~lanes;
+  };
+  while (unsettled != 0) {
+    LaneMask moved = 0;
+    for (uint32_t index = list.count(); index-- > 0;) {
+      const bool must_be_outside = if_inside[index] == CellList::kFalse;
+      LaneMask active = unsettled & segments.reached(index);
+      if (!must_be_outside) {
+        end(unsettled & ~active);
+      } else if (active != 0 && !segments.are_known(index, active)) {
+        // Outside as yet, or by its place alone.
+        const bool is_ahead = furthest_t < trace.nearest_t[index];
+        active &= is_ahead ? 0 : ~segments.apart(index, walk.t, active);
+      }
+      LaneMask moves = 0;
+      if (active != 0) {
+        const PacketSegments& segment = segments.compute(index, active);
+        const Sides sides = sides_of(segment, walk.t);
+        moves = active & (must_be_outside ? sides.within : sides.before);
+        if (!must_be_outside) end(active & ~sides.before & ~sides.within);
+        if (moves != 0) {
+          const double* const to = must_be_outside ? segment.end : segment.start;
+          const LaneMask goes_on = move_lanes(moves, to, leave, walk, furthest_t);
+          end(moves & ~goes_on);
+          moved |= goes_on;
+          segments.forget_apart(goes_on);
+          last_moved = index;
+        }
+      }
+      // Since then nothing has moved, and all that had has been asked again.
+      if (moves == 0 && moved == 0 && index == last_moved && !is_first_round) break;
+    }
+    is_first_round = false;
+    unsettled &= moved;
+  }
+  return walk.live;
+}
+
+/// Walks all lanes of `walk.live` until their value is no longer that in `before`, no further than
+/// `leave`; returns the lanes that got there, whose t is kept in the walk.
+HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, LaneMask before,
+                                   const double* leave, Walk& walk) {
+  if (segments.all_must_hold() && (before & walk.live) == 0) {
+    return walk_to_all(trace, segments, leave, walk);
+  }
+  const Wide d;
+  LaneMask changed = 0;
+  Evaluation evaluation;
+  while (walk.live != 0) {
+    evaluate(trace, segments, walk, before, evaluation);
+    changed |= walk.live & (before ^ evaluation.value);
+    walk.live &= ~changed;
+    LaneMask goes_on = 0;
+    for (int c = 0; c < kChunks; ++c) {
+      const WideV limit = hn::Load(d, leave + first_lane(c));
+      const WideV next = evaluation.next_t.chunk[c];
+      const WideM further = hn::And(mask_of(walk.live, c), hn::Le(next, limit));
+      goes_on |= bits_of(further, c);
+      walk.t.chunk[c] = hn::IfThenElse(further, next, walk.t.chunk[c]);
+    }
+    walk.live &= goes_on;
+    walk.moved |= goes_on;
+    segments.forget_apart(goes_on);
+  }
+  return changed;
+}
+
+/// The value of all lanes where they stand.
+HWY_INLINE LaneMask value_of(const TraceList& trace, ListSegments& segments, const Walk& walk) {
+  Evaluation evaluation;
+  evaluate(trace, segments, walk, 0, evaluation);
+  return evaluation.value;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace csgcore
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,0 +1,228 @@
+#include "primitives/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "csgcore/polyhedron.hpp"
+#include "primitives/canonical_slack.hpp"
+
+namespace csgcore {
+namespace {
+
+bool contains_canonical(const CanonicalPrimitive& primitive, const Vec3& point) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::contains(point);
+    case Shape::kFrustum:
+      return frustum::contains(primitive, point);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->contains(point);
+}
+
+CanonicalPrimitive canonicalize_shape(const Primitive& primitive) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::canonicalize(primitive);
+    case Shape::kFrustum:
+      return frustum::canonicalize(primitive);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron::canonicalize(primitive);
+}
+
+Vec3 support_canonical(const CanonicalPrimitive& primitive, const Vec3& direction) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::support(direction);
+    case Shape::kFrustum:
+      return frustum::support(primitive, direction);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->support(direction);
+}
+
+/// A ball against a box, by the exact distances of the box's nearest and furthest points.
+Classification classify_ball(const Vec3& center, double radius, const Box& cell) {
+  double nearest2 = 0;
+  double furthest2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = cell.min[axis] - center[axis];
+    const double above = center[axis] - cell.max[axis];
+    const double gap = std::max(std::max(below, above), 0.0);
+    nearest2 += gap * gap;
+    const double reach = std::max(-below, -above);  // both ≤ the cell's far side
+    furthest2 += reach * reach;
+  }
+  const double radius2 = radius * radius;
+  if (nearest2 > radius2 * (1.0 + kCanonicalSlack)) return Classification::kOutside;
+  if (furthest2 < radius2 * (1.0 - kCanonicalSlack)) return Classification::kInside;
+  return Classification::kCrosses;
+}
+
+double largest_row_sum(const Mat3& m) {
+  const Vec3 sums = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]);
+  return std::max({sums.x, sums.y, sums.z});
+}
+
+Mat3 absolute(const Mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
+
+/// What is rounded in the middle of a cell, its offset from the primitive and three products, each.
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kTermRounding = 8 * kEpsilon;
+
+double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// With W for the rounded inverse of C, canonical coordinates come out as W·C·x for the true x, so
+/// that W·C − 1 is their relative error (which is itself a sum of three rounded products).
+double inversion_error(const CanonicalPrimitive& primitive) {
+  const Mat3& w = primitive.world_to_canonical;
+  const Mat3& c = primitive.canonical_to_world;
+  return largest_row_sum(w * c - Mat3{1.0}) +
+         4 * kEpsilon * largest_row_sum(absolute(w) * absolute(c));
+}
+
+/// Bound of the rounding of a cell's canonical coordinates; `terms` bounds the world coordinates
+/// that they are computed from. A quick bound does wherever it is small; the sharp one is for maps
+/// that are nearly singular.
+double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell& cell,
+                       const Vec3& terms) {
+  constexpr double kSmall = 1e-9;  // no cell of interest is so small against the primitive
+  const double quick = primitive.canonical_error * largest(terms);
+  if (quick < kSmall) return kCanonicalSlack + quick;
+  const Vec3 sums = glm::abs(cell.center) + absolute(cell.half) * Vec3{1.0};
+  return kCanonicalSlack + kTermRounding * largest(absolute(primitive.world_to_canonical) * terms) +
+         primitive.inversion_error * largest(sums);
+}
+
+}  // namespace
+
+CanonicalPrimitive canonicalize(const Primitive& primitive) {
+  CanonicalPrimitive result = canonicalize_shape(primitive);
+  const Mat3& map = result.world_to_canonical;
+  result.canonical_stretch =
+      std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+  result.inversion_error = inversion_error(result);
+  result.canonical_error =
+      (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);
+  result.color = primitive.color;
+  result.id = primitive.id;
+  return result;
+}
+
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell) {
+  const Box& bounds = primitive.bounds;
+  if (cell.min.x > bounds.max.x || cell.max.x < bounds.min.x || cell.min.y > bounds.max.y ||
+      cell.max.y < bounds.min.y || cell.min.z > bounds.max.z || cell.max.z < bounds.min.z) {
+    return Classification::kOutside;
+  }
+  if (primitive.ball_radius > 0) {
+    return classify_ball(primitive.center, primitive.ball_radius, cell);
+  }
+  return classify_within_bounds(primitive, cell);
+}
+
+Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell) {
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return sphere::classify(primitive, cell);
+    case Shape::kFrustum:
+      return frustum::classify(primitive, cell);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return polyhedron::classify(primitive, cell);
+}
+
+CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell) {
+  const Vec3 half = 0.5 * (cell.max - cell.min);
+  const Vec3 middle = cell.center();
+  const Vec3 offset = middle - primitive.center;
+  const Mat3& map = primitive.world_to_canonical;
+  CanonicalCell canonical;
+  canonical.center = map * offset;
+  canonical.half = Mat3{map[0] * half.x, map[1] * half.y, map[2] * half.z};
+  canonical.slack =
+      canonical_slack(primitive, canonical, glm::abs(offset) + half + glm::abs(middle));
+  return canonical;
+}
+
+namespace {
+
+double largest_coordinate(const CanonicalPrimitive& primitive) {
+  return largest(glm::max(glm::abs(primitive.bounds.min), glm::abs(primitive.bounds.max)));
+}
+
+}  // namespace
+
+Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world) {
+  const Vec3 direction = direction_world * primitive.canonical_to_world;
+  return primitive.center + primitive.canonical_to_world * support_canonical(primitive, direction);
+}
+
+/// A separating direction is sought by reflections, as in frustum::classify; from that between the
+/// centres on, which is the one for balls.
+bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
+  constexpr int kSteps = 12;
+  margin += kTermRounding * (largest_coordinate(a) + largest_coordinate(b));
+  const Vec3 between = b.center - a.center;
+  const double distance = glm::length(between);
+  if (!(distance > 0)) return false;
+  Vec3 direction = between / distance;
+  for (int step = 0; step < kSteps; ++step) {
+    const Vec3 furthest = furthest_point(a, direction);
+    const Vec3 nearest = furthest_point(b, -direction);
+    const Vec3 gap = nearest - furthest;
+    const double along = glm::dot(gap, direction);
+    if (along > margin) return true;
+    if (contains(a, nearest) || contains(b, furthest)) return false;
+    direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
+  }
+  return false;
+}
+
+double reach(const CanonicalPrimitive& primitive) {
+  if (primitive.ball_radius > 0) return primitive.ball_radius;
+  const Mat3& map = primitive.canonical_to_world;
+  const Mat3 gram = absolute(glm::transpose(map) * map);
+  if (primitive.enclosure == Shape::kSphere) return std::sqrt(largest_row_sum(gram));
+  // The rims, (r cos φ, r sin φ, ±1).
+  const double lateral2 = std::max(gram[0][0], gram[1][1]) + gram[0][1];
+  const double r = primitive.radius_mid + std::abs(primitive.radius_slope);
+  return std::sqrt(r * r * lateral2 + gram[2][2] + 2 * r * std::hypot(gram[2][0], gram[2][1]));
+}
+
+bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius) {
+  const Vec3 offset = center_world - primitive.center;
+  if (primitive.ball_radius > 0) {
+    const double rounding =
+        kTermRounding * (largest_coordinate(primitive) + largest(glm::abs(center_world)));
+    return glm::length(offset) < primitive.ball_radius - radius - rounding;
+  }
+  const Vec3 center = primitive.world_to_canonical * offset;
+  const double terms = largest(glm::abs(offset) + glm::abs(center_world));
+  const double canonical_radius =
+      radius * primitive.canonical_stretch + kCanonicalSlack + primitive.canonical_error * terms;
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return glm::length(center) < 1 - canonical_radius;
+    case Shape::kFrustum:
+      return frustum::holds_ball(primitive, center, canonical_radius);
+    case Shape::kPolyhedron:
+      break;
+  }
+  return primitive.polyhedron->contains(center, canonical_radius);
+}
+
+bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world) {
+  return contains_canonical(primitive,
+                            primitive.world_to_canonical * (point_world - primitive.center));
+}
+
+}  // namespace csgcore

@@ -1,0 +1,87 @@
+// The sphere, under affine maps an ellipsoid. Canonical: the unit ball.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "primitives/shapes.hpp"
+
+namespace csgcore::sphere {
+namespace {
+
+/// Relative deviation of LᵀL from a multiple of the identity below which the image of a sphere is
+/// treated as a true ball. Far below kCanonicalSlack, which absorbs it.
+constexpr double kSimilarityTolerance = 1e-14;
+
+bool is_similarity(const Mat3& linear) {
+  const Mat3 gram = glm::transpose(linear) * linear;
+  const double scale = (gram[0][0] + gram[1][1] + gram[2][2]) / 3;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      const double expected = row == column ? scale : 0.0;
+      if (!(std::abs(gram[column][row] - expected) <= kSimilarityTolerance * scale)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+CanonicalPrimitive canonicalize(const Primitive& primitive) {
+  CanonicalPrimitive result;
+  result.shape = Shape::kSphere;
+  result.center = primitive.local_to_world.translation;
+  result.canonical_to_world = primitive.local_to_world.linear * primitive.r_bottom;
+  result.world_to_canonical = inverse(result.canonical_to_world);
+  if (is_similarity(result.canonical_to_world)) {
+    result.ball_radius = glm::length(result.canonical_to_world[0]);
+  }
+  // The support of the ellipsoid along a world axis is the norm of that row of the map.
+  const Mat3 rows = glm::transpose(result.canonical_to_world);
+  const Vec3 extent{glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])};
+  result.bounds = {result.center - extent, result.center + extent};
+  return result;
+}
+
+bool contains(const Vec3& p) { return glm::dot(p, p) <= 1.0; }
+
+Vec3 support(const Vec3& direction) {
+  const double length = glm::length(direction);
+  return length > 0 ? direction / length : Vec3{1, 0, 0};
+}
+
+Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
+  const CanonicalCell cell = to_canonical(primitive, cell_world);
+  // By convexity, a cell whose 8 corners are inside is inside.
+  const double inner = 1.0 - cell.slack;
+  if (contains(cell.center)) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 point = cell.corner(corner);
+      if (!(inner > 0 && glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
+    }
+    return Classification::kInside;
+  }
+  // The cell's point nearest to the ball's centre, by cyclic coordinate descent on the box of the
+  // three edge parameters: convex, and exact after one sweep where the edges are orthogonal. Each
+  // sweep ends with a proof: the plane through that point, if it separates.
+  constexpr int kSweeps = 6;
+  Vec3 parameter{0.0};
+  Vec3 nearest = cell.center;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int i = 0; i < 3; ++i) {
+      const double length2 = glm::dot(cell.half[i], cell.half[i]);
+      const double moved = parameter[i] - glm::dot(cell.half[i], nearest) / length2;
+      const double clamped = glm::clamp(moved, -1.0, 1.0);
+      nearest += (clamped - parameter[i]) * cell.half[i];
+      parameter[i] = clamped;
+    }
+    const double distance2 = glm::dot(nearest, nearest);
+    if (distance2 <= 1.0) return Classification::kCrosses;
+    const double low = glm::dot(nearest, cell.center) - std::abs(glm::dot(nearest, cell.half[0])) -
+                       std::abs(glm::dot(nearest, cell.half[1])) -
+                       std::abs(glm::dot(nearest, cell.half[2]));
+    if (low > std::sqrt(distance2) * (1.0 + cell.slack)) return Classification::kOutside;
+  }
+  return Classification::kCrosses;
+}
+
+}  // namespace csgcore::sphere

@@ -1,0 +1,168 @@
+// TileSimplifier::cut_by_face: what a plane face hides that all rays of a tile enter by. Parts that
+// share planes, and plates behind each other that are thinner than a tile's depths, are not told
+// apart by depths; here they are told by their place against the face's plane.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "primitives/intersect.hpp"
+#include "screen/screen_extents.hpp"
+#include "tiles/tile_list.hpp"
+
+namespace csgcore {
+namespace {
+
+/// So many primitives that cover the tile are looked at for each of its pixels, and some in any
+/// case: one half of them those whose bounds begin the nearest.
+constexpr double kMostForAPixel = 0.25;
+constexpr size_t kSomeCandidates = 32;
+
+/// Tolerances, along the face's normal: so thick is the primitive behind its face at least, that no
+/// crossing beyond may be together with one at the face; and so far behind lies what is left out,
+/// for the same reason.
+constexpr double kLeastThickness = 16;
+constexpr double kLeastDistance = 4;
+
+/// As a share of the tolerance: no more than that stands out of the face's plane where it is taken
+/// to lie in it. That is a thousand times what is rounded, and at kLeastCosine far from a tolerance
+/// along the ray.
+constexpr double kCoplanar = 0x1p-10;
+
+/// Flatter views are not looked at.
+constexpr double kLeastCosine = 0x1p-6;
+
+constexpr uint32_t kCorners = 4;
+
+double latest_of(const double (&t)[kPacketRays]) { return *std::max_element(t, t + kCorners); }
+
+}  // namespace
+
+/// The primitives that are enough for the value by their literal, and cover the tile.
+void TileSimplifier::find_face_candidates(const CellList& list, const Box& tile, size_t most) {
+  face_candidates_.clear();
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t primitive = list.primitive[i];  // no group, and no complement
+    if (list.if_inside[i] != CellList::kTrue || primitive >= groups_.first_group()) continue;
+    const Extent& e = screen_[primitive];
+    if (covers(e, tile)) face_candidates_.push_back({i, primitive, nearest_t(e)});
+  }
+  if (face_candidates_.size() <= most) return;
+  // Half of them the nearest; and, of plates behind each other, which begin alike, some of all.
+  const auto rest = face_candidates_.begin() + static_cast<long>(most / 2);
+  std::nth_element(face_candidates_.begin(), rest, face_candidates_.end(),
+                   [](const FaceCandidate& a, const FaceCandidate& b) {
+                     return a.entry_t != b.entry_t ? a.entry_t < b.entry_t
+                                                   : a.primitive > b.primitive;
+                   });
+  std::sort(rest, face_candidates_.end(), [](const FaceCandidate& a, const FaceCandidate& b) {
+    return a.primitive < b.primitive;
+  });
+  const size_t left = static_cast<size_t>(face_candidates_.end() - rest);
+  const size_t wanted = most - most / 2;
+  for (size_t i = 0; i < wanted; ++i) {
+    rest[static_cast<long>(i)] = rest[static_cast<long>(i * left / wanted)];
+  }
+  face_candidates_.resize(most);
+}
+
+/// The plane by which all four rays enter the primitive, if there is one, squarely enough, and
+/// enough of the primitive behind it.
+std::optional<TileSimplifier::FacePlane> TileSimplifier::entered_plane(
+    const RayPacket& rays, uint32_t primitive, const PacketSegments& segments) const {
+  alignas(64) double normals[3][kPacketRays];
+  find_entry_normals(frame_, rays, primitives_[primitive], segments, normals);
+  const auto lane_of = [](const double(&v)[3][kPacketRays], uint32_t lane) {
+    return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+  };
+  const Vec3 normal = lane_of(normals, 0);
+  for (uint32_t lane = 0; lane < kCorners; ++lane) {
+    if (lane_of(normals, lane) != normal) return std::nullopt;
+    const Vec3 direction = lane_of(rays.direction, lane);
+    const double speed = -glm::dot(normal, direction);  // along the normal, per τ
+    const double length = segments.end[lane] - segments.start[lane];
+    if (!(speed >= kLeastCosine * glm::length(direction))) return std::nullopt;
+    if (!(speed * length >= kLeastThickness * thinnest_piece_)) return std::nullopt;
+  }
+  const Vec3 point = lane_of(rays.origin, 0) + segments.start[0] * lane_of(rays.direction, 0);
+  return FacePlane{normal, glm::dot(normal, point)};
+}
+
+/// Whether the primitive or group reaches no further than that along the plane's normal.
+bool TileSimplifier::lies_behind(uint32_t index, const FacePlane& plane, double limit) const {
+  const Extent& e = groups_.extents()[index];
+  const Vec3 center{e.center[0], e.center[1], e.center[2]};
+  const double height = glm::dot(plane.normal, center - frame_.pivot) - plane.offset;
+  if (height > limit) return false;
+  const Vec3 half{e.half[0], e.half[1], e.half[2]};
+  if (height + glm::dot(glm::abs(plane.normal), half) <= limit) return true;
+  // A box tells little of what is turned against it.
+  if (groups_.is_group(index)) return false;
+  const Vec3 furthest = furthest_point(primitives_[index], plane.normal) - frame_.pivot;
+  return glm::dot(plane.normal, furthest) - plane.offset <= limit;
+}
+
+/// Whether the value is true wherever the literal's primitive holds.
+bool TileSimplifier::is_enough(const CellList& list, uint32_t index, Restrictor& restrictor) {
+  decisions_.assign(list.count(), Decision::kOpen);
+  decisions_[index] = Decision::kInside;
+  restrictor.restrict(list, decisions_, probe_);
+  return probe_.root == CellList::kTrue;
+}
+
+bool TileSimplifier::cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                                 CellList& result) {
+  if (last_value_ != true) return false;
+  const Box box = box_of(tile, centers_only_);
+  const double pixels = static_cast<double>(tile.width) * tile.height;
+  find_face_candidates(list, box,
+                       std::max(kSomeCandidates, static_cast<size_t>(kMostForAPixel * pixels)));
+  if (face_candidates_.empty()) return false;
+  RayPacket rays;
+  PacketSegments segments;
+  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
+  for (FaceCandidate& candidate : face_candidates_) {
+    intersect_four(frame_, rays, primitives_[candidate.primitive], segments);
+    const bool are_met = std::all_of(segments.start, segments.start + kCorners, [&](double start) {
+      return start > frame_.first_t && start < std::numeric_limits<double>::infinity();
+    });
+    candidate.entry_t =
+        are_met ? latest_of(segments.start) : std::numeric_limits<double>::infinity();
+  }
+  // The nearest; of those that begin together the last, which is the one that shows. The same
+  // plane is met at depths that differ by rounding.
+  const auto nearest = std::ranges::min_element(face_candidates_, {}, &FaceCandidate::entry_t);
+  if (std::isinf(nearest->entry_t)) return false;
+  const double together_t = nearest->entry_t + kCoplanar * thinnest_piece_;
+  FaceCandidate chosen = *nearest;
+  for (const FaceCandidate& candidate : face_candidates_) {
+    if (candidate.entry_t <= together_t && candidate.primitive > chosen.primitive) {
+      chosen = candidate;
+    }
+  }
+  intersect_four(frame_, rays, primitives_[chosen.primitive], segments);
+  const std::optional<FacePlane> plane = entered_plane(rays, chosen.primitive, segments);
+  if (!plane || !is_enough(list, chosen.index, restrictor)) return false;
+  const double in_plane = kCoplanar * thinnest_piece_;
+  const double behind = -kLeastDistance * thinnest_piece_;
+  dropped_.assign(list.count(), Decision::kOpen);
+  bool drops = false;
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const uint32_t index = list.primitive[i] & kPrimitiveBits;
+    if (index == chosen.primitive) continue;
+    // What comes earlier in the file would not be shown where it lies in the plane.
+    const double limit = index < chosen.primitive ? in_plane : behind;
+    if (!lies_behind(index, *plane, limit)) continue;
+    dropped_[i] = Decision::kOutside;
+    note(index, Fate::kHidden);
+    drops = true;
+  }
+  if (!drops) return false;
+  restrictor.restrict(list, dropped_, result);
+  const double entry_t = latest_of(segments.start);
+  cut_t_ = entry_t + slack_of({chosen.primitive, entry_t, latest_of(segments.end)});
+  return true;
+}
+
+}  // namespace csgcore

@@ -1,0 +1,107 @@
+#include "csgcore/tile_lists.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <stop_token>
+#include <tuple>
+#include <utility>
+
+#include "base/worker_threads.hpp"
+#include "tiles/tile_tracer.hpp"
+
+namespace csgcore {
+namespace {
+
+/// Of what hides others: at its ends a float is wrong about a part of it that grows as it gets
+/// shorter, by 2^-20 over this share squared.
+constexpr double kCoverShare = 1.0 / 64;
+
+/// What one thread has collected.
+struct Part {
+  std::vector<ListedTile> tiles;
+  std::vector<Literal> literals;
+};
+
+class ListVisitor final : public TileVisitor {
+ public:
+  ListVisitor(double base_s, uint32_t longest_list, std::stop_source stop)
+      : base_s_(base_s), longest_list_(longest_list), stop_(std::move(stop)) {}
+
+  void visit_empty(const Tile&) override {}
+
+  void visit(const Tile& tile, TileRays& rays) override {
+    const TileRays::Met met = rays.met();
+    if (met.list.is_constant()) return;
+    if (met.list.count() > longest_list_) {
+      stop_.request_stop();
+      return;
+    }
+    Part& part = parts_.local();
+    const auto first = static_cast<uint32_t>(part.literals.size());
+    append(part.literals, met.list);
+    part.tiles.push_back({tile, first, met.list.count(), base_s_ + met.cut_t});
+  }
+
+  void collect(TileLists& lists) const {
+    struct Entry {
+      const Part* part;
+      const ListedTile* tile;
+    };
+    std::vector<Entry> entries;
+    size_t literals = 0;
+    for (const Part& part : parts_) {
+      for (const ListedTile& tile : part.tiles) entries.push_back({&part, &tile});
+      literals += part.literals.size();
+    }
+    // Which thread took which tile is chance.
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return std::tie(a.tile->area.y, a.tile->area.x) < std::tie(b.tile->area.y, b.tile->area.x);
+    });
+    lists.tiles.reserve(entries.size());
+    lists.literals.reserve(literals);
+    for (const Entry& entry : entries) {
+      ListedTile tile = *entry.tile;
+      const auto from = entry.part->literals.begin() + tile.first_literal;
+      tile.first_literal = static_cast<uint32_t>(lists.literals.size());
+      lists.literals.insert(lists.literals.end(), from, from + tile.literal_count);
+      lists.tiles.push_back(tile);
+    }
+  }
+
+ private:
+  const double base_s_;
+  const uint32_t longest_list_;
+  std::stop_source stop_;
+  tbb::enumerable_thread_specific<Part> parts_;
+};
+
+}  // namespace
+
+bool list_tiles(const Solid& solid, const View& view, const TileListOptions& options,
+                TileLists& lists) {
+  lists.tiles.clear();
+  lists.literals.clear();
+  std::stop_source stop;
+  with_threads(options.threads, [&] {
+    const FrameRays rays = frame_rays(view, solid.bounds());
+    TraceSubject subject;
+    subject.thinnest_piece = options.thinnest_piece;
+    subject.boundary = options.boundary;
+    subject.stop = stop.get_token();
+    TileRules rules;
+    rules.centers_only = options.centers_only;
+    rules.tile_list = options.short_list;
+    rules.packet_list = options.longest_list;
+    rules.cover_share = kCoverShare;
+    rules.cuts_by_faces = false;
+    Fates fates;
+    TileTracer tracer(solid, rays, subject, rules, fates);
+    ListVisitor visitor(rays.base_s, options.longest_list, stop);
+    tracer.visit({0, 0, view.width_px, view.height_px}, visitor);
+    if (!stop.stop_requested()) visitor.collect(lists);
+  });
+  return !stop.stop_requested();
+}
+
+}  // namespace csgcore

@@ -1,0 +1,459 @@
+#include "tiles/tile_tracer.hpp"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "rays/packet_blocks.hpp"
+#include "screen/reached.hpp"
+#include "solid/restriction.hpp"
+
+namespace csgcore {
+namespace {
+
+/// Tiles of so few pixels a side are never divided.
+constexpr uint32_t kLeastSide_px = 2;
+
+/// Larger tiles are divided by two tasks.
+constexpr uint32_t kTaskPixels = 64 * 64;
+
+/// Lists longer than the first are simplified (TileSimplifier) at some sizes of tile, since it
+/// takes several passes over the list; lists longer than the second at every size.
+constexpr uint32_t kLongList = 24;
+constexpr uint32_t kVeryLongList = 4096;
+constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
+
+/// A group is opened where it is so large against the tile: smaller ones are mostly told apart from
+/// the tile as a whole. Later where smaller tiles may show that it is hidden.
+constexpr double kOpenShare = 1.0;
+constexpr double kOpenShareBehind = 4.0;
+
+/// Tiles of so many pixels a side are cut by faces, and lists of so many literals.
+constexpr uint32_t kFaceCutSide_px = 128;
+constexpr uint32_t kLeastFaceCut = 4;
+
+/// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
+constexpr uint32_t kLongCutList = 256;
+
+/// `is_new`: groups are in the list, or were until just now.
+bool is_simplified(const Tile& tile, const CellList& list, bool is_new, bool is_cut) {
+  if (list.count() <= (is_cut ? kLongCutList : kLongList) && !is_new) return false;
+  const uint32_t pixels = tile.width * tile.height;
+  // A division halves a tile, so that about one on the way down is of each size.
+  const bool is_time =
+      std::any_of(std::begin(kSimplifiedPixels), std::end(kSimplifiedPixels),
+                  [&](uint32_t size) { return pixels <= size && 2 * pixels > size; });
+  return is_time || is_new || list.count() > kVeryLongList;
+}
+
+}  // namespace
+
+void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink) {
+  RayPacket packet;
+  make_block_rays(frame, block, packet);
+  PacketHits hits;
+  const TraceList& list = rays.trace(packet, block, hits);
+  sink.store(block, packet, list, hits);
+}
+
+void TileList::assign(std::span<const CanonicalPrimitive> primitives, const ScreenBounds& bounds,
+                      const Tile& tile, const CellList& list) {
+  const std::span<const Extent> screen = bounds.extents();
+  const uint32_t count = list.count();
+  tile_ = tile;
+  nearest_.resize(count);
+  for (auto& reached : reached_) reached.resize(count);
+  double earliest = std::numeric_limits<double>::infinity();
+  for (uint32_t i = 0; i < count; ++i) {
+    const Extent& extent = screen[list.primitive[i] & kPrimitiveBits];
+    nearest_[i] = nearest_t(extent);
+    earliest = std::min(earliest, nearest_[i]);
+  }
+  find_reached(screen.data(), bounds.outlines(), list.primitives(), tile.x, tile.y,
+               reached_[0].data(), reached_[1].data());
+  trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
+}
+
+TraceList TileList::trace_list(const PacketBlock& block) const {
+  TraceList trace = trace_;
+  if (std::max(tile_.width, tile_.height) <= kTileSide_px) {
+    trace.reached = reached_[block.y > tile_.y ? 1 : 0].data();
+  }
+  return trace;
+}
+
+/// The lists of one level of the recursion, reused by all tiles of that level.
+struct TileTracer::Level {
+  CellList halves[2];
+  CellList in_front;
+  CellList simplified;
+  CellList opened[2];
+};
+
+/// What one task works with.
+struct TileTracer::Workspace {
+  explicit Workspace(TileTracer& owner)
+      : restrictor(owner.bounds_.extents(), owner.bounds_),
+        simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
+                   owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
+                   owner.subject_.thinnest_piece, owner.fates_) {}
+  Level& level(size_t index) {
+    while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
+    return *levels[index];
+  }
+
+  Restrictor restrictor;
+  TileSimplifier simplifier;
+  PacketWorkspace packets;
+  std::vector<std::unique_ptr<Level>> levels;
+  TileList list, uncut_list;
+  CellList uncut, uncut_opened[2];
+  std::vector<uint8_t> marked;  // groups, by index in a list
+  uint64_t tiles = 0;
+};
+
+/// A workspace, taken for as long as this lives.
+class TileTracer::Lease {
+ public:
+  explicit Lease(TileTracer& owner) : owner_(owner) {
+    const std::lock_guard lock(owner.mutex_);
+    if (owner.free_workspaces_.empty()) {
+      owner.workspaces_.push_back(std::make_unique<Workspace>(owner));
+      owner.free_workspaces_.push_back(owner.workspaces_.back().get());
+    }
+    workspace_ = owner.free_workspaces_.back();
+    owner.free_workspaces_.pop_back();
+  }
+  ~Lease() {
+    const std::lock_guard lock(owner_.mutex_);
+    owner_.free_workspaces_.push_back(workspace_);
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  Workspace& operator*() const { return *workspace_; }
+
+ private:
+  TileTracer& owner_;
+  Workspace* workspace_;
+};
+
+namespace {
+
+/// Whether any of the list is a group.
+bool has_groups(const OperandGroups& groups, const CellList& list) {
+  return std::ranges::any_of(list.primitives(), [&groups](uint32_t entry) {
+    return groups.is_group(entry & kPrimitiveBits);
+  });
+}
+
+/// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
+std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
+                                    const FrameRays& frame, const TraceSubject& subject) {
+  if (groups.list().is_constant()) return std::nullopt;
+  if (frame.view.projection == Projection::kOrthographic) return true;
+  // Rays start up to a few tolerances from the eye: further in the picture's corners.
+  constexpr double kEyeTolerances = 64;
+  const Vec3 reach{kEyeTolerances * subject.thinnest_piece};
+  const Box& bounds = solid.bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double eye = frame.view.eye[axis];
+    if (eye + reach[axis] < bounds.min[axis] || eye - reach[axis] > bounds.max[axis]) return true;
+  }
+  const WorldClassifier classifier(solid.primitives());
+  Restrictor restrictor(groups.extents(), classifier);
+  const Box cell{frame.view.eye - reach, frame.view.eye + reach};
+  CellList at_eye, closed;
+  std::vector<uint8_t> marked;
+  restrictor.restrict(groups.list(), cell, at_eye);
+  while (has_groups(groups, at_eye)) {
+    marked.clear();
+    for (const uint32_t entry : at_eye.primitives()) {
+      marked.push_back(groups.is_group(entry & kPrimitiveBits));
+    }
+    std::swap(at_eye, closed);
+    restrictor.open(closed, groups, marked, cell, at_eye);
+  }
+  if (!at_eye.is_constant()) return std::nullopt;
+  return at_eye.root == CellList::kFalse;
+}
+
+}  // namespace
+
+TileTracer::Seen TileTracer::find_seen(const Solid& solid, const FrameRays& frame,
+                                       const TraceSubject& subject) {
+  const OperandGroups& outer = solid.outer_groups();
+  if (subject.boundary == Boundary::kBehind) return {solid.groups(), std::nullopt};
+  const std::optional<bool> last_value = find_last_value(solid, outer, frame, subject);
+  if (&outer == &solid.groups() || last_value == true) return {outer, last_value};
+  return {solid.groups(), find_last_value(solid, solid.groups(), frame, subject)};
+}
+
+TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
+                       const TileRules& rules, Fates& fates)
+    : TileTracer(solid, find_seen(solid, frame, subject), frame, subject, rules, fates) {}
+
+TileTracer::TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
+                       const TraceSubject& subject, const TileRules& rules, Fates& fates)
+    : solid_(solid),
+      groups_(seen.groups),
+      frame_(frame),
+      subject_(subject),
+      rules_(rules),
+      fates_(fates),
+      last_value_(seen.last_value),
+      bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
+
+TileTracer::~TileTracer() = default;
+
+Box TileTracer::box_of(const Tile& tile) const {
+  return csgcore::box_of(tile, rules_.centers_only);
+}
+
+void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
+  if (groups_.list().is_constant()) {
+    visitor.visit_empty(area);
+    return;
+  }
+  const Lease workspace(*this);
+  CellList& list = (*workspace).level(0).halves[0];
+  (*workspace).restrictor.restrict(groups_.list(), box_of(area), list);
+  divide(area, list, {}, 1, *workspace, visitor);
+}
+
+/// Recursion halves the tile each time.
+void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t level,
+                        Workspace& workspace, TileVisitor& visitor) {
+  if (subject_.stop.stop_requested() || !visitor.wants(tile)) return;
+  const CellList* list = &given;
+  Level& own = workspace.level(level);
+  const uint32_t side = std::max(tile.width, tile.height);
+  const bool is_packet = tile.width <= kPacketWidth_px && tile.height <= kPacketHeight_px;
+  const auto is_short = [&] {
+    return side <= kLeastSide_px || (is_packet && list->count() <= rules_.packet_list) ||
+           (side <= kTileSide_px && list->count() <= rules_.tile_list);
+  };
+  const auto simplify_list = [&](bool is_new) {
+    bool cuts = false;
+    list = simplify(tile, list, is_new, cut.uncut != nullptr, own, workspace, cuts);
+    if (!cuts) return;
+    if (!cut.uncut) cut.uncut = &given;
+    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+  };
+  if (rules_.cuts_by_faces && side <= kFaceCutSide_px && list->count() >= kLeastFaceCut &&
+      workspace.simplifier.cut_by_face(tile, *list, workspace.restrictor, own.in_front)) {
+    if (!cut.uncut) cut.uncut = &given;
+    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+    list = &own.in_front;
+  }
+  // Groups that are left of a list that was cut are mostly seen.
+  simplify_list(!cut.uncut && has_groups(groups_, *list));
+  const CellList* const closed = list;
+  const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
+  const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
+  list = open_large_groups(tile, list, share, own.opened, workspace);
+  if (list != closed) simplify_list(!cut.uncut);
+  if (list->is_constant() && !cut.uncut) {
+    visitor.visit_empty(tile);
+    return;
+  }
+  if (is_short()) list = open_large_groups(tile, list, 0.0, own.opened, workspace);
+  if (is_short()) {
+    visit_leaf(tile, *list, cut, workspace, visitor);
+    return;
+  }
+  Tile below = tile, above = tile;
+  const bool across = tile.width > std::max(tile.height, is_packet ? 0 : kPacketWidth_px);
+  const uint32_t unit = side > kTileSide_px ? kTileSide_px
+                        : is_packet         ? kLeastSide_px
+                                            : kPacketHeight_px;
+  const auto half = [unit](uint32_t size) { return (size / 2 + unit - 1) / unit * unit; };
+  if (across) {
+    below.width = half(tile.width);
+    above.x += below.width;
+    above.width -= below.width;
+  } else {
+    below.height = half(tile.height);
+    above.y += below.height;
+    above.height -= below.height;
+  }
+  const Halves halves{box_of(below), box_of(above), across ? 0u : 1u};
+  if (list->is_constant()) {
+    own.halves[0].finish(list->root);
+    own.halves[1].finish(list->root);
+  } else {
+    workspace.restrictor.restrict(*list, halves, own.halves[0], own.halves[1]);
+  }
+  if (tile.width * tile.height > kTaskPixels) {
+    const auto task = [&](const Tile& part, const CellList& part_list) {
+      const Lease lease(*this);
+      divide(part, part_list, cut, 0, *lease, visitor);
+    };
+    tbb::parallel_invoke([&] { task(below, own.halves[0]); }, [&] { task(above, own.halves[1]); });
+    return;
+  }
+  divide(below, own.halves[0], cut, level + 1, workspace, visitor);
+  divide(above, own.halves[1], cut, level + 1, workspace, visitor);
+}
+
+/// The list without what decides nothing in the tile, if it is time to look for that. `cuts` is set
+/// where what is hidden was dropped.
+const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, bool is_new,
+                                     bool is_cut, Level& level, Workspace& workspace, bool& cuts) {
+  while (is_simplified(tile, *list, is_new, is_cut)) {
+    switch (workspace.simplifier.simplify(tile, *list, workspace.restrictor, level.simplified)) {
+      case TileSimplifier::Outcome::kNothing:
+        return list;
+      case TileSimplifier::Outcome::kCut:
+        cuts = true;
+        return &level.simplified;
+      case TileSimplifier::Outcome::kSimplified:
+        return &level.simplified;
+      case TileSimplifier::Outcome::kOpenGroups:
+        list = &open_groups(tile, *list, workspace.simplifier.marked(), level.opened, workspace);
+    }
+  }
+  return list;
+}
+
+/// The list with the groups opened whose indices in the list are marked.
+const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
+                                        std::span<const uint8_t> marked, CellList (&buffers)[2],
+                                        Workspace& workspace) {
+  CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
+  workspace.restrictor.open(list, groups_, marked, box_of(tile), result);
+  return result;
+}
+
+/// The list with all groups opened that are as wide or as high as `share` of the tile, in one of
+/// the buffers; the list itself if there are none. Of what they hold, what meets the tile is left.
+const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
+                                              CellList (&buffers)[2], Workspace& workspace) {
+  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
+  const std::span<const Extent> screen = bounds_.extents();
+  std::vector<uint8_t>& marked = workspace.marked;
+  const auto is_opened = [&](uint32_t entry) {
+    const uint32_t index = entry & kPrimitiveBits;
+    const Extent& e = screen[index];
+    return groups_.is_group(index) && (e.half[0] >= least[0] || e.half[1] >= least[1]);
+  };
+  for (;;) {
+    const std::span<const uint32_t> entries = list->primitives();
+    const auto first = std::find_if(entries.begin(), entries.end(), is_opened);
+    if (first == entries.end()) return list;
+    marked.assign(entries.size(), 0);
+    std::transform(first, entries.end(), marked.begin() + (first - entries.begin()), is_opened);
+    list = &open_groups(tile, *list, marked, buffers, workspace);
+  }
+}
+
+class TileTracer::LeafRays final : public TileRays {
+ public:
+  LeafRays(TileTracer& owner, const Tile& tile, const CellList& list, const Cut& cut,
+           Workspace& workspace)
+      : owner_(owner), tile_(tile), cut_(cut), workspace_(workspace) {
+    workspace.list.assign(owner.solid_.primitives(), owner.bounds_, tile, list);
+  }
+
+  Met met() override {
+    const CellList& list = *workspace_.list.trace_list().list;
+    if (!cut_.uncut || !list.is_constant()) return {list, cut_.t};
+    assign_uncut();
+    return {*workspace_.uncut_list.trace_list().list, Cut{}.t};
+  }
+
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
+    return trace(rays, lanes, workspace_.list.trace_list(), hits);
+  }
+
+  const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
+                         PacketHits& hits) override {
+    return trace(rays, block.lanes, workspace_.list.trace_list(block), hits);
+  }
+
+ private:
+  /// The rays that were to end before what the list has lost, and have not.
+  LaneMask lanes_that_go_on(const PacketHits& hits) const {
+    LaneMask lost = ~hits.hits;
+    for (LaneMask left = hits.hits; left != 0; left &= left - 1) {
+      if (hits.t[std::countr_zero(left)] > cut_.t) lost |= left & -left;
+    }
+    return lost;
+  }
+
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
+                         PacketHits& hits) {
+    const uint64_t resolved = workspace_.packets.resolved_rays;
+    trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
+    // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
+    // beyond a piece too thin to exist, what lies behind counts.
+    // Such pieces are the resolver's alone: other rays show where the solid's value changes first.
+    const bool is_certain =
+        (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
+    if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
+      return workspace_.list.trace_list();
+    }
+    workspace_.packets.was_computed.clear();
+    if (!has_uncut_) assign_uncut();
+    const TraceList& uncut = workspace_.uncut_list.trace_list();
+    if (uncut.list->is_constant()) return workspace_.list.trace_list();
+    trace_packet(owner_.frame_, rays, lanes, uncut, owner_.subject_, workspace_.packets, hits);
+    return uncut;
+  }
+
+  void assign_uncut() {
+    has_uncut_ = true;
+    CellList& restricted = workspace_.uncut;
+    workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
+    const CellList* list =
+        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
+    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
+  }
+
+  TileTracer& owner_;
+  const Tile& tile_;
+  const Cut cut_;
+  bool has_uncut_ = false;
+  Workspace& workspace_;
+};
+
+void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const Cut& cut,
+                            Workspace& workspace, TileVisitor& visitor) {
+  ++workspace.tiles;
+  workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
+  LeafRays rays(*this, tile, list, cut, workspace);
+  visitor.visit(tile, rays);
+  if (!fates_.wanted()) return;
+  const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;
+  for (uint32_t i = 0; i < list.count(); ++i) {
+    const bool intersected = was_computed.empty() || was_computed[i];
+    fates_.note(list.primitive[i] & kPrimitiveBits,
+                intersected ? Fate::kIntersected : Fate::kHidden);
+  }
+}
+
+TileTracer::Counts TileTracer::counts() const {
+  Counts sum;
+  for (const auto& workspace : workspaces_) {
+    sum.tiles += workspace->tiles;
+    sum.rays += workspace->packets.rays;
+    sum.intersections += workspace->packets.intersections;
+    sum.resolved_rays += workspace->packets.resolved_rays;
+  }
+  return sum;
+}
+
+void TileTracer::note_screen_fates() {
+  for (const uint32_t primitive : groups_.hidden().inside) {
+    fates_.note(primitive, Fate::kInside);
+  }
+  bounds_.bound_all();
+  for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
+    const ScreenFate fate = fate_on_screen(bounds_.extents()[primitive]);
+    if (fate == ScreenFate::kOffScreen) fates_.note(primitive, Fate::kOffScreen);
+    if (fate == ScreenFate::kSubPixel) fates_.note(primitive, Fate::kSubPixel);
+  }
+}
+
+}  // namespace csgcore
