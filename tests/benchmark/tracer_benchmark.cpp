@@ -12,7 +12,7 @@
 
 #include "frame.hpp"
 #include "named_design.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 namespace {
 

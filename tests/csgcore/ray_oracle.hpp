@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "csgcore/primitive.hpp"
-#include "packet.hpp"
+#include "packets/packet.hpp"
 
 namespace csgcore::checks {
 

@@ -1,7 +1,7 @@
 // Every instruction set of this machine, one after the other.
 #pragma once
 
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 namespace csgcore::checks {
 

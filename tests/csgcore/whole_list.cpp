@@ -4,8 +4,8 @@
 #include <cstring>
 #include <limits>
 
-#include "hit_sink.hpp"
-#include "packet_blocks.hpp"
+#include "packets/hit_sink.hpp"
+#include "rays/packet_blocks.hpp"
 
 namespace csgcore::checks {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "csgcore/tracer.hpp"
-#include "packet.hpp"
+#include "packets/packet.hpp"
 
 namespace csgcore::checks {
 

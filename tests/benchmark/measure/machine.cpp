@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "process.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 namespace measure {
 namespace {

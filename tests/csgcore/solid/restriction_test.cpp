@@ -1,4 +1,4 @@
-#include "restriction.hpp"
+#include "solid/restriction.hpp"
 
 #include <gtest/gtest.h>
 

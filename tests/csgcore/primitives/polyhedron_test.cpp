@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "checks.hpp"
-#include "packet.hpp"
+#include "packets/packet.hpp"
 
 namespace csgcore {
 namespace {

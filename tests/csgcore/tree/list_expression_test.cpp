@@ -1,12 +1,12 @@
 // Lists are read as the expressions that they were compiled from.
-#include "list_expression.hpp"
+#include "tree/list_expression.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "restriction.hpp"
+#include "solid/restriction.hpp"
 #include "support/models.hpp"
 
 namespace csgcore {

@@ -1,4 +1,4 @@
-#include "operand_groups.hpp"
+#include "solid/operand_groups.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <set>
 
 #include "checks.hpp"
-#include "extent_tests.hpp"
 #include "made.hpp"
-#include "restriction.hpp"
-#include "screen_bounds.hpp"
-#include "screen_extents.hpp"
+#include "screen/screen_bounds.hpp"
+#include "screen/screen_extents.hpp"
 #include "simd_levels.hpp"
+#include "solid/extent_tests.hpp"
+#include "solid/restriction.hpp"
 #include "support/models.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"

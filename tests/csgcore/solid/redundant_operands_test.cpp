@@ -1,6 +1,6 @@
 // Operands that are there twice, or lie within others, are left out; nothing of the picture
 // changes.
-#include "redundant_operands.hpp"
+#include "solid/redundant_operands.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What tells the tiles of a picture which primitives their rays can meet: never too little.
+// Where primitives lie on the screen: never too little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "packet_blocks.hpp"
-#include "screen_outline.hpp"
+#include "rays/packet_blocks.hpp"
+#include "screen/screen_outline.hpp"
 #include "simd_levels.hpp"
 #include "support/models.hpp"
-#include "tile_list.hpp"
+#include "tiles/tile_list.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
 
@@ -377,180 +377,6 @@ TEST(ScreenExtents, RectanglesMeetATileOrNot) {
 }
 
 // --- Lists made smaller ---
-
-/// A list for a tile of a picture, as a TileTracer makes it.
-class Simplifying {
- public:
-  Simplifying(const Scene& scene, const View& view, std::optional<bool> last_value)
-      : solid_(canonical_primitives(scene), scene.model),
-        whole_(solid_, view),
-        bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
-        restrictor_(bounds_.extents(), bounds_),
-        simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
-                    0.0, thinnest_piece(solid_.bounds()), fates_) {
-    bounds_.bound_all();
-  }
-
-  struct Outcome {
-    uint32_t before = 0, after = 0;  // literals
-    uint64_t hits = 0;
-  };
-  /// Fails if rays through the tile's pixels see different things by the two lists.
-  Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
-    CellList list, simplified;
-    Outcome outcome;
-    if (!restrict_to(tile, list)) return outcome;
-    outcome.before = list.count();
-    const auto simplicity = simplifier_.simplify(tile, list, restrictor_, simplified);
-    if (simplicity == TileSimplifier::Outcome::kNothing) return outcome;
-    const bool cuts = simplicity == TileSimplifier::Outcome::kCut;
-    outcome.after = simplified.count();
-    EXPECT_LT(outcome.after, outcome.before);
-    for_each_block(tile, [&](const PacketBlock& block) {
-      RayPacket rays;
-      make_block_rays(whole_.frame(), block, rays);
-      const PacketHits by_all = trace(list, rays, block.lanes, boundary);
-      const PacketHits by_few = trace(simplified, rays, block.lanes, boundary);
-      // What lies behind a cut counts only where nothing before it does.
-      const LaneMask lanes = cuts ? by_few.hits : block.lanes;
-      EXPECT_EQ(by_all.hits & lanes, by_few.hits & lanes);
-      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-        if (!(by_few.hits >> lane & 1)) continue;
-        ++outcome.hits;
-        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
-        EXPECT_EQ(simplified.primitive[by_few.index[lane]], list.primitive[by_all.index[lane]]);
-      }
-    });
-    return outcome;
-  }
-
- private:
-  /// False if it is constant.
-  bool restrict_to(const Tile& tile, CellList& list) {
-    restrictor_.restrict(*solid_.cell_list(), box_of(tile, true), list);
-    return !list.is_constant();
-  }
-
-  PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
-    PacketHits hits;
-    if (list.is_constant()) return hits;
-    const std::vector<double> nearest(list.count(), -std::numeric_limits<double>::max());
-    TraceList trace_list = whole_.list();
-    trace_list.list = &list;
-    trace_list.nearest_t = nearest.data();
-    const TraceSubject subject{thinnest_piece(solid_.bounds()), boundary};
-    trace_packet(whole_.frame(), rays, lanes, trace_list, subject, workspace_, hits);
-    return hits;
-  }
-
-  const Solid solid_;
-  checks::WholeList whole_;
-  ScreenBounds bounds_;
-  Restrictor restrictor_;
-  Fates fates_;
-  TileSimplifier simplifier_;
-  PacketWorkspace workspace_;
-};
-
-class Simplifier : public testing::TestWithParam<Boundary> {};
-
-TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
-  const Boundary boundary = GetParam();
-  // Where rays go on, nothing is hidden behind what they meet first.
-  const auto last_value =
-      boundary == Boundary::kFirst ? std::optional<bool>(true) : std::optional<bool>();
-  uint64_t dropped = 0, hits = 0;
-  constexpr uint32_t kSide_px = 96, kTile_px = 16;
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const Scene scene = checks::crowd(seed);
-    const Box bounds{Vec3(-6.0), Vec3(6.0)};
-    for (const auto& [name, view] : checks::trace_views(bounds, kSide_px, kSide_px)) {
-      if (name == "FromWithin") continue;
-      SCOPED_TRACE(name);
-      Simplifying simplifying(scene, view, last_value);
-      for (uint32_t y = 0; y < kSide_px; y += kTile_px) {
-        for (uint32_t x = 0; x < kSide_px; x += kTile_px) {
-          const auto outcome = simplifying.expect_same_hits({x, y, kTile_px, kTile_px}, boundary);
-          if (outcome.hits > 0) dropped += outcome.before - outcome.after;
-          hits += outcome.hits;
-        }
-      }
-    }
-  }
-  EXPECT_GT(dropped, 200u);
-  EXPECT_GT(hits, 10000u);
-}
-
-/// The rims of walls too thin to exist, which rays nevertheless are within for long enough to be
-/// found to end there; behind them many needles that they meet end on, before them some more, and
-/// at last a ball.
-TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
-  // Below the thinnest piece of such a scene, 1e-9 of its size; and what some tens of pixels are
-  // small against, so that all their rays leave a wall at about one depth.
-  constexpr double kThickness = 2e-8;
-  constexpr double kPixel = 1e-10;
-  const Mat3 lying{Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)};
-  uint64_t behind = 0;
-  for (uint32_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
-    const bool is_one_tile = seed % 2 == 0;
-    const double half_px = is_one_tile ? 4 : uniform(random, 4, 40);
-    std::vector<Primitive> primitives;
-    // In the order of a quadtree: they lie too close to each other for their groups to find one.
-    const auto add_needles = [&](double low_x, const glm::dvec2& center_px, double reach_px,
-                                 int bits) {
-      for (uint32_t i = 0; i < 1u << 2 * bits; ++i) {
-        glm::dvec2 at(uniform(random, 0, 1), uniform(random, 0, 1));
-        for (int bit = 0; bit < bits; ++bit) {
-          at += double(1 << bit) * glm::dvec2(i >> (2 * bit) & 1, i >> (2 * bit + 1) & 1);
-        }
-        at = kPixel * (center_px + reach_px * (at * std::ldexp(2.0, -bits) - 1.0));
-        const double radius = uniform(random, 0.3, 1.2) * kPixel;
-        primitives.push_back(make_frustum(low_x, low_x + 1, radius, radius, {lying, {0, at}}));
-      }
-    };
-    const auto in_picture_px = [&] {
-      return glm::dvec2(uniform(random, -half_px, half_px), uniform(random, -half_px, half_px));
-    };
-    for (int wall = 0; wall < 2; ++wall) {
-      const double tilt = std::pow(10, uniform(random, -2.5, -1.5));
-      const double cosine = std::sqrt(1 - tilt * tilt), angle = uniform(random, 0, 7);
-      const Vec3 inward(0, std::cos(angle), std::sin(angle));
-      const Vec3 along(0, -std::sin(angle), std::cos(angle));
-      const Mat3 turned{0.1 * (Vec3(cosine, 0, 0) + tilt * along), inward,
-                        Vec3(-tilt, 0, 0) + cosine * along};
-      const double rim = uniform(random, -half_px, half_px) * kPixel;
-      primitives.push_back(
-          make_frustum(0, kThickness, 5, 5, {turned, Vec3(2.0 * wall, 0, 0) + (5 + rim) * inward}));
-    }
-    if (!is_one_tile) {
-      primitives.push_back(make_sphere(1000 * kPixel, {Mat3(1.0), {20, 0, 0}}));
-    }
-    // Beside the picture, so that the size is more than 21 in any case.
-    primitives.push_back(make_sphere(1, {Mat3(1.0), {20, 6, 0}}));
-    add_needles(6, {0, 0}, 1.05 * half_px, 5);
-    add_needles(6, in_picture_px(), 0.5 * half_px, 4);
-    add_needles(-4, in_picture_px(), 0.5 * half_px, 3);
-    const Scene scene = test_support::scene_of(Op::kUnion, std::move(primitives));
-    const Solid solid(canonical_primitives(scene), scene.model);
-    ASSERT_GT(solid.groups().count(), solid.groups().first_group());
-    View view = checks::view_of({Vec3(0.0), Vec3(0.0)}, {1, 0, 0}, 9);
-    view.projection = Projection::kOrthographic;
-    view.width_px = view.height_px = static_cast<uint32_t>(2 * half_px);
-    view.half_height = half_px * kPixel;
-    const Hits expected = checks::WholeList(solid, view).picture();
-    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view), expected));
-    EXPECT_EQ(std::ranges::count_if(expected.primitive, [](uint32_t p) { return p < 2; }), 0);
-    behind += std::ranges::count(expected.primitive, 2u);
-  }
-  EXPECT_GT(behind, 1000u);
-}
-
-INSTANTIATE_TEST_SUITE_P(Tiles, Simplifier, testing::Values(Boundary::kFirst, Boundary::kBehind),
-                         [](const auto& boundary) {
-                           return boundary.param == Boundary::kFirst ? "First" : "Behind";
-                         });
 
 }  // namespace
 }  // namespace csgcore

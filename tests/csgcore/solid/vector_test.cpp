@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "checks.hpp"
-#include "extent_tests.hpp"
 #include "simd_levels.hpp"
+#include "solid/extent_tests.hpp"
 
 namespace csgcore {
 namespace {

@@ -1,6 +1,6 @@
 // What is left out of a solid's outer groups is seen from nowhere outside, and where it can be
 // seen, it is.
-#include "hidden_operands.hpp"
+#include "solid/hidden_operands.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/subdivision.hpp"
 #include "made.hpp"
-#include "operand_groups.hpp"
+#include "solid/operand_groups.hpp"
 #include "support/full_run.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"

@@ -8,7 +8,7 @@
 
 #include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
-#include "edge_samples.hpp"
+#include "frame/edge_samples.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
 

@@ -1,5 +1,5 @@
 // The rays of packets and their crossings with primitives, against extended precision.
-#include "packet.hpp"
+#include "packets/packet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "screen_outline.hpp"
+#include "screen/screen_outline.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
 #include "support/full_run.hpp"
