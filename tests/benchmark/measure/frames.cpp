@@ -35,7 +35,7 @@ using nlohmann::json;
 constexpr const char* kDesign = "cs1000";
 constexpr double kTurn_deg = 1;
 constexpr size_t kFrames = 60;
-/// Of Embree's frame: the bar of README.
+/// Share of Embree's frame that scadray's may take: the bar that the report names.
 constexpr double kMostOfEmbree = 0.5;
 
 /// OpenSCAD's default colours.
