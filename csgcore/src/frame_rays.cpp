@@ -39,7 +39,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
                              const Box& solid_bounds) {
   ShadeSettings shade;
   shade.shading = settings.shading;
-  // The light of openscad.md §4, (−1, 1, 1)/√3 in eye space.
+  // OpenSCAD's light, (−1, 1, 1)/√3 in eye space.
   shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
   shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
   shade.front = 255.0 * Vec3(settings.front);

@@ -499,7 +499,7 @@ RangeSplit split_range(const RayPacket& rays, const PacketInverses& inverses, in
   return result;
 }
 
-/// 0.2 + |n · light| (openscad.md §4).
+/// OpenSCAD's light: 0.2 + |n · light| (frontend/OPENSCAD.md, "Light and colours").
 HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits& hits, int chunk) {
   const Wide d;
   constexpr double kAmbient = 0.2;

@@ -196,7 +196,7 @@ class CellsPicture {
     if (frame_.shading == csgcore::Shading::kPhong) {
       return csgcore::phong_color(color, position, normal, direction, light_);
     }
-    // openscad.md §4
+    // OpenSCAD's light (frontend/OPENSCAD.md, "Light and colours").
     const Vec3 in_eye_space(glm::dot(normal, view_.right), glm::dot(normal, view_.up),
                             -glm::dot(normal, view_.forward));
     return color * (0.2 + std::abs(glm::dot(in_eye_space, Vec3(-1, 1, 1))) / std::sqrt(3.0));

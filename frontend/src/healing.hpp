@@ -1,4 +1,4 @@
-// Making one again what the file's rounding has put apart (design.md §3; frontend/HEALING.md).
+// Making one again what the file's rounding has put apart (frontend/HEALING.md).
 #pragma once
 
 #include <cstdint>

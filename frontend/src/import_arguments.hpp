@@ -1,4 +1,4 @@
-// Arguments of the nodes that make geometry, as OpenSCAD binds them (openscad.md §1, §2). An
+// Arguments of the nodes that make geometry, as OpenSCAD binds them (frontend/OPENSCAD.md). An
 // argument of the wrong type counts as missing, as in OpenSCAD, and is noted among the problems.
 #pragma once
 
@@ -29,9 +29,9 @@ csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 
 /// Polyhedron node: its faces should run clockwise seen from outside (csgcore::polyhedron_mesh).
 /// `faces` goes before `triangles`, its older name. A point without a z lies at 0. As in OpenSCAD
-/// 2021.01 (geometry.md §8), an index beyond the points is left out, one that is no number is 0,
-/// and a point that is none ends the faces where the first of them has it: what follows is lost.
-/// All points that the faces have are finite.
+/// 2021.01 (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is
+/// no number is 0, and a point that is none ends the faces where the first of them has it: what
+/// follows is lost. All points that the faces have are finite.
 struct PolyhedronArguments {
   std::vector<csgcore::Vec3> points;
   std::vector<std::vector<uint32_t>> faces;
@@ -47,7 +47,7 @@ struct FileMatrix {
 /// Rows and entries that are missing are the identity's.
 FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
 
-/// The colour that a color node sets; none if it is invalid (openscad.md §1: -1,-1,-1,±1), which
+/// The colour that a color node sets; none if it is invalid (in a .csg: -1,-1,-1,±1), which
 /// for a name that is no colour is a problem. Channels above 1 count as 1.
 std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNode& node,
                                          NodeProblems& problems);

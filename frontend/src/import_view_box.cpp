@@ -30,7 +30,7 @@ Box unit_polygon_box(int fragments) {
   return box;
 }
 
-/// The box of the unit sphere's rings (openscad.md §3), from the polygon's.
+/// The box of the unit sphere's rings (frontend/OPENSCAD.md, "Facets"), from the polygon's.
 Box unit_sphere_box(int fragments, const Box& polygon) {
   const double rings = csgcore::ring_count(fragments);
   const double nearest_equator = std::floor(rings / 2) + 0.5;

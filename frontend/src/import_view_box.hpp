@@ -1,4 +1,4 @@
-// What OpenSCAD's --viewall looks at (openscad.md §3, §4).
+// What OpenSCAD's --viewall looks at (frontend/OPENSCAD.md, "Camera").
 #pragma once
 
 #include <span>

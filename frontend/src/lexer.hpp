@@ -1,5 +1,5 @@
-// The text of a .csg as a cursor over its tokens (openscad.md §1). In a header of the parser's own,
-// so that the parser's loops inline it: it sees every byte of a file.
+// The text of a .csg as a cursor over its tokens (frontend/OPENSCAD.md, "The .csg file"). In a
+// header of the parser's own, so that the parser's loops inline it: it sees every byte of a file.
 #pragma once
 
 #include <algorithm>
@@ -55,8 +55,9 @@ class Lexer {
   /// What stands between the quotes at the cursor, escapes as written; past the closing quote.
   std::string_view quoted_string();
   /// Takes `text`'s argument as OpenSCAD writes it: `kTextStart`, anything, `kTextEnd`; whatever
-  /// quotes and line breaks stand between (openscad.md §1) go into `text`, and the cursor before
-  /// the comma. False, and nothing taken, where a person wrote a string that ends as others do.
+  /// quotes and line breaks stand between (OpenSCAD escapes neither) go into `text`, and the cursor
+  /// before the comma. False, and nothing taken, where a person wrote a string that ends as others
+  /// do.
   bool raw_text(std::string_view& text);
 
   [[noreturn]] void fail(const char* at, const std::string& what, const std::string& todo) const;

@@ -1,5 +1,5 @@
-// What the modifiers % # ! * do to each node of a file (openscad.md §2; OpenSCAD 2021.01's
-// preview).
+// What the modifiers % # ! * do to each node of a file (frontend/OPENSCAD.md, "What nodes
+// mean"; OpenSCAD 2021.01's preview).
 #pragma once
 
 #include <cstdint>

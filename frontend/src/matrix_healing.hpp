@@ -1,4 +1,4 @@
-// Undoing the rounding to 6 digits of a multmatrix (design.md §3; frontend/HEALING.md).
+// Undoing the rounding to 6 digits of a multmatrix (frontend/HEALING.md).
 #pragma once
 
 #include "csgcore/geometry.hpp"

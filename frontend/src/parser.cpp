@@ -13,8 +13,8 @@ namespace {
 
 constexpr NameTable kNodeTable(kNodeNames);
 
-/// Every argument name that OpenSCAD writes or that a primitive takes (openscad.md §1): these need
-/// no storage in the tree.
+/// Every argument name that OpenSCAD writes or that a primitive takes: these need no storage in
+/// the tree.
 constexpr NameTable kArgumentTable(std::to_array<std::string_view>({
     "$fn",       "$fa",       "$fs",      "$fe",    "r",        "r1",      "r2",     "d",
     "d1",        "d2",        "h",        "center", "size",     "points",  "faces",  "triangles",

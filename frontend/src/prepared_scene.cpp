@@ -54,7 +54,7 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   for (const auto& layer : layers_) {
     frame.front = frame.back = layer_color(layer->kind);
     const SolidRenderer::Sides sides = renderer.draw_sides(layer->solid, frame, request);
-    // openscad.md §4: of a translucent body the back faces first.
+    // As in OpenSCAD: of a translucent body the back faces first.
     blend_layer(sides.behind, layer->opacity, scene_box_.diagonal(), image);
     blend_layer(sides.front, layer->opacity, scene_box_.diagonal(), image);
   }

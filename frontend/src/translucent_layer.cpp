@@ -9,7 +9,7 @@ struct LayerColor {
   uint8_t r, g, b, a;
 };
 
-/// openscad.md §4.
+/// OpenSCAD's colours of `%` and `#` parts.
 constexpr LayerColor kBackgroundColor{180, 180, 180, 128};
 constexpr LayerColor kHighlightColor{255, 81, 81, 128};
 

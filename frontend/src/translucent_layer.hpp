@@ -1,4 +1,4 @@
-// The translucent `%` and `#` parts over a picture (openscad.md §2, §4).
+// The translucent `%` and `#` parts over a picture (frontend/OPENSCAD.md, "Light and colours").
 #pragma once
 
 #include <memory>

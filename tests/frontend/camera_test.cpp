@@ -1,4 +1,4 @@
-// The camera's numbers (openscad.md §4).
+// The camera's numbers (frontend/OPENSCAD.md, "Camera").
 #include "frontend/camera.hpp"
 
 #include <gmock/gmock.h>

@@ -600,7 +600,7 @@ TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
   }
 }
 
-/// geometry.md §8: what OpenSCAD 2021.01 makes of them.
+/// What OpenSCAD 2021.01 makes of them (frontend/OPENSCAD.md, "Polyhedra").
 TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
   const auto expect_whole = [](const std::string& faces, const std::string& warning) {
     const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";

@@ -1,5 +1,5 @@
 // The primitives: convex solids, each the image of a simple local solid under an affine map
-// (paper §3.2; design.md §3: "A primitive is convex and closed under affine maps").
+// (paper §3.2). Every affine image of a primitive is a primitive, too.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +44,8 @@ Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top
 Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
                           const Affine& local_to_world = {});
 
-/// False for what is the empty set by openscad.md §2 (a size that is ≤ 0, infinite or nan; a matrix
-/// that is not finite), and for a singular matrix, which flattens the solid to nothing.
+/// False for what is the empty set in OpenSCAD (a size that is ≤ 0, infinite or nan; a matrix that
+/// is not finite), and for a singular matrix, which flattens the solid to nothing.
 bool is_valid(const Primitive& primitive);
 /// is_valid(), whatever local_to_world is.
 bool has_valid_shape(const Primitive& primitive);

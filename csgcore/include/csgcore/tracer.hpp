@@ -90,7 +90,7 @@ struct Hits {
 Hits hits_of(const Image& image, const Scene& scene);
 
 /// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
-/// along the normal, in world units (design.md §3; NUMERICS.md).
+/// along the normal, in world units (NUMERICS.md, "The definition").
 double thinnest_piece(const Box& solid_bounds);
 
 /// Traces the solid by screen tiles.

@@ -1,4 +1,5 @@
-// OpenSCAD's camera (openscad.md §4): its numbers, and the csgcore::View that they mean.
+// OpenSCAD's camera (frontend/OPENSCAD.md, "Camera"): its numbers, and the
+// csgcore::View that they mean.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 namespace frontend {
 
-/// design.md §2. kDisagreement is `scadray validate`'s alone.
+/// The exit statuses of frontend/OPTIONS.md. kDisagreement is `scadray validate`'s alone.
 enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 
 /// Runs a program, writes out what it has printed, and says on stderr what ends it instead: nothing

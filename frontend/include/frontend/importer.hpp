@@ -1,4 +1,4 @@
-// Syntax tree, or text, → csgcore::Scene (openscad.md §2, design.md §3).
+// Syntax tree, or text, → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace frontend {
 
-/// Which round primitives become the polyhedra that OpenSCAD makes of them (openscad.md §3); the
-/// others are exact quadrics.
+/// Which round primitives become the polyhedra that OpenSCAD makes of them (frontend/OPENSCAD.md,
+/// "Facets"); the others are exact quadrics.
 enum class Facets : uint8_t {
   kNone,
   kFew,  // those with 0 < $fn ≤ ImportOptions::few_fragments: prisms and pyramids on purpose
@@ -27,7 +27,7 @@ enum class Facets : uint8_t {
 
 struct ImportOptions {
   Facets facets = Facets::kFew;
-  /// Of kFew. People who choose no more than 8 fragments mean the polygon (openscad.md §3).
+  /// Of kFew. People who choose no more than 8 fragments mean the polygon.
   double few_fragments = 8;
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
@@ -47,8 +47,8 @@ struct PrimitivePlace {
 struct ImportedDesign {
   csgcore::Scene scene;
   /// What OpenSCAD's --viewall looks at: the union of the positive leaves' boxes, each the box of
-  /// the corners of the (faceted, openscad.md §3) leaf's local box under its matrix, `%` and `#`
-  /// parts included (openscad.md §4). Empty for an empty design.
+  /// the corners of the (faceted) leaf's local box under its matrix, `%` and `#` parts included
+  /// (frontend/OPENSCAD.md, "Camera"). Empty for an empty design.
   csgcore::Box view_box;
   /// Primitive nodes in the file, empty, invalid and `%` ones included.
   uint32_t primitive_nodes = 0;

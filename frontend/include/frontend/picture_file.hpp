@@ -1,4 +1,4 @@
-// Image → the bytes of a picture file (design.md §2, `-o x.png` and `-o x.exr`).
+// Image → the bytes of a picture file (frontend/OPTIONS.md, "What is written").
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,7 @@ enum class Technique : uint8_t { kAuto, kCells, kTiles };
 /// The most --samples: an edge then has 65 steps between its two colours, and more no eye tells.
 constexpr uint32_t kMaxSamples = 64;
 
-/// 8-bit colours of a scheme (openscad.md §4).
+/// 8-bit colours of a scheme (frontend/OPENSCAD.md, "Light and colours").
 struct Rgb {
   uint8_t r, g, b;
   bool operator==(const Rgb&) const = default;
