@@ -1,10 +1,10 @@
 // What tells of changes, and how long a save takes to settle.
-#include "file_watch.hpp"
+#include "follow/file_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <poll.h>
 
-#include "path_lookups.hpp"
+#include "follow/path_lookups.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

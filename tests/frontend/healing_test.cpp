@@ -1,4 +1,4 @@
-#include "healing.hpp"
+#include "heal/healing.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
-#include "matrix_healing.hpp"
+#include "heal/matrix_healing.hpp"
 
 namespace frontend {
 namespace {

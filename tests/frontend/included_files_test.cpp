@@ -1,5 +1,5 @@
 // Which files a .scad includes.
-#include "included_files.hpp"
+#include "follow/included_files.hpp"
 
 #include <gmock/gmock.h>
 

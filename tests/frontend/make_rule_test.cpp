@@ -1,5 +1,5 @@
 // Rules, as the installed make reads them.
-#include "make_rule.hpp"
+#include "follow/make_rule.hpp"
 
 #include <gmock/gmock.h>
 

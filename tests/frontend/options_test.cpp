@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "command/option_table.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
-#include "option_table.hpp"
 
 namespace frontend {
 namespace {

@@ -1,6 +1,6 @@
 // What --renderer=auto sees of a machine, on folders made up to look like /dev/dri and
 // /sys/class/drm.
-#include "renderer_choice.hpp"
+#include "render/renderer_choice.hpp"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,7 @@
 
 #include "frontend/command.hpp"
 #include "frontend/error.hpp"
-#include "renderer_choice.hpp"
+#include "render/renderer_choice.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

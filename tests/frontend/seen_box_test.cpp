@@ -1,5 +1,5 @@
 // The tight box of a solid, against solids whose box is known.
-#include "seen_box.hpp"
+#include "picture/seen_box.hpp"
 
 #include <gtest/gtest.h>
 
