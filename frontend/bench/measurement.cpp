@@ -5,7 +5,7 @@
 #include "base/elapsed.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "picture_check.hpp"
-#include "render/solid_renderer.hpp"
+#include "render/gl_renderer.hpp"
 
 namespace bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "command/option_table.hpp"
+#include "command/option_row.hpp"
 
 namespace packaging {
 

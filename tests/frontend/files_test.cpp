@@ -18,6 +18,7 @@
 
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/parser.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -127,7 +128,7 @@ class EndlessPipe {
 
 TEST(ReadFile, OfACsgEndsWhereItIsSeenToBeNone) {
   const auto read_size = [](int descriptor) {
-    return read_descriptor(descriptor, "endless", TextKind::kCsg).view().size();
+    return read_descriptor(descriptor, "endless", is_beyond_repair).view().size();
   };
   const int zeros = open("/dev/zero", O_RDONLY);
   EXPECT_EQ(read_size(zeros), 4096u);
@@ -142,14 +143,14 @@ TEST(ReadFile, OfALargeFileThatIsNoCsgReadsItsStart) {
   const TemporaryFolder folder;
   const std::string path = folder.write("large.csg", "");
   fs::resize_file(path, std::uintmax_t{1} << 40);  // of holes
-  EXPECT_EQ(read_file(path, TextKind::kCsg).view().size(), 4096u);
+  EXPECT_EQ(read_file(path, is_beyond_repair).view().size(), 4096u);
 }
 
 TEST(ReadFile, OfACsgGivesEveryByteOfAGoodOne) {
   const TemporaryFolder folder;
   std::string text;
   while (text.size() < 300000) text += "sphere(r = 1);\n";
-  EXPECT_EQ(read_file(folder.write("large.csg", text), TextKind::kCsg).view(), text);
+  EXPECT_EQ(read_file(folder.write("large.csg", text), is_beyond_repair).view(), text);
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   std::thread writer([&] {
@@ -158,7 +159,7 @@ TEST(ReadFile, OfACsgGivesEveryByteOfAGoodOne) {
     }
     close(ends[1]);
   });
-  const FileText read_text = read_descriptor(ends[0], "pipe", TextKind::kCsg);
+  const FileText read_text = read_descriptor(ends[0], "pipe", is_beyond_repair);
   writer.join();
   close(ends[0]);
   EXPECT_EQ(read_text.view(), text);

@@ -9,6 +9,7 @@
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
+#include "frontend/render.hpp"
 
 namespace frontend {
 namespace {

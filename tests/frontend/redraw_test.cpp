@@ -7,6 +7,7 @@
 #include "frontend/camera.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "support/models.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "frontend/command.hpp"
 #include "frontend/error.hpp"
+#include "frontend/scene_renderer.hpp"
 #include "render/renderer_choice.hpp"
 #include "temporary_folder.hpp"
 
@@ -55,7 +56,9 @@ class Renderers : public testing::Test {
     options.insert(options.begin(), {"-o", folder_ / "x.png", "--imgsize=160,120", file_});
     const Renderer renderer = [&](const auto& scene, const auto& view, const auto& settings,
                                   RenderStats& stats) {
-      drawn.image = render(scene, view, settings, stats, folders_);
+      SceneRenderer scene_renderer(folders_);
+      scene_renderer.load(std::make_shared<const csgcore::Scene>(scene));
+      drawn.image = scene_renderer.draw(view, settings, stats);
       drawn.stats = stats;
       return drawn.image;
     };

@@ -10,6 +10,7 @@
 #include "csgcore/subdivision.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render.hpp"
 #include "support/models.hpp"
 
 namespace frontend {

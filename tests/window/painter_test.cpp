@@ -16,6 +16,7 @@
 #include "followed.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/overlays.hpp"
+#include "frontend/render.hpp"
 #include "support/models.hpp"
 #include "temporary_folder.hpp"
 

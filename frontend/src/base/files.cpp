@@ -54,7 +54,7 @@ struct stat status_of(int descriptor, const std::string& name) {
 
 }  // namespace
 
-FileText read_descriptor(int descriptor, const std::string& name, TextKind kind,
+FileText read_descriptor(int descriptor, const std::string& name, const IsHopeless& is_hopeless,
                          const std::stop_token& stop) {
   const struct stat status = status_of(descriptor, name);
   std::optional<StopEvent> stop_event;
@@ -62,8 +62,8 @@ FileText read_descriptor(int descriptor, const std::string& name, TextKind kind,
   const std::size_t expected =
       S_ISREG(status.st_mode) && status.st_size > 0 ? static_cast<std::size_t>(status.st_size) : 0;
   GrowingText text(expected);
-  std::optional<CsgCheck> check;
-  if (kind == TextKind::kCsg) check.emplace(expected);
+  std::optional<StartCheck> check;
+  if (is_hopeless) check.emplace(is_hopeless, expected);
   while (true) {
     throw_if_stopped(stop);
     if (check && check->fails(text.view(), stop)) break;
@@ -80,10 +80,11 @@ FileText read_descriptor(int descriptor, const std::string& name, TextKind kind,
   return text.take();
 }
 
-FileText read_file(const std::string& path, TextKind kind, const std::stop_token& stop) {
-  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input", kind, stop);
+FileText read_file(const std::string& path, const IsHopeless& is_hopeless,
+                   const std::stop_token& stop) {
+  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input", is_hopeless, stop);
   const Descriptor file = open_to_read(path, stop);
-  return read_descriptor(file.number(), path, kind, stop);
+  return read_descriptor(file.number(), path, is_hopeless, stop);
 }
 
 void check_input(const std::string& path) {

@@ -10,8 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "frontend/files.hpp"
-#include "frontend/parser.hpp"
+#include "frontend/file_text.hpp"
 
 namespace frontend {
 
@@ -51,28 +50,30 @@ class GrowingText {
   std::size_t size_ = 0;
 };
 
-/// Looks whether a .csg that still comes can be parsed, at lengths each 16 times the last: in all
-/// it reads a fifteenth of the text twice, and of what is wrong no more than 16 times is taken in
-/// as there is before the fault.
-class CsgCheck {
+/// Looks whether a text that still comes is hopeless, at lengths each 16 times the last: in all it
+/// reads a fifteenth of the text twice, and of what is wrong no more than 16 times is taken in as
+/// there is before the fault.
+class StartCheck {
  public:
   /// `size`: of the whole text, of which only the start is looked at; 0: it may be endless.
-  explicit CsgCheck(std::size_t size) : is_endless_(size == 0) {
+  StartCheck(IsHopeless is_hopeless, std::size_t size)
+      : is_hopeless_(std::move(is_hopeless)), is_endless_(size == 0) {
     if (size > 0 && size <= GrowingText::kFirstRoom) next_ = kNever;
   }
   /// Bytes to read before the next look.
   std::size_t until_next(std::size_t size) const { return next_ - size; }
   /// `text`: all that has come, no more than until_next() wanted. True where there is no use in
-  /// reading on: it will not be parsed, whatever comes. Throws Stopped (stop.hpp).
+  /// reading on. Throws Stopped (stop.hpp).
   bool fails(std::string_view text, const std::stop_token& stop) {
     if (text.size() < next_) return false;
     next_ = is_endless_ ? next_ * kFactor : kNever;
-    return is_beyond_repair(text, stop);
+    return is_hopeless_(text, stop);
   }
 
  private:
   static constexpr std::size_t kFirst = 4096, kFactor = 16;
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+  IsHopeless is_hopeless_;
   bool is_endless_;
   std::size_t next_ = kFirst;
 };

@@ -9,15 +9,13 @@
 #include <string_view>
 
 #include "frontend/error.hpp"
-#include "frontend/options.hpp"
 
 namespace frontend {
 namespace {
 
 // A handler may run on any thread, between any two instructions: it may only look at lock-free
 // atomics, and call what POSIX lists as async-signal-safe.
-constexpr std::size_t kSlots = kMaxPictures + 2;  // the pictures, statistics, rule
-std::array<std::atomic<const char*>, kSlots> files_to_remove;
+std::array<std::atomic<const char*>, kMaxRemovedFiles> files_to_remove;
 std::atomic<pid_t> child_group{0};
 std::atomic<int> holders{0};  // living HoldInterrupts
 static_assert(std::atomic<const char*>::is_always_lock_free);
@@ -78,7 +76,7 @@ void handle_interrupts() {
 }
 
 RemoveOnInterrupt::RemoveOnInterrupt(const char* path) : slot_(0) {
-  for (; slot_ < kSlots; ++slot_) {
+  for (; slot_ < kMaxRemovedFiles; ++slot_) {
     const char* none = nullptr;
     if (files_to_remove[slot_].compare_exchange_strong(none, path)) return;
   }

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "command/option_table.hpp"
+#include "command/option_row.hpp"
 #include "csgcore/view.hpp"
-#include "frontend/importer.hpp"
-#include "frontend/options.hpp"
-#include "frontend/render.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/overlays.hpp"
+#include "frontend/picture_file.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

@@ -1,8 +1,9 @@
+#include "frontend/run_program.hpp"
+
 #include <cstdio>
 #include <exception>
 #include <new>
 
-#include "frontend/command.hpp"
 #include "frontend/error.hpp"
 
 namespace frontend {

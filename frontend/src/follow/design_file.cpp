@@ -10,6 +10,7 @@
 #include "base/elapsed.hpp"
 #include "frontend/error.hpp"
 #include "frontend/openscad_export.hpp"
+#include "frontend/parser.hpp"
 
 namespace frontend {
 
@@ -112,7 +113,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
     export_design_text(path, options, text, stop);
     return text;
   }
-  text.csg = read_file(path, TextKind::kCsg, stop);
+  text.csg = read_file(path, is_beyond_repair, stop);
   text.read_ms = ms_since(start);
   if (options.wants_files && path != "-") text.files = {path};
   return text;

@@ -130,13 +130,20 @@ class DesignFollower::Follower {
     set_state(State::kReading);
     reading_ = std::jthread([this, noticed, before = good_](const std::stop_token& stop) {
       try {
-        result_ = read_anew(path_, options_, before, stop);
+        result_ = read_anew(path_, file_options(), before, stop);
         result_.version.noticed = noticed;
         has_read_ = true;
         wake_.raise();
       } catch (const Stopped&) {
       }
     });
+  }
+
+  DesignFileOptions file_options() const {
+    DesignFileOptions options;
+    options.import = options_.import;
+    options.openscad_arguments = options_.openscad_arguments;
+    return options;
   }
 
   void stop_reading() {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
-#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 
@@ -45,11 +44,10 @@ GoodVersion finish_import(TextImport& import, DesignText& text, DesignVersion& v
   return {std::make_shared<const FileText>(std::move(text.csg)), std::move(design), import.nodes()};
 }
 
-void read_into(DesignReading& reading, const std::string& path, const FollowOptions& options,
+void read_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
                const std::stop_token& stop) {
   DesignVersion& version = reading.version;
-  DesignFileOptions file_options;
-  file_options.openscad_arguments = options.openscad_arguments;
+  DesignFileOptions file_options = options;
   file_options.wants_files = true;
   file_options.message = keeping_messages(version);
   file_options.progress = [](const char*) {};
@@ -79,7 +77,7 @@ void read_into(DesignReading& reading, const std::string& path, const FollowOpti
 
 }  // namespace
 
-DesignReading read_anew(const std::string& path, const FollowOptions& options,
+DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop) {
   DesignReading reading;
   reading.good = before;

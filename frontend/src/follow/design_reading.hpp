@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <string>
 
-#include "frontend/design_follower.hpp"
-#include "frontend/files.hpp"
+#include "frontend/design_file.hpp"
+#include "frontend/design_version.hpp"
 
 namespace frontend {
 
@@ -25,8 +25,9 @@ struct DesignReading {
   bool is_scad = false;  // by what stands in it: its name leaves that open
 };
 
-/// Every failure is version.error; throws Stopped (stop.hpp) alone.
-DesignReading read_anew(const std::string& path, const FollowOptions& options,
+/// Of `options` only `import` and `openscad_arguments` count. Every failure is version.error;
+/// throws Stopped (stop.hpp) alone.
+DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
 
 }  // namespace frontend

@@ -22,6 +22,8 @@
 #include "follow/child_process.hpp"
 #include "follow/make_rule.hpp"
 #include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
 
 namespace frontend {
@@ -208,7 +210,7 @@ class Listener {
   Messages& messages_;
   const std::string& scad_path_;
   GrowingText csg_{0};
-  CsgCheck check_{0};
+  StartCheck check_{is_beyond_repair, 0};
   bool is_hopeless_ = false;
 };
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "lower/import_colors.hpp"
+
 namespace frontend {
 namespace {
 

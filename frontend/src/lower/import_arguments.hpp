@@ -52,7 +52,4 @@ FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNode& node,
                                          NodeProblems& problems);
 
-/// "red", "#f00", "#ff0000" or "#ff0000ff", capitals or not, as OpenSCAD takes them.
-std::optional<csgcore::Color> color_of_name(std::string_view name);
-
 }  // namespace frontend

@@ -1,12 +1,11 @@
-// The names that OpenSCAD's color() knows: the CSS colours.
+#include "lower/import_colors.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
-
-#include "lower/import_arguments.hpp"
 
 namespace frontend {
 namespace {
@@ -16,7 +15,7 @@ struct NamedColor {
   uint32_t rgb;  // 0xRRGGBB
 };
 
-// By name, for the binary search.
+// The CSS colours. By name, for the binary search.
 constexpr std::array<NamedColor, 148> kNamedColors{{
     {"aliceblue", 0xf0f8ff},
     {"antiquewhite", 0xfaebd7},

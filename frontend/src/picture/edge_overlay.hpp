@@ -3,7 +3,7 @@
 
 #include "csgcore/image.hpp"
 #include "csgcore/view.hpp"
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "csgcore/image.hpp"
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

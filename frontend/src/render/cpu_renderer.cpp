@@ -1,4 +1,5 @@
-// The drawing by the CPU tracer, csgcore/tracer.hpp.
+#include "render/cpu_renderer.hpp"
+
 #include <optional>
 #include <span>
 

@@ -1,4 +1,5 @@
-// The drawing by OpenGL.
+#include "render/gl_renderer.hpp"
+
 #include <map>
 #include <type_traits>
 #include <utility>

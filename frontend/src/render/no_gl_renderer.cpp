@@ -1,5 +1,5 @@
 // In place of gl_renderer.cpp where scadray is built without OpenGL.
-#include "render/solid_renderer.hpp"
+#include "render/gl_renderer.hpp"
 
 namespace frontend {
 

@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "frontend/render.hpp"
-
 namespace frontend {
 
 /// Where Linux shows its GPUs.
@@ -19,11 +17,6 @@ struct GpuFolders {
 /// is a render node of a driver with 3D that this process may open, and the environment does not
 /// ask Mesa for software.
 std::optional<std::string> why_no_gpu(const GpuFolders& folders = {});
-
-/// frontend::render() with the GPUs looked for elsewhere: for tests.
-csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
-                      const RenderSettings& settings, RenderStats& stats,
-                      const GpuFolders& folders);
 
 /// Whether GL_RENDERER names a rasteriser that runs on the CPU.
 bool is_software(const std::string& gl_renderer);

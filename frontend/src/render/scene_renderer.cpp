@@ -5,10 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "base/elapsed.hpp"
+#include "render/cpu_renderer.hpp"
+#include "render/gl_renderer.hpp"
 #include "render/prepared_scene.hpp"
 #include "render/renderer_choice.hpp"
 #include "render/scene_scale.hpp"
@@ -230,27 +231,6 @@ Image SceneRenderer::redraw(const csgcore::View& view, const RenderSettings& set
 
 csgcore::Hits SceneRenderer::pick(const csgcore::View& view, double x_px, double y_px) const {
   return impl_->pick(view, x_px, y_px);
-}
-
-bool draw_the_same(const RenderSettings& a, const RenderSettings& b) {
-  const auto what = [](const RenderSettings& s) {
-    return std::tuple(s.scheme.background, s.scheme.front, s.scheme.back, s.scheme.axes, s.shading,
-                      s.show, s.technique, s.samples, s.leaf_primitives, s.threshold_px,
-                      s.measured_channels);
-  };
-  return what(a) == what(b);
-}
-
-Image render(const csgcore::Scene& scene, const csgcore::View& view, const RenderSettings& settings,
-             RenderStats& stats, const GpuFolders& folders) {
-  SceneRenderer renderer(folders);
-  renderer.load(ScenePointer(ScenePointer(), &scene));  // it outlives the renderer
-  return renderer.draw(view, settings, stats);
-}
-
-Image render(const csgcore::Scene& scene, const csgcore::View& view, const RenderSettings& settings,
-             RenderStats& stats) {
-  return render(scene, view, settings, stats, GpuFolders{});
 }
 
 }  // namespace frontend

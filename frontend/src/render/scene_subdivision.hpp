@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "csgcore/subdivision.hpp"
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
+#include "frontend/render_stats.hpp"
 #include "render/solid_renderer.hpp"
 
 namespace frontend {

@@ -2,27 +2,17 @@
 // (colours, translucent parts, scale, the choice between them) is scene_renderer.cpp's.
 #pragma once
 
-#include <memory>
 #include <span>
 
+#include "csgcore/frame_settings.hpp"
+#include "csgcore/image.hpp"
 #include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
-#include "frontend/error.hpp"
-#include "frontend/render.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/render_settings.hpp"
+#include "frontend/render_stats.hpp"
 
 namespace frontend {
-
-/// OpenGL cannot be had, or failed. The CPU may still draw.
-class GlFailure : public Error {
- public:
-  explicit GlFailure(const std::string& reason, const std::string& todo = {})
-      : Error({}, {}, reason, todo), reason_(reason) {}
-  /// Without what to do, and without the word "error".
-  const std::string& reason() const { return reason_; }
-
- private:
-  std::string reason_;
-};
 
 /// As a renderer takes it, each channel in [0, 1].
 inline glm::vec3 color_of(const Rgb& color) {
@@ -81,11 +71,5 @@ class SolidRenderer {
   /// All solids that were drawn.
   virtual void forget() = 0;
 };
-
-std::unique_ptr<SolidRenderer> make_cpu_renderer();
-
-/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; without `takes_software` also
-/// if OpenGL runs in software.
-std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software);
 
 }  // namespace frontend

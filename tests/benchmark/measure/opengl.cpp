@@ -17,6 +17,7 @@
 #include "bench/measurement.hpp"
 #include "bench/picture_check.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "render/renderer_choice.hpp"
 #include "subject.hpp"
