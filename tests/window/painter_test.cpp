@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "designs.hpp"
-#include "followed.hpp"
+#include "follow/followed.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/render.hpp"

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "followed.hpp"
-#include "saves.hpp"
+#include "follow/followed.hpp"
+#include "follow/saves.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "followed.hpp"
+#include "follow/followed.hpp"
 #include "frontend/interrupt.hpp"
 #include "temporary_folder.hpp"
 
