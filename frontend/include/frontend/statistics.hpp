@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "frontend/render.hpp"
+#include "frontend/render_stats.hpp"
 
 namespace frontend {
 
