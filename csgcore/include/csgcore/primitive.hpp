@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "csgcore/geometry.hpp"
+#include "csgcore/shape.hpp"
 
 namespace csgcore {
 
@@ -16,12 +17,6 @@ class Polyhedron;
 struct Color {
   float r, g, b, a;
   bool operator==(const Color&) const = default;
-};
-
-enum class Shape : uint8_t {
-  kSphere,   // centred at the local origin, radius `r_bottom`
-  kFrustum,  // local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between
-  kPolyhedron,  // convex; `polyhedron`
 };
 
 /// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.

@@ -3,6 +3,9 @@
 
 #include <charconv>
 #include <string>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
 
 namespace oracle {
 
@@ -12,5 +15,10 @@ inline std::string shortest_text(double number) {
   const auto end = std::to_chars(text, text + sizeof text, number).ptr;
   return {text, end};
 }
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& parts);
+std::string joined(const std::vector<double>& numbers);
+inline std::string coordinates(const csgcore::Vec3& v) { return joined({v.x, v.y, v.z}); }
 
 }  // namespace oracle
