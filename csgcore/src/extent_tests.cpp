@@ -114,44 +114,6 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
   return answers;
 }
 
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves) {
-  const Doubles d;
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
-  const int axis = static_cast<int>(halves.axis);
-  const Vector below_end = hn::Set(d, halves.below.max[axis]);
-  const Vector above_start = hn::Set(d, halves.above.min[axis]);
-  ExtentAnswers answers{};
-  for (uint32_t i = 0; i < count; i += lanes) {
-    const Gather gather(extents, primitives + i);
-    const Vector center = gather.center(axis);
-    const Vector half = gather.half(axis);
-    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
-    answers.outside[0] |= bits_of(hn::Gt(hn::Sub(center, below_end), half)) << i;
-    answers.outside[1] |= bits_of(hn::Gt(hn::Sub(above_start, center), half)) << i;
-  }
-  return answers;
-}
-
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell) {
-  const Doubles d;
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
-  const Box& box = cell.below;
-  ExtentAnswers answers{};
-  for (uint32_t i = 0; i < count; i += lanes) {
-    const Gather gather(extents, primitives + i);
-    const auto apart = [&](int axis) {
-      const Vector half = gather.half(axis);
-      const AxisTest test = test_axis(gather.center(axis), half, box.min[axis], box.max[axis]);
-      return hn::Or(test.apart, hn::Lt(half, hn::Zero(d)));
-    };
-    answers.open |= bits_of(hn::Lt(gather.inside2(), hn::Zero(d))) << i;
-    answers.outside[0] |= bits_of(hn::Or(apart(0), apart(1))) << i;
-  }
-  return answers;
-}
-
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
   const hn::CappedTag<float, kRowPadding> d;
   const auto min_x = hn::Set(d, static_cast<float>(cell.min.x));
@@ -167,25 +129,6 @@ uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell
     outside |= bits_of(d, hn::Or(beside, above)) << i;
   }
   return outside;
-}
-
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side) {
-  const hn::CappedTag<float, kRowPadding> d;
-  // A rectangle's corner that lies furthest towards the line.
-  const auto furthest = [&](const float* low, const float* high, int axis, float towards) {
-    const auto end =
-        towards > 0 ? hn::Min(hn::LoadU(d, high), hn::Set(d, static_cast<float>(cell.max[axis])))
-                    : hn::Max(hn::LoadU(d, low), hn::Set(d, static_cast<float>(cell.min[axis])));
-    return hn::Mul(end, hn::Set(d, towards));
-  };
-  uint64_t on_side = 0;
-  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(d))) {
-    const auto along_x = furthest(rows.low_x + i, rows.high_x + i, 0, side.x);
-    const auto along_y = furthest(rows.low_y + i, rows.high_y + i, 1, side.y);
-    on_side |= bits_of(d, hn::Lt(hn::Add(along_x, along_y), hn::Set(d, side.limit))) << i;
-  }
-  return on_side;
 }
 
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
@@ -266,17 +209,13 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(test_extents);
-CSGCORE_SIMD_EXPORT(test_boxes);
-CSGCORE_SIMD_EXPORT(test_rectangles);
 CSGCORE_SIMD_EXPORT(find_outside);
-CSGCORE_SIMD_EXPORT(find_on_side);
 CSGCORE_SIMD_EXPORT(count_ends);
 
-namespace {
-
-/// Vectors read past the last primitive.
-ExtentAnswers of_first(uint32_t count, ExtentAnswers answers) {
-  const uint64_t wanted = first_bits(count);
+ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
+                           const Halves& halves) {
+  ExtentAnswers answers = CSGCORE_SIMD(test_extents)(extents, primitives, count, halves);
+  const uint64_t wanted = first_bits(count);  // vectors read past the last primitive
   answers.open &= wanted;
   for (const int side : {0, 1}) {
     answers.outside[side] &= wanted;
@@ -285,30 +224,8 @@ ExtentAnswers of_first(uint32_t count, ExtentAnswers answers) {
   return answers;
 }
 
-}  // namespace
-
-ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                           const Halves& halves) {
-  return of_first(count, CSGCORE_SIMD(test_extents)(extents, primitives, count, halves));
-}
-
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves) {
-  return of_first(count, CSGCORE_SIMD(test_boxes)(extents, primitives, count, halves));
-}
-
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell) {
-  return of_first(count, CSGCORE_SIMD(test_rectangles)(extents, primitives, count, cell));
-}
-
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
   return CSGCORE_SIMD(find_outside)(rows, count, cell);
-}
-
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side) {
-  return CSGCORE_SIMD(find_on_side)(rows, count, cell, side);
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

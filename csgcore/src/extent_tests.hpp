@@ -34,34 +34,8 @@ struct ExtentAnswers {
 ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
                            const Halves& halves);
 
-/// The same for boxes alone, of primitives that meet the undivided cell: only the divided axis can
-/// tell, and nothing is inside.
-ExtentAnswers test_boxes(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                         const Halves& halves);
-
-/// The same for rectangles, the boxes' x and y, against one cell, the half below. Empty rectangles
-/// are outside.
-ExtentAnswers test_rectangles(const Extent* extents, const uint32_t* primitives, uint32_t count,
-                              const Halves& cell);
-
 /// The bits of those that lie outside of the box's x and y, closed as they are. 1 ≤ count ≤ 64.
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell);
-
-/// Where a tile shows nothing beyond a depth: the side of a line of the screen, the points p of the
-/// tile, in pixels, with x·p.x + y·p.y < limit. (x, y) is of length 1; or 0, where that is all of
-/// the tile.
-struct HiddenSide {
-  float x, y;
-  /// Lower than the line, and `rays_limit` higher, by more than rounding: rays that may have lost
-  /// something are never taken for others.
-  float limit, rays_limit;
-  double depth;  // τ
-};
-
-/// The bits of those of whose rectangles all that lies within the box lies on the side, too. Of
-/// rectangles that meet the box. 1 ≤ count ≤ 64.
-uint64_t find_on_side(const RectangleRows& rows, uint32_t count, const Box& cell,
-                      const HiddenSide& side);
 
 /// Bins of equal width across each axis of a cell. More of them cost more to count than the better
 /// plane saves.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <utility>
 
@@ -19,9 +20,6 @@ namespace {
 constexpr size_t kManyOperands = 64;
 constexpr size_t kGroupOperands = 32;
 constexpr size_t kFewOperands = 4;
-
-/// An intersection's operand is compared with so many of those that follow it.
-constexpr size_t kPairedOperands = 8;
 
 /// Groups are made anew once a larger share of the primitives has moved: those that hold them reach
 /// further than they need to.
@@ -72,7 +70,6 @@ constexpr auto kSpread = [] {
 }();
 
 constexpr uint32_t kMortonBits = 18;
-constexpr uint32_t kKeyBits = kMortonBits + 2;
 
 /// Size first, in classes of a factor of 4 unless all are alike, then the place along a Morton
 /// curve.
@@ -109,32 +106,16 @@ bool is_plain_union(const CellList& list) {
 
 struct Keyed {
   uint32_t key, index;
+  auto operator<=>(const Keyed&) const = default;
 };
-
-/// Stable.
-void radix_sort(std::vector<Keyed>& values) {
-  constexpr uint32_t kDigitBits = kKeyBits / 2;
-  std::vector<Keyed> other(values.size());
-  for (uint32_t shift = 0; shift < kKeyBits; shift += kDigitBits) {
-    std::array<uint32_t, (1u << kDigitBits) + 1> starts{};
-    const auto digit = [shift](const Keyed& v) {
-      return v.key >> shift & ((1u << kDigitBits) - 1);
-    };
-    for (const Keyed& value : values) ++starts[digit(value) + 1];
-    for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-    for (const Keyed& value : values) other[starts[digit(value)]++] = value;
-    values.swap(other);
-  }
-}
 
 }  // namespace
 
 /// Rewrites a tree's tokens, with groups in place of operands.
 class OperandGroups::Builder {
  public:
-  Builder(OperandGroups& groups, std::span<const CsgToken> tokens,
-          std::span<const CanonicalPrimitive> primitives, double margin)
-      : groups_(groups), tokens_(tokens), primitives_(primitives), margin_(margin) {}
+  Builder(OperandGroups& groups, std::span<const CsgToken> tokens)
+      : groups_(groups), tokens_(tokens) {}
 
   void build() {
     const std::vector<Box> boxes = relevant_boxes(tokens_, groups_.extents_);
@@ -155,7 +136,7 @@ class OperandGroups::Builder {
     }
     if (!output_.empty())
       assign(groups_.list_, compile(std::span<const CsgToken>(output_)).literals);
-    find_owners();
+    find_common();
     groups_.balls_.resize(groups_.row_size());
     for (uint32_t group = groups_.first_group_; group < groups_.count(); ++group) {
       groups_.place_members(group);
@@ -180,9 +161,8 @@ class OperandGroups::Builder {
     const auto operands = operands_.begin() + static_cast<long>(from);
     const bool has_empty = std::any_of(operands, operands_.end(),
                                        [](const Operand& operand) { return operand.is_empty(); });
-    bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
-                    (operation.op == Op::kDifference && operands->is_empty());
-    if (!is_empty && operation.op == Op::kIntersection) is_empty = find_apart(from);
+    const bool is_empty = box.empty() || (operation.op == Op::kIntersection && has_empty) ||
+                          (operation.op == Op::kDifference && operands->is_empty());
     if (is_empty) output_.resize(first);
     operands_.erase(std::remove_if(operands, operands_.end(),
                                    [&](const Operand& o) { return is_empty || o.is_empty(); }),
@@ -194,30 +174,6 @@ class OperandGroups::Builder {
     if (count > 1) output_.push_back({false, operation.op, count});
     operands_.resize(from);
     operands_.push_back({first, static_cast<uint32_t>(output_.size()), box});
-  }
-
-  /// Whether two of the operands from there on are primitives, and apart; notes them.
-  bool find_apart(size_t from) {
-    for (size_t i = from; i < operands_.size(); ++i) {
-      const CanonicalPrimitive* const a = primitive_of(operands_[i]);
-      const size_t end = std::min(operands_.size(), i + 1 + kPairedOperands);
-      for (size_t k = i + 1; a && k < end; ++k) {
-        const CanonicalPrimitive* const b = primitive_of(operands_[k]);
-        if (!b || !are_apart(*a, *b, margin_)) continue;
-        const uint32_t pair[] = {output_[operands_[i].first].value,
-                                 output_[operands_[k].first].value};
-        groups_.apart_.insert(groups_.apart_.end(), std::begin(pair), std::end(pair));
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Null if the operand is none.
-  const CanonicalPrimitive* primitive_of(const Operand& operand) const {
-    const bool is_one = operand.end - operand.first == 1;
-    const uint32_t index = is_one ? output_[operand.first].value : groups_.first_group_;
-    return groups_.is_group(index) ? nullptr : &primitives_[index];
   }
 
   /// Groups the operands from there on, of which a union is made, until they are not many. Those
@@ -240,7 +196,7 @@ class OperandGroups::Builder {
     for (size_t i = from; i < operands_.size(); ++i) {
       keyed_.push_back({key_of(operands_[i].box, all, are_groups), static_cast<uint32_t>(i)});
     }
-    radix_sort(keyed_);
+    std::ranges::sort(keyed_);
     given_.assign(operands_.begin() + static_cast<long>(from), operands_.end());
     const uint32_t first = operands_[from].first;
     given_tokens_.assign(output_.begin() + first, output_.end());
@@ -317,33 +273,21 @@ class OperandGroups::Builder {
     return static_cast<uint32_t>(groups_.extents_.size() - 1);
   }
 
-  void find_owners() {
+  void find_common() {
+    constexpr uint8_t kMany = 2;
     std::vector<uint8_t> uses(groups_.extents_.size());
-    const auto count = [&](std::span<const uint32_t> primitives) {
-      for (const uint32_t entry : primitives) {
-        uint8_t& number = uses[entry & kPrimitiveBits];
-        number = static_cast<uint8_t>(std::min(number + 1, 2));
-      }
-    };
-    count(groups_.primitive_);
-    count(groups_.list_.primitives());
-    for (const Range& members : groups_.members_) {
-      const uint32_t first = static_cast<uint32_t>(groups_.own_.size());
-      for (uint32_t i = members.first; i < members.first + members.count; ++i) {
-        const uint32_t index = groups_.primitive_[i] & kPrimitiveBits;
-        if (uses[index] == 1) groups_.own_.push_back(index), uses[index] = 0;
-      }
-      groups_.owned_.push_back({first, static_cast<uint32_t>(groups_.own_.size()) - first, false});
+    for (const uint32_t entry : groups_.primitive_) {
+      uint8_t& number = uses[entry & kPrimitiveBits];
+      number = std::min<uint8_t>(number + 1, kMany);
     }
+    for (const uint32_t entry : groups_.list_.primitives()) uses[entry & kPrimitiveBits] = kMany;
     for (uint32_t index = 0; index < uses.size(); ++index) {
-      if (uses[index] > 0) groups_.common_.push_back(index);
+      if (uses[index] == kMany) groups_.common_.push_back(index);
     }
   }
 
   OperandGroups& groups_;
   std::span<const CsgToken> tokens_;
-  std::span<const CanonicalPrimitive> primitives_;
-  double margin_;
   std::vector<CsgToken> output_;
   std::vector<Operand> operands_;  // that wait for their operation
   // While operands are grouped:
@@ -354,12 +298,11 @@ class OperandGroups::Builder {
   CellList list_;
 };
 
-OperandGroups::OperandGroups(const CsgTree& tree, std::span<const CanonicalPrimitive> primitives,
-                             Extents extents, double margin, HiddenOperands hidden)
+OperandGroups::OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden)
     : extents_(std::move(extents)),
       hidden_(std::move(hidden)),
       first_group_(static_cast<uint32_t>(extents_.size())) {
-  Builder(*this, tree.tokens(), primitives, margin).build();
+  Builder(*this, tree.tokens()).build();
 }
 
 std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
@@ -369,9 +312,6 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
   if (earlier->moved_ + moved.size() > kMostMoved * count) return nullptr;
   std::vector<uint8_t> has_moved(count);
   for (const uint32_t primitive : moved) has_moved[primitive] = 1;
-  if (std::ranges::any_of(earlier->apart_, [&](uint32_t i) { return has_moved[i] != 0; })) {
-    return nullptr;
-  }
 
   // Only the boxes of the moved primitives' own tokens may differ.
   const std::span<const CsgToken> tokens = tree.tokens();
@@ -425,11 +365,6 @@ void OperandGroups::place_members(uint32_t group) {
         static_cast<float>(is_ball ? std::sqrt(extent.outside2)
                                    : std::hypot(extent.half[0], extent.half[1], extent.half[2]));
   }
-}
-
-std::span<const uint32_t> OperandGroups::own(uint32_t group) const {
-  const Range range = owned_[group - first_group_];
-  return std::span(own_).subspan(range.first, range.count);
 }
 
 }  // namespace csgcore

@@ -25,10 +25,8 @@ namespace csgcore {
 class OperandGroups {
  public:
   OperandGroups() = default;
-  /// `extents`: of the primitives, index for index. An intersection is empty if two of its
-  /// primitives are more than `margin` apart (are_apart). `hidden` are taken for empty.
-  OperandGroups(const CsgTree& tree, std::span<const CanonicalPrimitive> primitives,
-                Extents extents, double margin, HiddenOperands hidden = {});
+  /// `extents`: of the primitives, index for index. `hidden` are taken for empty.
+  OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden = {});
 
   /// For the same tree, of whose primitives only `moved` have other extents: groups keep what they
   /// hold, and grow where that reaches further. Null if the groups would have to hold others, or
@@ -85,9 +83,7 @@ class OperandGroups {
   /// Balls that hold the group's members, their centres counted from that of its extent, rounded to
   /// float. Side by side they are read much faster than extents, which lie all over memory.
   BallRows balls(uint32_t group) const;
-  /// The primitives and groups that stand in this group and nowhere else.
-  std::span<const uint32_t> own(uint32_t group) const;
-  /// All others: what is in no group, or stands in the tree more than once.
+  /// The primitives and groups that stand in no group, or in the tree more than once.
   std::span<const uint32_t> common() const { return common_; }
   /// What was left out.
   const HiddenOperands& hidden() const { return hidden_; }
@@ -103,14 +99,13 @@ class OperandGroups {
   CellList list_;
   Extents extents_;
   HiddenOperands hidden_;
-  std::vector<uint32_t> apart_;  // from another, for which an intersection was left out
   uint32_t first_group_ = 0;
-  uint32_t moved_ = 0;                  // primitives that moved since the groups were made
-  std::vector<Range> members_, owned_;  // by group
-  std::vector<uint32_t> primitive_;     // and valid indices that vectors read past the last
+  uint32_t moved_ = 0;               // primitives that moved since the groups were made
+  std::vector<Range> members_;       // by group
+  std::vector<uint32_t> primitive_;  // and valid indices that vectors read past the last
   std::vector<uint32_t> if_inside_, if_outside_;
   std::vector<float> balls_;  // of a group's members x, then y, z and radius; then the next group's
-  std::vector<uint32_t> own_, common_;
+  std::vector<uint32_t> common_;
 };
 
 }  // namespace csgcore

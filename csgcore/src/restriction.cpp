@@ -106,7 +106,7 @@ void Restrictor::restrict(const CellList& list, std::span<const Decision> decisi
 }
 
 void Restrictor::open(const CellList& list, const OperandGroups& groups,
-                      std::span<const uint8_t> marked, const OpenedCell& cell, CellList& result) {
+                      std::span<const uint8_t> marked, const Box& cell, CellList& result) {
   uint32_t most = list.count();
   for (uint32_t i = 0; i < list.count(); ++i) {
     if (!marked[i]) continue;
@@ -160,21 +160,18 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
 }
 
 ExtentAnswers Restrictor::answers_of_members(const OperandGroups::Members& members, uint32_t first,
-                                             uint32_t count, const OpenedCell& cell) const {
+                                             uint32_t count, const Box& cell) const {
   if (const auto outside = open_.members_outside(members, first, count, cell)) {
     return {{*outside, *outside}, {0, 0}, 0};
   }
-  return answers_of<1>(members.primitive.data() + first, count, {cell.box, cell.box, 0});
+  return answers_of<1>(members.primitive.data() + first, count, {cell, cell, 0});
 }
 
 template <int kSides>
 ExtentAnswers Restrictor::answers_of(const uint32_t* primitives, uint32_t count,
                                      const Halves& halves) const {
   constexpr int kLast = kSides - 1;
-  const auto test = space_ == Space::kWorld ? test_extents
-                    : kSides == 2           ? test_boxes
-                                            : test_rectangles;
-  ExtentAnswers answers = test(extents_.data(), primitives, count, halves);
+  ExtentAnswers answers = test_extents(extents_.data(), primitives, count, halves);
   // Balls are decided by their extents alone. Of the others, only those that reach both halves
   // need to be asked about: what reaches one half only was found to cross the whole cell, and so
   // crosses that half.
@@ -217,15 +214,6 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
 
 /// Whether some jump leads to each literal but the root.
 bool Restrictor::all_have_jumps(const CellList& list) {
-  constexpr uint32_t kWordBits = 64;
-  if (list.root < kWordBits) {
-    uint64_t targets = 0;
-    for (uint32_t i = 0; i < list.count(); ++i) {
-      targets |= uint64_t{1} << list.if_inside[i] | uint64_t{1} << list.if_outside[i];
-    }
-    const uint64_t below_root = (uint64_t{1} << list.root) - 1;
-    return (targets >> CellList::kFirst) == (below_root >> CellList::kFirst);
-  }
   reached_.assign(list.root + 1, 0);
   for (uint32_t i = 0; i < list.count(); ++i) {
     reached_[list.if_inside[i]] = 1;

@@ -13,13 +13,6 @@
 
 namespace csgcore {
 
-/// A cell that groups are opened in.
-struct OpenedCell {
-  Box box;
-  /// What it does not show. Null: it may show everything.
-  const HiddenSide* hidden = nullptr;
-};
-
 /// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a
 /// picture a box on the screen: the extents and this are all that differs.
 class OpenClassifier {
@@ -34,10 +27,9 @@ class OpenClassifier {
   /// the cell.
   virtual Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const = 0;
   /// Of up to 64 members of a group, from `first` on, the bits of those that are certainly outside
-  /// the cell or hidden there, by what is kept for members of groups. None: nothing is.
+  /// the cell, by what is kept for members of groups. None: nothing is.
   virtual std::optional<uint64_t> members_outside(const OperandGroups::Members&, uint32_t /*first*/,
-                                                  uint32_t /*count*/,
-                                                  const OpenedCell& /*cell*/) const {
+                                                  uint32_t /*count*/, const Box& /*cell*/) const {
     return std::nullopt;
   }
 };
@@ -56,15 +48,9 @@ class WorldClassifier final : public OpenClassifier {
 /// Not to be shared between threads: it keeps its working memory.
 class Restrictor {
  public:
-  /// What extents tell.
-  enum class Space : uint8_t {
-    kWorld,   // boxes, and balls by their distances
-    kScreen,  // boxes alone
-  };
   /// Keeps references to extents and classifier.
-  Restrictor(std::span<const Extent> extents, const OpenClassifier& open,
-             Space space = Space::kWorld)
-      : extents_(extents), open_(open), space_(space) {}
+  Restrictor(std::span<const Extent> extents, const OpenClassifier& open)
+      : extents_(extents), open_(open) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
   /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
@@ -85,11 +71,11 @@ class Restrictor {
   /// far as they matter in the cell. `list` comes from a restriction to the cell, and is not
   /// `result`.
   void open(const CellList& list, const OperandGroups& groups, std::span<const uint8_t> marked,
-            const OpenedCell& cell, CellList& result);
+            const Box& cell, CellList& result);
 
  private:
   ExtentAnswers answers_of_members(const OperandGroups::Members& members, uint32_t first,
-                                   uint32_t count, const OpenedCell& cell) const;
+                                   uint32_t count, const Box& cell) const;
   template <int kSides>
   ExtentAnswers answers_of(const uint32_t* primitives, uint32_t count, const Halves& halves) const;
   template <int kSides>
@@ -99,7 +85,6 @@ class Restrictor {
 
   std::span<const Extent> extents_;
   const OpenClassifier& open_;
-  Space space_;
   std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
   std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
 };

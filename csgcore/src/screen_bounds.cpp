@@ -43,9 +43,10 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       outlines_(std::make_unique_for_overwrite<ScreenOutline[]>(primitives.size())),
       corners_(std::make_unique_for_overwrite<ScreenCorners[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
-      bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.member_count())),
+      bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.count())),
       rectangles_(std::make_unique_for_overwrite<float[]>(groups.row_size())) {
   const std::span<const uint32_t> common = groups.common();
+  for (const uint32_t i : common) bounded_[i].store(1, std::memory_order_relaxed);
   if (common.size() <= kBoundedAtOnce) {
     bound(common);
     return;
@@ -65,20 +66,6 @@ void ScreenBounds::open_wholly(uint32_t group) {
   }
 }
 
-/// Members that stand elsewhere, too, are bounded with the frame, and not again.
-void ScreenBounds::note_shared_members(uint32_t group) const {
-  const OperandGroups::Members members = groups_.members(group);
-  std::span<const uint32_t> own = groups_.own(group);  // in the members' order
-  if (own.size() == members.primitive.size()) return;
-  for (size_t i = 0; i < members.primitive.size(); ++i) {
-    if (!own.empty() && own.front() == (members.primitive[i] & kPrimitiveBits)) {
-      own = own.subspan(1);
-    } else {
-      bounded_[members.first + i].store(1, std::memory_order_relaxed);
-    }
-  }
-}
-
 /// A group's box is larger on the screen than what the screen shows of all that it holds.
 void ScreenBounds::narrow_to_members(uint32_t group) const {
   const OperandGroups::Members members = groups_.members(group);
@@ -90,31 +77,27 @@ void ScreenBounds::narrow_to_members(uint32_t group) const {
   narrow(all, frame_.view, screen_[group]);
 }
 
-/// Of a group's members from `first` on, those whose bit is set in `wanted`.
+/// Of a group's members from `first` on, those whose bit is set in `wanted`. What stands elsewhere,
+/// too, was bounded with the frame: only this group's lock is needed for the others.
 void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t first,
                                  uint64_t wanted) const {
-  std::atomic<uint8_t>* const bounded = bounded_.get() + members.first + first;
-  const auto find_missing = [&](uint32_t(&missing)[kMembersAtOnce]) {
+  uint32_t missing[kMembersAtOnce];
+  const auto find_missing = [&] {
     uint32_t count = 0;
     for (uint64_t left = wanted; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
-      missing[count] = static_cast<uint32_t>(i);
-      count += bounded[i].load(std::memory_order_acquire) == 0;
+      const auto i = static_cast<uint32_t>(std::countr_zero(left));
+      missing[count] = members.primitive[first + i] & kPrimitiveBits;
+      count += bounded_[missing[count]].load(std::memory_order_acquire) == 0;
     }
     return count;
   };
-  uint32_t missing[kMembersAtOnce];
-  if (find_missing(missing) == 0) return;
+  if (find_missing() == 0) return;
   std::atomic<uint8_t>& state = states_[members.group - groups_.first_group()];
   // Another thread is about to have bounded some: some microseconds.
   while (state.exchange(kBusy, std::memory_order_acquire) == kBusy) std::this_thread::yield();
-  const uint32_t count = find_missing(missing);
-  uint32_t indices[kMembersAtOnce];
-  for (uint32_t i = 0; i < count; ++i) {
-    indices[i] = members.primitive[first + missing[i]] & kPrimitiveBits;
-  }
-  bound({indices, count});
-  for (uint32_t i = 0; i < count; ++i) bounded[missing[i]].store(1, std::memory_order_release);
+  const std::span<const uint32_t> indices(missing, find_missing());
+  bound(indices);
+  for (const uint32_t i : indices) bounded_[i].store(1, std::memory_order_release);
   state.store(kFree, std::memory_order_release);
 }
 
@@ -139,28 +122,24 @@ OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint6
 
 std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Members& members,
                                                       uint32_t first, uint32_t count,
-                                                      const OpenedCell& cell) const {
-  const Box& box = cell.box;
-  const HiddenSide* const hidden =
-      cell.hidden && nearest_t(screen_[members.group]) > cell.hidden->depth ? cell.hidden : nullptr;
+                                                      const Box& cell) const {
   const uint32_t* const primitives = members.primitive.data() + first;
   const auto [low_x, high_x, low_y, high_y] = members.rows(rectangles_.get());
-  const RectangleRows rows{low_x + first, high_x + first, low_y + first, high_y + first};
-  uint64_t outside = find_outside(rows, count, box);
-  if (hidden) outside |= find_on_side(rows, count, box, *hidden);
+  uint64_t outside =
+      find_outside({low_x + first, high_x + first, low_y + first, high_y + first}, count, cell);
   const uint64_t near = ~outside & first_bits(count);
   if (near == 0) return outside;
   bound_members(members, first, near);
   uint64_t open = 0;
   for (uint64_t left = near; left != 0; left &= left - 1) {
     const Extent& extent = screen_[primitives[std::countr_zero(left)] & kPrimitiveBits];
-    if (!meets(extent, box) || (hidden && hides(*hidden, extent, box))) {
+    if (!meets(extent, cell)) {
       outside |= left & -left;
     } else if (extent.inside2 < 0) {
       open |= left & -left;
     }
   }
-  if (open != 0) outside |= classify(primitives, open, box).outside;
+  if (open != 0) outside |= classify(primitives, open, cell).outside;
   return outside;
 }
 
@@ -169,16 +148,10 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
   for (const uint32_t i : indices) {
     prefetch(&groups_.extents()[i], sizeof(Extent));
     prefetch(&screen_[i], sizeof(Extent));
-    if (!groups_.is_group(i)) continue;
-    const OperandGroups::Members members = groups_.members(i);
-    const size_t bytes = 4 * members.primitive.size() * sizeof(float);
-    prefetch(groups_.balls(i).x, bytes);
-    prefetch(rectangles_.get() + 4 * size_t{members.first}, bytes);
   }
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
   for (const uint32_t i : indices) {
     if (!groups_.is_group(i)) continue;
-    note_shared_members(i);
     if (fate_on_screen(screen_[i]) == ScreenFate::kVisible) narrow_to_members(i);
   }
   const auto needs_outline = [&](uint32_t i) {

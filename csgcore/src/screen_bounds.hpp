@@ -33,13 +33,12 @@ class ScreenBounds final : public OpenClassifier {
 
   /// In screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
-  /// Of a group that is bounded; bounds those that are neither outside nor hidden.
+  /// Of a group that is bounded; bounds those that are not outside.
   std::optional<uint64_t> members_outside(const OperandGroups::Members& members, uint32_t first,
-                                          uint32_t count, const OpenedCell& cell) const override;
+                                          uint32_t count, const Box& cell) const override;
 
  private:
   void narrow_to_members(uint32_t group) const;
-  void note_shared_members(uint32_t group) const;
   void bound_members(const OperandGroups::Members& members, uint32_t first, uint64_t wanted) const;
   void bound(std::span<const uint32_t> indices) const;
 
@@ -53,7 +52,7 @@ class ScreenBounds final : public OpenClassifier {
   std::unique_ptr<ScreenOutline[]> outlines_;        // of whose inside2 < 0
   std::unique_ptr<ScreenCorners[]> corners_;         // of those that are large
   std::unique_ptr<std::atomic<uint8_t>[]> states_;   // of the groups
-  std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // of members: whether screen_ holds them
+  std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // by index: whether screen_ holds it
   /// Of the members of groups that are seen: what tiles tell them apart by. Of one group low x of
   /// all, then high x, low y, high y; then the next group's.
   std::unique_ptr<float[]> rectangles_;

@@ -2,7 +2,6 @@
 // by.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -72,16 +71,5 @@ inline bool covers(const Extent& screen, const Box& area) {
 
 inline double nearest_t(const Extent& screen) { return screen.center[2] - screen.half[2]; }
 inline double furthest_t(const Extent& screen) { return screen.center[2] + screen.half[2]; }
-
-/// Whether nothing of it can be seen in the tile. The extent meets the tile.
-inline bool hides(const HiddenSide& side, const Extent& screen, const Box& tile) {
-  const auto furthest = [&](int axis, double towards) {
-    const double end = towards > 0
-                           ? std::min(screen.center[axis] + screen.half[axis], tile.max[axis])
-                           : std::max(screen.center[axis] - screen.half[axis], tile.min[axis]);
-    return towards * end;
-  };
-  return nearest_t(screen) > side.depth && furthest(0, side.x) + furthest(1, side.y) < side.limit;
-}
 
 }  // namespace csgcore

@@ -129,18 +129,15 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
 const CsgTree& Solid::used_of(const CsgTree& tree) const { return lean_ ? lean_->tree : tree; }
 
 void Solid::make_groups(const CsgTree& tree, Extents extents) {
-  groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(extents),
-                                                  cell_overlap(bounds_));
+  groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
 }
 
 void Solid::find_outer_groups(const CsgTree& tree) {
   outer_groups_ = groups_;
-  const double margin = cell_overlap(bounds_);
-  HiddenOperands hidden = find_hidden_operands(*groups_, *primitives_, margin);
+  HiddenOperands hidden = find_hidden_operands(*groups_, *primitives_, cell_overlap(bounds_));
   if (hidden.count() == 0) return;
   Extents same(extents().begin(), extents().end());
-  outer_groups_ = std::make_shared<const OperandGroups>(tree, *primitives_, std::move(same), margin,
-                                                        std::move(hidden));
+  outer_groups_ = std::make_shared<const OperandGroups>(tree, std::move(same), std::move(hidden));
 }
 
 std::span<const uint32_t> Solid::inner() const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -24,14 +23,6 @@ constexpr uint32_t kUndecisiveList = 64;
 /// far above the rounding of an intersection.
 constexpr double kCoverSlack = 1e-9;
 
-/// Of pixels that a primitive hides, those within it for less than this share of the longest are
-/// not asked for a common depth: they may have none.
-constexpr double kLeastShare = 0.25;
-
-/// Of a picture's width and height together: above what float loses of a point's distance from a
-/// line of the screen, five roundings of 2⁻²⁴.
-constexpr double kLineRounding = 1e-6;
-
 /// A stretch of depth is looked at in so many parts for one that is free.
 constexpr size_t kDepthParts = 64;
 
@@ -50,70 +41,6 @@ bool covers_more_than(const Extent& screen, const Tile& tile) {
 bool lies_within(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) > from_t && furthest_t(screen) < to_t;
 }
-
-/// The pixels of a tile of up to 8 × 8, as PixelCut counts them.
-uint64_t pixels_of(const Tile& tile) {
-  uint64_t pixels = 0;
-  for (uint32_t y = 0; y < tile.height; ++y) {
-    pixels |= ((uint64_t{1} << tile.width) - 1) << (kPacketWidth_px * y);
-  }
-  return pixels;
-}
-
-/// The smallest box on the screen that holds these; none: an empty one.
-Box box_about(const Tile& tile, uint64_t pixels) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  Box box{Vec3{kNone}, Vec3{-kNone}};
-  for (; pixels != 0; pixels &= pixels - 1) {
-    const uint32_t bit = static_cast<uint32_t>(std::countr_zero(pixels));
-    const Vec3 at{tile.x + bit % kPacketWidth_px, tile.y + bit / kPacketWidth_px, 0};
-    box.min = glm::min(box.min, at);
-    box.max = glm::max(box.max, at);
-  }
-  return box;
-}
-
-/// As many points around a tile's border, its corners among them, as rays are in a packet.
-struct BorderPoints {
-  explicit BorderPoints(const Box& box) {
-    constexpr uint32_t kOnASide = kPacketRays / 4;
-    const glm::dvec2 corners[] = {{box.min.x, box.min.y},
-                                  {box.max.x, box.min.y},
-                                  {box.max.x, box.max.y},
-                                  {box.min.x, box.max.y}};
-    for (uint32_t i = 0; i < kPacketRays; ++i) {
-      const uint32_t corner = i / kOnASide;
-      points[i] = glm::mix(corners[corner], corners[(corner + 1) % 4],
-                           static_cast<double>(i % kOnASide) / kOnASide);
-    }
-  }
-
-  /// Given that a convex part of the screen holds the points whose bit is set: a side of a line
-  /// whose part within the tile that holds, too. It is about the points that stand side by side,
-  /// and as the corners between them are among those, the line through the first and the last cuts
-  /// off no more of the tile than lies between them.
-  std::optional<HiddenSide> side_within(LaneMask held, double depth, double rounding) const {
-    if (held == kAllLanes) return HiddenSide{0, 0, 1, 2, depth};
-    int first = 0, count = 0;
-    for (int i = 0; i < static_cast<int>(kPacketRays); ++i) {
-      const int run = std::countr_one(std::rotr(held, i));
-      if (run > count) first = i, count = run;
-    }
-    if (count < 3) return std::nullopt;
-    const glm::dvec2 from = points[first];
-    const glm::dvec2 to = points[(static_cast<uint32_t>(first + count) - 1) % kPacketRays];
-    const double length = glm::distance(from, to);
-    if (!(length > 0)) return std::nullopt;
-    const glm::dvec2 across = glm::dvec2{from.y - to.y, to.x - from.x} / length;
-    const auto x = static_cast<float>(across.x);
-    const auto y = static_cast<float>(across.y);
-    const double line = std::min(x * from.x + y * from.y, x * to.x + y * to.y);
-    return HiddenSide{x, y, static_cast<float>(line - rounding),
-                      static_cast<float>(line + rounding), depth};
-  }
-
-  glm::dvec2 points[kPacketRays];
-};
 
 }  // namespace
 
@@ -135,8 +62,7 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
   for (const Cover& cover : covers_) {
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
-    cuts = depth && all_end_before(list, restrictor, *depth) &&
-           drop_behind(list, *depth, cover, [](const Extent&) { return false; });
+    cuts = depth && all_end_before(list, restrictor, *depth) && drop_behind(list, *depth, cover);
     if (!cuts) continue;
     cut_t_ = *depth;
     break;
@@ -300,146 +226,18 @@ bool TileSimplifier::all_end_before(const CellList& list, Restrictor& restrictor
   return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
 }
 
-/// Drops what is behind the depth, but for what is seen all the same; false if that is nothing.
-template <typename IsSeen>
-bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover& cover,
-                                 const IsSeen& is_seen) {
+/// Drops what is behind the depth; false if that is nothing.
+bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover& cover) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
     if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
-    if (is_seen(extent)) continue;
     dropped_[i] = Decision::kOutside;
     const bool is_inside = lies_within(extent, cover.from_t, cover.to_t);
     note(list.primitive[i] & kPrimitiveBits, is_inside ? Fate::kInside : Fate::kHidden);
     drops = true;
   }
   return drops;
-}
-
-/// The largest primitive that may hide much of the tile; none if nothing lies behind its middle.
-std::optional<uint32_t> TileSimplifier::find_large(const Tile& tile, const CellList& list) const {
-  const Extent* largest = nullptr;
-  uint32_t primitive = 0;
-  for (const uint32_t entry : list.primitives()) {
-    const uint32_t index = entry & kPrimitiveBits;
-    const Extent& e = screen_[index];
-    if (groups_.is_group(index) || !covers_more_than(e, tile)) continue;
-    if (largest && e.half[0] * e.half[1] <= largest->half[0] * largest->half[1]) continue;
-    largest = &e;
-    primitive = index;
-  }
-  if (!largest) return std::nullopt;
-  const bool any_behind = std::ranges::any_of(list.primitives(), [&](uint32_t entry) {
-    return nearest_t(screen_[entry & kPrimitiveBits]) > largest->center[2];
-  });
-  if (!any_behind) return std::nullopt;
-  return primitive;
-}
-
-/// Makes the primitive the only cover, over the stretch that it holds along all of some rays but
-/// those that hardly touch it, and nothing dropped. A depth there that who is within it ends
-/// before. start, end: of the rays' segments within it, in τ.
-std::optional<double> TileSimplifier::find_part_depth(const CellList& list, Restrictor& restrictor,
-                                                      uint32_t primitive,
-                                                      std::span<const double> start,
-                                                      std::span<const double> end) {
-  const auto from = [&](size_t i) { return std::max(start[i], frame_.first_t); };
-  double longest = 0;
-  for (size_t i = 0; i < start.size(); ++i) longest = std::max(longest, end[i] - from(i));
-  if (!(longest > 0)) return std::nullopt;
-  Cover cover{primitive, frame_.first_t, std::numeric_limits<double>::infinity()};
-  for (size_t i = 0; i < start.size(); ++i) {
-    if (!(end[i] - from(i) >= kLeastShare * longest)) continue;
-    cover.from_t = std::max(cover.from_t, from(i));
-    cover.to_t = std::min(cover.to_t, end[i]);
-  }
-  const double slack = slack_of(cover);
-  cover = {primitive, cover.from_t + slack, cover.to_t - slack};
-  if (!(cover.from_t < cover.to_t)) return std::nullopt;
-  covers_.assign(1, cover);
-  dropped_.assign(list.count(), Decision::kOpen);
-  marked_.clear();
-  const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
-  return depth && all_end_before(list, restrictor, *depth) ? depth : std::nullopt;
-}
-
-/// The bits of up to 64 rays that the only cover holds at the depth, by their segments within it.
-uint64_t TileSimplifier::find_held(std::span<const double> start, std::span<const double> end,
-                                   double depth) const {
-  const double slack = slack_of(covers_.front());
-  uint64_t held = 0;
-  for (size_t i = 0; i < start.size(); ++i) {
-    held |= uint64_t{start[i] + slack < depth && depth < end[i] - slack} << i;
-  }
-  return held;
-}
-
-std::optional<TileSimplifier::PixelCut> TileSimplifier::cut_by_pixels(const Tile& tile,
-                                                                      const CellList& list,
-                                                                      Restrictor& restrictor,
-                                                                      CellList& result) {
-  static_assert(kPacketWidth_px == 8 && kPacketRays == 32);
-  if (!last_value_ || !centers_only_) return std::nullopt;
-  const std::optional<uint32_t> primitive = find_large(tile, list);
-  if (!primitive) return std::nullopt;
-  double start[2 * kPacketRays], end[2 * kPacketRays];
-  std::fill(std::begin(start), std::end(start), std::numeric_limits<double>::infinity());
-  std::fill(std::begin(end), std::end(end), -std::numeric_limits<double>::infinity());
-  const uint64_t pixels_in_tile = pixels_of(tile);
-  for (const uint32_t first : {0u, kPacketRays}) {
-    const auto lanes = static_cast<LaneMask>(pixels_in_tile >> first);
-    if (lanes == 0) continue;
-    RayPacket rays;
-    make_block_rays(frame_, tile.x, tile.y + first / kPacketWidth_px, rays);
-    PacketSegments segments;
-    intersect(frame_, rays, primitives_[*primitive], segments);
-    for (LaneMask left = lanes; left != 0; left &= left - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(left));
-      start[first + lane] = segments.start[lane];
-      end[first + lane] = segments.end[lane];
-    }
-  }
-  const auto depth = find_part_depth(list, restrictor, *primitive, start, end);
-  if (!depth) return std::nullopt;
-  const uint64_t hidden = find_held(start, end, *depth);
-  const Box seen = box_about(tile, pixels_in_tile & ~hidden);
-  drop_behind(list, *depth, covers_.front(),
-              [&](const Extent& extent) { return overlaps(extent, seen); });
-  restrictor.restrict(list, dropped_, result);
-  return PixelCut{tile.y, hidden, *depth, seen};
-}
-
-std::optional<HiddenSide> TileSimplifier::cut_by_line(const Tile& tile, const CellList& list,
-                                                      Restrictor& restrictor, CellList& result) {
-  if (!last_value_ || !centers_only_) return std::nullopt;
-  const std::optional<uint32_t> primitive = find_large(tile, list);
-  if (!primitive) return std::nullopt;
-  const Box box = box_of(tile, centers_only_);
-  RayPacket rays;
-  PacketSegments segments;
-  make_four_rays(frame_, laterals_of_corners(frame_, box), rays);
-  intersect_four(frame_, rays, primitives_[*primitive], segments);
-  const auto depth =
-      find_part_depth(list, restrictor, *primitive, {segments.start, 4}, {segments.end, 4});
-  if (!depth) return std::nullopt;
-  const BorderPoints border(box);
-  PacketLaterals laterals;
-  for (uint32_t i = 0; i < kPacketRays; ++i) {
-    laterals.u[i] = frame_.u(border.points[i].x);
-    laterals.v[i] = frame_.v(border.points[i].y);
-  }
-  make_rays(frame_, laterals, rays);
-  intersect(frame_, rays, primitives_[*primitive], segments);
-  const auto held = static_cast<LaneMask>(find_held(segments.start, segments.end, *depth));
-  const double rounding = kLineRounding * (frame_.view.width_px + frame_.view.height_px);
-  const auto side = border.side_within(held, *depth, rounding);
-  if (!side) return std::nullopt;
-  const bool drops = drop_behind(list, *depth, covers_.front(),
-                                 [&](const Extent& extent) { return !hides(*side, extent, box); });
-  if (!drops) return std::nullopt;
-  restrictor.restrict(list, dropped_, result);
-  return side;
 }
 
 /// Of a group, all that it holds and the screen shows.

@@ -93,22 +93,6 @@ class TileSimplifier {
   };
   Outcome simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
                    CellList& result);
-  /// What some pixels of a tile cannot see, others may.
-  struct PixelCut {
-    uint32_t y;       // of the tile's first row
-    uint64_t hidden;  // bit 8·row + column: the ray through that pixel's centre ends before `depth`
-    double depth;     // τ
-    Box seen;         // on the screen: where rays go on
-  };
-  /// Of a tile of up to 8 × 8 pixels that one primitive covers in part, and rays through pixels'
-  /// centres: `result` is without what lies behind where that primitive hides it, and is seen
-  /// nowhere else. None: there is no such primitive.
-  std::optional<PixelCut> cut_by_pixels(const Tile& tile, const CellList& list,
-                                        Restrictor& restrictor, CellList& result);
-  /// The same of a tile of any size, of what a line tells: `result` is without what lies on that
-  /// side, behind where one primitive hides it.
-  std::optional<HiddenSide> cut_by_line(const Tile& tile, const CellList& list,
-                                        Restrictor& restrictor, CellList& result);
   /// If all rays of the tile enter one primitive by one plane face, and have ended where they do:
   /// `result` is without what lies behind that plane, or touches it from behind and comes earlier
   /// in the file. False: there is no such primitive, or nothing behind it. cut_t() is the furthest
@@ -148,14 +132,7 @@ class TileSimplifier {
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
   bool all_end_before(const CellList& list, Restrictor& restrictor, double depth);
-  template <typename IsSeen>
-  bool drop_behind(const CellList& list, double depth, const Cover& cover, const IsSeen& is_seen);
-  std::optional<uint32_t> find_large(const Tile& tile, const CellList& list) const;
-  std::optional<double> find_part_depth(const CellList& list, Restrictor& restrictor,
-                                        uint32_t primitive, std::span<const double> start,
-                                        std::span<const double> end);
-  uint64_t find_held(std::span<const double> start, std::span<const double> end,
-                     double depth) const;
+  bool drop_behind(const CellList& list, double depth, const Cover& cover);
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
   void note(uint32_t index, Fate fate);

@@ -94,7 +94,7 @@ bool list_tiles(const Solid& solid, const View& view, const TileListOptions& opt
     rules.tile_list = options.short_list;
     rules.packet_list = options.longest_list;
     rules.cover_share = kCoverShare;
-    rules.cuts_in_part = false;
+    rules.cuts_by_faces = false;
     Fates fates;
     TileTracer tracer(solid, rays, subject, rules, fates);
     ListVisitor visitor(rays.base_s, options.longest_list, stop);

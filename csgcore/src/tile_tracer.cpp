@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <limits>
 
 #include "packet_blocks.hpp"
@@ -12,11 +11,6 @@
 
 namespace csgcore {
 namespace {
-
-/// Tiles larger than kTileSide_px whose list is this short are not divided: that costs more than it
-/// saves.
-constexpr uint32_t kShortList = 3;
-constexpr uint32_t kShortListSide_px = 32;
 
 /// Tiles of so few pixels a side are never divided.
 constexpr uint32_t kLeastSide_px = 2;
@@ -34,10 +28,6 @@ constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 /// the tile as a whole. Later where smaller tiles may show that it is hidden.
 constexpr double kOpenShare = 1.0;
 constexpr double kOpenShareBehind = 4.0;
-
-/// Of a larger tile, a line tells badly what is hidden (tests/benchmark/NOTES.md).
-constexpr uint32_t kLineCutSide_px = 64;
-static_assert(kTileSide_px <= kLineCutSide_px);
 
 /// Tiles of so many pixels a side are cut by faces, and lists of so many literals.
 constexpr uint32_t kFaceCutSide_px = 128;
@@ -98,14 +88,13 @@ struct TileTracer::Level {
   CellList halves[2];
   CellList in_front;
   CellList simplified;
-  CellList cut;
   CellList opened[2];
 };
 
 /// What one task works with.
 struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
-      : restrictor(owner.bounds_.extents(), owner.bounds_, Restrictor::Space::kScreen),
+      : restrictor(owner.bounds_.extents(), owner.bounds_),
         simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
                    owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
                    owner.subject_.thinnest_piece, owner.fates_) {}
@@ -183,7 +172,7 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
       marked.push_back(groups.is_group(entry & kPrimitiveBits));
     }
     std::swap(at_eye, closed);
-    restrictor.open(closed, groups, marked, {cell}, at_eye);
+    restrictor.open(closed, groups, marked, cell, at_eye);
   }
   if (!at_eye.is_constant()) return std::nullopt;
   return at_eye.root == CellList::kFalse;
@@ -242,57 +231,33 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
   const bool is_packet = tile.width <= kPacketWidth_px && tile.height <= kPacketHeight_px;
   const auto is_short = [&] {
     return side <= kLeastSide_px || (is_packet && list->count() <= rules_.packet_list) ||
-           (side <= kTileSide_px && list->count() <= rules_.tile_list) ||
-           (side <= kShortListSide_px && list->count() <= kShortList);
+           (side <= kTileSide_px && list->count() <= rules_.tile_list);
   };
   const auto simplify_list = [&](bool is_new) {
     bool cuts = false;
-    list = simplify(tile, list, is_new, cut.is_for_all(), own, workspace, cuts);
+    list = simplify(tile, list, is_new, cut.uncut != nullptr, own, workspace, cuts);
     if (!cuts) return;
     if (!cut.uncut) cut.uncut = &given;
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
   };
-  if (rules_.cuts_in_part && side <= kFaceCutSide_px && list->count() >= kLeastFaceCut &&
+  if (rules_.cuts_by_faces && side <= kFaceCutSide_px && list->count() >= kLeastFaceCut &&
       workspace.simplifier.cut_by_face(tile, *list, workspace.restrictor, own.in_front)) {
     if (!cut.uncut) cut.uncut = &given;
     cut.t = std::min(cut.t, workspace.simplifier.cut_t());
     list = &own.in_front;
   }
   // Groups that are left of a list that was cut are mostly seen.
-  simplify_list(!cut.is_for_all() && has_groups(groups_, *list));
-  const bool is_cut_in_part = rules_.cuts_in_part && side <= kLineCutSide_px && !cut.is_for_all() &&
-                              !cut.by_pixels && has_groups(groups_, *list);
-  LineCut line;
-  const HiddenSide* hidden = nullptr;
-  if (is_cut_in_part && is_short() && side <= kTileSide_px) {
-    cut.by_pixels = workspace.simplifier.cut_by_pixels(tile, *list, workspace.restrictor, own.cut);
-    if (cut.by_pixels) {
-      if (!cut.uncut) cut.uncut = &given;
-      const double depth = cut.by_pixels->depth;
-      const auto is_behind_cut = [&](const Extent& group) { return nearest_t(group) > depth; };
-      list =
-          open_wanted_groups({cut.by_pixels->seen}, &own.cut, is_behind_cut, own.opened, workspace);
-    }
-  } else if (is_cut_in_part) {
-    const auto found = workspace.simplifier.cut_by_line(tile, *list, workspace.restrictor, own.cut);
-    if (found) {
-      if (!cut.uncut) cut.uncut = &given;
-      line = {*found, cut.by_line};
-      hidden = &line.side;
-      cut.by_line = &line;
-      list = &own.cut;
-    }
-  }
+  simplify_list(!cut.uncut && has_groups(groups_, *list));
   const CellList* const closed = list;
-  const bool is_behind = !cut.is_for_all() && workspace.simplifier.is_partly_covered();
+  const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
-  list = open_large_groups(tile, hidden, list, share, own.opened, workspace);
-  if (list != closed) simplify_list(!cut.is_for_all());
+  list = open_large_groups(tile, list, share, own.opened, workspace);
+  if (list != closed) simplify_list(!cut.uncut);
   if (list->is_constant() && !cut.uncut) {
     visitor.visit_empty(tile);
     return;
   }
-  if (is_short()) list = open_large_groups(tile, hidden, list, 0.0, own.opened, workspace);
+  if (is_short()) list = open_large_groups(tile, list, 0.0, own.opened, workspace);
   if (is_short()) {
     visit_leaf(tile, *list, cut, workspace, visitor);
     return;
@@ -345,33 +310,32 @@ const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, boo
       case TileSimplifier::Outcome::kSimplified:
         return &level.simplified;
       case TileSimplifier::Outcome::kOpenGroups:
-        list = &open_groups({box_of(tile)}, *list, workspace.simplifier.marked(), level.opened,
-                            workspace);
+        list = &open_groups(tile, *list, workspace.simplifier.marked(), level.opened, workspace);
     }
   }
   return list;
 }
 
 /// The list with the groups opened whose indices in the list are marked.
-const CellList& TileTracer::open_groups(const OpenedCell& cell, const CellList& list,
+const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
                                         std::span<const uint8_t> marked, CellList (&buffers)[2],
                                         Workspace& workspace) {
   CellList& result = buffers[&list == &buffers[0] ? 1 : 0];
-  workspace.restrictor.open(list, groups_, marked, cell, result);
+  workspace.restrictor.open(list, groups_, marked, box_of(tile), result);
   return result;
 }
 
-/// The list with all groups opened whose extents are wanted, in one of the buffers; the list itself
-/// if there are none. Of what they hold, what is seen in the cell on the screen is left.
-template <typename IsWanted>
-const CellList* TileTracer::open_wanted_groups(const OpenedCell& cell, const CellList* list,
-                                               const IsWanted& is_wanted, CellList (&buffers)[2],
-                                               Workspace& workspace) {
+/// The list with all groups opened that are as wide or as high as `share` of the tile, in one of
+/// the buffers; the list itself if there are none. Of what they hold, what meets the tile is left.
+const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
+                                              CellList (&buffers)[2], Workspace& workspace) {
+  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
   const std::span<const Extent> screen = bounds_.extents();
   std::vector<uint8_t>& marked = workspace.marked;
   const auto is_opened = [&](uint32_t entry) {
     const uint32_t index = entry & kPrimitiveBits;
-    return groups_.is_group(index) && is_wanted(screen[index]);
+    const Extent& e = screen[index];
+    return groups_.is_group(index) && (e.half[0] >= least[0] || e.half[1] >= least[1]);
   };
   for (;;) {
     const std::span<const uint32_t> entries = list->primitives();
@@ -379,19 +343,8 @@ const CellList* TileTracer::open_wanted_groups(const OpenedCell& cell, const Cel
     if (first == entries.end()) return list;
     marked.assign(entries.size(), 0);
     std::transform(first, entries.end(), marked.begin() + (first - entries.begin()), is_opened);
-    list = &open_groups(cell, *list, marked, buffers, workspace);
+    list = &open_groups(tile, *list, marked, buffers, workspace);
   }
-}
-
-/// The same of all groups that are as wide or as high as `share` of the tile.
-const CellList* TileTracer::open_large_groups(const Tile& tile, const HiddenSide* hidden,
-                                              const CellList* list, double share,
-                                              CellList (&buffers)[2], Workspace& workspace) {
-  const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
-  const auto is_large = [&](const Extent& group) {
-    return group.half[0] >= least[0] || group.half[1] >= least[1];
-  };
-  return open_wanted_groups({box_of(tile), hidden}, list, is_large, buffers, workspace);
 }
 
 class TileTracer::LeafRays final : public TileRays {
@@ -410,46 +363,26 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
-    return trace(rays, lanes, nullptr, workspace_.list.trace_list(), hits);
+    return trace(rays, lanes, workspace_.list.trace_list(), hits);
   }
 
   const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
                          PacketHits& hits) override {
-    return trace(rays, block.lanes, &block, workspace_.list.trace_list(block), hits);
+    return trace(rays, block.lanes, workspace_.list.trace_list(block), hits);
   }
 
  private:
-  /// The rays that were to end before what the list has lost, and have not. `block`: of whose
-  /// pixels they are. Null: of any; a list for those is not cut in part.
-  LaneMask lanes_that_go_on(const PacketBlock* block, const PacketHits& hits) const {
-    LaneMask lost = 0;
-    const auto add = [&](LaneMask lanes, double depth) {
-      lost |= lanes & ~hits.hits;
-      for (LaneMask left = lanes & hits.hits; left != 0; left &= left - 1) {
-        if (hits.t[std::countr_zero(left)] > depth) lost |= left & -left;
-      }
-    };
-    if (cut_.is_for_all()) add(kAllLanes, cut_.t);
-    assert(block || (!cut_.by_pixels && !cut_.by_line));
-    if (!block) return lost;
-    if (const auto& cut = cut_.by_pixels) {
-      add(static_cast<LaneMask>(cut->hidden >> (block->y - cut->y) * kPacketWidth_px), cut->depth);
-    }
-    for (const LineCut* cut = cut_.by_line; cut; cut = cut->earlier) {
-      const HiddenSide& side = cut->side;
-      LaneMask hidden = 0;
-      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-        const double x = block->x + lane % kPacketWidth_px;
-        const double y = block->y + lane / kPacketWidth_px;
-        hidden |= LaneMask{side.x * x + side.y * y < side.rays_limit} << lane;
-      }
-      add(hidden, side.depth);
+  /// The rays that were to end before what the list has lost, and have not.
+  LaneMask lanes_that_go_on(const PacketHits& hits) const {
+    LaneMask lost = ~hits.hits;
+    for (LaneMask left = hits.hits; left != 0; left &= left - 1) {
+      if (hits.t[std::countr_zero(left)] > cut_.t) lost |= left & -left;
     }
     return lost;
   }
 
-  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const PacketBlock* block,
-                         const TraceList& list, PacketHits& hits) {
+  const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
+                         PacketHits& hits) {
     const uint64_t resolved = workspace_.packets.resolved_rays;
     trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
@@ -457,7 +390,7 @@ class TileTracer::LeafRays final : public TileRays {
     // Such pieces are the resolver's alone: other rays show where the solid's value changes first.
     const bool is_certain =
         (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
-    if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(block, hits)) == 0) {
+    if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
       return workspace_.list.trace_list();
     }
     workspace_.packets.was_computed.clear();
@@ -472,8 +405,8 @@ class TileTracer::LeafRays final : public TileRays {
     has_uncut_ = true;
     CellList& restricted = workspace_.uncut;
     workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
-    const CellList* list = owner_.open_large_groups(tile_, nullptr, &restricted, 0.0,
-                                                    workspace_.uncut_opened, workspace_);
+    const CellList* list =
+        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
     workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
   }
 

@@ -43,7 +43,8 @@ class TileRays {
   struct Met {
     const CellList& list;
     /// All rays end before this depth, and the list is without what lies behind it. +∞: it is
-    /// without nothing. Of lists that are cut in part this is not known (TileRules::cuts_in_part).
+    /// without nothing. Of lists that are cut by faces this is not known
+    /// (TileRules::cuts_by_faces).
     double cut_t;
   };
   virtual Met met() = 0;
@@ -81,9 +82,9 @@ struct TileRules {
   /// What is hidden is left out where what hides it is, along every ray, longer than this share of
   /// its depth on the screen: who computes less exactly than the tracer must not miss it.
   double cover_share = 0;
-  /// Whether it may be without what is hidden from some of a tile's pixels alone, or behind a face
-  /// that all of its rays meet at depths of their own.
-  bool cuts_in_part = true;
+  /// Whether it may be without what is hidden behind a face that all rays meet at depths of their
+  /// own.
+  bool cuts_by_faces = true;
 };
 
 /// One frame's tiles.
@@ -114,22 +115,11 @@ class TileTracer {
   class Lease;
   class LeafRays;
 
-  /// By a line, of a tile that this one is part of.
-  struct LineCut {
-    HiddenSide side;
-    const LineCut* earlier;  // null: there is none
-  };
   /// What a list has lost of what is hidden.
   struct Cut {
     const CellList* uncut = nullptr;  // the list before; null: it is whole
     /// All rays end before this depth: TileRays::Met::cut_t, unless cut by a face.
     double t = std::numeric_limits<double>::infinity();
-    // What is lost where some rays end alone:
-    std::optional<TileSimplifier::PixelCut> by_pixels;
-    const LineCut* by_line = nullptr;
-
-    /// Whether all rays end before what was lost.
-    bool is_for_all() const { return t < std::numeric_limits<double>::infinity(); }
   };
 
   /// What rays can get to.
@@ -148,16 +138,11 @@ class TileTracer {
                   TileVisitor& visitor);
   const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                            Level& level, Workspace& workspace, bool& cuts);
-  const CellList& open_groups(const OpenedCell& cell, const CellList& list,
+  const CellList& open_groups(const Tile& tile, const CellList& list,
                               std::span<const uint8_t> marked, CellList (&buffers)[2],
                               Workspace& workspace);
-  template <typename IsWanted>
-  const CellList* open_wanted_groups(const OpenedCell& cell, const CellList* list,
-                                     const IsWanted& is_wanted, CellList (&buffers)[2],
-                                     Workspace& workspace);
-  const CellList* open_large_groups(const Tile& tile, const HiddenSide* hidden,
-                                    const CellList* list, double share, CellList (&buffers)[2],
-                                    Workspace& workspace);
+  const CellList* open_large_groups(const Tile& tile, const CellList* list, double share,
+                                    CellList (&buffers)[2], Workspace& workspace);
   Box box_of(const Tile& tile) const;
 
   const Solid& solid_;

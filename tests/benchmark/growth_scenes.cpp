@@ -168,23 +168,6 @@ Scene intersected_behind(uint32_t unseen) {
   return intersected_with({on_screen(-0.3, 0, 0.8 * distance_to_body()), 4}, unseen);
 }
 
-/// Small parts, each intersected with another that it does not meet.
-Scene disjoint_pairs(uint32_t unseen) {
-  Composer composer;
-  composer.add_body();
-  for (uint32_t i = 0; i + 1 < unseen; i += 2) {
-    const Place place = composer.find([&] { return composer.anywhere_on_screen(0.6, 1.2); },
-                                      [](const Place& p) {
-                                        return is_off_body({p.center, 5 * p.reach});
-                                      });
-    composer.open(Op::kIntersection);
-    composer.add_part(place);
-    composer.add_part({place.center + 2.1 * place.reach * composer.direction(), place.reach});
-    composer.close();
-  }
-  return composer.finish();
-}
-
 // (e) Between the samples.
 
 /// Around pixels' corners, a tenth of a pixel across, in front of the body and beside it.
@@ -225,7 +208,6 @@ std::span<const GrowthScene> growth_scenes() {
       {"cancelled_added_and_subtracted", added_and_subtracted},
       {"cancelled_intersected_beside", intersected_beside},
       {"cancelled_intersected_behind", intersected_behind},
-      {"cancelled_disjoint_pairs", disjoint_pairs},
       {"between_samples", between_samples}};
   return kScenes;
 }

@@ -339,7 +339,9 @@ TEST(ScreenOutlines, EveryInstructionSetAgrees) {
   }
 }
 
+/// The screen's extents against a tile, which has any depth.
 TEST(ScreenExtents, RectanglesMeetATileOrNot) {
+  constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
   std::mt19937 random(6);
   Extents extents(200);
   for (Extent& extent : extents) {
@@ -348,14 +350,16 @@ TEST(ScreenExtents, RectanglesMeetATileOrNot) {
       extent.center[axis] = uniform(random, -10, 10);
       extent.half[axis] = uniform(random, -1, 5);  // empty ones too
     }
+    const bool is_empty = std::min(extent.half[0], extent.half[1]) < 0;
+    extent.outside2 = is_empty ? -1 : std::numeric_limits<double>::infinity();
     extent.inside2 = random() % 2 ? 0.0 : -1.0;
   }
-  const Box tile{{-2, -3, 0}, {4, 1, 0}};
+  const Box tile{{-2, -3, -kAnyDepth}, {4, 1, kAnyDepth}};
   const std::vector<uint32_t> all = indices(static_cast<uint32_t>(extents.size()));
   checks::for_each_simd_level([&](SimdLevel level) {
     for (uint32_t first = 0; first + 64 < extents.size(); first += 13) {
       const ExtentAnswers answers =
-          test_rectangles(extents.data(), all.data() + first, 64, {tile, tile, 0});
+          test_extents(extents.data(), all.data() + first, 64, {tile, tile, 0});
       for (uint32_t bit = 0; bit < 64; ++bit) {
         const Extent& extent = extents[first + bit];
         bool meets = true;
@@ -366,6 +370,7 @@ TEST(ScreenExtents, RectanglesMeetATileOrNot) {
         }
         EXPECT_EQ((answers.outside[0] >> bit & 1) == 0, meets) << checks::name_of(level);
         EXPECT_EQ((answers.open >> bit & 1) != 0, extent.inside2 < 0);
+        EXPECT_EQ(answers.inside[0] >> bit & 1, 0u);
       }
     }
   });
@@ -380,7 +385,7 @@ class Simplifying {
       : solid_(canonical_primitives(scene), scene.model),
         whole_(solid_, view),
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
-        restrictor_(bounds_.extents(), bounds_, Restrictor::Space::kScreen),
+        restrictor_(bounds_.extents(), bounds_),
         simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
                     0.0, thinnest_piece(solid_.bounds()), fates_) {
     bounds_.bound_all();
@@ -390,45 +395,6 @@ class Simplifying {
     uint32_t before = 0, after = 0;  // literals
     uint64_t hits = 0;
   };
-  /// Fails if rays through a tile's pixels see different things by the list that is cut where they
-  /// are hidden. The hits are those of hidden pixels.
-  Outcome expect_same_hits_by_pixels(const Tile& tile) {
-    CellList list, cut_list;
-    if (!restrict_to(tile, list)) return {};
-    const auto cut = simplifier_.cut_by_pixels(tile, list, restrictor_, cut_list);
-    if (!cut) return {};
-    const auto is_hidden = [&](uint32_t x, uint32_t y) {
-      return (cut->hidden >> ((y - tile.y) * kPacketWidth_px + x - tile.x) & 1) != 0;
-    };
-    constexpr uint32_t kSide_px = 8;  // of what the bits are for
-    for (uint32_t y = tile.y; y < tile.y + kSide_px; ++y) {
-      for (uint32_t x = tile.x; x < tile.x + kSide_px; ++x) {
-        const bool is_in_tile = x < tile.x + tile.width && y < tile.y + tile.height;
-        EXPECT_TRUE(is_in_tile || !is_hidden(x, y));
-        if (!is_in_tile || is_hidden(x, y)) continue;
-        EXPECT_GE(x, cut->seen.min.x);
-        EXPECT_LE(x, cut->seen.max.x);
-        EXPECT_GE(y, cut->seen.min.y);
-        EXPECT_LE(y, cut->seen.max.y);
-      }
-    }
-    return expect_same_hits_before(tile, list, cut_list, is_hidden, cut->depth);
-  }
-
-  /// The same of the side of a line.
-  Outcome expect_same_hits_by_line(const Tile& tile) {
-    CellList list, cut_list;
-    if (!restrict_to(tile, list)) return {};
-    const auto side = simplifier_.cut_by_line(tile, list, restrictor_, cut_list);
-    if (!side) return {};
-    EXPECT_LT(cut_list.count(), list.count());
-    EXPECT_LT(side->limit, side->rays_limit);
-    const auto is_hidden = [&](uint32_t x, uint32_t y) {
-      return side->x * x + side->y * y < side->limit;
-    };
-    return expect_same_hits_before(tile, list, cut_list, is_hidden, side->depth);
-  }
-
   /// Fails if rays through the tile's pixels see different things by the two lists.
   Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
     CellList list, simplified;
@@ -465,34 +431,6 @@ class Simplifying {
     return !list.is_constant();
   }
 
-  /// All rays see the same by both lists; those of hidden pixels hit something before the depth.
-  template <typename IsHidden>
-  Outcome expect_same_hits_before(const Tile& tile, const CellList& list, const CellList& cut_list,
-                                  const IsHidden& is_hidden, double depth) {
-    Outcome outcome{list.count(), cut_list.count(), 0};
-    for_each_block(tile, [&](const PacketBlock& block) {
-      RayPacket rays;
-      make_block_rays(whole_.frame(), block, rays);
-      const PacketHits by_all = trace(list, rays, block.lanes, Boundary::kFirst);
-      const PacketHits by_few = trace(cut_list, rays, block.lanes, Boundary::kFirst);
-      EXPECT_EQ(by_all.hits, by_few.hits);
-      for (LaneMask left = block.lanes; left != 0; left &= left - 1) {
-        const auto lane = static_cast<uint32_t>(std::countr_zero(left));
-        const bool hidden =
-            is_hidden(block.x + lane % kPacketWidth_px, block.y + lane / kPacketWidth_px);
-        if (!(by_few.hits >> lane & by_all.hits >> lane & 1)) {
-          EXPECT_FALSE(hidden) << "hits nothing";
-          continue;
-        }
-        EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
-        if (!hidden) continue;
-        EXPECT_LT(by_few.t[lane], depth);
-        ++outcome.hits;
-      }
-    });
-    return outcome;
-  }
-
   PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
     PacketHits hits;
     if (list.is_constant()) return hits;
@@ -514,29 +452,6 @@ class Simplifying {
   PacketWorkspace workspace_;
 };
 
-/// Calls back with what makes a list for a tile, and each tile of pictures of crowds; until a test
-/// fails.
-template <typename Visit>
-void for_each_tile_of_crowds(uint32_t width_px, uint32_t height_px, uint32_t side_px,
-                             std::optional<bool> last_value, Visit&& visit) {
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const Scene scene = checks::crowd(seed);
-    const Box bounds{Vec3(-6.0), Vec3(6.0)};
-    for (const auto& [name, view] : checks::trace_views(bounds, width_px, height_px)) {
-      if (name == "FromWithin") continue;
-      SCOPED_TRACE(name);
-      Simplifying simplifying(scene, view, last_value);
-      for (uint32_t y = 0; y < height_px; y += side_px) {
-        for (uint32_t x = 0; x < width_px; x += side_px) {
-          visit(simplifying,
-                Tile{x, y, std::min(side_px, width_px - x), std::min(side_px, height_px - y)});
-        }
-      }
-      if (testing::Test::HasFailure()) return;
-    }
-  }
-}
-
 class Simplifier : public testing::TestWithParam<Boundary> {};
 
 TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
@@ -545,78 +460,31 @@ TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
   const auto last_value =
       boundary == Boundary::kFirst ? std::optional<bool>(true) : std::optional<bool>();
   uint64_t dropped = 0, hits = 0;
-  for_each_tile_of_crowds(96, 96, 16, last_value, [&](Simplifying& simplifying, const Tile& tile) {
-    const auto outcome = simplifying.expect_same_hits(tile, boundary);
-    if (outcome.hits > 0) dropped += outcome.before - outcome.after;
-    hits += outcome.hits;
-  });
+  constexpr uint32_t kSide_px = 96, kTile_px = 16;
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = checks::crowd(seed);
+    const Box bounds{Vec3(-6.0), Vec3(6.0)};
+    for (const auto& [name, view] : checks::trace_views(bounds, kSide_px, kSide_px)) {
+      if (name == "FromWithin") continue;
+      SCOPED_TRACE(name);
+      Simplifying simplifying(scene, view, last_value);
+      for (uint32_t y = 0; y < kSide_px; y += kTile_px) {
+        for (uint32_t x = 0; x < kSide_px; x += kTile_px) {
+          const auto outcome = simplifying.expect_same_hits({x, y, kTile_px, kTile_px}, boundary);
+          if (outcome.hits > 0) dropped += outcome.before - outcome.after;
+          hits += outcome.hits;
+        }
+      }
+    }
+  }
   EXPECT_GT(dropped, 200u);
   EXPECT_GT(hits, 10000u);
-}
-
-TEST(SimplifierByPixels, DropsOnlyWhatItsRaysDoNotSee) {
-  uint64_t dropped = 0, hits = 0;
-  for_each_tile_of_crowds(92, 90, 8, true, [&](Simplifying& simplifying, const Tile& tile) {
-    const auto outcome = simplifying.expect_same_hits_by_pixels(tile);
-    dropped += outcome.before - outcome.after;
-    hits += outcome.hits;
-  });
-  EXPECT_GT(dropped, 1000u);
-  EXPECT_GT(hits, 10000u);
-}
-
-TEST(SimplifierByLine, DropsOnlyWhatItsRaysDoNotSee) {
-  uint64_t dropped = 0, hits = 0, in_part = 0;
-  for_each_tile_of_crowds(372, 361, 20, true, [&](Simplifying& simplifying, const Tile& tile) {
-    const auto outcome = simplifying.expect_same_hits_by_line(tile);
-    dropped += outcome.before - outcome.after;
-    hits += outcome.hits;
-    in_part += outcome.hits > 0 && outcome.hits < tile.width * tile.height;
-  });
-  EXPECT_GT(dropped, 1000u);
-  EXPECT_GT(hits, 10000u);
-  EXPECT_GT(in_part, 30u);
-}
-
-/// A ball, and many behind it and about it, of which some look out beside it; and some before it.
-TEST(CutsInPart, GroupsAreOpenedForWhatIsSeen) {
-  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    std::mt19937 random(4);
-    std::vector<Primitive> primitives;
-    const auto add = [&](double radius, const Vec3& center) {
-      primitives.push_back(make_sphere(radius, {Mat3(1.0), center}));
-    };
-    add(3, Vec3(0, 0, 0));
-    const auto add_small = [&](double low_z, double high_z) {
-      const double angle = uniform(random, 0, 7), distance = 5.5 * std::sqrt(uniform(random, 0, 1));
-      add(0.05,
-          {distance * std::cos(angle), distance * std::sin(angle), uniform(random, low_z, high_z)});
-    };
-    for (int i = 0; i < 4000; ++i) add_small(-9, 3);
-    for (int i = 0; i < 400; ++i) add_small(4, 5);
-    const Scene scene = test_support::scene_of(Op::kUnion, std::move(primitives));
-    View view =
-        checks::view_of({Vec3(-3.0), Vec3(3.0)}, glm::normalize(Vec3(-0.05, -0.03, -1)), 12);
-    view.projection = projection;
-    view.half_height = projection == Projection::kPerspective ? 0.4 : 5;
-    view.width_px = 203;
-    view.height_px = 190;
-    const Solid solid(canonical_primitives(scene), scene.model);
-    ASSERT_GT(solid.groups().count(), solid.groups().first_group());
-    const Hits expected = checks::WholeList(solid, view).picture();
-    EXPECT_TRUE(checks::same_bits(checks::trace_by_tiles(solid, view), expected));
-    // Some of them are seen.
-    const auto is_small = [](uint32_t primitive) {
-      return primitive != Hits::kMiss && primitive != 0;
-    };
-    EXPECT_GT(std::ranges::count_if(expected.primitive, is_small), 100);
-  }
 }
 
 /// The rims of walls too thin to exist, which rays nevertheless are within for long enough to be
 /// found to end there; behind them many needles that they meet end on, before them some more, and
 /// at last a ball.
-TEST(CutsInPart, AWallThatDoesNotExistHidesNothing) {
+TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
   // Below the thinnest piece of such a scene, 1e-9 of its size; and what some tens of pixels are
   // small against, so that all their rays leave a wall at about one depth.
   constexpr double kThickness = 2e-8;
