@@ -1,5 +1,6 @@
 #include "frontend/command.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/render.hpp"
 
 int main(int argc, char** argv) {
   frontend::handle_interrupts();

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/command.hpp"
+#include "frontend/run_program.hpp"
 
 namespace bench {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "elapsed.hpp"
+#include "base/elapsed.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "picture_check.hpp"
-#include "solid_renderer.hpp"
+#include "render/gl_renderer.hpp"
 
 namespace bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "arguments.hpp"
+#include "command/arguments.hpp"
 #include "option_rows.hpp"
 
 namespace bench {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/option_rows.hpp"
+#include "command/option_table.hpp"
 #include "program.hpp"
 #include "validate/option_rows.hpp"
 

@@ -11,8 +11,8 @@
 #include "frontend/files.hpp"
 #include "frontend/progress.hpp"
 #include "options.hpp"
+#include "render/scene_scale.hpp"
 #include "report.hpp"
-#include "scene_scale.hpp"
 #include "validation.hpp"
 
 namespace validation {

@@ -1,6 +1,6 @@
 #include "option_rows.hpp"
 
-#include "option_words.hpp"
+#include "command/option_words.hpp"
 
 namespace validation {
 namespace {

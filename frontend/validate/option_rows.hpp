@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "option_table.hpp"
+#include "command/option_row.hpp"
 
 namespace validation {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "arguments.hpp"
+#include "command/arguments.hpp"
 #include "option_rows.hpp"
 #include "planted_error.hpp"
 

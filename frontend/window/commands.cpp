@@ -8,7 +8,7 @@
 namespace window {
 namespace {
 
-// OpenSCAD's keys (openscad.md §6) where it has them.
+// OpenSCAD's keys (frontend/OPENSCAD.md, "Window") where it has them.
 constexpr CommandRow kRows[] = {
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},

@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "application.hpp"
-#include "frontend/command.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/run_program.hpp"
 
 namespace {
 

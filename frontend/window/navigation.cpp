@@ -8,7 +8,7 @@ namespace {
 
 using csgcore::Vec3;
 
-// openscad.md §6.
+// OpenSCAD's (frontend/OPENSCAD.md, "Window").
 constexpr double kTurn_degPerPixel = 0.7;
 constexpr double kPan = 3 * 0.7;  // distances for a drag across the picture
 constexpr double kZoomOfNotch = 0.9;

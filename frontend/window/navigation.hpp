@@ -1,4 +1,5 @@
-// The camera under the mouse and the keys, as OpenSCAD's window moves it (openscad.md §6).
+// The camera under the mouse and the keys, as OpenSCAD's window moves it (frontend/OPENSCAD.md,
+// "Window").
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-#include "elapsed.hpp"
+#include "base/elapsed.hpp"
 #include "frontend/channel_picture.hpp"
 
 namespace window {

@@ -26,7 +26,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                       ImGuiWindowFlags_AlwaysAutoResize;
 
-/// openscad.md §6, and our own.
+/// OpenSCAD's (frontend/OPENSCAD.md, "Window"), and our own.
 constexpr const char* kMouse[][2] = {
     {"Left drag", "turn; with shift: about y"},
     {"Right drag", "pan"},

@@ -6,7 +6,7 @@ flat in uvec2 v_list;           // first literal; how many (PATH_UNION: how many
 #if TILES
 flat in float v_cut_t;          // the solid holds there, however thin the piece; +inf: nobody knows
 #endif
-uniform float u_tolerance;      // thinnest piece, along the normal, in world units (design.md §3)
+uniform float u_tolerance;      // thinnest piece, along the normal, in world units
 uniform bool u_eye_inside;      // rays start in the solid: what is seen is the solid's complement
 
 // A boundary of the solid on the ray.
@@ -37,8 +37,8 @@ Hit with_speed(Ray ray, Hit hit) {
   return hit;
 }
 
-// Regularised operations (design.md §3): a piece of the solid, or a gap in it, thinner than the
-// tolerance does not exist.
+// Regularised operations (csgcore/NUMERICS.md): a piece of the solid, or a gap in it, thinner than
+// the tolerance does not exist.
 bool too_thin(float length_t, float speed) { return length_t * speed <= u_tolerance; }
 
 // The piece that is shown may be too thin, and just measured too long. Then the pixel is marked, and

@@ -1,7 +1,7 @@
 // Which of the faces that the ray crosses together is seen.
 
 // Faces with too little between them are crossed together, whichever of them rounding puts first:
-// what is seen does not depend on it (design.md §3: no speckle).
+// what is seen does not depend on it (no speckle).
 #if PATH == PATH_SINGLE
 
 bool is_seen(Ray ray, Hit hit, out Hit seen) {

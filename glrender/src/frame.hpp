@@ -12,8 +12,7 @@ using csgcore::Vec3;
 
 /// Rays are o + t·d with t = 0 in the plane through the focus, a point on the view axis: in the
 /// middle of the scene's depth range, or at the eye if the scene reaches close to it. What reaches
-/// the GPU is small where it matters, however far the eye or the model's origin is (design.md §3,
-/// §4).
+/// the GPU is small where it matters, however far the eye or the model's origin is.
 struct Frame {
   csgcore::View view;
   Vec3 focus{0.0};

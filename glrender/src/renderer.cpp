@@ -35,10 +35,11 @@ using csgcore::SubdivisionOptions;
 using csgcore::SubdivisionUpdate;
 using csgcore::View;
 
-/// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture (design.md
-/// §3), as a fraction of the scene's largest side. The two ends of a piece each carry the rounding
-/// of a float t: about 2^-24 of the scene's size, times the few operations that lead to it.
-/// (Measured on coincident faces at several angles: no speckle down to 2^-22, some at 2^-23.)
+/// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture, as a
+/// fraction of the scene's largest side (csgcore/NUMERICS.md, "OpenGL"). The two ends of a piece
+/// each carry the rounding of a float t: about 2^-24 of the scene's size, times the few operations
+/// that lead to it. (Measured on coincident faces at several angles: no speckle down to 2^-22, some
+/// at 2^-23.)
 constexpr double kThinnestPiece = 0x1p-21;
 
 /// Doubtful pixels for each ray of a pixel that any picture may have, at some of its edges: most

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "gl_object.hpp"
-#include "glrender/renderer.hpp"
+#include "glrender/context.hpp"
+#include "glrender/frame_settings.hpp"
 #include "shader_constants.hpp"
 
 namespace glrender {

@@ -3,7 +3,7 @@
 
 #include "frame.hpp"
 #include "gl_object.hpp"
-#include "glrender/renderer.hpp"
+#include "glrender/frame_settings.hpp"
 #include "shader_program.hpp"
 #include "solid_buffers.hpp"
 #include "traversal.hpp"

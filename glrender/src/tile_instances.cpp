@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "glrender/renderer.hpp"
+#include "glrender/context.hpp"
 
 namespace glrender {
 namespace {

@@ -23,7 +23,7 @@ using csgcore::TraceOptions;
 using csgcore::TraceStats;
 using csgcore::View;
 
-/// OpenSCAD's default colours (openscad.md §4): three that differ, so that pictures tell faces
+/// OpenSCAD's default colours: three that differ, so that pictures tell faces
 /// apart.
 FrameSettings cornfield() {
   FrameSettings settings;

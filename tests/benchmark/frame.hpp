@@ -31,7 +31,7 @@ struct PictureSize {
   uint32_t height_px = 480;
 };
 
-/// OpenSCAD's default camera, which views all of the box (openscad.md §4).
+/// OpenSCAD's default camera, which views all of the box (frontend/OPENSCAD.md, "Camera").
 csgcore::View default_view(const csgcore::Box& view_box, const PictureSize& size = {});
 
 /// A scene, made ready once, and the view that it is drawn from.

@@ -224,7 +224,7 @@ INSTANTIATE_TEST_SUITE_P(, ColorTest,
                          gl_test::test_name);
 
 TEST_P(ColorTest, OpenScadShading) {
-  // A face towards the eye: n = (0, 0, 1), rgb · (0.2 + 1/√3) (openscad.md §4).
+  // A face towards the eye: n = (0, 0, 1), rgb · (0.2 + 1/√3).
   const double light = 0.2 + 1 / std::sqrt(3.0);
   const auto lit = [&](int channel) { return std::min(255.0, channel * light); };
   const Scene plain = scene_of(Op::kUnion, {make_frustum(0, 1, 5, 5)});

@@ -18,7 +18,7 @@ namespace povray {
 std::string scene_text(const csgcore::Scene& scene, const csgcore::View& view,
                        const csgcore::PhongLight& light, const csgcore::ReferenceColors& colors);
 
-/// The same model and camera as OpenSCAD shades them (openscad.md §4).
+/// The same model and camera as OpenSCAD shades them.
 std::string openscad_scene_text(const csgcore::Scene& scene, const csgcore::View& view,
                                 const csgcore::ReferenceColors& colors);
 

@@ -47,7 +47,7 @@ struct Case {
 struct Family {
   std::string name;
   std::vector<Case> cases;
-  /// Faces coincide all over: GL's bar is speckle (design.md §3).
+  /// Faces coincide all over: GL's bar is speckle.
   bool is_coincident = false;
 };
 

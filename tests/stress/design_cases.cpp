@@ -4,6 +4,7 @@
 
 #include "cases.hpp"
 #include "designs.hpp"
+#include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"

@@ -1,5 +1,5 @@
 // The OpenGL renderer against the exact ray oracle, on the whole stress suite. Floats cannot hold
-// it all: the bar is on speckle where faces coincide (design.md §3), the rest is measured, and held
+// it all: the bar is on speckle where faces coincide, the rest is measured, and held
 // to what was measured.
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // own (all crossings of a ray sorted, the tree's value kept by counting), sharing no code with the
 // subdivision or the renderers.
 //
-// The picture that it defines (design.md §3, csgcore/NUMERICS.md):
+// The picture that it defines (csgcore/NUMERICS.md, "The definition"):
 // - Along a pixel's ray every primitive has one segment or none; its ends are crossings. Those at
 //   which the solid's value changes are its boundaries.
 // - Two crossings are together if they lie less than the tolerance apart, measured along the normal

@@ -66,7 +66,7 @@ TEST(Commands, AreFoundByTheirKeys) {
   EXPECT_EQ(find_command(GLFW_KEY_0, kShift), nullptr);
 }
 
-/// openscad.md §6.
+/// OpenSCAD's keys (frontend/OPENSCAD.md, "Window").
 TEST(Commands, OpenScadsKeys) {
   const std::map<std::string, Command> kKeys = {
       {"Ctrl+1", Command::kEdges},        {"Ctrl+2", Command::kAxes},

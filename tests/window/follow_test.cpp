@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "designs.hpp"
+#include "follow/saves.hpp"
 #include "live_window.hpp"
-#include "saves.hpp"
 
 namespace window_test {
 namespace {

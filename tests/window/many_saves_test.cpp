@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "designs.hpp"
+#include "follow/saves.hpp"
 #include "live_window.hpp"
-#include "saves.hpp"
 #include "support/full_run.hpp"
 
 namespace window_test {

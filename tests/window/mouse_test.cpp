@@ -1,4 +1,5 @@
-// The mouse in the window: the camera by OpenSCAD's numbers (openscad.md §6), measuring, the plane.
+// The mouse in the window: the camera by OpenSCAD's numbers (frontend/OPENSCAD.md,
+// "Window"), measuring, the plane.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// The camera under the mouse by OpenSCAD's numbers (openscad.md §6), and where a point is seen.
+// The camera under the mouse by OpenSCAD's numbers (frontend/OPENSCAD.md, "Window"), and
+// where a point is seen.
 #include "navigation.hpp"
 
 #include <gtest/gtest.h>

@@ -13,9 +13,10 @@
 #include <utility>
 
 #include "designs.hpp"
-#include "followed.hpp"
+#include "follow/followed.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/overlays.hpp"
+#include "frontend/render.hpp"
 #include "support/models.hpp"
 #include "temporary_folder.hpp"
 

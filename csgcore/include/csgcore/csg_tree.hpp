@@ -7,7 +7,7 @@
 
 namespace csgcore {
 
-/// Regularised set operations (design.md §3). A difference is its first operand minus all others.
+/// Regularised set operations (NUMERICS.md). A difference is its first operand minus all others.
 enum class Op : uint8_t { kUnion, kIntersection, kDifference };
 
 /// One token of the postfix form: either a primitive's index or an operation over the
@@ -40,8 +40,8 @@ CsgTree subtract(const CsgTree& tree, uint32_t primitive);
 
 /// Builds a tree from the outside in, without recursion:
 ///   builder.open(Op::kDifference); builder.primitive(0); builder.primitive(1); builder.close();
-/// Operands that turn out empty are dropped by the rules of openscad.md §2: an empty operand leaves
-/// a union, empties an intersection, and empties a difference if it is its first.
+/// Operands that turn out empty are dropped by OpenSCAD's rules: an empty operand leaves a union,
+/// empties an intersection, and empties a difference if it is its first.
 class CsgTreeBuilder {
  public:
   void open(Op op);

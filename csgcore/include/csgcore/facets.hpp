@@ -1,5 +1,5 @@
-// The facets that OpenSCAD gives its primitives (openscad.md §3), vertex by vertex, in the
-// primitive's own frame.
+// The facets that OpenSCAD gives its primitives (frontend/OPENSCAD.md, "Facets"), vertex by
+// vertex, in the primitive's own frame.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 namespace csgcore {
 
 enum class Shading : uint8_t {
-  kOpenScad,  // rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space (openscad.md §4)
+  kOpenScad,  // rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space, OpenSCAD's light
   kPhong,     // positional light, ambient, diffuse and specular (paper §3.2; csgcore/phong.hpp)
 };
 

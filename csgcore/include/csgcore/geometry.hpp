@@ -1,5 +1,4 @@
-// Vectors, axis-aligned boxes and affine maps, all in double (design.md §3: "Double is the
-// precision of csgcore").
+// Vectors, axis-aligned boxes and affine maps, all in double: csgcore's precision.
 #pragma once
 
 #include <glm/mat3x3.hpp>

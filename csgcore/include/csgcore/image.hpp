@@ -1,4 +1,4 @@
-// A picture with its measured channels (design.md §2, `-o x.exr`).
+// A picture with its measured channels (frontend/OPTIONS.md, "Channels of an OpenEXR picture").
 #pragma once
 
 #include <array>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "csgcore/half_space.hpp"
@@ -31,6 +32,12 @@ class Polyhedron {
     /// The axis along which the normal points, to either side; kNoAxis if it leans.
     uint32_t axis = kNoAxis;
     static constexpr uint32_t kNoAxis = 3;
+  };
+
+  /// The six faces of a box whose edges lie along the axes of canonical space, as factors of its
+  /// coordinates: x_i · below[i] ≤ 1 and x_i · above[i] ≤ 1, where below[i] < 0 < above[i].
+  struct Slabs {
+    Vec3 below, above;
   };
 
   /// Canonical space, and the quadric there that just holds the solid.
@@ -63,6 +70,8 @@ class Polyhedron {
 
   const Canonical& canonical() const { return canonical_; }
   const std::vector<Entry>& entries() const { return entries_; }
+  /// None unless the solid is such a box.
+  const std::optional<Slabs>& slabs() const { return slabs_; }
 
   /// Whether the canonical point lies in the solid, closed, and so deep that no face is nearer than
   /// `slack`.
@@ -83,6 +92,7 @@ class Polyhedron {
   };
   void list_faces();
   void list_vertices();
+  void find_slabs();
   /// The factor by which the enclosing quadric grows until the point lies on it.
   double gauge(const Vec3& point_canonical) const;
 
@@ -91,6 +101,7 @@ class Polyhedron {
   Canonical canonical_;
   double inner_radius_ = 0;  // of a ball about the canonical origin within the solid
   std::vector<Entry> entries_;
+  std::optional<Slabs> slabs_;
   std::vector<VertexEntry> vertex_entries_;
 };
 

@@ -1,5 +1,5 @@
 // The primitives: convex solids, each the image of a simple local solid under an affine map
-// (paper §3.2; design.md §3: "A primitive is convex and closed under affine maps").
+// (paper §3.2). Every affine image of a primitive is a primitive, too.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "csgcore/geometry.hpp"
+#include "csgcore/shape.hpp"
 
 namespace csgcore {
 
@@ -16,12 +17,6 @@ class Polyhedron;
 struct Color {
   float r, g, b, a;
   bool operator==(const Color&) const = default;
-};
-
-enum class Shape : uint8_t {
-  kSphere,   // centred at the local origin, radius `r_bottom`
-  kFrustum,  // local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between
-  kPolyhedron,  // convex; `polyhedron`
 };
 
 /// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.
@@ -44,8 +39,8 @@ Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top
 Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
                           const Affine& local_to_world = {});
 
-/// False for what is the empty set by openscad.md §2 (a size that is ≤ 0, infinite or nan; a matrix
-/// that is not finite), and for a singular matrix, which flattens the solid to nothing.
+/// False for what is the empty set in OpenSCAD (a size that is ≤ 0, infinite or nan; a matrix that
+/// is not finite), and for a singular matrix, which flattens the solid to nothing.
 bool is_valid(const Primitive& primitive);
 /// is_valid(), whatever local_to_world is.
 bool has_valid_shape(const Primitive& primitive);

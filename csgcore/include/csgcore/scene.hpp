@@ -12,7 +12,7 @@ namespace csgcore {
 struct Scene {
   std::vector<Primitive> primitives;
   CsgTree model;       // the solid
-  CsgTree background;  // the union of the `%` parts: drawn apart, translucent (openscad.md §2)
+  CsgTree background;  // the union of the `%` parts: drawn apart, translucent
   CsgTree highlight;   // the union of the `#` parts: overlaid, translucent
 };
 

@@ -16,8 +16,8 @@ enum class Projection : uint8_t { kPerspective, kOrthographic };
 ///   perspective:  p(s) = eye + s·(forward + u·right + v·up), s > 0, half_height = tan(fov/2)
 ///   orthographic: p(s) = eye + u·right + v·up + s·forward, any s, half_height in world units
 /// In both, s is the Z channel: the distance from the eye's plane along the view axis.
-/// (openscad.md §4: nothing is clipped at a near or far plane; an orthographic picture also shows
-/// what lies behind the eye.)
+/// As in OpenSCAD nothing is clipped at a near or far plane; an orthographic picture also shows
+/// what lies behind the eye.
 struct View {
   Projection projection = Projection::kPerspective;
   Vec3 eye{0.0};

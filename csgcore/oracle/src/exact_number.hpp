@@ -4,10 +4,14 @@
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Mpzf.h>
 
+#include <cmath>
+
 namespace oracle {
 
 /// Sums and products of doubles, of any length. No quotients.
 using Exact = CGAL::Mpzf;
+
+inline Exact power_of_two(int exponent) { return Exact(std::ldexp(1.0, exponent)); }
 
 /// Doubles that enclose a number. Valid while a RoundingUp lives on the thread; a predicate that it
 /// cannot decide throws Undecided.

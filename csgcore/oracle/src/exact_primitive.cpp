@@ -4,68 +4,16 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "csgcore/polyhedron.hpp"
+#include "exact_twin.hpp"
 
 namespace oracle {
 namespace {
 
 using csgcore::Affine;
-using csgcore::HalfSpace;
-using csgcore::Polyhedron;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 double middle(const Interval& interval) { return 0.5 * (interval.inf() + interval.sup()); }
-
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Across the axis.
-template <class Number>
-Number dot_across(const Vector<Number>& a, const Vector<Number>& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-
-/// ρ(z).
-template <class Number>
-Number radius_at(const Target<Number>& target, const Number& z) {
-  return target.radius + target.growth * z;
-}
-
-template <class Number>
-Quadratic<Number> sphere_wall(const Target<Number>& target, const Vector<Number>& o,
-                              const Vector<Number>& d) {
-  Quadratic<Number> wall;
-  const Number radius2 = CGAL::square(target.radius);
-  wall.a = dot(d, d);
-  wall.b = dot(o, d);
-  wall.c = dot(o, o) - radius2;
-  // By Lagrange's identity, without the squares of o, which cancel.
-  const Vector<Number> moment = cross(o, d);
-  wall.discriminant = radius2 * wall.a - dot(moment, moment);
-  return wall;
-}
-
-template <class Number>
-Quadratic<Number> frustum_wall(const Target<Number>& target, const Vector<Number>& o,
-                               const Vector<Number>& d) {
-  Quadratic<Number> wall;
-  const Number& w = target.squared_height;
-  const Number radius = radius_at(target, o[2]), growth = target.growth * d[2];
-  wall.a = w * dot_across(d, d) - CGAL::square(growth);
-  wall.b = w * dot_across(o, d) - radius * growth;
-  wall.c = w * dot_across(o, o) - CGAL::square(radius);
-  // Likewise: w(|ρd − go|² − w(o × d)²) across the axis, g the growth of ρ along the ray.
-  const Number x = radius * d[0] - growth * o[0], y = radius * d[1] - growth * o[1];
-  const Number moment = o[0] * d[1] - o[1] * d[0];
-  wall.discriminant = w * (CGAL::square(x) + CGAL::square(y) - w * CGAL::square(moment));
-  return wall;
-}
-
-Exact power_of_two(int exponent) { return Exact(std::ldexp(1.0, exponent)); }
 
 /// The power of two that brings the largest entry to between 1 and 2.
 Exact scale_to_one(const std::array<Vector<Exact>, 3>& matrix) {
@@ -108,7 +56,7 @@ std::optional<Part> within_planes(const Target<Number>& target, const LocalRay<N
 /// Of the cone's two nappes that with ρ ≥ 0.
 template <class Number>
 std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Number>& ray) {
-  if (target.shape == Shape::kPolyhedron) return Part{};
+  if (!target.has_wall) return Part{};
   const Quadratic<Number>& wall = ray.wall;
   const int a = sign_of(wall.a);
   if (a > 0) {
@@ -126,60 +74,6 @@ std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Num
   return sign_of(wall.c) <= 0 ? std::optional(Part{}) : std::nullopt;
 }
 
-Plane<Exact> scaled(const HalfSpace& half_space, const Vector<Exact>& middle,
-                    const Exact& magnification) {
-  const Vec3 size = glm::abs(half_space.normal);
-  const Exact scale = power_of_two(-std::ilogb(std::max({size.x, size.y, size.z})));
-  Plane<Exact> plane;
-  for (int i = 0; i < 3; ++i) plane.normal[i] = Exact(half_space.normal[i]);
-  plane.limit = scale * magnification * (Exact(half_space.offset) - dot(plane.normal, middle));
-  for (Exact& coordinate : plane.normal) coordinate = scale * coordinate;
-  return plane;
-}
-
-/// A frustum's wall and planes; λ is `magnification`.
-void add_frustum(const Primitive& primitive, const Exact& magnification, Target<Exact>& target) {
-  const Exact half(0.5), bottom(primitive.z_min), top(primitive.z_max);
-  const Exact r_bottom(primitive.r_bottom), r_top(primitive.r_top);
-  const Exact wall_scale = power_of_two(-std::ilogb(primitive.z_max - primitive.z_min));
-  const Exact half_height = magnification * half * (top - bottom);
-  target.growth = wall_scale * (r_top - r_bottom);
-  target.squared_height = CGAL::square(Exact(wall_scale * (top - bottom)));
-  target.radius = wall_scale * half_height * (r_bottom + r_top);
-  target.planes = {{{0, 0, -1}, half_height}, {{0, 0, 1}, half_height}};
-  target.weight = {1, 1, 0};
-}
-
-csgcore::Box vertex_box(const Polyhedron& polyhedron) {
-  csgcore::Box box;
-  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
-  return box;
-}
-
-void add_polyhedron(const Polyhedron& polyhedron, const Vector<Exact>& middle,
-                    const Exact& magnification, Target<Exact>& target) {
-  for (const HalfSpace& half_space : polyhedron.half_spaces()) {
-    target.planes.push_back(scaled(half_space, middle, magnification));
-  }
-  const Vec3 size = vertex_box(polyhedron).size();
-  const Vec3 slender = std::min({size.x, size.y, size.z}) / size;
-  target.weight = slender * slender;
-}
-
-/// In local space: any point well within the solid will do.
-Vector<Exact> middle_of(const Primitive& primitive) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      break;
-    case Shape::kFrustum:
-      return {0, 0, Exact(0.5) * (Exact(primitive.z_min) + Exact(primitive.z_max))};
-    case Shape::kPolyhedron:
-      const Vec3 center = vertex_box(*primitive.polyhedron).center();
-      return {center.x, center.y, center.z};
-  }
-  return {0, 0, 0};
-}
-
 }  // namespace
 
 Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double unit) {
@@ -189,7 +83,7 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
     for (int j = 0; j < 3; ++j) columns[i][j] = Exact(unit) * Exact(map.linear[i][j]);
   }
   Target<Exact> target;
-  target.shape = primitive.shape;
+  target.twin = &twin_of(primitive.shape);
   target.to_local = {cross(columns[1], columns[2]), cross(columns[2], columns[0]),
                      cross(columns[0], columns[1])};
   const Exact determinant = dot(columns[0], target.to_local[0]);
@@ -198,19 +92,8 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
     for (Exact& entry : row) entry = scale * entry;
   }
   const Exact magnification = scale * determinant;
-  const Vector<Exact> middle = middle_of(primitive);
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      target.radius = magnification * Exact(primitive.r_bottom);
-      target.weight = Vec3(1.0);
-      break;
-    case Shape::kFrustum:
-      add_frustum(primitive, magnification, target);
-      break;
-    case Shape::kPolyhedron:
-      add_polyhedron(*primitive.polyhedron, middle, magnification, target);
-      break;
-  }
+  const Vector<Exact> middle = target.twin->middle(primitive);
+  target.twin->add_surfaces(primitive, magnification, target);
   for (int i = 0; i < 3; ++i) {
     target.from_middle[i] = Exact(unit) * (Exact(pivot[i]) - Exact(map.translation[i]));
     for (int j = 0; j < 3; ++j) target.from_middle[i] -= columns[j][i] * middle[j];
@@ -220,7 +103,8 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
 
 Target<Interval> enclose(const Target<Exact>& target) {
   Target<Interval> result;
-  result.shape = target.shape;
+  result.twin = target.twin;
+  result.has_wall = target.has_wall;
   result.weight = target.weight;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) result.to_local[i][j] = enclose(target.to_local[i][j]);
@@ -246,8 +130,7 @@ LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& r
     local.d[i] = dot(target.to_local[i], ray.direction);
     local.o[i] = dot(target.to_local[i], offset) + Number(base) * local.d[i];
   }
-  if (target.shape == Shape::kSphere) local.wall = sphere_wall(target, local.o, local.d);
-  if (target.shape == Shape::kFrustum) local.wall = frustum_wall(target, local.o, local.d);
+  if (target.has_wall) local.wall = target.twin->wall(target, local.o, local.d);
   return local;
 }
 
@@ -287,9 +170,9 @@ double base_of(const Target<Interval>& target, const NearRay<Interval>& ray) {
     od += target.weight[i] * o[i] * d[i];
     dd += target.weight[i] * d[i] * d[i];
   }
-  // Of a frustum, next to the axis, but within the slab.
+  // Next to the axis of what has one, but within the slab.
   double base = dd > 0 ? -od / dd : 0;
-  if (target.shape == Shape::kFrustum && d[2] != 0) {
+  if (target.has_wall && !target.planes.empty() && d[2] != 0) {
     const double half = middle(target.planes[0].limit) / std::abs(d[2]), center = -o[2] / d[2];
     base = std::clamp(base, center - half, center + half);
   }
@@ -326,14 +209,9 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
                            const Interval& t, Surface surface) {
   Vector<Interval> local;
   if (surface == Surface::kWall) {
-    // Half the gradient.
-    for (int i = 0; i < 3; ++i) local[i] = ray.o[i] + t * ray.d[i];
-    if (target.shape == Shape::kFrustum) {
-      const Interval radius = radius_at(target, local[2]);
-      local[0] *= target.squared_height;
-      local[1] *= target.squared_height;
-      local[2] = -target.growth * radius;
-    }
+    Vector<Interval> point;
+    for (int i = 0; i < 3; ++i) point[i] = ray.o[i] + t * ray.d[i];
+    local = target.twin->wall_normal(target, point);
   } else {
     local = target.planes[uint32_t(surface)].normal;
   }

@@ -25,6 +25,11 @@ template <class Number>
 using Vector = std::array<Number, 3>;
 
 template <class Number>
+Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+template <class Number>
 Number dot(const Vector<Number>& a, const Vector<Number>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -42,11 +47,16 @@ struct Plane {
   Number limit;
 };
 
+/// What the oracles ask of a kind of primitive (exact_twin.hpp).
+class ExactTwin;
+
 /// A valid primitive, prepared for rays that are relative to a pivot: what lies within its wall, if
-/// it has one, and within all its planes.
+/// it has one, and within all its planes. What has both has the planes of a slab across the z axis
+/// for its first two.
 template <class Number>
 struct Target {
-  csgcore::Shape shape;
+  const ExactTwin* twin = nullptr;
+  bool has_wall = false;
   std::array<Vector<Number>, 3> to_local;  // rows of λM⁻¹
   Vector<Number> from_middle;         // from the local solid's middle to the pivot, in the world
   Number radius;                      // of the wall: λr, or λk(r₀ + r₁)

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "csgcore/polyhedron.hpp"
-#include "shortest_text.hpp"
+#include "exact_twin.hpp"
+#include "number_text.hpp"
 #include "tree_order.hpp"
 
 namespace oracle {
@@ -18,7 +19,6 @@ namespace {
 using csgcore::Affine;
 using csgcore::CsgToken;
 using csgcore::CsgTree;
-using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Scene;
 using csgcore::Shape;
@@ -27,11 +27,7 @@ using Tokens = std::vector<CsgToken>;
 
 /// All numbers of a primitive but a polyhedron's own.
 std::vector<double*> numbers_of(Primitive& primitive) {
-  std::vector<double*> numbers;
-  if (primitive.shape != Shape::kPolyhedron) numbers.push_back(&primitive.r_bottom);
-  if (primitive.shape == Shape::kFrustum) {
-    numbers.insert(numbers.end(), {&primitive.r_top, &primitive.z_min, &primitive.z_max});
-  }
+  std::vector<double*> numbers = twin_of(primitive.shape).sizes(primitive);
   Affine& map = primitive.local_to_world;
   for (Vec3* column : {&map.translation, &map.linear[0], &map.linear[1], &map.linear[2]}) {
     for (int i = 0; i < 3; ++i) numbers.push_back(&(*column)[i]);
@@ -83,20 +79,6 @@ Scene scene_of(const std::vector<Primitive>& primitives, const Tokens& tokens) {
   visit_outside_in(renamed, builder);
   scene.model = builder.finish();
   return scene;
-}
-
-/// Solids that a polyhedron may become: its box, and the simplest ones.
-std::vector<std::shared_ptr<const Polyhedron>> simpler(const Polyhedron& polyhedron) {
-  csgcore::Box box;
-  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
-  std::vector<std::shared_ptr<const Polyhedron>> result{Polyhedron::frustum(-1, 1, 1, 0, 3),
-                                                        Polyhedron::box({Vec3(-1), Vec3(1)}),
-                                                        Polyhedron::box(box)};
-  for (int fragments = 3; fragments <= 8; ++fragments) {
-    result.push_back(Polyhedron::frustum(-1, 1, 1, 1, fragments));
-    result.push_back(Polyhedron::sphere(1, fragments));
-  }
-  return result;
 }
 
 class Minimiser {
@@ -166,13 +148,9 @@ class Minimiser {
 
   bool simplify_shapes() {
     for (size_t i = 0; i < best_.primitives.size(); ++i) {
-      Primitive primitive = best_.primitives[i];
-      if (primitive.shape == Shape::kSphere) continue;
-      const Affine& map = primitive.local_to_world;
-      if (take(csgcore::make_sphere(1, map), i)) return true;
-      if (primitive.shape != Shape::kPolyhedron) continue;
-      for (const auto& solid : simpler(*primitive.polyhedron)) {
-        if (take(csgcore::make_polyhedron(solid, map), i)) return true;
+      const Primitive primitive = best_.primitives[i];
+      for (const Primitive& simpler : twin_of(primitive.shape).simpler(primitive)) {
+        if (take(simpler, i)) return true;
       }
     }
     return false;

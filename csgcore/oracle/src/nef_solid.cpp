@@ -17,7 +17,6 @@ namespace oracle {
 namespace {
 
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 /// a, b, c, d, divided by the absolute value of the first that is not 0: the same for all
@@ -55,22 +54,6 @@ Rational sum_of(std::vector<Rational> terms) {
 }
 
 }  // namespace
-
-ConvexPolyhedron faceted(const Primitive& primitive, int fragments) {
-  const auto half_spaces = [&] {
-    switch (primitive.shape) {
-      case Shape::kSphere:
-        return csgcore::half_spaces(csgcore::faceted_sphere(primitive.r_bottom, fragments));
-      case Shape::kFrustum:
-        return csgcore::half_spaces(csgcore::faceted_frustum(
-            primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top, fragments));
-      case Shape::kPolyhedron:
-        break;
-    }
-    return primitive.polyhedron->half_spaces();
-  };
-  return {half_spaces(), primitive.local_to_world};
-}
 
 class NefSolid::Impl {
  public:

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "csgcore/polyhedron.hpp"
+#include "exact_twin.hpp"
 #include "oracle/exact_rays.hpp"
 
 namespace oracle {
@@ -17,55 +17,15 @@ using csgcore::Box;
 using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Scene;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 /// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
 constexpr double kThinnestPiece = 1e-9;
 
-/// One coordinate of a local point's image, relative to a point, however far both are from the
-/// origin.
-Interval coordinate_about(const Vec3& point, const Affine& map, const Vec3& local, int axis) {
-  Exact sum = Exact(map.translation[axis]) - Exact(point[axis]);
-  for (int i = 0; i < 3; ++i) sum += Exact(map.linear[i][axis]) * Exact(local[i]);
-  return enclose(sum);
-}
-
-void merge(const Interval& coordinate, int axis, Box& box) {
-  box.min[axis] = std::min(box.min[axis], coordinate.inf());
-  box.max[axis] = std::max(box.max[axis], coordinate.sup());
-}
-
-void merge_disc(const Vec3& point, const Affine& map, double z, double radius, bool is_ball,
-                Box& box) {
-  for (int i = 0; i < 3; ++i) {
-    const Interval x = map.linear[0][i], y = map.linear[1][i], along = map.linear[2][i];
-    Interval reach2 = CGAL::square(x) + CGAL::square(y);
-    if (is_ball) reach2 += CGAL::square(along);
-    const Interval reach = CGAL::sqrt(reach2) * Interval(radius);
-    merge(coordinate_about(point, map, {0, 0, z}, i) + Interval(-1, 1) * reach, i, box);
-  }
-}
-
-/// The box relative to a point, tight, and wider by no more than rounding; of a polyhedron as tight
-/// as its vertices are. RoundingUp must be on.
+/// The box relative to a point. RoundingUp must be on.
 Box box_about(const Vec3& point, const Primitive& primitive) {
-  const Affine& map = primitive.local_to_world;
   Box box;
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      merge_disc(point, map, 0, primitive.r_bottom, true, box);
-      break;
-    case Shape::kFrustum:
-      merge_disc(point, map, primitive.z_min, primitive.r_bottom, false, box);
-      merge_disc(point, map, primitive.z_max, primitive.r_top, false, box);
-      break;
-    case Shape::kPolyhedron:
-      for (const Vec3& vertex : primitive.polyhedron->vertices()) {
-        for (int i = 0; i < 3; ++i) merge(coordinate_about(point, map, vertex, i), i, box);
-      }
-      break;
-  }
+  twin_of(primitive.shape).merge_box(point, primitive, box);
   return box;
 }
 

@@ -1,5 +1,5 @@
 // The crossings that coincide with those at which the lanes of a packet stand, where it is plain
-// which those are (NUMERICS.md, "Clusters"). Included once per instruction set.
+// which those are (NUMERICS.md, "Coincidences"). Included once per instruction set.
 #if defined(CSGCORE_CLUSTERS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_CLUSTERS_INL_HPP
 #undef CSGCORE_CLUSTERS_INL_HPP

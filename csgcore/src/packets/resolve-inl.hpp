@@ -1,5 +1,5 @@
-// One ray on which crossings coincide: they are taken together (NUMERICS.md, "Clusters"). Included
-// once per instruction set.
+// One ray on which crossings coincide: they are taken together (NUMERICS.md, "Coincidences").
+// Included once per instruction set.
 #if defined(CSGCORE_RESOLVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_RESOLVE_INL_HPP
 #undef CSGCORE_RESOLVE_INL_HPP

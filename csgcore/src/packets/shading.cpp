@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// 0.2 + |n · light| (openscad.md §4).
+/// OpenSCAD's light: 0.2 + |n · light| (frontend/OPENSCAD.md, "Light and colours").
 HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits& hits, int chunk) {
   const Wide d;
   constexpr double kAmbient = 0.2;
@@ -147,7 +147,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
                              const Box& solid_bounds) {
   ShadeSettings shade;
   shade.shading = settings.shading;
-  // The light of openscad.md §4, (−1, 1, 1)/√3 in eye space.
+  // OpenSCAD's light, (−1, 1, 1)/√3 in eye space.
   shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
   shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
   shade.front = 255.0 * Vec3(settings.front);

@@ -326,7 +326,7 @@ HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* l
 /// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
 /// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
 /// that fails is passed over at once: to where it holds again. The least t that none moves any
-/// further is the first where all hold (design.md §4, the fixed point of an intersection).
+/// further is the first where all hold (the fixed point of an intersection).
 HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
                                 Walk& walk) {
   const CellList& list = *trace.list;

@@ -46,17 +46,31 @@ HWY_INLINE void cut(D d, const Vec3& face_normal, hn::Vec<D> height, hn::Vec<D> 
   }
 }
 
-/// `center`: relative to the rays' pivot. Normals are found if asked for.
+/// Rays in canonical space, o + (t − base)·direction: re-based at the point of each that is nearest
+/// to the canonical origin.
+template <class D>
+struct RebasedRays {
+  Lanes3<D> o, direction;
+  hn::Vec<D> inverse_length2, base;
+};
+
+/// `center`: relative to the rays' pivot.
+template <class D>
+HWY_INLINE RebasedRays<D> rebased(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                  const Rays<D>& rays) {
+  const Mat3& map = primitive.world_to_canonical;
+  const Lanes3<D> o = transformed(d, map, rays.origin - broadcast(d, center));
+  const Lanes3<D> direction = transformed(d, map, rays.direction);
+  const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
+  const auto base = hn::Neg(hn::Mul(dot(d, o, direction), inverse_length2));
+  return {o + scaled(direction, base), direction, inverse_length2, base};
+}
+
+/// Normals are found if asked for.
 template <bool kWithNormals, class D>
 HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primitive,
                                            const Vec3& center, const Rays<D>& rays) {
-  const Mat3& map = primitive.world_to_canonical;
-  Lanes3<D> o = transformed(d, map, rays.origin - broadcast(d, center));
-  const Lanes3<D> direction = transformed(d, map, rays.direction);
-  // Re-based at the ray's point nearest to the canonical origin.
-  const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
-  const auto base = hn::Neg(hn::Mul(dot(d, o, direction), inverse_length2));
-  o = o + scaled(direction, base);
+  const auto [o, direction, inverse_length2, base] = rebased(d, primitive, center, rays);
   const Segment<D> enclosed =
       primitive.enclosure == Shape::kSphere
           ? segment_about(d, hn::Zero(d), hn::Sub(hn::Set(d, 1.0), dot(d, o, o)), inverse_length2)
@@ -97,19 +111,82 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
   return segment;
 }
 
+/// What of rays lies within a box, by slabs (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986):
+/// the same ends as faced_segment's, since each is one division by the same numbers.
+template <class D>
+HWY_NOINLINE Segment<D> box_segment(D d, const CanonicalPrimitive& primitive,
+                                    const Polyhedron::Slabs& slabs, const Vec3& center,
+                                    const Rays<D>& rays) {
+  const auto [o, direction, inverse_length2, base] = rebased(d, primitive, center, rays);
+  const hn::Vec<D> origin_along[] = {o.x, o.y, o.z};
+  const hn::Vec<D> direction_along[] = {direction.x, direction.y, direction.z};
+  const auto one = hn::Set(d, 1.0);
+  const auto never = hn::Set(d, kInfinity);
+  auto start = hn::Neg(never);
+  auto end = never;
+  for (int i = 0; i < 3; ++i) {
+    const auto below = hn::Set(d, slabs.below[i]);
+    const auto above = hn::Set(d, slabs.above[i]);
+    const auto room_below = hn::Sub(one, hn::Mul(below, origin_along[i]));
+    const auto room_above = hn::Sub(one, hn::Mul(above, origin_along[i]));
+    const auto at_below = hn::Div(room_below, hn::Mul(below, direction_along[i]));
+    const auto at_above = hn::Div(room_above, hn::Mul(above, direction_along[i]));
+    auto enters = hn::Min(at_below, at_above);
+    auto leaves = hn::Max(at_below, at_above);
+    const auto along_faces = hn::Eq(direction_along[i], hn::Zero(d));
+    if (!hn::AllFalse(d, along_faces)) {
+      const auto is_beyond = hn::Lt(hn::Min(room_below, room_above), hn::Zero(d));
+      enters =
+          hn::IfThenElse(along_faces, hn::IfThenElse(is_beyond, never, hn::Neg(never)), enters);
+      leaves = hn::IfThenElse(along_faces, never, leaves);
+    }
+    start = hn::Max(start, enters);
+    end = hn::Min(end, leaves);
+    if (hn::AllFalse(d, hn::Lt(start, end))) break;
+  }
+  start = hn::Add(base, start);
+  end = hn::Add(base, end);
+  return segment_if(d, hn::Lt(start, end), start, end, no_lanes(d), hn::Not(no_lanes(d)));
+}
+
 template <class D>
 HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                               const Rays<D>& rays) {
+  if (const auto& slabs = primitive.polyhedron->slabs()) {
+    return box_segment(d, primitive, *slabs, center, rays);
+  }
   const FacedSegment<D> faced = faced_segment<false>(d, primitive, center, rays);
   return segment_if(d, hn::Lt(faced.start, faced.end), faced.start, faced.end, no_lanes(d),
                     hn::Not(no_lanes(d)));
+}
+
+/// The faces by which rays cross a box; of those that are crossed at once, the first.
+template <class D>
+HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                       const Rays<D>& rays) {
+  const auto [o, direction, inverse_length2, base] = rebased(d, primitive, center, rays);
+  const hn::Vec<D> origin_along[] = {o.x, o.y, o.z};
+  const hn::Vec<D> direction_along[] = {direction.x, direction.y, direction.z};
+  const auto endless = hn::Set(d, kInfinity);
+  const Lanes3<D> none = broadcast(d, Vec3(0, 0, 1));
+  FacedSegment<D> segment{hn::Neg(endless), endless, none, none};
+  for (const Polyhedron::Entry& entry : primitive.polyhedron->entries()) {
+    if (entry.skip > 0) continue;
+    const auto along = hn::Set(d, entry.normal[static_cast<int>(entry.axis)]);
+    const auto growth = hn::Mul(along, direction_along[entry.axis]);
+    cut<true>(d, entry.normal, hn::Mul(along, origin_along[entry.axis]), growth,
+              hn::Ne(growth, hn::Zero(d)), segment);
+  }
+  return segment;
 }
 
 /// Outward and unit, where the ray enters or leaves: of the face that cuts it there.
 template <class D>
 HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                             const Rays<D>& rays, hn::Mask<D> leaves) {
-  const FacedSegment<D> faced = faced_segment<true>(d, primitive, center, rays);
+  const FacedSegment<D> faced = primitive.polyhedron->slabs()
+                                    ? box_faces(d, primitive, center, rays)
+                                    : faced_segment<true>(d, primitive, center, rays);
   return normalized(d,
                     transformed_back(d, primitive.world_to_canonical,
                                      if_then_else(leaves, faced.end_normal, faced.start_normal)));

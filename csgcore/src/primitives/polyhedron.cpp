@@ -153,6 +153,7 @@ Polyhedron::Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> ver
   canonical_.scale *= 1 + kMargin;
   list_faces();
   list_vertices();
+  find_slabs();
 }
 
 Polyhedron::Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices)
@@ -257,6 +258,20 @@ void Polyhedron::list_vertices() {
       [&](uint32_t i) {
         vertex_entries_.push_back({points[i], 0, 0});
       });
+}
+
+void Polyhedron::find_slabs() {
+  if (half_spaces_.size() != 6) return;
+  Slabs slabs{Vec3(0.0), Vec3(0.0)};
+  for (const Entry& entry : entries_) {
+    if (entry.skip > 0) continue;
+    if (entry.axis == Entry::kNoAxis) return;
+    const int axis = static_cast<int>(entry.axis);
+    const double along = entry.normal[axis];
+    (along < 0 ? slabs.below : slabs.above)[axis] = along;
+  }
+  // Six faces along the axes that bound a solid are two across each axis.
+  slabs_ = slabs;
 }
 
 bool Polyhedron::contains(const Vec3& point, double slack) const {

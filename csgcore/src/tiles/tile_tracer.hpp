@@ -1,5 +1,5 @@
-// What the rays of each part of the screen can meet (design.md §4, image-order tiles): the screen
-// is divided like a kd-tree, and with it the solid's list, down to tiles of a few pixels.
+// What the rays of each part of the screen can meet: the screen is divided like a kd-tree, and with
+// it the solid's list, down to tiles of a few pixels.
 #pragma once
 
 #include <limits>

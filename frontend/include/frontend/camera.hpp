@@ -1,4 +1,5 @@
-// OpenSCAD's camera (openscad.md §4): its numbers, and the csgcore::View that they mean.
+// OpenSCAD's camera (frontend/OPENSCAD.md, "Camera"): its numbers, and the
+// csgcore::View that they mean.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,17 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// Larger pictures than this a side are refused; it is the largest texture and viewport side that
+/// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
+constexpr uint32_t kMaxPictureSide_px = 16384;
+
 /// What the command line says of the camera and of the picture's size.
 struct CameraOptions {
   std::optional<Camera> camera;  // none: as with view_all and auto_center
   bool view_all = false;
   bool auto_center = false;  // only together with view_all, as in OpenSCAD
   csgcore::Projection projection = csgcore::Projection::kPerspective;
-  uint32_t width_px = 512;
+  uint32_t width_px = 512;  // 1…kMaxPictureSide_px
   uint32_t height_px = 512;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "csgcore/image.hpp"
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

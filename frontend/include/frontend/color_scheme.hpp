@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

@@ -5,16 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "frontend/render.hpp"
+#include "csgcore/image.hpp"
+#include "csgcore/scene.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/render_settings.hpp"
+#include "frontend/render_stats.hpp"
+#include "frontend/run_program.hpp"
 
 namespace frontend {
-
-/// design.md §2. kDisagreement is `scadray validate`'s alone.
-enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
-
-/// Runs a program, writes out what it has printed, and says on stderr what ends it instead: nothing
-/// is thrown. `smaller` is what to try where memory runs out: "a smaller …".
-ExitCode run_program(const std::function<ExitCode()>& program, const std::string& smaller);
 
 /// frontend::render, or another with its contract.
 using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,

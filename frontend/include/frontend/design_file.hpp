@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 

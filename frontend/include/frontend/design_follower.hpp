@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,35 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "frontend/files.hpp"
-#include "frontend/importer.hpp"
+#include "frontend/design_version.hpp"
+#include "frontend/import_options.hpp"
 
 namespace frontend {
-
-/// One reading of a design: at the start, or after a save.
-struct DesignVersion {
-  uint64_t number = 0;  // counts up from 1
-  /// Null where it could not be read.
-  std::shared_ptr<const ImportedDesign> design;
-  /// Where it could not be read, "file:line:column: error: what (what to do)"; empty otherwise.
-  std::string error;
-  /// What openscad said, and then the importer's warnings. The error is not among them.
-  std::vector<std::string> messages;
-  /// All that it is read from, as far as is known, the design first; missing files that it asks
-  /// for, too.
-  std::vector<std::string> files;
-  /// Its .csg is byte for byte that of the last version that could be read; `design` is that one's
-  /// pointer. The messages may be others.
-  bool unchanged = false;
-  std::shared_ptr<const FileText> csg;  // that `design` was made of
-  std::size_t nodes = 0;  // of the .csg; those of the last version where it is unchanged
-  double export_ms = 0;   // openscad, for a .scad
-  double read_ms = 0;
-  double parse_ms = 0;
-  double import_ms = 0;
-  /// When the save was seen, before waiting for its end; the start, or reload(), without a save.
-  std::chrono::steady_clock::time_point noticed;
-};
 
 struct FollowOptions {
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad

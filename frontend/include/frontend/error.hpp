@@ -19,8 +19,7 @@ struct Warning {
   std::string error_text;  // what() of the Error that it is where warnings are errors
 };
 
-/// what() is "file:line:column: error: what (what to do)" (design.md §2), without the places that
-/// are not known.
+/// what() is "file:line:column: error: what (what to do)", without the places that are not known.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& file, Location location, const std::string& what,

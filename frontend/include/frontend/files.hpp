@@ -2,49 +2,29 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "frontend/file_text.hpp"
+
 namespace frontend {
 
-/// A file's text, a copy of its own: a file that changes while it is read cannot harm us.
-class FileText {
- public:
-  FileText() = default;
-  FileText(std::unique_ptr<char[]> bytes, std::size_t size)
-      : bytes_(std::move(bytes)), size_(size) {}
-  std::string_view view() const { return {bytes_.get(), size_}; }
-
- private:
-  std::unique_ptr<char[]> bytes_;
-  std::size_t size_ = 0;
-};
-
-/// What is known of a text that is to be read.
-enum class TextKind : uint8_t {
-  kAny,
-  kCsg,  // no more is read than shows that it cannot be parsed: a part that fails as the whole
-         // would
-};
-
-/// Reads a file, or standard input for "-". Throws Error where that is missing, a folder, cannot be
-/// read, or is larger than kMaxInputBytes; Stopped (stop.hpp) where `stop` asks for it.
-FileText read_file(const std::string& path, TextKind kind = TextKind::kAny,
+/// Reads a file, or standard input for "-". Where `is_hopeless` says so, the rest is not read: the
+/// result is a start that is as useless as the whole. Throws Error where the file is missing, a
+/// folder, cannot be read, or is larger than kMaxInputBytes; Stopped (stop.hpp) where `stop` asks
+/// for it.
+FileText read_file(const std::string& path, const IsHopeless& is_hopeless = {},
                    const std::stop_token& stop = {});
 
 /// Reads an open descriptor to its end; `name` is for messages.
-FileText read_descriptor(int descriptor, const std::string& name, TextKind kind = TextKind::kAny,
-                         const std::stop_token& stop = {});
+FileText read_descriptor(int descriptor, const std::string& name,
+                         const IsHopeless& is_hopeless = {}, const std::stop_token& stop = {});
 
 /// Throws Error if `path` can be seen not to be a file that can be read.
 void check_input(const std::string& path);
-
-/// Locations and offsets in a syntax tree are 32 bits wide.
-constexpr std::size_t kMaxInputBytes = 0xFFFFFFFFu;
 
 /// What is to be written: `path` "-" is standard output.
 struct PendingOutput {

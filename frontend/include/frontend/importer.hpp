@@ -1,61 +1,17 @@
-// Syntax tree, or text, → csgcore::Scene (openscad.md §2, design.md §3).
+// Syntax tree, or text, → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "csgcore/geometry.hpp"
-#include "csgcore/scene.hpp"
-#include "frontend/error.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/imported_design.hpp"
 #include "frontend/syntax_tree.hpp"
 
 namespace frontend {
-
-/// Which round primitives become the polyhedra that OpenSCAD makes of them (openscad.md §3); the
-/// others are exact quadrics.
-enum class Facets : uint8_t {
-  kNone,
-  kFew,  // those with 0 < $fn ≤ ImportOptions::few_fragments: prisms and pyramids on purpose
-  kAll,
-};
-
-struct ImportOptions {
-  Facets facets = Facets::kFew;
-  /// Of kFew. People who choose no more than 8 fragments mean the polygon (openscad.md §3).
-  double few_fragments = 8;
-  /// In place of the $fn of every round primitive in the file.
-  std::optional<double> fn{};
-  /// As OpenSCAD's --render: the solid alone. No color() counts, `#` parts are like others, and `%`
-  /// parts are left out.
-  bool rendered = false;
-  /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
-  bool keeps_places = false;
-};
-
-/// Where a primitive node stands in its file.
-struct PrimitivePlace {
-  uint32_t line = 0;    // from 1
-  uint32_t offset = 0;  // of its name, in bytes from the text's start
-};
-
-struct ImportedDesign {
-  csgcore::Scene scene;
-  /// What OpenSCAD's --viewall looks at: the union of the positive leaves' boxes, each the box of
-  /// the corners of the (faceted, openscad.md §3) leaf's local box under its matrix, `%` and `#`
-  /// parts included (openscad.md §4). Empty for an empty design.
-  csgcore::Box view_box;
-  /// Primitive nodes in the file, empty, invalid and `%` ones included.
-  uint32_t primitive_nodes = 0;
-  /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
-  std::vector<PrimitivePlace> places;
-  std::vector<Warning> warnings;
-};
 
 /// A node that cannot be drawn is left out, and an argument of the wrong type counts as missing,
 /// as in OpenSCAD: there is one warning for each kind of node and reason, which names the first

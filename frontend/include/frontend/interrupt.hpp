@@ -15,6 +15,9 @@ namespace frontend {
 /// ignores stay ignored. To be called once, by a program's main.
 void handle_interrupts();
 
+/// So many files can be registered at once: each has a slot, for the handler may not allocate.
+constexpr std::size_t kMaxRemovedFiles = 4098;
+
 /// The file at `path` is removed at an interruption while this object lives. The text behind
 /// `path` must live as long. Throws Error if too many are registered.
 class RemoveOnInterrupt {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/files.hpp"
+#include "frontend/file_text.hpp"
 
 namespace frontend {
 

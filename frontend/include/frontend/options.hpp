@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
-#include "frontend/importer.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/interrupt.hpp"
 #include "frontend/overlays.hpp"
-#include "frontend/render.hpp"
+#include "frontend/picture_file.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
-
-enum class PictureFormat : uint8_t { kPng, kExr };
 
 struct Output {
   std::string path;  // "-": standard output
@@ -42,13 +42,9 @@ struct Options {
   bool info = false;
 };
 
-/// A run that writes more pictures than this is refused: each needs a slot for the clean-up at an
-/// interruption (see interrupt.hpp).
-constexpr std::size_t kMaxPictures = 4096;
-
-/// Larger pictures than this a side are refused; it is the largest texture and viewport side that
-/// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
-constexpr uint32_t kMaxPictureSide_px = 16384;
+/// A run that writes more pictures than this is refused: each is registered for removal at an
+/// interruption, as are statistics and the rule for make.
+constexpr std::size_t kMaxPictures = kMaxRemovedFiles - 2;
 
 /// By the path's suffix. Throws Error for any other.
 PictureFormat picture_format(const std::string& path);

@@ -4,7 +4,7 @@
 #include "csgcore/image.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/camera.hpp"
-#include "frontend/render.hpp"
+#include "frontend/render_settings.hpp"
 
 namespace frontend {
 

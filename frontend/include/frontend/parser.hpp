@@ -9,10 +9,10 @@
 
 namespace frontend {
 
-/// Parses a .csg file (openscad.md §1: every version's spelling, and what a person may write by
-/// hand). Time and memory are in proportion to the text; nesting may be arbitrarily deep.
-/// `file_name` is used in messages only. Throws Error, and Stopped (stop.hpp) where `stop` asks for
-/// it.
+/// Parses a .csg file (frontend/OPENSCAD.md, "The .csg file": every version's spelling, and what a
+/// person may write by hand). Time and memory are in proportion to the text; nesting may be
+/// arbitrarily deep. `file_name` is used in messages only. Throws Error, and Stopped (stop.hpp)
+/// where `stop` asks for it.
 SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop = {});
 
 /// Whether no text that begins with `start` can be parsed: parse(start), and that of all of them,

@@ -1,11 +1,11 @@
-// Image → the bytes of a picture file (design.md §2, `-o x.png` and `-o x.exr`).
+// Image → the bytes of a picture file (frontend/OPTIONS.md, "What is written").
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "csgcore/image.hpp"
-#include "frontend/options.hpp"
 
 namespace frontend {
 
@@ -18,6 +18,8 @@ Bytes encode_png(const csgcore::Image& image);
 /// Float channels R, G, B, A, Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and the uint channel id.
 /// Precondition: the image has its measured channels.
 Bytes encode_exr(const csgcore::Image& image);
+
+enum class PictureFormat : uint8_t { kPng, kExr };
 
 Bytes encode_picture(const csgcore::Image& image, PictureFormat format);
 

@@ -3,7 +3,12 @@
 
 #include <memory>
 
-#include "frontend/render.hpp"
+#include "csgcore/image.hpp"
+#include "csgcore/scene.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/render_settings.hpp"
+#include "frontend/render_stats.hpp"
 
 namespace frontend {
 

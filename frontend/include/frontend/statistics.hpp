@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "frontend/render.hpp"
+#include "frontend/render_stats.hpp"
 
 namespace frontend {
 
@@ -26,7 +26,7 @@ struct RunStats {
                          // measuring of the paper's times draws again
 };
 
-/// The keys are fixed; the README lists them.
+/// The keys are fixed; frontend/STATISTICS.md lists them.
 std::string to_json(const RunStats& stats);
 
 }  // namespace frontend

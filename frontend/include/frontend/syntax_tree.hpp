@@ -1,4 +1,5 @@
-// A .csg file as a syntax tree (openscad.md §1): every node with its place in the file.
+// A .csg file as a syntax tree (frontend/OPENSCAD.md, "The .csg file"): every node with its place
+// in the file.
 #pragma once
 
 #include <array>

@@ -13,6 +13,12 @@ class GlError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Tiles have lists that no shader can evaluate. Cells still may be drawn.
+class ListsTooLong : public GlError {
+ public:
+  using GlError::GlError;
+};
+
 /// Owns an EGL display and a surfaceless context, current on the thread that made it; everything
 /// else in glrender must be used on that thread, within the context's lifetime. Takes the first
 /// hardware device (EGL_EXT_platform_device), else Mesa's surfaceless platform, which llvmpipe

@@ -79,7 +79,7 @@ void aim(const Eye& eye, uint32_t x, uint32_t y, Packet& packet) {
   }
 }
 
-/// OpenSCAD's (openscad.md §4).
+/// OpenSCAD's light and colours.
 Rgb shade(const glm::vec3& color, const glm::vec3& normal, const glm::vec3& to_light) {
   const float light =
       0.2f + std::abs(glm::dot(normal, to_light)) / std::sqrt(glm::dot(normal, normal));

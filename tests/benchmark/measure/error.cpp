@@ -43,7 +43,7 @@ constexpr std::chrono::milliseconds kPause{100};
 /// Twice the fragments take an exact solid about this many times as long.
 constexpr double kGrowth = 3.5;
 
-/// What has to be shown of scadray's whole process (README).
+/// What has to be shown of scadray's whole process (the report names these bars).
 struct Bar {
   const char *series, *setting, *design;
   bool by_trace;

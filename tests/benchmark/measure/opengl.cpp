@@ -13,12 +13,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/elapsed.hpp"
 #include "bench/measurement.hpp"
 #include "bench/picture_check.hpp"
-#include "elapsed.hpp"
 #include "frontend/error.hpp"
+#include "frontend/render.hpp"
 #include "frontend/scene_renderer.hpp"
-#include "renderer_choice.hpp"
+#include "render/renderer_choice.hpp"
 #include "subject.hpp"
 
 namespace measure {

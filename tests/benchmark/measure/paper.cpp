@@ -11,7 +11,7 @@
 //              "exponents": [{"S", "gl_T_R", "cpu_T_R"} of the rules in their order]},  figure 14
 //  "threshold": {"design", "hits", "rules": [RULE with K = 2 by the threshold, …]},     figure 3
 //  "leaf_primitives": {"design", "hits", "rules": [RULE without a threshold by K, …]}}
-// RULE is what `scadray bench --json` says of a rule (README.md, "Measuring a design"): times as
+// RULE is what `scadray bench --json` says of a rule (frontend/bench/README.md): times as
 // summaries in ms, "gl" only where there is OpenGL.
 // POINT: {"hits": pixels that show it, "cells", "cells_in_view", "cells_per_pixel" (the mean depth
 // complexity), "rule": RULE}, by scadray's rule, whose cells do not depend on the view.

@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<report::Figure>& figures) {
 }
 
 TEST(Report, SaysWhatTheResultsHold) {
-  const Report made = report::make_report(results_of({{"whole", whole()}}), "plots");
+  const Report made = report::make_report(results_of({{"whole", whole()}}));
   const std::string& text = made.markdown;
   EXPECT_THAT(text, HasSubstr("2026-01-02 at commit 0123456789 on 2 cores"));
   EXPECT_THAT(text, HasSubstr("POV-Ray 3.7 and scadray 0.1.0"));
@@ -32,7 +32,7 @@ TEST(Report, SaysWhatTheResultsHold) {
   // In time, but in too much memory.
   EXPECT_THAT(text, HasSubstr("| 40 ms, 10 MB: missed |"));
   EXPECT_THAT(text, HasSubstr("CS grows as n^0.301 from 1,001 to 10,001"));
-  EXPECT_THAT(text, HasSubstr("](plots/whole.svg)"));
+  EXPECT_THAT(text, HasSubstr("](whole.svg)"));
   EXPECT_THAT(text, HasSubstr("- cs1000000: no memory\n"));
   EXPECT_THAT(text, Not(HasSubstr("and more words")));
   EXPECT_THAT(names_of(made.figures), testing::ElementsAre("whole"));
@@ -88,7 +88,7 @@ json time_against_error() {
 }
 
 TEST(Report, PlotsErrorsOverTimes) {
-  const Report made = report::make_report(results_of({{"error", time_against_error()}}), "plots");
+  const Report made = report::make_report(results_of({{"error", time_against_error()}}));
   ASSERT_THAT(names_of(made.figures), testing::ElementsAre("error_cs1000"));
   const report::Panel& wrong = made.figures[0].panels.at(0);
   ASSERT_EQ(wrong.series.size(), 3u);  // one a program
@@ -104,7 +104,7 @@ TEST(Report, PlotsErrorsOverTimes) {
 
 TEST(Report, SaysByHowMuchItIsAhead) {
   const std::string text =
-      report::make_report(results_of({{"error", time_against_error()}}), "plots").markdown;
+      report::make_report(results_of({{"error", time_against_error()}})).markdown;
   EXPECT_THAT(text,
               HasSubstr("| OpenSCAD preview, $fn=48 | CS1000 | 4,800 | 10 | 480 | 200: reached |"));
   EXPECT_THAT(text, HasSubstr("| POV-Ray | CS1000 | 150 | 10 | 15 | 25: missed |"));
@@ -124,12 +124,36 @@ TEST(Report, HoldsAMovedCameraAgainstEmbree) {
                          {"prepares", "lists"},
                          {"ratio", 0.6}}};
   const auto text_of = [](const json& section) {
-    return report::make_report(results_of({{"frames", section}}), "plots").markdown;
+    return report::make_report(results_of({{"frames", section}})).markdown;
   };
   EXPECT_THAT(text_of(frames), HasSubstr("| scadray, tiles | 4 (3.80–4.40) | 1 | lists | 0.600 |"));
   EXPECT_THAT(text_of(frames), Not(HasSubstr("wanted")));
   frames["ratio"] = {{"what", "the ratio"}, {"value", 0.6}, {"at_most", 0.5}};
   EXPECT_THAT(text_of(frames), HasSubstr("The ratio: 0.600 (wanted: at most 0.500, missed)."));
+}
+
+TEST(Summary, IsOneTableAndOnePlot) {
+  const std::string text =
+      report::make_summary(results_of({{"error", time_against_error()}, {"whole", whole()}}), "r");
+  EXPECT_THAT(text, HasSubstr("2026-01-02 at commit 0123456789 on 2 cores"));
+  EXPECT_THAT(text, HasSubstr("640×480"));
+  EXPECT_THAT(text, HasSubstr("| CS1000 | OpenSCAD preview, $fn=48 | 4,800 | 10 | 480 |\n"));
+  EXPECT_THAT(text, HasSubstr("| CS1000 | POV-Ray | 150 | 10 | 15 |\n"));
+  EXPECT_THAT(text, HasSubstr("](r/error_cs1000.svg)\n"));
+  EXPECT_THAT(text, Not(HasSubstr("whole.svg")));
+}
+
+TEST(Summary, LeavesOutWhatIsMissing) {
+  const std::string machine = report::make_summary(results_of(json::object()), "r");
+  EXPECT_THAT(machine, HasSubstr("2026-01-02"));
+  EXPECT_THAT(machine, Not(HasSubstr("|")));
+  EXPECT_EQ(report::make_summary(results_of({{"error", json()}}), "r"), machine);
+  json other = time_against_error();
+  other["scenes"][0]["design"] = "r9";
+  EXPECT_THAT(report::make_summary(results_of({{"error", other}}), "r"), Not(HasSubstr(".svg")));
+  other.erase("ratios");
+  EXPECT_THROW(report::make_summary(results_of({{"error", other}}), "r"), std::runtime_error);
+  EXPECT_THROW(report::make_summary(json::array(), "r"), std::runtime_error);
 }
 
 json frame_by_gl(const char* design, uint32_t height_px, const char* technique, double ms) {
@@ -146,7 +170,7 @@ TEST(Report, TakesTheQuickestTechniqueOfOpenGl) {
                 {"frames",
                  {frame_by_gl("cs1000", 480, "cells", 80), frame_by_gl("cs1000", 480, "tiles", 20),
                   frame_by_gl("cs1000", 1080, "tiles", 10)}}};
-  const Report made = report::make_report(results_of({{"opengl", gl}}), "plots");
+  const Report made = report::make_report(results_of({{"opengl", gl}}));
   EXPECT_THAT(made.markdown, HasSubstr("takes 20 ms a frame with K = 8, by tiles"));
   EXPECT_THAT(made.markdown, HasSubstr("reached).\n"));
   EXPECT_THAT(made.markdown, HasSubstr("| 2 of 90,000 |"));
@@ -186,7 +210,7 @@ TEST(Report, PutsThePapersFiguresBeside) {
         {"exponents", {{{"S", 1}, {"gl_T_R", 1.02}, {"cpu_T_R", nullptr}}}}}},
       {"threshold",
        {{"hits", 1'000}, {"rules", {rule_times(2, 4, 1, 100), rule_times(2, 2, 2, 10)}}}}};
-  const Report made = report::make_report(results_of({{"paper", section}}), "plots");
+  const Report made = report::make_report(results_of({{"paper", section}}));
   EXPECT_THAT(
       made.markdown,
       HasSubstr("| CS1000 | paper, C1 | 1,739 | 964 | 10,776 | 11,243 |  |  | 85,306 |  |"));
@@ -202,14 +226,14 @@ TEST(Report, PutsThePapersFiguresBeside) {
 }
 
 TEST(Report, LeavesOutWhatIsMissing) {
-  const Report nothing = report::make_report(results_of(json::object()), "plots");
-  EXPECT_THAT(nothing.markdown, Not(HasSubstr("###")));
+  const Report nothing = report::make_report(results_of(json::object()));
+  EXPECT_THAT(nothing.markdown, Not(HasSubstr("\n##")));
   EXPECT_TRUE(nothing.figures.empty());
   json sections;
   for (const report::Chapter& chapter : report::chapters()) sections[chapter.section] = json();
-  EXPECT_EQ(report::make_report(results_of(sections), "plots").markdown, nothing.markdown);
+  EXPECT_EQ(report::make_report(results_of(sections)).markdown, nothing.markdown);
   sections["stability"] = {{"curves", json::array()}, {"left_out", {"stability: no oracle"}}};
-  EXPECT_THAT(report::make_report(results_of(sections), "plots").markdown,
+  EXPECT_THAT(report::make_report(results_of(sections)).markdown,
               HasSubstr("- stability: no oracle"));
 }
 
@@ -217,12 +241,12 @@ TEST(Report, NamesTheSectionThatIsNotAsItHasToBe) {
   json broken = whole();
   broken["designs"][0].erase("wall_ms");
   try {
-    report::make_report(results_of({{"whole", broken}}), "plots");
+    report::make_report(results_of({{"whole", broken}}));
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("section whole: "));
   }
-  EXPECT_THROW(report::make_report(json::array(), "plots"), std::runtime_error);
+  EXPECT_THROW(report::make_report(json::array()), std::runtime_error);
 }
 
 }  // namespace

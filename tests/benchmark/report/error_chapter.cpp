@@ -68,15 +68,24 @@ std::string error_cell(const json& point, const char* measure) {
   return has_error(point, measure) ? number(point.at("error").at(measure)) : "–";
 }
 
+/// The design whose plot README.md shows, too.
+constexpr char kSummaryDesign[] = "cs1000";
+
+std::string name_of_figure(const std::string& design) { return "error_" + design; }
+
+std::string alternative_of(const std::string& title) {
+  return title + ": error over the time from file to picture";
+}
+
 void write_scene(const json& scene, double pixels, const std::vector<double>& zeros,
                  Report& report) {
   const std::string title = design_title(scene.at("design"));
-  report.markdown += "\n#### " + title + "\n";
-  Figure figure{"error_" + scene.at("design").get<std::string>(), {}};
+  report.markdown += "\n### " + title + "\n";
+  Figure figure{name_of_figure(scene.at("design")), {}};
   for (size_t i = 0; i < std::size(kPlotted); ++i) {
     figure.panels.push_back(panel_of(scene, kPlotted[i], pixels, zeros[i]));
   }
-  report.figure(std::move(figure), title + ": error over the time from file to picture");
+  report.figure(std::move(figure), alternative_of(title));
   Table table({"program", "setting", "ms", "wrong pixels", "silhouette", "worst depth",
                "mean depth", "wrong colours"});
   for (const json& point : scene.at("points")) {
@@ -158,6 +167,31 @@ void write_error(const json& section, Report& report) {
   std::vector<double> zeros;
   for (const Measure& measure : kPlotted) zeros.push_back(place_of_zero(scenes, measure, pixels));
   for (const json& scene : scenes) write_scene(scene, pixels, zeros, report);
+}
+
+void write_error_summary(const json& section, const std::string& folder, std::string& summary) {
+  Table ratios({"design", "against", "its ms", "scadray's ms", "times as fast"});
+  for (const json& ratio : section.at("ratios")) {
+    ratios.add({design_title(ratio.at("design")), ratio.at("what"), number(ratio.at("time_ms")),
+                number(ratio.at("scadray_ms")), number(ratio.at("ratio"))});
+  }
+  if (!ratios.empty()) {
+    const json& picture = section.at("picture");
+    summary += paragraph("From file to picture at " + number(picture.at("width_px")) + "×" +
+                         number(picture.at("height_px")) +
+                         " pixels: medians of whole processes, but where the table says otherwise. "
+                         "scadray draws on the CPU here.");
+    summary += "\n" + ratios.markdown();
+  }
+  for (const json& scene : section.at("scenes")) {
+    if (scene.at("design") != kSummaryDesign || scene.at("points").empty()) continue;
+    summary += paragraph(
+        "How far each program's picture is off, over the time that it takes: to the left and "
+        "further "
+        "down is better, and the lowest line is no error at all.");
+    summary += "\n![" + alternative_of(design_title(kSummaryDesign)) + "](" + folder + "/" +
+               name_of_figure(kSummaryDesign) + ".svg)\n";
+  }
 }
 
 }  // namespace report

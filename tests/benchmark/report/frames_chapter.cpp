@@ -9,15 +9,17 @@ void write_frames(const json& section, Report& report) {
   const json& programs = section.at("programs");
   if (programs.empty()) return;
   report.heading("A moved camera");
-  report.text(design_title(section.at("design")) + " in memory, " + number(section.at("width_px")) +
-              "×" + number(section.at("height_px")) + ", " + number(section.at("threads")) +
-              " threads: " + number(section.at("frames")) + " frames of a camera that turns by " +
-              number(section.at("turn_deg")) + "° from one to the next.");
+  report.text(design_title(section.at("design")) + " is drawn from memory at " +
+              number(section.at("width_px")) + "×" + number(section.at("height_px")) + " by " +
+              number(section.at("threads")) + " threads, in " + number(section.at("frames")) +
+              " frames of a camera that turns by " + number(section.at("turn_deg")) +
+              "° from one to the next.");
   if (section.contains("mesh")) {
     const json& mesh = section.at("mesh");
     report.text("Embree traces a finished mesh of " + whole_number(mesh.at("triangles")) +
                 " triangles (" + number(mesh.at("fragments")) + " fragments a circle; " +
-                mesh.at("method").get<std::string>() + "), whose making is not counted.");
+                mesh.at("method").get<std::string>() +
+                "). The time of making that mesh is not counted.");
   }
   Table table({"program", "ms a frame", "made once, ms", "what", "to Embree's frame"});
   for (const json& program : programs) {

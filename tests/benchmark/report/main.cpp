@@ -1,4 +1,4 @@
-// Writes what measure has found as text, tables and plots: the benchmarks' part of README.md.
+// Writes what measure has found: the report with its plots, and the summary in README.md.
 #include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
@@ -46,14 +46,16 @@ void remove_others(const std::filesystem::path& folder, const report::Report& re
 }
 
 int run(int argc, char** argv) {
-  std::string results, readme, plots, link, gnuplot;
+  std::string results, folder, readme, link, gnuplot;
   options::options_description described("benchmark_report [options]");
   described.add_options()("help,h", "this text")("results", options::value(&results)->required(),
                                                  "what measure has written")(
-      "readme", options::value(&readme)->required(), "its marked part is replaced")(
-      "plots", options::value(&plots)->required(), "the folder of the plots; others are removed")(
+      "report", options::value(&folder)->required(),
+      "the folder of the report and its plots; other plots are removed from it")(
+      "summary", options::value(&readme)->required(),
+      "the repository's README.md, or a copy: its marked part is replaced")(
       "link", options::value(&link)->default_value("tests/benchmark/results"),
-      "the same folder, as README.md has it")(
+      "the report's folder, as README.md links to it")(
       "gnuplot", options::value(&gnuplot)->default_value("gnuplot"), "the program");
   options::variables_map values;
   options::store(options::parse_command_line(argc, argv, described), values);
@@ -66,11 +68,13 @@ int run(int argc, char** argv) {
   const std::string old_readme = contents_of(readme);
   const nlohmann::json measured = nlohmann::json::parse(contents_of(results), nullptr, false);
   if (measured.is_discarded()) throw std::runtime_error(results + ": is no JSON (measure again)");
-  const report::Report report = report::make_report(measured, link);
-  const std::string new_readme = report::with_region(old_readme, report.markdown);
-  std::filesystem::create_directories(plots);
-  for (const report::Figure& figure : report.figures) report::draw(figure, plots, gnuplot);
-  remove_others(plots, report);
+  const report::Report report = report::make_report(measured);
+  const std::string new_readme =
+      report::with_region(old_readme, report::make_summary(measured, link));
+  std::filesystem::create_directories(folder);
+  for (const report::Figure& figure : report.figures) report::draw(figure, folder, gnuplot);
+  remove_others(folder, report);
+  write(std::filesystem::path(folder) / "README.md", report.markdown);
   write(readme, new_readme);
   return 0;
 }

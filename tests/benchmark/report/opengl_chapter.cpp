@@ -64,12 +64,15 @@ void write_opengl(const json& section, Report& report) {
   if (frames.empty()) return;
   report.heading("OpenGL");
   const bool is_software = section.at("software");
-  report.text("Frames of a scene that is loaded, from the view to the picture in memory, by " +
-              section.at("renderer").get<std::string>() +
-              (is_software ? ", which runs on the processor." : ".") +
-              " Traverse: the cells in their order, brought to OpenGL; draw: until it has "
-              "finished; read: back into memory. Wrong pixels: other than the CPU's, at the "
-              "smallest size, of those that show the design.");
+  report.text(
+      "A scene that is loaded is drawn frame by frame, from the view to the picture in memory, "
+      "by " +
+      section.at("renderer").get<std::string>() +
+      (is_software ? ", which runs on the processor." : ".") +
+      " *Traverse* brings the cells in their order, or the tiles' lists, to OpenGL; *draw* lasts "
+      "until OpenGL has finished; *read* brings the picture back into memory. Wrong pixels are "
+      "those that differ from the CPU's, of the pixels that show the design at the smallest "
+      "size.");
   Table table({"design", "picture", "rule", "ms a frame", "traverse", "draw", "read", "frames/s",
                "leaf cells", "drawn", "draw calls", "wrong pixels"});
   std::vector<std::string> designs;

@@ -32,7 +32,9 @@ void add_paper_row(Table& table, const std::string& design, const json& paper, c
 
 void write_table(const json& rows, Report& report) {
   report.text(
-      "Table 1, 640×480, in ms: S subdivides, T_S traverses and passes the parameters, T_R "
+      "The paper is Romeiro, Velho, de Figueiredo, \"Hardware-assisted Rendering of CSG Models\". "
+      "Its "
+      "table 1, 640×480, in ms: S subdivides, T_S traverses and passes the parameters, T_R "
       "traverses and renders, S_R renders while subdividing. The paper's rule is at most 2 "
       "primitives in a cell and a threshold of 1 pixel. C1 is the paper's Pentium-M of "
       "1.4 GHz with a GeForce FX Go5200, C2 its Athlon 64 3800+ with a GeForce 6800 GT.");
@@ -89,9 +91,10 @@ void write_dependences(const json& section, Report& report) {
   add("depth", "cells_per_pixel", "The depth complexity", "cells that a ray passes");
   if (figure.panels.empty()) return;
   report.text(
-      "What T_R depends on (§4.1): the same cells on fewer pixels, as the camera goes back; "
-      "fewer cells in view, as it goes aside; and the design again and again behind itself, "
-      "on the same pixels.");
+      "What T_R depends on (the paper's §4.1): the same cells cover fewer pixels as the camera "
+      "goes "
+      "back; fewer cells are in view as it goes aside; and copies of the design stand behind it on "
+      "the same pixels.");
   report.figure(std::move(figure), "T_R over area, cells in view and depth complexity");
 }
 

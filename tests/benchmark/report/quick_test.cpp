@@ -55,9 +55,9 @@ TEST_F(Measure, WritesWhatTheReportReads) {
   }
   EXPECT_EQ(measured.at("sections").at("whole").at("designs").size(), 2u);  // r9 and cs100
   EXPECT_EQ(measured.at("sections").at("scale").at("primitives").size(), 5u);
-  const report::Report made = report::make_report(measured, "plots");
-  for (const char* heading : {"### From file to PNG", "### How it grows with primitives",
-                              "### What cannot be seen", "### Pixels and threads"}) {
+  const report::Report made = report::make_report(measured);
+  for (const char* heading : {"\n## From file to PNG", "\n## How it grows with primitives",
+                              "\n## What cannot be seen", "\n## Pixels and threads"}) {
     EXPECT_THAT(made.markdown, HasSubstr(heading));
   }
   for (const report::Figure& figure : made.figures) {

@@ -1,4 +1,4 @@
-// The part of README.md that is written by a program.
+// The part of the repository's README.md that is written by a program.
 #pragma once
 
 #include <string>

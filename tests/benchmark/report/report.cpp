@@ -53,12 +53,20 @@ std::string description(const json& machine) {
          machine.at("compiler").get<std::string>() + "; " + listed(versions) + ".";
 }
 
+std::string description_of_machine(const json& results) {
+  try {
+    return description(results.at("machine"));
+  } catch (const json::exception& error) {
+    throw std::runtime_error(std::string("no results of tests/benchmark/run: ") + error.what());
+  }
+}
+
 void write_left_out(const json& section, Report& report) {
   const json reasons = section.value("left_out", json::array());
   if (reasons.empty()) return;
   std::string list = "\nLeft out:\n\n";
   for (const std::string reason : reasons) {
-    // The first line says it; what a program printed besides is no text for README.md.
+    // The first line says it; what a program printed besides is no text for a report.
     list += "- " + reason.substr(0, reason.find('\n')) + "\n";
   }
   report.markdown += list;
@@ -66,7 +74,9 @@ void write_left_out(const json& section, Report& report) {
 
 }  // namespace
 
-void Report::text(const std::string& paragraph) { markdown += "\n" + wrapped(paragraph); }
+std::string paragraph(const std::string& text) { return "\n" + wrapped(text); }
+
+void Report::text(const std::string& paragraph) { markdown += report::paragraph(paragraph); }
 
 void Report::table(const Table& table) {
   if (!table.empty()) markdown += "\n" + table.markdown();
@@ -86,26 +96,24 @@ void Report::figure(Figure figure, const std::string& alternative) {
     return true;
   });
   if (figure.panels.empty()) return;
-  markdown += "\n![" + alternative + "](" + pictures_link + "/" + figure.name + ".svg)\n";
+  markdown += "\n![" + alternative + "](" + figure.name + ".svg)\n";
   figures.push_back(std::move(figure));
 }
 
 std::span<const Chapter> chapters() { return kChapters; }
 
-Report make_report(const json& results, const std::string& pictures_link) {
+Report make_report(const json& results) {
   Report report;
-  report.pictures_link = pictures_link;
-  try {
-    report.text(
-        "`tests/benchmark/run` installs what it needs on a Debian 12, builds, holds every picture "
-        "against its truth before it takes a time, measures, and writes "
-        "[results.json](tests/benchmark/results/results.json) and all that stands here, up to "
-        "the next heading of this size. Times are medians; in brackets, and as bars in the plots, "
-        "the quartiles.");
-    report.text(description(results.at("machine")));
-  } catch (const json::exception& error) {
-    throw std::runtime_error(std::string("no results of tests/benchmark/run: ") + error.what());
-  }
+  report.markdown = "# Benchmarks\n";
+  report.text(
+      "[`tests/benchmark/run`](../run) wrote this file, its plots and "
+      "[results.json](results.json); "
+      "nothing in them is written by hand. It installs what it needs on a Debian 12, builds, holds "
+      "every picture against its truth before it takes a time, and measures. Times are medians; "
+      "the "
+      "quartiles stand in brackets, and as bars in the plots. What bounds each stage, and what was "
+      "tried, is in [NOTES.md](../NOTES.md).");
+  report.text(description_of_machine(results));
   const json sections = results.value("sections", json::object());
   for (const Chapter& chapter : kChapters) {
     const json section = sections.value(chapter.section, json());
@@ -118,6 +126,18 @@ Report make_report(const json& results, const std::string& pictures_link) {
     }
   }
   return report;
+}
+
+std::string make_summary(const json& results, const std::string& folder) {
+  std::string summary = paragraph(description_of_machine(results));
+  const json section = results.value("sections", json::object()).value("error", json());
+  if (section.is_null() || section.empty()) return summary;
+  try {
+    write_error_summary(section, folder, summary);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(std::string("section error: ") + error.what());
+  }
+  return summary;
 }
 
 double median(const json& summary) { return summary.at("median"); }

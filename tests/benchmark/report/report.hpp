@@ -10,14 +10,13 @@
 
 namespace report {
 
-/// In the order of the README.
+/// The report: a file of its own, which stands in the folder of its plots.
 struct Report {
   std::string markdown;
-  std::vector<Figure> figures;
-  std::string pictures_link;  // of the plots' folder, as README.md has it
+  std::vector<Figure> figures;  // in the order in which the text shows them
 
-  void heading(const std::string& title) { markdown += "\n### " + title + "\n"; }
-  /// A paragraph, in lines of README.md's width.
+  void heading(const std::string& title) { markdown += "\n## " + title + "\n"; }
+  /// Adds a paragraph, wrapped at the width of the repository's Markdown files.
   void text(const std::string& paragraph);
   /// Nothing of a table without rows.
   void table(const class Table& table);
@@ -37,7 +36,20 @@ std::span<const Chapter> chapters();
 
 /// The whole of it; sections that are missing or null are left out. Throws std::runtime_error,
 /// naming the section that is not as it has to be.
-Report make_report(const nlohmann::json& results, const std::string& pictures_link);
+Report make_report(const nlohmann::json& results);
+
+/// What the repository's README.md says of the results: the machine, one table (how many times as
+/// fast as other programs scadray is) and one of the report's plots, with a link to the report.
+/// `folder` is the report's folder as README.md links to it. What was not measured is left out.
+/// Throws as make_report does.
+std::string make_summary(const nlohmann::json& results, const std::string& folder);
+
+/// A paragraph between two blank lines, wrapped like Report::text.
+std::string paragraph(const std::string& text);
+
+/// Adds the error section's table and its plot of one design, for README.md.
+void write_error_summary(const nlohmann::json& section, const std::string& folder,
+                         std::string& summary);
 
 void write_opengl(const nlohmann::json& section, Report& report);
 void write_paper(const nlohmann::json& section, Report& report);

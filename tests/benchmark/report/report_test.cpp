@@ -1,4 +1,4 @@
-// From a results file to README.md.
+// From a results file to the report and README.md's summary.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ std::string contents_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder with a results file and a README.md, for the program itself.
+/// A folder with a results file, a README.md and an old report, for the program itself.
 class ReportProgram : public testing::Test {
  protected:
   ReportProgram() {
@@ -99,6 +99,7 @@ class ReportProgram : public testing::Test {
     std::filesystem::create_directories(folder_ / "plots");
     std::ofstream(folder_ / "README.md") << readme_;
     std::ofstream(folder_ / "results.json") << made::results_of({{"whole", made::whole()}});
+    std::ofstream(report_) << "old";
     std::ofstream(folder_ / "plots" / "old.svg") << "<svg/>";
     // Writes what it is told to into where it is told to.
     std::ofstream(folder_ / "gnuplot")
@@ -109,32 +110,37 @@ class ReportProgram : public testing::Test {
 
   measure::ProcessResult run(const std::string& gnuplot) const {
     return measure::run_process({BENCHMARK_REPORT, "--results", folder_ / "results.json",
-                                 "--readme", folder_ / "README.md", "--plots", folder_ / "plots",
+                                 "--summary", folder_ / "README.md", "--report", folder_ / "plots",
                                  "--link", "plots", "--gnuplot", gnuplot});
   }
   void expect_unchanged() const {
     EXPECT_EQ(contents_of(folder_ / "README.md"), readme_);
+    EXPECT_EQ(contents_of(report_), "old");
     EXPECT_TRUE(std::filesystem::exists(folder_ / "plots" / "old.svg"));
   }
 
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) /
       testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::filesystem::path report_ = folder_ / "plots" / "README.md";
   const std::string readme_ = std::string("# title\n") + report::kRegionStart + "\nout of date\n" +
                               report::kRegionEnd + "\nafter\n";
 };
 
-TEST_F(ReportProgram, ReplacesTheRegionAndThePlots) {
+TEST_F(ReportProgram, ReplacesTheRegionTheReportAndThePlots) {
   const measure::ProcessResult result = run(folder_ / "gnuplot");
   ASSERT_TRUE(result.succeeded()) << result.output;
   const std::string readme = contents_of(folder_ / "README.md");
   EXPECT_TRUE(readme.starts_with(std::string("# title\n") + report::kRegionStart + "\n"));
   EXPECT_TRUE(readme.ends_with(std::string("\n") + report::kRegionEnd + "\nafter\n"));
-  EXPECT_THAT(readme, HasSubstr("### From file to PNG"));
+  EXPECT_THAT(readme, HasSubstr("at commit 0123456789"));
   EXPECT_THAT(readme, Not(HasSubstr("out of date")));
+  const std::string report = contents_of(report_);
+  EXPECT_TRUE(report.starts_with("# Benchmarks\n"));
+  EXPECT_THAT(report, HasSubstr("\n## From file to PNG\n"));
   EXPECT_THAT(contents_of(folder_ / "plots" / "whole.svg"), HasSubstr("set multiplot"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "plots" / "old.svg"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "plots"), {}), 1);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "plots"), {}), 2);
 }
 
 TEST_F(ReportProgram, MalformedResultsChangeNothing) {
@@ -163,9 +169,11 @@ TEST_F(ReportProgram, TheSameResultsGiveTheSameBytes) {
   EXPECT_THAT(svg, HasSubstr("</svg>"));
   EXPECT_THAT(svg, HasSubstr("From file to PNG, whole process"));
   const std::string readme = contents_of(folder_ / "README.md");
+  const std::string report = contents_of(report_);
   ASSERT_TRUE(run("gnuplot").succeeded());
   EXPECT_EQ(contents_of(folder_ / "plots" / "whole.svg"), svg);
   EXPECT_EQ(contents_of(folder_ / "README.md"), readme);
+  EXPECT_EQ(contents_of(report_), report);
 }
 
 }  // namespace

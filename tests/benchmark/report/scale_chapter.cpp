@@ -62,11 +62,13 @@ double last_exponent(const json& rows, const char* key) {
 void write_primitives(const json& section, Report& report) {
   const json& families = section.at("primitives");
   report.heading("How it grows with primitives");
-  report.text("Scenes in memory, " + number(section.at("width_px")) + "×" +
-              number(section.at("height_px")) + ", " + number(section.at("threads")) +
-              " threads, by the CPU in double. Preparing is done once for a file, subdividing only "
-              "for pictures by cells. The largest scene of each kind, times in ms; in brackets how "
-              "the time grew from the size before, as an exponent of n (of n log n: 1.06 to 1.2):");
+  report.text(
+      "Scenes are drawn from memory at " + number(section.at("width_px")) + "×" +
+      number(section.at("height_px")) + " by " + number(section.at("threads")) +
+      " threads of the CPU, in double. Preparing is done once for a file, subdividing only "
+      "for pictures by cells. The table has the largest scene of each kind, with times in ms. "
+      "Brackets say how the time grew from the size before, as an exponent of n (n log n has 1.06 "
+      "to 1.2):");
   Table table({"scene", "primitives", "prepare", "subdivide", "first picture", "further picture",
                "leaf cells", "cells' memory", "peak memory"});
   for (const json& family : families) {
@@ -113,8 +115,9 @@ void write_unseen(const json& rows, Report& report) {
         {name, with_spread(row.at("alone_ms")), with_spread(row.at("grown_ms")), number(ratio)});
   }
   report.text(
-      "What 99,000 more primitives cost that do not change the picture: the picture by "
-      "tiles takes " +
+      "99,000 primitives that do not change the picture join a scene of 1,000: the picture by "
+      "tiles "
+      "takes " +
       number(smallest) + " to " + number(largest) + " times as long as that of the 1,000 alone.");
   report.table(table);
 }

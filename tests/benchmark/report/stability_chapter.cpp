@@ -92,16 +92,17 @@ void write_stability(const json& section, Report& report) {
       section.contains("gl_renderer")
           ? " and by OpenGL in float (" + section.at("gl_renderer").get<std::string>() + ")"
           : "";
-  report.text("Scenes that become harder, drawn by the CPU in double" + gl +
-              " and held against rays in exact arithmetic, " + number(section.at("width_px")) +
-              "×" + number(section.at("height_px")) +
-              " pixels each. A pixel is wrong that shows a hit for a miss, another primitive, or a "
-              "place more than " +
-              number(section.at("tolerances").at("double").at("position")) +
-              " of the model's size away (in float " +
-              number(section.at("tolerances").at("float").at("position")) +
-              "); undecided, and not counted as wrong, where an exact ray 1e-12 of the size beside "
-              "it sees something else.");
+  report.text(
+      "Scenes that become harder are drawn by the CPU in double" + gl +
+      " and compared with rays in exact arithmetic, " + number(section.at("width_px")) + "×" +
+      number(section.at("height_px")) +
+      " pixels each. A pixel is wrong if it shows a hit for a miss, another primitive, or a "
+      "place more than " +
+      number(section.at("tolerances").at("double").at("position")) +
+      " of the model's size away (in float " +
+      number(section.at("tolerances").at("float").at("position")) +
+      "). It is undecided, and not counted as wrong, if an exact ray 1e-12 of the size beside "
+      "it sees something else.");
   Table table({"scene", "over", "precision", "hits", "wrong", "undecided", "worst position"});
   for (const json& curve : curves) {
     for (const char* precision : kPrecisions) {

@@ -1,4 +1,4 @@
-// Numbers and tables as README.md shows them.
+// Numbers and tables as the report shows them.
 #pragma once
 
 #include <cstdint>

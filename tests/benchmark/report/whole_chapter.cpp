@@ -96,10 +96,11 @@ void write_growth(const json& growth, Report& report) {
 void write_whole(const json& section, Report& report) {
   const json& designs = section.at("designs");
   report.heading("From file to PNG");
-  report.text("`scadray -o x.png FILE.csg`, the whole process from start to exit, at " +
-              number(section.at("width_px")) + "×" + number(section.at("height_px")) +
-              " by the CPU. A process that draws nothing (`scadray --version`) takes " +
-              with_spread(section.at("start_ms")) + " ms.");
+  report.text(
+      "Times are those of the whole process `scadray -o x.png FILE.csg`, from start to exit, at " +
+      number(section.at("width_px")) + "×" + number(section.at("height_px")) +
+      " by the CPU. A process that draws nothing (`scadray --version`) takes " +
+      with_spread(section.at("start_ms")) + " ms.");
   Table table({"design", "primitives", "file", "ms", "processor ms", "peak memory", "wanted"});
   Table stages({"design", "read", "parse", "import", "prepare", "render", "encode"});
   for (const json& row : designs) {
@@ -117,7 +118,7 @@ void write_whole(const json& section, Report& report) {
   write_growth(section.at("growth"), report);
   report.figure({"whole", {growth_panel(designs), stages_panel(designs)}},
                 "Time from file to PNG over the number of primitives");
-  report.text("What the stages take, in ms (`--stats`):");
+  report.text("The stages of these processes, in ms (`--stats`):");
   report.table(stages);
 }
 

@@ -181,6 +181,52 @@ TEST(Polyhedron, RaysAreCutByAllFaces) {
   }
 }
 
+TEST(Polyhedron, OnlyBoxesHaveSlabs) {
+  for (const auto& [name, polyhedron] : all_kinds()) {
+    const bool is_box = polyhedron->half_spaces().size() == 6 && polyhedron->vertices().size() == 8;
+    ASSERT_EQ(polyhedron->slabs().has_value(), is_box && !polyhedron->canonical().in_frustum)
+        << name;
+    if (!polyhedron->slabs()) continue;
+    const std::vector<Vec3> faces = faces_of(*polyhedron);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 below(0.0), above(0.0);
+      below[axis] = polyhedron->slabs()->below[axis];
+      above[axis] = polyhedron->slabs()->above[axis];
+      EXPECT_TRUE(below[axis] < 0 && above[axis] > 0) << name;
+      EXPECT_EQ(std::count(faces.begin(), faces.end(), below), 1) << name;
+      EXPECT_EQ(std::count(faces.begin(), faces.end(), above), 1) << name;
+    }
+  }
+}
+
+/// A ray along a box's face, within it, on it and beyond it: the box is closed.
+TEST(Polyhedron, RaysAlongFacesOfABox) {
+  const CanonicalPrimitive box =
+      canonicalize(make_polyhedron(Polyhedron::box({Vec3(-1), Vec3(1)})));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      RayPacket packet;
+      const double heights[] = {0, 0.5, 0.999, 1, 1.001, 2};
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        for (int i = 0; i < 3; ++i) packet.origin[i][lane] = packet.direction[i][lane] = 0;
+        packet.origin[axis][lane] = side * heights[lane % std::size(heights)];
+        packet.direction[(axis + 1) % 3][lane] = lane % 2 == 0 ? 1 : -1;
+        packet.inverse_length2[lane] = 1;
+      }
+      PacketSegments segments;
+      intersect(FrameRays{}, packet, box, segments);
+      for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+        const double height = heights[lane % std::size(heights)];
+        const bool crosses = segments.start[lane] < segments.end[lane];
+        ASSERT_EQ(crosses, height <= 1) << axis << ' ' << side * height;
+        if (!crosses) continue;
+        EXPECT_NEAR(segments.start[lane], -1, 1e-12);
+        EXPECT_NEAR(segments.end[lane], 1, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(Polyhedron, OnlyOfConvexMeshes) {
   // The corner of a cube is pushed in.
   Mesh mesh = box_mesh({Vec3(0), Vec3(1)});

@@ -92,7 +92,7 @@ TEST(CsgTreeBuilder, IsEmptyAfterFinish) {
   EXPECT_EQ(text_of(builder.finish()), "3");
 }
 
-/// An operation of a random design, evaluated as openscad.md §2 says.
+/// An operation of a random design, evaluated as OpenSCAD does.
 struct Frame {
   Op op;
   int operands = 0;

@@ -10,7 +10,7 @@
 namespace measure {
 namespace {
 
-/// OpenSCAD's default colours (openscad.md §4).
+/// OpenSCAD's default colours.
 csgcore::ReferenceColors cornfield() {
   const frontend::ColorScheme scheme = frontend::RenderSettings{}.scheme;
   const auto color = [](const frontend::Rgb& rgb) {

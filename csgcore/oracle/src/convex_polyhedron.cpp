@@ -1,0 +1,11 @@
+// The primitives as convex polyhedra, for the Nef polyhedra.
+#include "exact_twin.hpp"
+#include "oracle/nef_solid.hpp"
+
+namespace oracle {
+
+ConvexPolyhedron faceted(const csgcore::Primitive& primitive, int fragments) {
+  return {twin_of(primitive.shape).half_spaces(primitive, fragments), primitive.local_to_world};
+}
+
+}  // namespace oracle

@@ -1,0 +1,37 @@
+#include "exact_twin.hpp"
+
+#include <stdexcept>
+
+namespace oracle {
+
+// A kind's file defines its twin.
+#define ORACLE_DECLARE(Name) extern const ExactTwin& Name##_twin;
+CSGCORE_FOR_EACH_SHAPE(ORACLE_DECLARE)
+#undef ORACLE_DECLARE
+
+const ExactTwin& twin_of(csgcore::Shape shape) {
+  switch (shape) {
+#define ORACLE_CASE(Name)       \
+  case csgcore::Shape::k##Name: \
+    return Name##_twin;
+    CSGCORE_FOR_EACH_SHAPE(ORACLE_CASE)
+#undef ORACLE_CASE
+  }
+  throw std::logic_error("a shape that is none");
+}
+
+Quadratic<Exact> ExactTwin::wall(const Target<Exact>&, const Vector<Exact>&,
+                                 const Vector<Exact>&) const {
+  return {};
+}
+
+Quadratic<Interval> ExactTwin::wall(const Target<Interval>&, const Vector<Interval>&,
+                                    const Vector<Interval>&) const {
+  return {};
+}
+
+Vector<Interval> ExactTwin::wall_normal(const Target<Interval>&, const Vector<Interval>&) const {
+  return {};
+}
+
+}  // namespace oracle

@@ -1,0 +1,104 @@
+// The exact twin of the frustum: cylinders, and cones with either end pointed.
+#include <cmath>
+
+#include "csgcore/facets.hpp"
+#include "csgcore/half_space.hpp"
+#include "disc_box.hpp"
+#include "exact_twin.hpp"
+#include "number_text.hpp"
+
+namespace oracle {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// Across the axis.
+template <class Number>
+Number dot_across(const Vector<Number>& a, const Vector<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+/// ρ(z).
+template <class Number>
+Number radius_at(const Target<Number>& target, const Number& z) {
+  return target.radius + target.growth * z;
+}
+
+template <class Number>
+Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
+                          const Vector<Number>& d) {
+  Quadratic<Number> wall;
+  const Number& w = target.squared_height;
+  const Number radius = radius_at(target, o[2]), growth = target.growth * d[2];
+  wall.a = w * dot_across(d, d) - CGAL::square(growth);
+  wall.b = w * dot_across(o, d) - radius * growth;
+  wall.c = w * dot_across(o, o) - CGAL::square(radius);
+  // As a sphere's: w(|ρd − go|² − w(o × d)²) across the axis, g the growth of ρ along the ray.
+  const Number x = radius * d[0] - growth * o[0], y = radius * d[1] - growth * o[1];
+  const Number moment = o[0] * d[1] - o[1] * d[0];
+  wall.discriminant = w * (CGAL::square(x) + CGAL::square(y) - w * CGAL::square(moment));
+  return wall;
+}
+
+class FrustumTwin final : public ExactTwin {
+ public:
+  Vector<Exact> middle(const Primitive& primitive) const override {
+    return {0, 0, Exact(0.5) * (Exact(primitive.z_min) + Exact(primitive.z_max))};
+  }
+  void add_surfaces(const Primitive& primitive, const Exact& magnification,
+                    Target<Exact>& target) const override {
+    const Exact half(0.5), bottom(primitive.z_min), top(primitive.z_max);
+    const Exact r_bottom(primitive.r_bottom), r_top(primitive.r_top);
+    const Exact wall_scale = power_of_two(-std::ilogb(primitive.z_max - primitive.z_min));
+    const Exact half_height = magnification * half * (top - bottom);
+    target.has_wall = true;
+    target.growth = wall_scale * (r_top - r_bottom);
+    target.squared_height = CGAL::square(Exact(wall_scale * (top - bottom)));
+    target.radius = wall_scale * half_height * (r_bottom + r_top);
+    target.planes = {{{0, 0, -1}, half_height}, {{0, 0, 1}, half_height}};
+    target.weight = {1, 1, 0};
+  }
+  Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
+                        const Vector<Exact>& d) const override {
+    return wall_of(target, o, d);
+  }
+  Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
+                           const Vector<Interval>& d) const override {
+    return wall_of(target, o, d);
+  }
+  Vector<Interval> wall_normal(const Target<Interval>& target,
+                               const Vector<Interval>& point) const override {
+    return {target.squared_height * point[0], target.squared_height * point[1],
+            -target.growth * radius_at(target, point[2])};
+  }
+  void merge_box(const Vec3& point, const Primitive& p, csgcore::Box& box) const override {
+    merge_disc(point, p.local_to_world, p.z_min, p.r_bottom, box);
+    merge_disc(point, p.local_to_world, p.z_max, p.r_top, box);
+  }
+  std::vector<csgcore::HalfSpace> half_spaces(const Primitive& p, int fragments) const override {
+    return csgcore::half_spaces(
+        csgcore::faceted_frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments));
+  }
+  std::string as_cpp(const Primitive& p, const std::string& map) const override {
+    return "make_frustum(" + joined({p.z_min, p.z_max, p.r_bottom, p.r_top}) + ", " + map + ")";
+  }
+  std::string as_openscad(const Primitive& p) const override {
+    return "translate([" + joined({0, 0, p.z_min}) + "]) cylinder(" +
+           joined({p.z_max - p.z_min, p.r_bottom, p.r_top}) + ")";
+  }
+  std::vector<double*> sizes(Primitive& p) const override {
+    return {&p.r_bottom, &p.r_top, &p.z_min, &p.z_max};
+  }
+  std::vector<Primitive> simpler(const Primitive& primitive) const override {
+    return {csgcore::make_sphere(1, primitive.local_to_world)};
+  }
+};
+
+constexpr FrustumTwin kTwin;
+
+}  // namespace
+
+constinit const ExactTwin& Frustum_twin = kTwin;
+
+}  // namespace oracle

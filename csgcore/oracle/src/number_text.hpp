@@ -1,0 +1,24 @@
+// Numbers as text.
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+
+namespace oracle {
+
+/// The shortest decimal that reads as the same double.
+inline std::string shortest_text(double number) {
+  char text[32];  // the longest is "-2.2250738585072014e-308"
+  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  return {text, end};
+}
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& parts);
+std::string joined(const std::vector<double>& numbers);
+inline std::string coordinates(const csgcore::Vec3& v) { return joined({v.x, v.y, v.z}); }
+
+}  // namespace oracle

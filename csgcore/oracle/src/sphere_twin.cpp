@@ -1,0 +1,72 @@
+// The exact twin of the sphere.
+#include "csgcore/facets.hpp"
+#include "csgcore/half_space.hpp"
+#include "disc_box.hpp"
+#include "exact_twin.hpp"
+#include "number_text.hpp"
+
+namespace oracle {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+template <class Number>
+Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
+                          const Vector<Number>& d) {
+  Quadratic<Number> wall;
+  const Number radius2 = CGAL::square(target.radius);
+  wall.a = dot(d, d);
+  wall.b = dot(o, d);
+  wall.c = dot(o, o) - radius2;
+  // By Lagrange's identity, without the squares of o, which cancel.
+  const Vector<Number> moment = cross(o, d);
+  wall.discriminant = radius2 * wall.a - dot(moment, moment);
+  return wall;
+}
+
+class SphereTwin final : public ExactTwin {
+ public:
+  Vector<Exact> middle(const Primitive&) const override { return {0, 0, 0}; }
+  void add_surfaces(const Primitive& primitive, const Exact& magnification,
+                    Target<Exact>& target) const override {
+    target.has_wall = true;
+    target.radius = magnification * Exact(primitive.r_bottom);
+    target.weight = Vec3(1.0);
+  }
+  Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
+                        const Vector<Exact>& d) const override {
+    return wall_of(target, o, d);
+  }
+  Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
+                           const Vector<Interval>& d) const override {
+    return wall_of(target, o, d);
+  }
+  Vector<Interval> wall_normal(const Target<Interval>&,
+                               const Vector<Interval>& point) const override {
+    return point;
+  }
+  void merge_box(const Vec3& point, const Primitive& primitive, csgcore::Box& box) const override {
+    merge_ball(point, primitive.local_to_world, primitive.r_bottom, box);
+  }
+  std::vector<csgcore::HalfSpace> half_spaces(const Primitive& primitive,
+                                              int fragments) const override {
+    return csgcore::half_spaces(csgcore::faceted_sphere(primitive.r_bottom, fragments));
+  }
+  std::string as_cpp(const Primitive& primitive, const std::string& map) const override {
+    return "make_sphere(" + shortest_text(primitive.r_bottom) + ", " + map + ")";
+  }
+  std::string as_openscad(const Primitive& primitive) const override {
+    return "sphere(" + shortest_text(primitive.r_bottom) + ")";
+  }
+  std::vector<double*> sizes(Primitive& primitive) const override { return {&primitive.r_bottom}; }
+  std::vector<Primitive> simpler(const Primitive&) const override { return {}; }
+};
+
+constexpr SphereTwin kTwin;
+
+}  // namespace
+
+constinit const ExactTwin& Sphere_twin = kTwin;
+
+}  // namespace oracle

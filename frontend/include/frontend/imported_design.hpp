@@ -1,0 +1,32 @@
+// What the importer makes of a design's file.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+#include "csgcore/scene.hpp"
+#include "frontend/error.hpp"
+
+namespace frontend {
+
+/// Where a primitive node stands in its file.
+struct PrimitivePlace {
+  uint32_t line = 0;    // from 1
+  uint32_t offset = 0;  // of its name, in bytes from the text's start
+};
+
+struct ImportedDesign {
+  csgcore::Scene scene;
+  /// What OpenSCAD's --viewall looks at: the union of the positive leaves' boxes, each the box of
+  /// the corners of the (faceted) leaf's local box under its matrix, `%` and `#` parts included
+  /// (frontend/OPENSCAD.md, "Camera"). Empty for an empty design.
+  csgcore::Box view_box;
+  /// Primitive nodes in the file, empty, invalid and `%` ones included.
+  uint32_t primitive_nodes = 0;
+  /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
+  std::vector<PrimitivePlace> places;
+  std::vector<Warning> warnings;
+};
+
+}  // namespace frontend

@@ -1,0 +1,61 @@
+// How a picture is to look, and what draws it: all of it but the scene and the camera.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+
+#include "csgcore/frame_settings.hpp"
+
+namespace frontend {
+
+using csgcore::Shading;
+/// What a picture shows (`--show`): the shaded surface, the leaf cells (paper, figure 5b), or a
+/// measured channel as grey values or colours.
+enum class Show : uint8_t { kSurface, kCells, kDepth, kNormals, kId };
+
+/// What draws (`--renderer`). kAuto: OpenGL where there is a GPU, else the CPU.
+enum class RendererKind : uint8_t { kAuto, kGl, kCpu };
+/// How a ray finds what it may meet (`--technique`): the leaf cells of a kd-tree, or lists for
+/// tiles of the screen. kAuto: tiles, the quicker for both renderers.
+enum class Technique : uint8_t { kAuto, kCells, kTiles };
+
+/// The most --samples: an edge then has 65 steps between its two colours, and more no eye tells.
+constexpr uint32_t kMaxSamples = 64;
+
+/// 8-bit colours of a scheme (frontend/OPENSCAD.md, "Light and colours").
+struct Rgb {
+  uint8_t r, g, b;
+  bool operator==(const Rgb&) const = default;
+};
+struct ColorScheme {
+  const char* name;
+  Rgb background, front, back, axes, crosshair;
+};
+
+/// Every setting of a picture that is not the camera's. The defaults are the command's.
+struct RenderSettings {
+  ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
+                     {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00}};
+  Shading shading = Shading::kOpenScad;
+  Show show = Show::kSurface;
+  RendererKind renderer = RendererKind::kAuto;
+  Technique technique = Technique::kAuto;
+  uint32_t samples = 1;            // --samples: rays per pixel at edges, 1…kMaxSamples
+  uint32_t leaf_primitives = 8;    // --leaf-primitives: K ≥ 1
+  double threshold_px = 0;         // --threshold ≥ 0; 0: no cell is dropped
+  unsigned threads = 0;            // 0: as many as the machine has
+  bool measured_channels = false;  // fill Image's z, normal, position and id too
+  /// Fill also those RenderStats that cost something: T_S, T_R and S_R, for which OpenGL draws
+  /// again, and why primitives were skipped.
+  bool all_stats = false;
+  /// Where it asks for it, the CPU's pictures end early, whatever they show by then.
+  std::stop_token stop;
+  /// Called with what is done in [0, 1] while long work goes on; may be empty.
+  std::function<void(const char* stage, double fraction)> progress;
+};
+
+/// Whether the same picture comes of both.
+bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
+
+}  // namespace frontend

@@ -1,0 +1,103 @@
+#include "frontend/interrupt.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <string_view>
+
+#include "frontend/error.hpp"
+
+namespace frontend {
+namespace {
+
+// A handler may run on any thread, between any two instructions: it may only look at lock-free
+// atomics, and call what POSIX lists as async-signal-safe.
+std::array<std::atomic<const char*>, kMaxRemovedFiles> files_to_remove;
+std::atomic<pid_t> child_group{0};
+std::atomic<int> holders{0};  // living HoldInterrupts
+static_assert(std::atomic<const char*>::is_always_lock_free);
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// For another thread's HoldInterrupts, in ms: long, and yet an end.
+constexpr int kMostWaits = 5000;
+
+/// By default these end a program, and nothing shows why it was interrupted but their number.
+constexpr int kInterruptions[] = {SIGINT,  SIGTERM, SIGHUP,  SIGALRM, SIGVTALRM, SIGPROF,
+                                  SIGUSR1, SIGUSR2, SIGPOLL, SIGPWR,  SIGSTKFLT, SIGXCPU};
+/// By default these dump core, which is wanted of them.
+constexpr int kCrashes[] = {SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
+
+void clean_up() {
+  if (const pid_t group = child_group.load(); group > 0) kill(-group, SIGKILL);
+  for (std::atomic<const char*>& slot : files_to_remove) {
+    if (const char* path = slot.exchange(nullptr)) unlink(path);
+  }
+}
+
+void on_interrupt(int signal_number) {
+  for (int waits = 0; holders.load() > 0 && waits < kMostWaits; ++waits) poll(nullptr, 0, 1);
+  clean_up();
+  const std::string_view text =
+      signal_number == SIGXCPU
+          ? "error: the limit on processor time is reached (raise it, by ulimit -t)\n"
+          : "error: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+  _exit(1);
+}
+
+void on_crash(int signal_number) {
+  clean_up();
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);  // when the handler returns: until then it is blocked
+}
+
+/// Leaves alone what the caller ignores, and what a sanitizer or profiler handles already.
+void handle(int signal_number, void (*handler)(int)) {
+  struct sigaction action {};
+  if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
+  action = {};
+  action.sa_handler = handler;
+  sigfillset(&action.sa_mask);
+  sigaction(signal_number, &action, nullptr);
+}
+
+}  // namespace
+
+void handle_interrupts() {
+  for (const int number : kInterruptions) handle(number, on_interrupt);
+  for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) handle(number, on_interrupt);
+  for (const int number : kCrashes) handle(number, on_crash);
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+RemoveOnInterrupt::RemoveOnInterrupt(const char* path) : slot_(0) {
+  for (; slot_ < kMaxRemovedFiles; ++slot_) {
+    const char* none = nullptr;
+    if (files_to_remove[slot_].compare_exchange_strong(none, path)) return;
+  }
+  throw Error("", {}, "too many output files at once", "write fewer");
+}
+
+RemoveOnInterrupt::~RemoveOnInterrupt() { files_to_remove[slot_].store(nullptr); }
+
+void set_child_group(pid_t group) { child_group.store(group); }
+
+HoldInterrupts::HoldInterrupts() {
+  // In this order: a handler on this thread would wait for itself.
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before_);
+  ++holders;
+}
+
+HoldInterrupts::~HoldInterrupts() {
+  --holders;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+}  // namespace frontend

@@ -1,0 +1,350 @@
+#include "frontend/command.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <optional>
+
+#include "base/elapsed.hpp"
+#include "csgcore/workers.hpp"
+#include "follow/make_rule.hpp"
+#include "frontend/channel_picture.hpp"
+#include "frontend/design_file.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/options.hpp"
+#include "frontend/overlays.hpp"
+#include "frontend/picture_file.hpp"
+#include "frontend/progress.hpp"
+#include "frontend/statistics.hpp"
+#include "frontend/subcommand.hpp"
+#include "picture/seen_box.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+
+Image background_picture(const csgcore::View& view, Rgb color, bool with_channels) {
+  Image image;
+  image.width_px = view.width_px;
+  image.height_px = view.height_px;
+  const std::size_t pixels = std::size_t{view.width_px} * view.height_px;
+  image.rgb.assign(pixels, {color.r, color.g, color.b});
+  if (with_channels) {
+    image.z.assign(pixels, std::numeric_limits<float>::infinity());
+    image.normal.assign(pixels, glm::vec3(0.0f));
+    image.position.assign(pixels, glm::vec3(0.0f));
+    image.id.assign(pixels, csgcore::kNoPrimitive);
+  }
+  return image;
+}
+
+std::string renderer_line(const RenderStats& stats) {
+  return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
+}
+
+/// OpenSCAD's name of a frame's file: five digits before the suffix.
+std::string frame_path(const std::string& path, uint32_t frame) {
+  const std::filesystem::path whole(path);
+  std::string digits = std::to_string(frame);
+  digits.insert(0, 5 - std::min<std::size_t>(digits.size(), 5), '0');
+  return (whole.parent_path() / (whole.stem().string() + digits + whole.extension().string()))
+      .string();
+}
+
+/// $t of a frame, to the last bit.
+std::string time_assignment(uint32_t frame, uint32_t frames) {
+  std::array<char, 32> digits;
+  const double t = static_cast<double>(frame) / frames;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), t).ptr;
+  return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+/// One run that draws.
+class Run {
+ public:
+  Run(const Options& options, const Renderer& renderer)
+      : options_(options),
+        renderer_(renderer),
+        progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
+
+  void execute() {
+    if (wants_workers()) workers_.emplace();
+    check_outputs();
+    for (const std::string& warning : options_.warnings) say("warning: " + warning);
+    std::vector<PendingOutput> outputs;
+    draw_frame(outputs);
+    for (frame_ = 1; frame_ < options_.frames; ++frame_) {
+      start_ = Clock::now();
+      draw_frame(outputs);
+    }
+    if (!options_.stats_path.empty()) {
+      outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
+    }
+    if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
+    progress_.clear();
+    check_outputs_differ(named_outputs(), named_inputs());  // now that all inputs are known
+    write_outputs(outputs);
+  }
+
+ private:
+  /// Small pictures are drawn by one thread.
+  bool wants_workers() const {
+    constexpr uint64_t kSmallPixels = 64 * 64;
+    const CameraOptions& camera = options_.camera;
+    const bool is_small = uint64_t{camera.width_px} * camera.height_px <= kSmallPixels;
+    return !is_small && options_.render.threads != 1;
+  }
+
+  void draw_frame(std::vector<PendingOutput>& outputs) {
+    if (frame_ == 0 || is_exported_) {
+      design_ = import();
+      if (options_.import.rendered && sees_all(options_.camera)) look_at_rendered();
+    }
+    const Camera camera = choose_camera(options_.camera, design_.view_box);
+    const csgcore::View view = make_view(camera, options_.camera);
+    Image image = draw(design_.scene, view, sees_nothing(camera, view.projection));
+    encode(image, view, camera, outputs);
+  }
+
+  /// OpenSCAD's --viewall takes the box of what is there after the operations, with --render; that
+  /// of the operands otherwise. The view box holds both where it is that of facets.
+  void look_at_rendered() {
+    RenderSettings settings;
+    settings.renderer = RendererKind::kCpu;
+    settings.threads = options_.render.threads;
+    settings.measured_channels = true;
+    const csgcore::Box seen = seen_box(design_.view_box, [&](const csgcore::View& view) {
+      RenderStats stats;
+      return render(design_.scene, view, settings, stats);
+    });
+    if (seen.empty()) return;
+    design_.view_box = {glm::max(design_.view_box.min, seen.min),
+                        glm::min(design_.view_box.max, seen.max)};
+  }
+
+  /// The output's file for a frame.
+  std::string path_of(const Output& output, uint32_t frame) const {
+    return options_.frames == 0 ? output.path : frame_path(output.path, frame);
+  }
+
+  /// The files of all pictures.
+  std::vector<std::string> picture_paths() const {
+    std::vector<std::string> paths;
+    for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
+      for (const Output& output : options_.outputs) paths.push_back(path_of(output, frame));
+    }
+    return paths;
+  }
+
+  std::vector<NamedPath> named_outputs() const {
+    std::vector<NamedPath> outputs;
+    for (std::string& path : picture_paths()) outputs.push_back({"-o", std::move(path)});
+    if (!options_.stats_path.empty()) outputs.push_back({"--stats", options_.stats_path});
+    if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
+    return outputs;
+  }
+
+  /// Those that are known by now.
+  std::vector<NamedPath> named_inputs() const {
+    std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
+    for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
+    return inputs;
+  }
+
+  void check_outputs() const {
+    const std::vector<NamedPath> outputs = named_outputs();
+    for (const NamedPath& output : outputs) check_output(output.path);
+    check_outputs_differ(outputs, named_inputs());
+    if (!options_.rule_path.empty()) rule_of({options_.input});
+  }
+
+  void show_progress(const std::string& stage, double fraction) {
+    std::string text;
+    if (options_.frames > 0) {
+      text =
+          "frame " + std::to_string(frame_ + 1) + " of " + std::to_string(options_.frames) + ", ";
+    }
+    progress_.update((text + stage).c_str(), fraction);
+  }
+
+  /// A line on stderr, unless -q.
+  void say(const std::string& text) {
+    if (options_.quiet) return;
+    progress_.clear();
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+
+  DesignFile read() {
+    DesignFileOptions reading;
+    reading.import = options_.import;
+    reading.openscad_arguments = options_.openscad_arguments;
+    if (options_.frames > 0) {
+      reading.openscad_arguments.insert(reading.openscad_arguments.end(),
+                                        {"-D", time_assignment(frame_, options_.frames)});
+    }
+    reading.wants_files = !options_.rule_path.empty();
+    reading.message = [this](const std::string& line) {
+      if (!options_.quiet || line.starts_with("ERROR")) {
+        progress_.clear();
+        std::fprintf(stderr, "%s\n", line.c_str());
+      }
+    };
+    reading.progress = [this](const char* stage) { show_progress(stage, -1); };
+    return read_design(options_.input, reading);
+  }
+
+  ImportedDesign import() {
+    DesignFile file = read();
+    stats_.file = file.name;
+    stats_.file_bytes = file.file_bytes;
+    stats_.read_ms = file.read_ms;
+    stats_.export_ms = file.export_ms;
+    stats_.parse_ms = file.parse_ms;
+    stats_.nodes = file.import.nodes();
+    is_exported_ = file.is_exported;
+    for (const std::string& name : file.files) {
+      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    }
+    show_progress("importing", -1);
+    const Clock::time_point import_start = Clock::now();
+    ImportedDesign design = import_design(file);
+    stats_.import_ms = ms_since(import_start);
+    stats_.primitive_nodes = design.primitive_nodes;
+    if (options_.has_hard_warnings && !design.warnings.empty()) throw Error(design.warnings[0]);
+    for (const Warning& warning : design.warnings) say(warning.text);
+    return design;
+  }
+
+  bool writes_exr() const {
+    return std::any_of(options_.outputs.begin(), options_.outputs.end(),
+                       [](const Output& o) { return o.format == PictureFormat::kExr; });
+  }
+
+  Image render(const csgcore::Scene& scene, const csgcore::View& view,
+               const RenderSettings& settings, RenderStats& stats) {
+    if (!workers_) return renderer_(scene, view, settings, stats);
+    Image image;
+    workers_->run([&] { image = renderer_(scene, view, settings, stats); });
+    return image;
+  }
+
+  Image draw(const csgcore::Scene& scene, const csgcore::View& view, bool sees_nothing) {
+    RenderSettings settings = options_.render;
+    const bool shows_channel = settings.show != Show::kSurface && settings.show != Show::kCells;
+    settings.measured_channels = shows_channel || options_.overlays.any() || writes_exr();
+    settings.all_stats = !options_.stats_path.empty();
+    settings.progress = [this](const char* stage, double fraction) {
+      show_progress(stage, fraction);
+    };
+    const Clock::time_point start = Clock::now();
+    Image image;
+    const bool is_empty =
+        scene.model.empty() && scene.background.empty() && scene.highlight.empty();
+    if (is_empty || sees_nothing) {
+      // Nothing to draw needs no renderer.
+      image = background_picture(view, settings.scheme.background, settings.measured_channels);
+      stats_.render.renderer = "none";
+      stats_.render.render_ms = ms_since(start);
+    } else {
+      image = render(scene, view, settings, stats_.render);
+      if (settings.technique == Technique::kTiles && stats_.render.technique == "cells") {
+        say("warning: more primitives lie behind each other than OpenGL can take by tiles: it has "
+            "drawn cells");
+      }
+    }
+    if (options_.info) say(renderer_line(stats_.render));
+    return image;
+  }
+
+  void encode(Image& image, const csgcore::View& view, const Camera& camera,
+              std::vector<PendingOutput>& outputs) {
+    show_progress("encoding", -1);
+    const Clock::time_point start = Clock::now();
+    const ColorScheme& scheme = options_.render.scheme;
+    show_channel(image, options_.render.show, scheme.background);
+    draw_overlays(image, view, camera, options_.overlays, scheme);
+    for (const Output& output : options_.outputs) {
+      outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
+    }
+    stats_.width_px = image.width_px;
+    stats_.height_px = image.height_px;
+    stats_.encode_ms = ms_since(start);
+    stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
+  }
+
+  std::string rule() const { return rule_of(files_); }
+
+  /// Throws Error for names that no rule can hold.
+  std::string rule_of(const std::vector<std::string>& files) const {
+    std::vector<std::string> targets = picture_paths();
+    std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
+    return make_rule(targets, files);
+  }
+
+  const Options& options_;
+  const Renderer& renderer_;
+  Clock::time_point start_ = Clock::now();  // of the frame
+  uint32_t frame_ = 0;
+  ImportedDesign design_;
+  bool is_exported_ = false;        // anew for every frame
+  std::vector<std::string> files_;  // that the design was read from, for any frame
+  RunStats stats_;                  // of the frame
+  ProgressLine progress_;
+  std::optional<csgcore::Workers> workers_;
+};
+
+void print_info() {
+  std::printf("scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
+              SCADRAY_VERSION, SCADRAY_RENDERERS, "openscad on PATH, or $OPENSCAD");
+}
+
+void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  if (!arguments.empty() && arguments[0] == "bench") {
+    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
+                   "install scadray as a whole: its programs belong into one folder");
+  }
+  if (!arguments.empty() && arguments[0] == "validate") {
+    run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
+                   "install the package scadray-validate, or build scadray with SCADRAY_ORACLE=ON "
+                   "where CGAL is installed (libcgal-dev)");
+  }
+  const Options options = parse_options(arguments);
+  switch (options.action) {
+    case Action::kHelp:
+      std::fputs(help_text().c_str(), stdout);
+      break;
+    case Action::kVersion:
+      std::printf("scadray version %s\n", SCADRAY_VERSION);
+      break;
+    case Action::kInfo:
+      print_info();
+      break;
+    case Action::kOpenWindow:
+      run_subcommand("window", arguments,
+                     "give -o FILE.png to draw without a window; or build scadray with "
+                     "SCADRAY_WINDOW=ON where GLFW and Dear ImGui are installed (libglfw3-dev, "
+                     "libimgui-dev)");
+    case Action::kDraw:
+      Run(options, renderer).execute();
+      break;
+  }
+}
+
+}  // namespace
+
+ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  const auto program = [&] {
+    run(arguments, renderer);
+    return ExitCode::kDone;
+  };
+  return run_program(program, "a smaller --imgsize or design");
+}
+
+}  // namespace frontend

@@ -1,0 +1,96 @@
+#include "command/option_table.hpp"
+
+#include "command/option_words.hpp"
+#include "frontend/color_scheme.hpp"
+
+namespace frontend {
+namespace {
+
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const ColorScheme& scheme : color_schemes()) names.emplace_back(scheme.name);
+  return names;
+}
+
+constexpr Completion kAnyScheme{Completion::Kind::kWord, scheme_names};
+constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
+
+// Where OpenSCAD has a long name of one letter for a short option, so have we.
+constexpr OptionRow kOpenScadOptions[] = {
+    {"o,o", Takes::kTexts, "OUT",
+     "picture to write: .png or .exr; - is standard output, with --export-format; may be given "
+     "more than once",
+     kAnyFile},
+    {"export-format", Takes::kText, "FORMAT", "png or exr, whatever OUT's suffix is",
+     kOneOf<kFormats>},
+    {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
+    {"camera", Takes::kText, "NUMBERS",
+     "translation x,y,z, rotation x,y,z in degrees, distance; or eye x,y,z, centre x,y,z; default: "
+     "--viewall --autocenter"},
+    {"viewall", Takes::kNothing, "", "take the distance at which the whole design is seen"},
+    {"autocenter", Takes::kNothing, "", "with --viewall: look at the design's centre"},
+    {"projection", Takes::kText, "P", "(o)rtho or (p)erspective, the default",
+     kOneOf<kProjections>},
+    {"colorscheme", Takes::kText, "NAME", "colour scheme:", kAnyScheme},
+    {"view", Takes::kText, "WHAT",
+     "axes, crosshairs, edges, scales, with commas between; scales with axes only", kViewList},
+    {"animate", Takes::kText, "N",
+     "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name; at most 4096 "
+     "pictures in all"},
+    {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
+    {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", kAnyFile},
+    {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
+    {"d,d", Takes::kText, "DEPS",
+     "write a rule for make: the pictures, and all files that the design reads", kAnyFile},
+    {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses", kAnyCommand},
+    {"hardwarnings", Takes::kNothing, "", "the design's first warning is an error"},
+    {"check-parameters", Takes::kText, "BOOL",
+     "check the parameters of a .scad's modules and functions", kOneOf<kTruthValues>},
+    {"check-parameter-ranges", Takes::kText, "BOOL", "check the ranges of a .scad's parameters",
+     kOneOf<kTruthValues>},
+    {"quiet,q", Takes::kNothing, "", "errors only"},
+    {"info", Takes::kNothing, "",
+     "log the renderer that is chosen; without FILE: describe this program"},
+    {"version,v", Takes::kNothing, "", "print the version"},
+    {"help,h", Takes::kNothing, "", "print this text"},
+    {"render", Takes::kOptionalText, "HOW",
+     "draw the solid alone: without color(), # and %; HOW has no effect"},
+    {"preview", Takes::kOptionalText, "HOW", "draw with color(), # and %, the default"},
+    {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
+    {"debug", Takes::kText, "WHAT", "accepted, without effect"},
+    {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
+    {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
+};
+
+constexpr OptionRow kOwnOptions[] = {
+    {"renderer", Takes::kText, "R",
+     "cpu, gl or auto, the default: OpenGL where there is a GPU, else the CPU", kOneOf<kRenderers>},
+    {"technique", Takes::kText, "T",
+     "how a ray finds what it may meet: by tiles of the screen (default), or the cells of a "
+     "kd-tree (default with --leaf-primitives, --threshold and --show=cells)",
+     kOneOf<kTechniques>},
+    {"samples", Takes::kText, "N",
+     "antialiasing: rays per pixel where there is an edge, 1 to 64; default 1"},
+    {"leaf-primitives", Takes::kText, "K",
+     "a cell is a leaf once at most K primitives' surfaces cross it; default 8"},
+    {"threshold", Takes::kText, "PX",
+     "cells that project below PX pixels are not subdivided; default 0: none"},
+    {"facets", Takes::kText, "N",
+     "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
+     "is exactly round",
+     kOneOf<kFacets>},
+    {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
+     kOneOf<kShows>},
+    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad", kOneOf<kShadings>},
+    {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
+    {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
+};
+
+}  // namespace
+
+std::span<const OptionRow> openscad_options() { return kOpenScadOptions; }
+
+std::span<const OptionRow> own_options() { return kOwnOptions; }
+
+}  // namespace frontend

@@ -1,0 +1,70 @@
+// The words that options take as values: what the parser knows is what the shells offer.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "command/option_row.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/overlays.hpp"
+#include "frontend/picture_file.hpp"
+#include "frontend/render_settings.hpp"
+
+namespace frontend {
+
+template <typename Value>
+using Word = std::pair<const char*, Value>;
+
+constexpr Word<PictureFormat> kFormats[] = {{"png", PictureFormat::kPng},
+                                            {"exr", PictureFormat::kExr}};
+constexpr Word<csgcore::Projection> kProjections[] = {
+    {"o", csgcore::Projection::kOrthographic},
+    {"ortho", csgcore::Projection::kOrthographic},
+    {"orthogonal", csgcore::Projection::kOrthographic},
+    {"p", csgcore::Projection::kPerspective},
+    {"perspective", csgcore::Projection::kPerspective}};
+/// Each with what it draws; OpenSCAD's preview has no wireframe either.
+constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
+                                             {"crosshairs", &Overlays::crosshairs},
+                                             {"edges", &Overlays::edges},
+                                             {"scales", &Overlays::scales},
+                                             {"wireframe", nullptr}};
+constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
+constexpr Word<Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
+                                       {"phong", Shading::kPhong}};
+constexpr Word<Show> kShows[] = {{"surface", Show::kSurface},
+                                 {"cells", Show::kCells},
+                                 {"depth", Show::kDepth},
+                                 {"normals", Show::kNormals},
+                                 {"id", Show::kId}};
+constexpr Word<RendererKind> kRenderers[] = {
+    {"auto", RendererKind::kAuto}, {"gl", RendererKind::kGl}, {"cpu", RendererKind::kCpu}};
+constexpr Word<Technique> kTechniques[] = {{"cells", Technique::kCells},
+                                           {"tiles", Technique::kTiles}};
+/// OpenSCAD's, which reads them itself.
+constexpr Word<bool> kTruthValues[] = {{"true", true}, {"false", false}};
+
+/// What the word stands for, or null.
+template <typename Value, std::size_t kCount>
+const Value* find_word(const Word<Value> (&words)[kCount], std::string_view name) {
+  for (const auto& [word, value] : words) {
+    if (name == word) return &value;
+  }
+  return nullptr;
+}
+
+template <const auto& kWords>
+std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  for (const auto& word : kWords) names.emplace_back(word.first);
+  return names;
+}
+
+/// The completion of an option that takes one of the words.
+template <const auto& kWords>
+constexpr Completion kOneOf{Completion::Kind::kWord, names_of<kWords>};
+
+}  // namespace frontend

@@ -1,0 +1,298 @@
+#include "frontend/options.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "command/arguments.hpp"
+#include "command/option_table.hpp"
+#include "command/option_words.hpp"
+#include "frontend/color_scheme.hpp"
+#include "frontend/error.hpp"
+
+namespace frontend {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr unsigned kHelpColumns = 80;
+
+po::options_description openscad_table() {
+  return table_of("OpenSCAD's options", openscad_options(), kHelpColumns);
+}
+
+po::options_description own_table() {
+  return table_of("scadray's own options", own_options(), kHelpColumns);
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// An abbreviation that is clear among OpenSCAD's options stays clear although ours are there, too:
+/// `--rend` is `--render`. Gives {option, value}, or nothing to leave the word to the library.
+std::pair<std::string, std::string> openscad_prefix(const po::options_description& openscad,
+                                                    const po::options_description& own,
+                                                    const std::string& word) {
+  if (!word.starts_with("--") || word.size() == 2) return {};
+  const std::size_t equals = word.find('=');
+  const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
+  const auto matches = [&name](const po::options_description& table) {
+    std::vector<std::string> found;
+    for (const auto& option : table.options()) {
+      if (option->long_name() == name) return std::vector<std::string>{};
+      if (option->long_name().starts_with(name)) found.push_back(option->long_name());
+    }
+    return found;
+  };
+  const std::vector<std::string> meant = matches(openscad);
+  if (meant.size() != 1 || matches(own).empty()) return {};
+  return {meant[0], equals == std::string::npos ? "" : word.substr(equals + 1)};
+}
+
+Arguments arguments_of(const std::vector<std::string>& words) {
+  const po::options_description openscad = openscad_table();
+  const po::options_description own = own_table();
+  po::options_description all;
+  all.add(openscad).add(own);
+  return Arguments(all, words, "scadray",
+                   [&](const std::string& word) { return openscad_prefix(openscad, own, word); });
+}
+
+void read_color_scheme(const Arguments& arguments, RenderSettings& render) {
+  render.scheme = color_schemes().front();
+  if (!arguments.has("colorscheme")) return;
+  const ColorScheme* scheme = find_color_scheme(arguments.text("colorscheme"));
+  if (!scheme) {
+    std::string names;
+    for (const ColorScheme& known : color_schemes()) {
+      names += (names.empty() ? "" : ", ") + std::string(known.name);
+    }
+    bad_value("colorscheme", arguments.text("colorscheme"), "give one of " + names);
+  }
+  render.scheme = *scheme;
+}
+
+/// Who speaks of cells without --technique means them.
+Technique read_technique(const Arguments& arguments, const RenderSettings& render) {
+  const bool wants_cells =
+      render.threshold_px > 0 || render.show == Show::kCells || arguments.has("leaf-primitives");
+  const Technique technique = choice(arguments, "technique", kTechniques,
+                                     wants_cells ? Technique::kCells : Technique::kAuto);
+  if (technique == Technique::kTiles && render.show == Show::kCells) {
+    fail("--technique=tiles has no cells to show", "leave out --technique or --show");
+  }
+  return technique;
+}
+
+void read_facets(const Arguments& arguments, ImportOptions& import) {
+  if (!arguments.has("facets")) return;
+  const std::string& value = arguments.text("facets");
+  if (const Facets* facets = find_word(kFacets, value)) {
+    import.facets = *facets;
+  } else if (const std::optional<uint32_t> fragments = parse_number<uint32_t>(value)) {
+    import.few_fragments = *fragments;
+  } else {
+    bad_value("facets", value, "give a whole number from 0 to 4294967295, all or none");
+  }
+}
+
+void read_render(const Arguments& arguments, RenderSettings& render) {
+  read_color_scheme(arguments, render);
+  render.shading = choice(arguments, "shading", kShadings, render.shading);
+  render.show = choice(arguments, "show", kShows, render.show);
+  render.renderer = read_renderer(arguments);
+  read_cells_and_threads(arguments, render);
+  static_assert(kMaxSamples == 64, "said below");
+  render.samples =
+      arguments.number<uint32_t>("samples", 1, kMaxSamples, 1, "give a whole number from 1 to 64");
+  render.technique = read_technique(arguments, render);
+}
+
+/// OpenSCAD says that it ignores a view it does not know, and goes on.
+void read_view(const Arguments& arguments, Options& options) {
+  if (!arguments.has("view")) return;
+  for (const std::string_view name : split_at_commas(arguments.text("view"))) {
+    bool Overlays::*const* overlay = find_word(kViews, name);
+    if (overlay && *overlay) {
+      options.overlays.*(*overlay) = true;
+    } else if (overlay) {
+      options.warnings.push_back("--view=" + std::string(name) +
+                                 " has no effect, as in OpenSCAD's preview");
+    } else {
+      options.warnings.push_back("--view=" + std::string(name) +
+                                 " is not known and ignored (give axes, crosshairs, edges or "
+                                 "scales)");
+    }
+  }
+  if (options.overlays.scales && !options.overlays.axes) {
+    options.warnings.push_back("--view=scales has no effect without axes, as in OpenSCAD");
+  }
+}
+
+}  // namespace
+
+PictureFormat picture_format(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  const std::size_t slash = path.rfind('/');
+  const bool has_suffix = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const PictureFormat* format =
+      has_suffix ? find_word(kFormats, lower_case(path.substr(dot + 1))) : nullptr;
+  if (!format) {
+    throw Error(
+        path, {}, "is no picture",
+        "end it in .png or .exr, or give --export-format=png or exr; whatever else a design "
+        "is exported to, openscad writes");
+  }
+  return *format;
+}
+
+namespace {
+
+Output make_output(const std::string& path, const PictureFormat* given) {
+  return {path, given ? *given : picture_format(path)};
+}
+
+void read_outputs(const Arguments& arguments, Options& options) {
+  const PictureFormat* given = nullptr;
+  if (arguments.has("export-format")) {
+    const std::string& value = arguments.text("export-format");
+    given = find_word(kFormats, lower_case(value));
+    if (!given) bad_value("export-format", value, "scadray writes png and exr; the rest openscad");
+  }
+  arguments.for_each([&](const std::string& option, const std::string& value) {
+    if (option == "o" || option == "s" || option == "x") {
+      options.outputs.push_back(make_output(value, given));
+    }
+  });
+  if (arguments.has("stats")) options.stats_path = arguments.text("stats");
+  if (arguments.has("d")) options.rule_path = arguments.text("d");
+  const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(),
+                                       [](const Output& output) { return output.path == "-"; });
+  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
+    fail("more than one output goes to standard output", "give all but one a file");
+  }
+  static_assert(kMaxPictures <= 99999, "a frame's number has five digits");
+  options.frames = arguments.number<uint32_t>("animate", 0, kMaxPictures, 0);
+  if (options.frames > 0 && to_stdout > 0) {
+    fail("--animate does not go to standard output", "give -o a file's name");
+  }
+  if (options.outputs.size() * std::max(options.frames, 1u) > kMaxPictures) {
+    const std::string most = std::to_string(kMaxPictures);
+    fail("more than " + most + " pictures: " + std::to_string(options.outputs.size()) + " of -o" +
+             (options.frames > 0 ? ", for each of " + std::to_string(options.frames) + " frames"
+                                 : ""),
+         options.frames > 0 && options.outputs.size() <= kMaxPictures
+             ? "give --animate at most " + std::to_string(kMaxPictures / options.outputs.size()) +
+                   ", or fewer -o"
+             : "give -o at most " + most + " times");
+  }
+}
+
+void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
+  constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
+  constexpr const char* kForScad[] = {
+      "D", "p", "P", "m", "check-parameters", "check-parameter-ranges"};
+  const auto given = [&arguments](std::span<const char* const> names) {
+    std::string list;
+    for (const char* name : names) {
+      if (!arguments.has(name)) continue;
+      list += (list.empty() ? "" : ", ") + std::string(name[1] == '\0' ? "-" : "--") + name;
+    }
+    return list;
+  };
+  if (const std::string list = given(kNeverUsed); !list.empty()) {
+    options.warnings.push_back("without effect in this version: " + list);
+  }
+  if (options.outputs.empty()) {
+    constexpr const char* kForPictures[] = {"d", "animate", "export-format"};
+    if (const std::string list = given(kForPictures); !list.empty()) {
+      options.warnings.push_back("without effect in a window, which needs no -o: " + list);
+    }
+  }
+  if (arguments.has("preview")) {
+    if (const std::string& how = arguments.text("preview"); !how.empty()) {
+      options.warnings.push_back("--preview=" + how + " is drawn as --preview");
+    }
+    if (arguments.has("render")) {
+      options.warnings.push_back("--render has no effect with --preview, as in OpenSCAD");
+    }
+  }
+  if (options.render.technique == Technique::kTiles) {
+    constexpr const char* kForCells[] = {"leaf-primitives", "threshold"};
+    if (const std::string list = given(kForCells); !list.empty()) {
+      options.warnings.push_back("without effect on --technique=tiles: " + list);
+    }
+  }
+  if (arguments.has("autocenter") && arguments.has("camera") && !arguments.has("viewall")) {
+    options.warnings.push_back("--autocenter has no effect without --viewall, as in OpenSCAD");
+  }
+  const bool is_csg = options.input == "-" || lower_case(options.input).ends_with(".csg");
+  if (const std::string list = given(kForScad); !list.empty() && is_csg) {
+    options.warnings.push_back("without effect on a .csg: " + list);
+  }
+}
+
+/// The action of the options that need no design.
+std::optional<Action> action_without_file(const Arguments& arguments) {
+  if (arguments.has("help")) return Action::kHelp;
+  if (arguments.has("version")) return Action::kVersion;
+  if (arguments.has("info") && !arguments.has("file")) return Action::kInfo;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Options parse_options(const std::vector<std::string>& words) {
+  const Arguments arguments = arguments_of(words);
+  Options options;
+  if (const std::optional<Action> action = action_without_file(arguments)) {
+    options.action = *action;
+    return options;
+  }
+  const std::vector<std::string> files = arguments.texts("file");
+  if (files.empty()) {
+    fail("no file to draw",
+         "give a .csg or .scad file, or - for a .csg from standard input; an option before it may "
+         "have taken its name as a value");
+  }
+  if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
+  options.input = files[0];
+  options.quiet = arguments.has("quiet");
+  options.info = arguments.has("info");
+  options.has_image_size = arguments.has("imgsize");
+  options.import.rendered = arguments.has("render") && !arguments.has("preview");
+  read_image_size(arguments, options.camera);
+  read_camera(arguments, options.camera);
+  read_facets(arguments, options.import);
+  read_render(arguments, options.render);
+  read_view(arguments, options);
+  read_outputs(arguments, options);
+  if (options.outputs.empty()) options.action = Action::kOpenWindow;
+  options.openscad_arguments = openscad_arguments_of(arguments);
+  options.has_hard_warnings = arguments.has("hardwarnings");
+  warn_of_what_is_ignored(arguments, options);
+  return options;
+}
+
+std::string help_text() {
+  po::options_description all(
+      "Usage: scadray [options] FILE              (a window that follows every save)\n"
+      "       scadray -o OUT [options] FILE\n"
+      "       scadray bench [options] FILE...    (scadray bench --help)\n"
+      "       scadray validate [options] FILE    (scadray validate --help)\n"
+      "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
+      ".csg from standard input. `bench` measures how long that takes, `validate` compares\n"
+      "it with exact arithmetic",
+      kHelpColumns);
+  all.add(openscad_table()).add(own_table());
+  std::ostringstream text;
+  text << all;
+  return text.str();
+}
+
+}  // namespace frontend

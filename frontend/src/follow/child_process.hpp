@@ -1,0 +1,76 @@
+// A program that is run beside this one, with all that it starts, and that never outlives it.
+#pragma once
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/descriptor.hpp"
+
+namespace frontend {
+
+/// A pipe whose ends are closed with it, unless closed before, and which no program inherits.
+class Pipe {
+ public:
+  /// Throws std::system_error.
+  Pipe();
+  ~Pipe() {
+    close_end(0);
+    close_end(1);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  int read_end() const { return ends_[0]; }
+  int write_end() const { return ends_[1]; }
+  void close_read_end() { close_end(0); }
+  void close_write_end() { close_end(1); }
+
+ private:
+  void close_end(std::size_t end) {
+    if (ends_[end] >= 0) close(ends_[end]);
+    ends_[end] = -1;
+  }
+  std::array<int, 2> ends_{-1, -1};
+};
+
+struct ChildSetup {
+  std::vector<std::string> command;  // the program, looked up on PATH, and its arguments
+  int output = -1;                   // its standard output
+  int errors = -1;                   // its standard error
+  int kept = -1;                     // one more that it gets, by the same number; -1: none
+};
+
+/// A running program. It and what it starts stand in a process group of their own, which is killed
+/// when this object goes, when a signal ends this program (interrupt.hpp), and when this program
+/// is killed: a guard stands in that group, a shell which waits for the end of a pipe that only
+/// this program holds open, and then kills the group it is in. (PR_SET_PDEATHSIG would reach the
+/// program alone, not what a wrapper script has started.) One at a time.
+class ChildProcess {
+ public:
+  /// Its standard input is empty. Throws std::system_error where it cannot be started.
+  explicit ChildProcess(const ChildSetup& setup);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Readable once it has ended; -1 where the system has no such descriptor (Linux before 5.3).
+  int end_descriptor() const { return end_.number(); }
+  bool has_ended() const;
+  /// Waits for its end, kills what it has left running, and returns its exit code; 128 and the
+  /// signal's number where one ended it.
+  int wait();
+
+ private:
+  void kill_all() const;
+
+  Pipe lifeline_;  // from here to the guard; nothing is written to it
+  pid_t pid_ = 0;
+  pid_t group_ = 0;
+  pid_t guard_ = 0;
+  Descriptor end_{-1};
+};
+
+}  // namespace frontend

@@ -1,0 +1,130 @@
+#include "frontend/design_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "base/elapsed.hpp"
+#include "frontend/error.hpp"
+#include "frontend/openscad_export.hpp"
+#include "frontend/parser.hpp"
+
+namespace frontend {
+
+namespace {
+
+/// `suffix` in lower case.
+bool has_suffix(const std::string& path, std::string_view suffix) {
+  return path.size() >= suffix.size() &&
+         std::equal(suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
+                    [](char wanted, char c) {
+                      return wanted == std::tolower(static_cast<unsigned char>(c));
+                    });
+}
+
+/// Parses what may turn out to be a .scad.
+TextImport parse_either(const std::string& path, const DesignFileOptions& options,
+                        DesignText& text) {
+  try {
+    return TextImport(text.csg.view(), text.name, options.import);
+  } catch (const Error&) {
+    if (text.is_exported || !may_be_scad(path)) throw;
+  }
+  export_design_text(path, options, text);
+  options.progress("parsing");
+  return TextImport(text.csg.view(), text.name, options.import);
+}
+
+DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
+  DesignText text = read_design_text(path, options);
+  options.progress("parsing");
+  const double export_before_ms = text.export_ms;
+  const Clock::time_point parse_start = Clock::now();
+  DesignFile design{.import = parse_either(path, options, text)};
+  design.name = path == "-" ? "standard input" : path;
+  design.parse_ms = ms_since(parse_start) - (text.export_ms - export_before_ms);
+  if (text.is_exported && options.wants_files && text.files.empty()) {
+    throw Error(path, {}, "openscad does not say which files it reads",
+                "leave out -d, or check $OPENSCAD");
+  }
+  design.is_exported = text.is_exported;
+  design.files = std::move(text.files);
+  design.export_ms = text.export_ms;
+  design.read_ms = text.read_ms;
+  design.file_bytes = text.csg.view().size();
+  return design;
+}
+
+/// What `work`, which is done on a design alone, returns.
+template <typename Work>
+auto within_memory(const std::string& path, Work work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw Error(path == "-" ? "standard input" : path, {}, "out of memory", "try a smaller design");
+  }
+}
+
+}  // namespace
+
+bool is_scad(const std::string& path) { return has_suffix(path, ".scad"); }
+
+bool may_be_scad(const std::string& path) {
+  std::error_code failed;
+  return is_scad(path) || (path != "-" && !has_suffix(path, ".csg") &&
+                           std::filesystem::is_regular_file(path, failed));
+}
+
+std::vector<NamedPath> design_inputs(const std::string& path,
+                                     const std::vector<std::string>& openscad_arguments) {
+  std::vector<NamedPath> inputs = {{"the design", path}};
+  for (std::size_t i = 0; i + 1 < openscad_arguments.size(); ++i) {
+    if (openscad_arguments[i] == "-p")
+      inputs.push_back({"what -p reads", openscad_arguments[i + 1]});
+  }
+  return inputs;
+}
+
+void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
+                        const std::stop_token& stop) {
+  text.is_exported = true;
+  // Places in an exported design are not those of the .scad, and must not look as if they were.
+  text.name = path + " (its .csg)";
+  const Clock::time_point start = Clock::now();
+  OpenScadExport result = export_with_openscad(
+      path, options.openscad_arguments, options.wants_files, options.message,
+      [&options] { options.progress("openscad"); }, stop);
+  text.csg = std::move(result.csg);
+  text.files = std::move(result.files);
+  text.export_ms = ms_since(start);
+}
+
+DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
+                            const std::stop_token& stop) {
+  DesignText text;
+  const Clock::time_point start = Clock::now();
+  text.name = path == "-" ? "standard input" : path;
+  if (is_scad(path)) {
+    check_input(path);
+    text.read_ms = ms_since(start);
+    export_design_text(path, options, text, stop);
+    return text;
+  }
+  text.csg = read_file(path, is_beyond_repair, stop);
+  text.read_ms = ms_since(start);
+  if (options.wants_files && path != "-") text.files = {path};
+  return text;
+}
+
+DesignFile read_design(const std::string& path, const DesignFileOptions& options) {
+  return within_memory(path, [&] { return read_and_parse(path, options); });
+}
+
+ImportedDesign import_design(DesignFile& file) {
+  return within_memory(file.name, [&] { return file.import.finish(); });
+}
+
+}  // namespace frontend

@@ -1,0 +1,241 @@
+#include "frontend/design_follower.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "base/descriptor.hpp"
+#include "follow/design_reading.hpp"
+#include "follow/file_watch.hpp"
+#include "follow/included_files.hpp"
+#include "frontend/design_file.hpp"
+#include "frontend/stop.hpp"
+
+namespace frontend {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string absolute(const std::string& path) {
+  std::error_code failed;  // there is no working folder any more
+  const std::filesystem::path result = std::filesystem::absolute(path, failed);
+  return failed ? path : result.string();
+}
+
+/// Standard input, a pipe or a device: what can be read once only.
+bool is_read_once(const std::string& path) {
+  if (path == "-") return true;
+  std::error_code missing;
+  const std::filesystem::file_status status = std::filesystem::status(path, missing);
+  return std::filesystem::exists(status) && std::filesystem::is_other(status);
+}
+
+int64_t system_time_ns() {
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+/// Two threads: one that watches the files and decides, and, while there is something to read, one
+/// that reads. A newer save stops the latter and waits for its end before the next one starts, so
+/// there is never more than one openscad.
+class DesignFollower::Follower {
+ public:
+  Follower(std::string path, FollowOptions options, std::function<void()> on_news)
+      : path_(std::move(path)),
+        options_(std::move(options)),
+        on_news_(std::move(on_news)),
+        is_followed_(!is_read_once(path_)),
+        watch_(options_.polls, options_.poll_interval),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+  ~Follower() {
+    thread_.request_stop();
+    wake_.raise();
+    thread_.join();
+  }
+
+  std::optional<DesignVersion> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, std::nullopt);
+  }
+
+  State state() const { return state_; }
+
+  void reload() {
+    wants_reload_ = true;
+    wake_.raise();
+  }
+
+ private:
+  void run(const std::stop_token& stop) {
+    noticed_ = Clock::now();
+    start_reading();
+    while (!stop.stop_requested()) {
+      wait();
+      if (is_followed_ && watch_.update()) notice(Clock::now());
+      if (is_followed_ && wants_reload_.exchange(false)) notice(Clock::now());
+      if (has_read_.exchange(false)) finish_reading();
+      if (noticed_ && Clock::now() >= watch_.settled_at().value_or(Clock::time_point::min())) {
+        start_reading();
+      }
+    }
+    stop_reading();
+  }
+
+  /// Until there may be something to do.
+  void wait() {
+    std::optional<Clock::time_point> until = is_followed_ ? watch_.next_look() : std::nullopt;
+    if (noticed_) {
+      const Clock::time_point settled = watch_.settled_at().value_or(Clock::time_point::min());
+      until = until ? std::min(*until, settled) : settled;
+    }
+    timespec timeout{};
+    if (until) {
+      const auto rest = std::max(*until - Clock::now(), Clock::duration::zero());
+      const auto seconds = std::chrono::floor<std::chrono::seconds>(rest);
+      timeout.tv_sec = seconds.count();
+      timeout.tv_nsec = std::chrono::nanoseconds(rest - seconds).count();
+    }
+    std::array<pollfd, 2> waits = {pollfd{wake_.descriptor(), POLLIN, 0},
+                                   pollfd{watch_.descriptor(), POLLIN, 0}};
+    ppoll(waits.data(), waits.size(), until ? &timeout : nullptr, nullptr);
+    wake_.clear();
+  }
+
+  /// Something newer than what is being read, or was read last.
+  void notice(Clock::time_point when) {
+    if (reading_.joinable()) {
+      stop_reading();
+      noticed_ = when;
+    } else if (!noticed_) {
+      noticed_ = when;
+    }
+    set_state(State::kReading);
+  }
+
+  void start_reading() {
+    const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
+    watch_.forget_changes();
+    if (is_followed_) watch_.set_files(paths_to_watch());
+    reading_since_ns_ = system_time_ns();
+    set_state(State::kReading);
+    reading_ = std::jthread([this, noticed, before = good_](const std::stop_token& stop) {
+      try {
+        result_ = read_anew(path_, file_options(), before, stop);
+        result_.version.noticed = noticed;
+        has_read_ = true;
+        wake_.raise();
+      } catch (const Stopped&) {
+      }
+    });
+  }
+
+  DesignFileOptions file_options() const {
+    DesignFileOptions options;
+    options.import = options_.import;
+    options.openscad_arguments = options_.openscad_arguments;
+    return options;
+  }
+
+  void stop_reading() {
+    if (!reading_.joinable()) return;
+    reading_.request_stop();
+    reading_.join();
+    has_read_ = false;
+  }
+
+  void finish_reading() {
+    reading_.join();
+    good_ = std::move(result_.good);
+    is_scad_ = is_scad(path_) || result_.is_scad;
+    DesignVersion version = std::move(result_.version);
+    if (version.error.empty()) imports_ = std::move(version.files);
+    if (is_followed_) watch_.set_files(paths_to_watch(), reading_since_ns_);
+    version.files = files_;
+    version.number = ++number_;
+    {
+      const std::lock_guard lock(mutex_);
+      news_ = std::move(version);
+    }
+    state_ = State::kIdle;
+    on_news_();
+  }
+
+  void set_state(State state) {
+    if (state_.exchange(state) != state) on_news_();
+  }
+
+  /// What the design includes by now, and what the last version that could be read has read: after
+  /// an error openscad says nothing. Puts their names in files_.
+  std::vector<std::string> paths_to_watch() {
+    files_.clear();
+    std::vector<std::string> paths;
+    std::set<std::string> seen;
+    const auto add = [&](const std::string& name) {
+      std::string path = absolute(name);
+      if (!seen.insert(path).second) return;
+      files_.push_back(name);
+      paths.push_back(std::move(path));
+    };
+    add(path_);
+    if (is_scad_) {
+      for (const std::string& name : included_.of(absolute(path_))) add(name);
+    }
+    for (const std::string& name : imports_) add(name);
+    return paths;
+  }
+
+  const std::string path_;
+  const FollowOptions options_;
+  const std::function<void()> on_news_;
+  const bool is_followed_;
+
+  // Shared with those who call.
+  Event wake_;
+  std::atomic<State> state_{State::kReading};
+  std::atomic<bool> wants_reload_{false};
+  std::mutex mutex_;
+  std::optional<DesignVersion> news_;
+
+  // The watching thread's.
+  FileWatch watch_;
+  IncludedFiles included_;
+  std::vector<std::string> files_;    // watched, as they are named
+  std::vector<std::string> imports_;  // of the last version that could be read
+  GoodVersion good_;
+  bool is_scad_ = is_scad(path_);
+  uint64_t number_ = 0;
+  std::optional<Clock::time_point> noticed_;  // what is still to be read
+  int64_t reading_since_ns_ = 0;
+
+  // Written by the reading thread, and read when it has ended.
+  DesignReading result_;
+  std::atomic<bool> has_read_{false};
+  std::jthread reading_;
+
+  std::jthread thread_;  // the last one: it uses all others
+};
+
+DesignFollower::DesignFollower(std::string path, FollowOptions options,
+                               std::function<void()> on_news)
+    : follower_(
+          std::make_unique<Follower>(std::move(path), std::move(options), std::move(on_news))) {}
+
+DesignFollower::~DesignFollower() = default;
+
+std::optional<DesignVersion> DesignFollower::take() { return follower_->take(); }
+
+DesignFollower::State DesignFollower::state() const { return follower_->state(); }
+
+void DesignFollower::reload() { follower_->reload(); }
+
+}  // namespace frontend

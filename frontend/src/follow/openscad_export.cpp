@@ -1,0 +1,276 @@
+#include "frontend/openscad_export.hpp"
+
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+
+#include "base/descriptor.hpp"
+#include "base/growing_text.hpp"
+#include "follow/child_process.hpp"
+#include "follow/make_rule.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/parser.hpp"
+#include "frontend/stop.hpp"
+
+namespace frontend {
+namespace {
+
+constexpr int kWait_ms = 100;  // how often `waiting` is called
+
+std::string program_name() {
+  const char* name = std::getenv("OPENSCAD");
+  return name && *name ? name : "openscad";
+}
+
+Error cannot_run(const std::string& program, int error_number) {
+  if (error_number == ENOENT) {
+    return Error("", {}, "a .scad file is exported by OpenSCAD, and " + program + " was not found",
+                 "install it, with: apt-get install openscad; or name it in $OPENSCAD; or give a "
+                 ".csg file");
+  }
+  return Error("", {}, program + " cannot be run: " + std::strerror(error_number),
+               "check $OPENSCAD and PATH");
+}
+
+/// A file without a name, in memory.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
+    if (file_ < 0) throw std::system_error(errno, std::generic_category(), "a file in memory");
+  }
+  ~MemoryFile() { close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  int descriptor() const { return file_; }
+  /// For a child that it is handed on to.
+  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+  /// Once.
+  FileText text() const { return read_descriptor(file_, "a file in memory"); }
+
+ private:
+  int file_;
+};
+
+/// What openscad says, line by line. The first ERROR is kept back, to be thrown.
+class Messages {
+ public:
+  explicit Messages(const std::function<void(const std::string&)>& message) : message_(message) {}
+  void add(std::string_view text) {
+    pending_ += text;
+    std::size_t start = 0;
+    for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos;
+         start = end + 1) {
+      line(pending_.substr(start, end - start));
+    }
+    pending_.erase(0, start);
+    if (pending_.size() > kLongestLine) finish();
+  }
+  void finish() {
+    if (!pending_.empty()) line(pending_);
+    pending_.clear();
+  }
+  const std::optional<std::string>& first_error() const { return first_error_; }
+
+ private:
+  /// A longer one is shown in pieces, so that it need not end to be shown.
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
+
+  void line(const std::string& text) {
+    if (text.empty()) return;
+    if (text.starts_with("ERROR: ") && !first_error_) {
+      first_error_ = text.substr(std::strlen("ERROR: "));
+    } else {
+      message_(text);
+    }
+  }
+  const std::function<void(const std::string&)>& message_;
+  std::string pending_;
+  std::optional<std::string> first_error_;
+};
+
+/// Whether openscad means `scad_path` by `name`: it shortens a path to the file's name alone, or
+/// makes it relative to the working folder.
+bool is_same_file(const std::string& name, const std::string& scad_path) {
+  const std::filesystem::path path(scad_path);
+  std::error_code missing;
+  return name == path.filename() || std::filesystem::equivalent(name, path, missing);
+}
+
+/// "what in file NAME, line N" → Error with that place.
+Error openscad_error(const std::string& scad_path, const std::string& text) {
+  constexpr const char* kTodo = "correct the design; this is what openscad reports";
+  constexpr std::string_view kFile = " in file ", kLine = ", line ";
+  const std::size_t file_at = text.rfind(kFile);
+  const std::size_t line_at = text.rfind(kLine);
+  if (file_at == std::string::npos || line_at == std::string::npos || line_at < file_at) {
+    return Error(scad_path, {}, text, kTodo);
+  }
+  std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
+  if (is_same_file(file, scad_path)) file = scad_path;
+  Location location;
+  const char* digits = text.data() + line_at + kLine.size();
+  std::from_chars(digits, text.data() + text.size(), location.line);
+  return Error(file, location, text.substr(0, file_at), kTodo);
+}
+
+/// What the running openscad writes and says.
+class Listener {
+ public:
+  Listener(const ChildProcess& openscad, const Pipe& out, const Pipe& err, Messages& messages,
+           const std::string& scad_path)
+      : openscad_(openscad),
+        pipes_{out.read_end(), err.read_end()},
+        messages_(messages),
+        scad_path_(scad_path) {}
+
+  /// Until it has ended, or what it writes will be no .csg, whatever comes. What it has started may
+  /// hold the pipes open for longer: they are not read to their ends. Throws Stopped when
+  /// `stop_event` is to be read from (-1: never).
+  void listen(const std::function<void()>& waiting, int stop_event, const std::stop_token& stop) {
+    while (!is_hopeless_) {
+      if (openscad_.has_ended()) {
+        drain();
+        return;
+      }
+      std::array<pollfd, 4> waits = {pollfd{pipes_[0], POLLIN, 0}, pollfd{pipes_[1], POLLIN, 0},
+                                     pollfd{openscad_.end_descriptor(), POLLIN, 0},
+                                     pollfd{stop_event, POLLIN, 0}};  // poll passes over -1
+      const int ready = poll(waits.data(), waits.size(), kWait_ms);
+      if (ready < 0 && errno != EINTR) {
+        throw std::system_error(errno, std::generic_category(), "openscad's output");
+      }
+      if (ready == 0) waiting();
+      if (ready <= 0) continue;
+      if (waits[3].revents != 0) throw Stopped{};
+      for (std::size_t i = 0; i < pipes_.size(); ++i) {
+        if (waits[i].revents != 0) read_from(i);
+      }
+      is_hopeless_ = check_.fails(csg_.view(), stop);
+    }
+  }
+  bool is_hopeless() const { return is_hopeless_; }
+  FileText take_csg() { return csg_.take(); }
+
+ private:
+  /// Standard output or standard error; as much as there is at once. The count of bytes.
+  std::size_t read_from(std::size_t pipe) {
+    std::array<char, 65536> said;
+    std::span<char> room = said;
+    if (pipe == 0) {
+      room = csg_.room();
+      room = room.first(std::min(room.size(), check_.until_next(csg_.size())));
+    }
+    const ssize_t count = read(pipes_[pipe], room.data(), room.size());
+    if (count < 0 && errno == EINTR) return 0;
+    if (count <= 0) {
+      pipes_[pipe] = -1;
+      return 0;
+    }
+    const auto bytes = static_cast<std::size_t>(count);
+    if (pipe == 1) {
+      messages_.add({said.data(), bytes});
+      return bytes;
+    }
+    csg_.add(bytes);
+    if (csg_.is_too_large()) {
+      throw Error(scad_path_, {}, "its .csg is larger than 4 GiB", "split the design");
+    }
+    return bytes;
+  }
+
+  /// What stands in the pipes now; more may come for ever.
+  void drain() {
+    for (std::size_t i = 0; i < pipes_.size(); ++i) {
+      int left = 0;
+      if (pipes_[i] < 0 || ioctl(pipes_[i], FIONREAD, &left) != 0) continue;
+      while (left > 0 && pipes_[i] >= 0) {
+        left -= static_cast<int>(read_from(i));
+        is_hopeless_ = is_hopeless_ || check_.fails(csg_.view(), {});
+        if (i == 0 && is_hopeless_) break;
+      }
+    }
+  }
+
+  const ChildProcess& openscad_;
+  std::array<int, 2> pipes_;  // its standard output and standard error; -1: at its end
+  Messages& messages_;
+  const std::string& scad_path_;
+  GrowingText csg_{0};
+  StartCheck check_{is_beyond_repair, 0};
+  bool is_hopeless_ = false;
+};
+
+ChildProcess start(const ChildSetup& setup) {
+  try {
+    return ChildProcess(setup);
+  } catch (const std::system_error& error) {
+    throw cannot_run(setup.command[0], error.code().value());
+  }
+}
+
+}  // namespace
+
+OpenScadExport export_with_openscad(const std::string& scad_path,
+                                    const std::vector<std::string>& arguments, bool wants_files,
+                                    const std::function<void(const std::string&)>& message,
+                                    const std::function<void()>& waiting,
+                                    const std::stop_token& stop) {
+  std::optional<StopEvent> stop_event;
+  if (stop.stop_possible()) stop_event.emplace(stop);
+  const int stop_descriptor = stop_event ? stop_event->descriptor() : -1;
+  throw_if_stopped(stop);
+  std::vector<std::string> command = {program_name(), "-o", "-", "--export-format=csg"};
+  std::optional<MemoryFile> rule;
+  if (wants_files) {
+    rule.emplace();
+    command.insert(command.end(), {"-d", rule->path()});
+  }
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  command.push_back("--");  // a name may begin with a dash
+  command.push_back(scad_path);
+
+  Pipe out, err;
+  ChildProcess openscad =
+      start({command, out.write_end(), err.write_end(), rule ? rule->descriptor() : -1});
+  out.close_write_end();
+  err.close_write_end();
+  Messages messages(message);
+  Listener listener(openscad, out, err, messages, scad_path);
+  listener.listen(waiting, stop_descriptor, stop);
+  throw_if_stopped(stop);
+  messages.finish();
+  OpenScadExport result;
+  result.csg = listener.take_csg();
+
+  if (listener.is_hopeless()) {
+    if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());
+    return result;  // the parser says what is wrong
+  }
+  const int exit_code = openscad.wait();
+  if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());
+  if (exit_code != 0) {
+    throw Error(scad_path, {}, "openscad failed with exit code " + std::to_string(exit_code),
+                "see what it says above");
+  }
+  if (result.csg.view().empty()) {
+    throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
+  }
+  if (rule) result.files = prerequisites_of(rule->text().view());
+  return result;
+}
+
+}  // namespace frontend

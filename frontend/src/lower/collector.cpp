@@ -1,0 +1,257 @@
+#include "lower/collector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/primitive_size.hpp"
+#include "lower/import_arguments.hpp"
+#include "lower/import_view_box.hpp"
+#include "lower/node_roles.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Primitive;
+
+bool is_identity(const FileMatrix& file) {
+  return file.divisor == 1 && file.map.linear == csgcore::Mat3(1.0) &&
+         file.map.translation == csgcore::Vec3(0.0);
+}
+
+HealedMatrix heal(const FileMatrix& file) {
+  HealedMatrix matrix = heal_matrix(file.map);
+  if (file.divisor != 1) {
+    const double size = std::abs(file.divisor);
+    matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};
+    matrix.linear_error /= size;
+    matrix.translation_error /= size;
+  }
+  return matrix;
+}
+
+/// A file to read (`file`, up to 2021) makes something of a node without children.
+bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
+  const auto arguments = tree.arguments_of(node);
+  return std::any_of(arguments.begin(), arguments.end(), [](const Argument& argument) {
+    return argument.name == "file" && argument.value.kind == ValueKind::kString &&
+           argument.value.count > 0;
+  });
+}
+
+constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
+constexpr std::string_view kBecauseManyFaces = "it has too many faces";
+constexpr std::string_view kBecauseNotConvex =
+    "it is not the closed boundary of one convex solid with plane faces";
+constexpr std::string_view kBecauseTooLarge =
+    "it is too large, or too far from the origin: scale the design to between 1e-90 and 1e90 "
+    "across";
+constexpr std::string_view kBecauseTooSmall =
+    "it is too small: scale the design to between 1e-90 and 1e90 across";
+
+constexpr double kLargestSize = 0x1p300;
+static_assert(kLargestExponent == 300);
+
+bool is_near(const csgcore::Vec3& point) {
+  return std::abs(point.x) <= kLargestSize && std::abs(point.y) <= kLargestSize &&
+         std::abs(point.z) <= kLargestSize;
+}
+
+enum class Fit : uint8_t { kFits, kTooLarge, kTooSmall, kFlat /* nothing is left of it */ };
+
+/// Its shape is valid; the matrix may be any.
+Fit fit_of(const Primitive& primitive) {
+  const bool is_valid = csgcore::is_valid(primitive);
+  const Affine& map = primitive.local_to_world;
+  if (!is_valid && !map.finite()) return Fit::kTooLarge;
+  const double size = size_of(primitive);
+  if (size > kLargestSize || !is_near(map.translation)) return Fit::kTooLarge;
+  if (size < 1 / kLargestSize) {
+    return map.linear == csgcore::Mat3(0.0) ? Fit::kFlat : Fit::kTooSmall;
+  }
+  return is_valid ? Fit::kFits : Fit::kFlat;
+}
+
+}  // namespace
+
+Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
+    : tree_(tree), options_(options) {
+  contexts_.push_back({0, 0, std::nullopt, false});
+}
+
+void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
+  primitive_of.reserve(nodes);
+  primitives.reserve(solids);
+  frame_of.reserve(solids);
+  boxes.reserve(solids);
+  fragments.reserve(solids);
+  if (options_.keeps_places) places.reserve(solids);
+  frames.reserve(matrices);
+}
+
+void Collector::take(uint32_t index, uint32_t offset) {
+  const SyntaxNode& node = tree_.nodes[index];
+  primitive_of.push_back(kNoPrimitive);
+  const uint32_t id = primitive_nodes;
+  if (is_primitive_node(node.kind)) {
+    ++primitive_nodes;
+    if (options_.keeps_places) places.push_back({node.location.line, offset});
+  }
+  if (root_ && !is_within(index, *root_)) return;
+  if (disabled_ && is_within(index, *disabled_)) return;
+  const bool is_disabled = (node.modifiers & kDisable) != 0;
+  if (is_disabled) disabled_ = index;
+  if (!root_ && !is_disabled && (node.modifiers & kRoot) != 0) select(index);
+  if (skipped_ && is_within(index, *skipped_)) return;
+  any_modifiers = any_modifiers || node.modifiers != 0;
+  while (contexts_.size() > 1 && !is_within(index, contexts_.back().node)) contexts_.pop_back();
+  if (is_disabled || !visit(index, id)) skipped_ = index;
+}
+
+void Collector::finish() {
+  const auto count = static_cast<uint32_t>(tree_.nodes.size());
+  selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
+  for (const LeftOut& out : maybe_left_out_) {
+    const SyntaxNode& node = tree_.nodes[out.node];
+    if (out.unless_empty && node.subtree_end == out.node + 1) continue;
+    left_out.push_back(out.node);
+    problems.add(node, out.why, [&] {
+      return NodeProblems::Description{" is left out", std::string(out.why)};
+    });
+  }
+  maybe_left_out_ = {};
+}
+
+/// Nothing counts but the subtree, and that as if it stood alone.
+void Collector::select(uint32_t root) {
+  root_ = root;
+  std::fill(primitive_of.begin(), primitive_of.end(), kNoPrimitive);
+  primitives.clear();
+  frame_of.clear();
+  boxes.clear();
+  fragments.clear();
+  frames = {};
+  problems.clear();
+  any_modifiers = false;
+  contexts_.resize(1);
+  skipped_.reset();
+  maybe_left_out_.clear();
+}
+
+/// False: the children do not matter.
+bool Collector::visit(uint32_t index, uint32_t id) {
+  const SyntaxNode& node = tree_.nodes[index];
+  switch (role_of(node.kind)) {
+    case Role::kSolid:
+      add_solid(index, id);
+      return false;
+    case Role::kOperation:
+      if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
+      if (node.kind == NodeKind::kColor) enter_color(index);
+      return true;
+    case Role::kUnsupportedOperation:
+      leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
+      return false;
+    case Role::kUnsupportedLeaf:
+      break;
+  }
+  leave_out(index, kBecauseUnsupported);
+  return false;
+}
+
+void Collector::leave_out(uint32_t node, std::string_view why, bool unless_empty) {
+  maybe_left_out_.push_back({node, unless_empty, why});
+}
+
+void Collector::enter_matrix(uint32_t node) {
+  const FileMatrix file = read_matrix(tree_, tree_.nodes[node], problems);
+  if (is_identity(file)) return;
+  Context context = contexts_.back();
+  context.node = node;
+  const Affine divided{file.map.linear / file.divisor, file.map.translation / file.divisor};
+  if (context.flattened || !divided.finite()) {
+    context.flattened = true;
+  } else {
+    context.frame = frames.add(context.frame, heal(file));
+  }
+  contexts_.push_back(context);
+}
+
+void Collector::enter_color(uint32_t node) {
+  const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
+  if (!color || options_.rendered) return;
+  if (contexts_.back().color) return;  // the outermost valid one wins
+  Context context = contexts_.back();
+  context.node = node;
+  context.color = color;
+  contexts_.push_back(context);
+}
+
+/// The node as a primitive under the matrices around it, without colour and id. False: it is the
+/// empty set, or left out.
+bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets) {
+  const SyntaxNode& node = tree_.nodes[index];
+  const Affine& to_world = frames[contexts_.back().frame].to_world;
+  if (node.kind == NodeKind::kCube) {
+    primitive = polyhedra.box(read_cube(tree_, node, problems), to_world);
+    return csgcore::has_valid_shape(primitive);
+  }
+  if (node.kind == NodeKind::kPolyhedron) {
+    const PolyhedronArguments arguments = read_polyhedron(tree_, node, problems);
+    const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
+    if (convexity == Convexity::kConvex) return true;
+    const bool is_left_out = convexity != Convexity::kNothing && !contexts_.back().flattened;
+    if (is_left_out) {
+      leave_out(index, convexity == Convexity::kTooLarge ? kBecauseManyFaces : kBecauseNotConvex);
+    }
+    return false;
+  }
+  RoundPrimitive round = read_round_primitive(tree_, node, problems);
+  primitive = std::move(round.primitive);
+  if (!csgcore::has_valid_shape(primitive)) return false;
+  primitive.local_to_world = to_world;
+  facets = round.facets;
+  if (options_.fn) facets.fn = *options_.fn;
+  return true;
+}
+
+void Collector::add_solid(uint32_t index, uint32_t id) {
+  const Context& context = contexts_.back();
+  Primitive primitive;
+  csgcore::FacetSettings facets;
+  if (!read_solid(index, primitive, facets) || context.flattened) return;
+  switch (fit_of(primitive)) {
+    case Fit::kFits:
+      break;
+    case Fit::kTooLarge:
+      return leave_out(index, kBecauseTooLarge);
+    case Fit::kTooSmall:
+      return leave_out(index, kBecauseTooSmall);
+    case Fit::kFlat:
+      return;
+  }
+  primitive.color = context.color;
+  primitive.id = id;
+  primitive_of[index] = static_cast<uint32_t>(primitives.size());
+  boxes.push_back(faceted_box(primitive, facets));
+  fragments.push_back(keeps_facets(primitive, facets) ? fragment_count(primitive, facets) : 0);
+  frame_of.push_back(context.frame);
+  primitives.push_back(std::move(primitive));
+}
+
+bool Collector::keeps_facets(const Primitive& primitive,
+                             const csgcore::FacetSettings& facets) const {
+  if (primitive.shape == csgcore::Shape::kPolyhedron) return false;
+  switch (options_.facets) {
+    case Facets::kNone:
+      return false;
+    case Facets::kFew:
+      return facets.fn > 0 && facets.fn <= options_.few_fragments;
+    case Facets::kAll:
+      return true;
+  }
+  return false;
+}
+
+}  // namespace frontend

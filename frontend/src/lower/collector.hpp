@@ -1,0 +1,87 @@
+// From the nodes of a file to primitives in their frames.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "csg/node_sink.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/imported_design.hpp"
+#include "heal/frames.hpp"
+#include "heal/matrix_healing.hpp"
+#include "lower/import_polyhedra.hpp"
+#include "lower/marks.hpp"
+#include "lower/node_problems.hpp"
+
+namespace frontend {
+
+/// Takes the nodes in the tree's order, while they are parsed or from a finished tree. What a later
+/// node decides is put right when it comes: `!` makes all before it void.
+class Collector final : public NodeSink {
+ public:
+  Collector(const SyntaxTree& tree, const ImportOptions& options);
+
+  /// Makes room: growing by doubling would copy, and touch, twice the memory.
+  void reserve(size_t nodes, size_t solids, size_t matrices);
+  void take(uint32_t node, uint32_t offset) override;
+  /// After the last node.
+  void finish();
+
+  static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
+  std::vector<uint32_t> primitive_of;  // by node: index into `primitives`, or kNoPrimitive
+  std::vector<csgcore::Primitive> primitives;
+  std::vector<uint32_t> frame_of;   // by primitive
+  std::vector<csgcore::Box> boxes;  // by primitive, faceted
+  std::vector<int> fragments;       // by primitive; 0: it is not to be faceted
+  PolyhedronPool polyhedra;
+  FrameTree frames;
+  NodeProblems problems;
+  uint32_t primitive_nodes = 0;
+  std::vector<PrimitivePlace> places;  // by primitive node, where the options want them
+  bool any_modifiers = false;          // of the nodes that are drawn
+  // After finish():
+  NodeRange selected;
+  std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
+
+ private:
+  /// What a node hands down to its children.
+  struct Context {
+    uint32_t node;
+    uint32_t frame;  // coordinates
+    std::optional<csgcore::Color> color;
+    bool flattened;  // a matrix with inf or nan on the way: nothing is left
+  };
+  struct LeftOut {
+    uint32_t node;
+    bool unless_empty;  // without children it makes nothing, and nothing is missing
+    std::string_view why;
+  };
+
+  bool is_within(uint32_t node, uint32_t ancestor) const {
+    return node < tree_.nodes[ancestor].subtree_end;
+  }
+  void select(uint32_t root);
+  bool visit(uint32_t node, uint32_t id);
+  void leave_out(uint32_t node, std::string_view why, bool unless_empty = false);
+  void enter_matrix(uint32_t node);
+  void enter_color(uint32_t node);
+  void add_solid(uint32_t node, uint32_t id);
+  bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
+  bool keeps_facets(const csgcore::Primitive& primitive,
+                    const csgcore::FacetSettings& facets) const;
+
+  const SyntaxTree& tree_;
+  const ImportOptions& options_;
+  std::vector<Context> contexts_;
+  std::optional<uint32_t> root_;      // the node with `!`
+  std::optional<uint32_t> disabled_;  // the last node with `*`
+  std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
+  std::vector<LeftOut> maybe_left_out_;
+};
+
+}  // namespace frontend

@@ -1,0 +1,385 @@
+#include "lower/import_arguments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "lower/import_colors.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+
+std::string_view name_of(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::kUndef:
+      return "undef";
+    case ValueKind::kBool:
+      return "a boolean";
+    case ValueKind::kNumber:
+      return "a number";
+    case ValueKind::kString:
+      return "a string";
+    case ValueKind::kList:
+      return "a list";
+  }
+  return "";
+}
+
+/// An argument, or a part of one, is not what is wanted.
+void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                const std::string& found, std::string_view consequence, std::string_view wanted) {
+  problems.add(node, argument, [&] {
+    return NodeProblems::Description{
+        ": " + std::string(argument) + " is " + found + ", and " + std::string(consequence),
+        "it must be " + std::string(wanted)};
+  });
+}
+
+constexpr std::string_view kMissing = "counts as missing";
+
+/// `undef` is no wrong type: it means that the argument is missing.
+void note_wrong_type(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                     const Value& found, std::string_view wanted) {
+  if (found.kind == ValueKind::kUndef) return;
+  note_wrong(problems, node, argument, std::string(name_of(found.kind)), kMissing, wanted);
+}
+
+bool read_center(const SyntaxNode& node, const Value& value, NodeProblems& problems) {
+  if (value.kind == ValueKind::kBool) return value.boolean;
+  note_wrong_type(problems, node, "center", value, "true or false");
+  return false;
+}
+
+/// What a round primitive's arguments may be called.
+enum RoundArgument : uint8_t { kR, kR1, kR2, kD, kD1, kD2, kH, kFn, kFa, kFs, kCount, kCenter };
+
+struct RoundName {
+  std::string_view name;
+  RoundArgument argument;
+};
+// In the order in which OpenSCAD writes them: the search ends soonest.
+constexpr std::array<RoundName, 11> kRoundNames{{{"$fn", kFn},
+                                                 {"$fa", kFa},
+                                                 {"$fs", kFs},
+                                                 {"h", kH},
+                                                 {"r1", kR1},
+                                                 {"r2", kR2},
+                                                 {"center", kCenter},
+                                                 {"r", kR},
+                                                 {"d", kD},
+                                                 {"d1", kD1},
+                                                 {"d2", kD2}}};
+constexpr std::array<RoundArgument, 1> kSpherePositions{kR};
+constexpr std::array<RoundArgument, 4> kCylinderPositions{kH, kR1, kR2, kCenter};
+
+struct RoundArguments {
+  std::array<double, kCount> numbers;
+  uint32_t given = 0;  // bit per RoundArgument
+  bool center = false;
+
+  bool has(RoundArgument argument) const { return (given >> argument & 1u) != 0; }
+  double get(RoundArgument argument, double otherwise) const {
+    return has(argument) ? numbers[argument] : otherwise;
+  }
+  double radius(RoundArgument diameter, RoundArgument radius, double otherwise) const {
+    return has(diameter) ? numbers[diameter] / 2 : get(radius, otherwise);
+  }
+};
+
+RoundArgument argument_of(std::string_view name) {
+  for (const RoundName& known : kRoundNames) {
+    if (known.name == name) return known.argument;
+  }
+  return kCount;
+}
+
+RoundArguments read_round_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+                                    std::span<const RoundArgument> positions,
+                                    NodeProblems& problems) {
+  RoundArguments result;
+  size_t position = 0;
+  for (const Argument& argument : tree.arguments_of(node)) {
+    RoundArgument which = kCount;
+    if (!argument.name.empty()) {
+      which = argument_of(argument.name);
+    } else if (position < positions.size()) {
+      which = positions[position++];
+    }
+    const Value& value = argument.value;
+    if (which == kCount || value.kind == ValueKind::kUndef) continue;
+    if (which == kCenter) {
+      result.center = read_center(node, value, problems);
+      continue;
+    }
+    if (value.kind != ValueKind::kNumber) {
+      const auto known = std::find_if(kRoundNames.begin(), kRoundNames.end(),
+                                      [&](const RoundName& n) { return n.argument == which; });
+      note_wrong_type(problems, node, known->name, value, "a number");
+      continue;
+    }
+    result.numbers[which] = value.number;
+    result.given |= 1u << which;
+  }
+  return result;
+}
+
+csgcore::Primitive cylinder_of(const RoundArguments& arguments) {
+  const double h = arguments.get(kH, 1);
+  const double r = arguments.radius(kD, kR, 1);
+  const double r1 = arguments.radius(kD1, kR1, r);
+  const double r2 = arguments.radius(kD2, kR2, r);
+  const double z_min = arguments.center ? -h / 2 : 0;
+  const double z_max = arguments.center ? h / 2 : h;
+  return csgcore::make_frustum(z_min, z_max, r1, r2);
+}
+
+/// In place of the place of an argument that has a name only.
+constexpr size_t kByNameOnly = std::numeric_limits<size_t>::max();
+
+/// The argument of that name, or else the one at that place among those without a name.
+const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
+                           size_t position) {
+  const Value* positional = nullptr;
+  size_t seen = 0;
+  for (const Argument& argument : tree.arguments_of(node)) {
+    if (argument.name == name) return &argument.value;
+    if (argument.name.empty() && seen++ == position) positional = &argument.value;
+  }
+  return positional;
+}
+
+/// The elements of the list of that name or place; none where it is missing.
+std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                     std::string_view name, size_t position,
+                                     NodeProblems& problems) {
+  const Value* list = find_argument(tree, node, name, position);
+  if (list == nullptr) return {};
+  if (list->kind == ValueKind::kList) return tree.elements_of(*list);
+  note_wrong_type(problems, node, name, *list, "a list");
+  return {};
+}
+
+/// A list of `fewest` to three numbers; those that are not there are 0.
+std::optional<Vec3> vector_of(const SyntaxTree& tree, const Value& list, size_t fewest) {
+  if (list.kind != ValueKind::kList) return std::nullopt;
+  const std::span<const Value> numbers = tree.elements_of(list);
+  if (numbers.size() < fewest || numbers.size() > 3) return std::nullopt;
+  Vec3 result(0.0);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i].kind != ValueKind::kNumber) return std::nullopt;
+    result[static_cast<int>(i)] = numbers[i].number;
+  }
+  return result;
+}
+
+/// What a value is that is no vector, or is one with inf or nan.
+std::string words_for(const SyntaxTree& tree, const Value& value) {
+  if (value.kind != ValueKind::kList) return std::string(name_of(value.kind));
+  const std::span<const Value> elements = tree.elements_of(value);
+  for (const Value& element : elements) {
+    if (element.kind == ValueKind::kNumber && std::isfinite(element.number)) continue;
+    const bool is_number = element.kind == ValueKind::kNumber;
+    return "a list with " + std::string(!is_number                   ? name_of(element.kind)
+                                        : std::isnan(element.number) ? "nan"
+                                                                     : "inf");
+  }
+  return "a list of " + std::to_string(elements.size());
+}
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// −1 or any other negative channel marks an invalid colour; nan compares false, so it is one too.
+std::optional<csgcore::Color> checked_color(const std::array<double, 4>& channels) {
+  std::array<float, 4> result;
+  for (size_t i = 0; i < 4; ++i) {
+    if (!(channels[i] >= 0)) return std::nullopt;
+    result[i] = static_cast<float>(std::min(channels[i], 1.0));
+  }
+  return csgcore::Color{result[0], result[1], result[2], result[3]};
+}
+
+}  // namespace
+
+RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node,
+                                    NodeProblems& problems) {
+  const bool is_sphere = node.kind == NodeKind::kSphere;
+  const std::span<const RoundArgument> positions =
+      is_sphere ? std::span<const RoundArgument>(kSpherePositions)
+                : std::span<const RoundArgument>(kCylinderPositions);
+  const RoundArguments arguments = read_round_arguments(tree, node, positions, problems);
+  RoundPrimitive result;
+  result.primitive =
+      is_sphere ? csgcore::make_sphere(arguments.radius(kD, kR, 1)) : cylinder_of(arguments);
+  const csgcore::FacetSettings defaults;
+  result.facets = {arguments.get(kFn, defaults.fn), arguments.get(kFa, defaults.fa),
+                   arguments.get(kFs, defaults.fs)};
+  return result;
+}
+
+csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+  Vec3 size(1.0);
+  const Value* given = find_argument(tree, node, "size", 0);
+  if (given != nullptr && given->kind == ValueKind::kNumber) {
+    size = Vec3(given->number);
+  } else if (given != nullptr && given->kind != ValueKind::kUndef) {
+    if (const std::optional<Vec3> vector = vector_of(tree, *given, 3)) {
+      size = *vector;
+    } else {
+      note_wrong(problems, node, "size", words_for(tree, *given), kMissing,
+                 "a number or a list of three numbers");
+    }
+  }
+  const Value* center = find_argument(tree, node, "center", 1);
+  const bool is_centered = center != nullptr && read_center(node, *center, problems);
+  const Vec3 min = is_centered ? -size / 2.0 : Vec3(0.0);
+  return {min, is_centered ? size / 2.0 : size};
+}
+
+namespace {
+
+/// The points of the values, nan where a value is none.
+std::vector<Vec3> points_of(const SyntaxTree& tree, std::span<const Value> values) {
+  std::vector<Vec3> points;
+  points.reserve(values.size());
+  for (const Value& value : values) {
+    points.push_back(
+        vector_of(tree, value, 2).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())));
+  }
+  return points;
+}
+
+/// The point that a value of a face names; none where it is beyond the `count` points.
+std::optional<uint32_t> read_index(const SyntaxNode& node, const Value& value, size_t count,
+                                   NodeProblems& problems) {
+  if (value.kind != ValueKind::kNumber) {
+    note_wrong(problems, node, "an index of a face", std::string(name_of(value.kind)),
+               "counts as 0", "a number");
+  }
+  const double number = value.kind == ValueKind::kNumber ? value.number : 0;
+  if (number > -1 && number < static_cast<double>(count)) return static_cast<uint32_t>(number);
+  problems.add(node, "an index beyond the points", [&] {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%g", number);
+    return NodeProblems::Description{": " + std::string(text.data()) + " is no index of its " +
+                                         std::to_string(count) +
+                                         (count == 1 ? " point" : " points") + ", and is left out",
+                                     "the first point is 0"};
+  });
+  return std::nullopt;
+}
+
+}  // namespace
+
+PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node,
+                                    NodeProblems& problems) {
+  const std::span<const Value> points = list_argument(tree, node, "points", 0, problems);
+  PolyhedronArguments result{points_of(tree, points), {}};
+  std::span<const Value> faces = list_argument(tree, node, "faces", 1, problems);
+  if (faces.empty()) faces = list_argument(tree, node, "triangles", kByNameOnly, problems);
+  for (const Value& face : faces) {
+    if (face.kind != ValueKind::kList) {
+      note_wrong(problems, node, "a face", std::string(name_of(face.kind)), "is left out",
+                 "a list of indices of points");
+      continue;
+    }
+    std::vector<uint32_t>& indices = result.faces.emplace_back();
+    for (const Value& value : tree.elements_of(face)) {
+      const std::optional<uint32_t> index = read_index(node, value, points.size(), problems);
+      if (!index) continue;
+      if (!is_finite(result.points[*index])) {
+        note_wrong(problems, node, "a point", words_for(tree, points[*index]),
+                   "the faces from there on are left out", "a list of three finite numbers");
+        return result;
+      }
+      indices.push_back(*index);
+    }
+  }
+  return result;
+}
+
+FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
+  FileMatrix result;
+  const Value* matrix = find_argument(tree, node, "m", 0);
+  if (matrix == nullptr) return result;
+  if (matrix->kind != ValueKind::kList) {
+    note_wrong_type(problems, node, "the matrix", *matrix, "a list of four rows");
+    return result;
+  }
+  const std::span<const Value> rows = tree.elements_of(*matrix);
+  for (size_t row = 0; row < std::min<size_t>(rows.size(), 4); ++row) {
+    if (rows[row].kind != ValueKind::kList) {
+      note_wrong_type(problems, node, "a row of the matrix", rows[row], "a list of four numbers");
+      continue;
+    }
+    const std::span<const Value> entries = tree.elements_of(rows[row]);
+    for (size_t column = 0; column < std::min<size_t>(entries.size(), 4); ++column) {
+      const Value& entry = entries[column];
+      if (entry.kind != ValueKind::kNumber) {
+        note_wrong_type(problems, node, "an entry of the matrix", entry, "a number");
+        continue;
+      }
+      const int r = static_cast<int>(row);
+      const int c = static_cast<int>(column);
+      if (row == 3) {
+        if (column == 3) result.divisor = entry.number;  // other projective terms are ignored
+      } else if (column == 3) {
+        result.map.translation[r] = entry.number;
+      } else {
+        result.map.linear[c][r] = entry.number;
+      }
+    }
+  }
+  return result;
+}
+
+std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNode& node,
+                                         NodeProblems& problems) {
+  const Value* color = find_argument(tree, node, "c", 0);
+  if (color == nullptr || color->kind == ValueKind::kUndef) return std::nullopt;
+  std::array<double, 4> channels{1, 1, 1, 1};  // OpenSCAD's for those that are missing
+  if (color->kind == ValueKind::kList) {
+    const std::span<const Value> elements = tree.elements_of(*color);
+    for (size_t i = 0; i < std::min<size_t>(elements.size(), 4); ++i) {
+      if (elements[i].kind == ValueKind::kNumber) {
+        channels[i] = elements[i].number;
+        continue;
+      }
+      channels[i] = 0;  // as OpenSCAD reads it
+      if (elements[i].kind == ValueKind::kUndef) continue;
+      note_wrong(problems, node, "a channel", std::string(name_of(elements[i].kind)), "counts as 0",
+                 "a number from 0 to 1");
+    }
+  } else if (color->kind == ValueKind::kString) {
+    const std::optional<csgcore::Color> named = color_of_name(tree.text_of(*color));
+    if (!named) {
+      problems.add(node, "a name", [&] {
+        return NodeProblems::Description{
+            ": \"" + std::string(tree.text_of(*color)) + "\" is no colour, and is ignored",
+            "use a CSS colour name, \"#rrggbb\" or [r, g, b]"};
+      });
+      return std::nullopt;
+    }
+    channels = {named->r, named->g, named->b, named->a};
+  } else {
+    note_wrong_type(problems, node, "the colour", *color, "a list of numbers or a name");
+    return std::nullopt;
+  }
+  const Value* alpha = find_argument(tree, node, "alpha", 1);
+  if (alpha != nullptr && alpha->kind == ValueKind::kNumber) {
+    channels[3] = alpha->number;
+  } else if (alpha != nullptr) {
+    note_wrong_type(problems, node, "alpha", *alpha, "a number from 0 to 1");
+  }
+  return checked_color(channels);
+}
+
+}  // namespace frontend

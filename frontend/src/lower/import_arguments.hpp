@@ -1,0 +1,55 @@
+// Arguments of the nodes that make geometry, as OpenSCAD binds them (frontend/OPENSCAD.md). An
+// argument of the wrong type counts as missing, as in OpenSCAD, and is noted among the problems.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "csgcore/facets.hpp"
+#include "csgcore/primitive.hpp"
+#include "frontend/syntax_tree.hpp"
+#include "lower/node_problems.hpp"
+
+namespace frontend {
+
+/// Sphere or cylinder node → primitive, with no place, colour or id yet; it need not be valid
+/// (csgcore::is_valid). Missing arguments have OpenSCAD's defaults: r = 1, h = 1, center = false;
+/// a diameter goes before its radius; names that OpenSCAD does not know are ignored, and `undef`
+/// counts as missing.
+struct RoundPrimitive {
+  csgcore::Primitive primitive;
+  csgcore::FacetSettings facets;
+};
+RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node,
+                                    NodeProblems& problems);
+
+/// Cube node → its box in local coordinates; it may be empty, flat or infinite. `size` is a number
+/// or three, 1 where it is missing.
+csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+
+/// Polyhedron node: its faces should run clockwise seen from outside (csgcore::polyhedron_mesh).
+/// `faces` goes before `triangles`, its older name. A point without a z lies at 0. As in OpenSCAD
+/// 2021.01 (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is
+/// no number is 0, and a point that is none ends the faces where the first of them has it: what
+/// follows is lost. All points that the faces have are finite.
+struct PolyhedronArguments {
+  std::vector<csgcore::Vec3> points;
+  std::vector<std::vector<uint32_t>> faces;
+};
+PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node,
+                                    NodeProblems& problems);
+
+/// The affine part of a multmatrix as it stands in the file, before the division by m[3][3].
+struct FileMatrix {
+  csgcore::Affine map;
+  double divisor = 1;  // m[3][3]; may be 0
+};
+/// Rows and entries that are missing are the identity's.
+FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+
+/// The colour that a color node sets; none if it is invalid (in a .csg: -1,-1,-1,±1), which
+/// for a name that is no colour is a problem. Channels above 1 count as 1.
+std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNode& node,
+                                         NodeProblems& problems);
+
+}  // namespace frontend

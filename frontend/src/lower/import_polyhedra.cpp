@@ -1,0 +1,111 @@
+#include "lower/import_polyhedra.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Mat3;
+using csgcore::Mesh;
+using csgcore::Primitive;
+using csgcore::Shape;
+using csgcore::Vec3;
+
+/// x ↦ map(origin + size · x), by coordinate.
+Affine resized(const Affine& map, const Vec3& origin, const Vec3& size) {
+  return {Mat3(map.linear[0] * size.x, map.linear[1] * size.y, map.linear[2] * size.z),
+          map.point(origin)};
+}
+
+double largest_coordinate(const Mesh& mesh) {
+  double largest = 0;
+  for (const Vec3& v : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
+  }
+  return largest;
+}
+
+std::vector<double> numbers_of(const Mesh& mesh) {
+  std::vector<double> numbers;
+  for (const Vec3& v : mesh.vertices) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  for (const std::vector<uint32_t>& face : mesh.faces) {
+    numbers.push_back(static_cast<double>(face.size()));
+    numbers.insert(numbers.end(), face.begin(), face.end());
+  }
+  return numbers;
+}
+
+uint64_t face_count(int fragments, bool is_sphere) {
+  const uint64_t bands = is_sphere ? csgcore::ring_count(fragments) - 1 : 1;
+  return bands * static_cast<uint64_t>(fragments) + 2;
+}
+
+}  // namespace
+
+Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_world) {
+  const Vec3 size = box.size();
+  const bool is_finite = std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z);
+  const bool is_solid = is_finite && size.x > 0 && size.y > 0 && size.z > 0;
+  if (!is_solid) return csgcore::make_polyhedron(nullptr);
+  if (!unit_box_) unit_box_ = csgcore::Polyhedron::box({Vec3(0.0), Vec3(1.0)});
+  return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
+}
+
+Convexity PolyhedronPool::convex(const PolyhedronArguments& arguments, const Affine& local_to_world,
+                                 Primitive& primitive) {
+  Mesh mesh = csgcore::polyhedron_mesh(arguments.points, arguments.faces);
+  if (mesh.faces.empty()) return Convexity::kNothing;
+  if (mesh.faces.size() * mesh.vertices.size() > kMostConvexitySteps) return Convexity::kTooLarge;
+  // By a power of two to unit size, so that products of coordinates are representable.
+  const double largest = largest_coordinate(mesh);
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  for (Vec3& v : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], -exponent);
+  }
+  const auto [entry, is_new] = meshes_.try_emplace(numbers_of(mesh));
+  if (is_new) entry->second = csgcore::Polyhedron::from(mesh);
+  if (!entry->second) return Convexity::kNot;
+  primitive = csgcore::make_polyhedron(
+      entry->second, resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent))));
+  return Convexity::kConvex;
+}
+
+bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
+  const bool is_sphere = primitive.shape == Shape::kSphere;
+  const double radius = std::max(primitive.r_bottom, primitive.r_top);
+  Shared polyhedron =
+      round(is_sphere ? RoundKey{fragments, 0, 0}
+                      : RoundKey{fragments, primitive.r_bottom / radius, primitive.r_top / radius});
+  if (!polyhedron) return false;
+  const double height = is_sphere ? radius : primitive.z_max - primitive.z_min;
+  const Vec3 origin(0, 0, is_sphere ? 0 : primitive.z_min);
+  Primitive faceted = csgcore::make_polyhedron(
+      std::move(polyhedron),
+      resized(primitive.local_to_world, origin, Vec3(radius, radius, height)));
+  // Only where sizes near the ends of double's range meet: not to be drawn in either form.
+  if (!csgcore::is_valid(faceted)) return true;
+  faceted.color = primitive.color;
+  faceted.id = primitive.id;
+  primitive = std::move(faceted);
+  return true;
+}
+
+PolyhedronPool::Shared PolyhedronPool::round(const RoundKey& key) {
+  const auto found = rounds_.find(key);
+  if (found != rounds_.end()) return found->second;
+  const auto& [fragments, r_bottom, r_top] = key;
+  const bool is_sphere = r_bottom == 0 && r_top == 0;
+  const uint64_t faces = face_count(fragments, is_sphere);
+  if (faces > kFewFacets) {
+    if (facets_ + faces > kMostFacets) return nullptr;
+    facets_ += faces;
+  }
+  return rounds_[key] = is_sphere ? csgcore::Polyhedron::sphere(1, fragments)
+                                  : csgcore::Polyhedron::frustum(0, 1, r_bottom, r_top, fragments);
+}
+
+}  // namespace frontend

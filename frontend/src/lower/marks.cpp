@@ -1,0 +1,169 @@
+#include "lower/marks.hpp"
+
+#include <algorithm>
+
+namespace frontend {
+namespace {
+
+// A `#` part inside a `#` part is overlaid once more, as OpenSCAD does. Beyond so many inside one
+// another no more are added: the overlay would grow with the square of the nesting.
+constexpr size_t kMostNestedHighlights = 8;
+
+/// A node whose operands are being looked at.
+struct Open {
+  uint32_t node;
+  NodeKind kind;
+  uint32_t end;
+  bool any_background = false, any_left_out = false, any_empty = false, any_solid = false;
+  bool all_highlighted = true;  // of the solid operands
+  bool has_first = false;       // of a difference: what the rest is cut from
+  Mark first{};
+};
+
+void add_operand(Open& open, const Mark& mark) {
+  if (mark.presence == Presence::kAbsent) return;
+  if (mark.presence == Presence::kBackground) {
+    open.any_background = true;
+    return;
+  }
+  if (!open.has_first) {
+    open.has_first = true;
+    open.first = mark;
+  }
+  open.any_left_out = open.any_left_out || mark.presence == Presence::kLeftOut;
+  open.any_empty = open.any_empty || mark.presence == Presence::kEmpty;
+  if (mark.presence == Presence::kSolid) {
+    open.any_solid = true;
+    open.all_highlighted = open.all_highlighted && mark.highlighted;
+  }
+}
+
+Presence presence_of(const Open& open) {
+  if (open.kind == NodeKind::kDifference) {
+    if (open.has_first) return open.first.presence;
+    return open.any_background ? Presence::kBackground : Presence::kEmpty;
+  }
+  if (open.kind == NodeKind::kIntersection && open.any_empty) return Presence::kEmpty;
+  if (open.any_solid) return Presence::kSolid;
+  if (open.any_left_out) return Presence::kLeftOut;
+  return open.any_background && !open.any_empty ? Presence::kBackground : Presence::kEmpty;
+}
+
+/// The node as an operand, before its own modifiers count.
+Mark close(const Open& open) {
+  Mark mark;
+  mark.presence = presence_of(open);
+  if (mark.presence == Presence::kSolid && open.kind != NodeKind::kRender) {
+    mark.keeps_highlighted = open.kind == NodeKind::kDifference
+                                 ? open.first.highlighted
+                                 : open.all_highlighted && open.any_solid;
+    mark.highlighted = mark.keeps_highlighted;
+  }
+  return mark;
+}
+
+void apply_modifiers(Mark& mark, uint8_t modifiers) {
+  if ((modifiers & kHighlight) != 0) mark.highlighted = mark.presence == Presence::kSolid;
+  if ((modifiers & kBackground) != 0 && mark.presence != Presence::kLeftOut) {
+    mark.presence = Presence::kBackground;
+  }
+}
+
+/// Walks the nodes and closes each after its last descendant.
+class MarkFinder {
+ public:
+  MarkFinder(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves)
+      : tree_(tree), selected_(selected), leaves_(leaves) {}
+
+  Marks find() {
+    marks_.nodes.resize(tree_.nodes.size(), Mark{Presence::kAbsent, false, false});
+    open_.push_back({0, NodeKind::kGroup, selected_.end});  // the top level is a union
+    for (uint32_t i = selected_.begin; i < selected_.end;) {
+      const SyntaxNode& node = tree_.nodes[i];
+      close_until(i);
+      if ((node.modifiers & kDisable) != 0) {
+        i = node.subtree_end;
+      } else if (node.subtree_end > i + 1 && leaves_[i] != Presence::kLeftOut) {
+        open_.push_back({i, node.kind, node.subtree_end});
+        ++i;
+      } else {
+        finish(i, {leaves_[i], false, false});
+        i = node.subtree_end;
+      }
+    }
+    close_until(selected_.end);
+    const Open& top = open_.back();
+    marks_.keeps_highlighted = top.any_solid && top.all_highlighted;
+    collect_roots();
+    return std::move(marks_);
+  }
+
+ private:
+  void close_until(uint32_t position) {
+    while (open_.size() > 1 && open_.back().end <= position) {
+      const Open done = open_.back();
+      open_.pop_back();
+      finish(done.node, close(done));
+    }
+  }
+
+  void finish(uint32_t node, Mark mark) {
+    apply_modifiers(mark, tree_.nodes[node].modifiers);
+    marks_.nodes[node] = mark;
+    add_operand(open_.back(), mark);
+  }
+
+  /// The parts to be overlaid: each highlighted node that its parent does not carry on.
+  void collect_roots() {
+    struct Parent {
+      uint32_t end;
+      NodeKind kind;
+      bool keeps_highlighted;
+      bool has_first;
+    };
+    std::vector<Parent> parents{
+        {selected_.end, NodeKind::kGroup, false, false}};  // overlaid whatever it consists of
+    std::vector<uint32_t> highlight_ends;
+    for (uint32_t i = selected_.begin; i < selected_.end;) {
+      const SyntaxNode& node = tree_.nodes[i];
+      const Mark& mark = marks_.nodes[i];
+      while (parents.size() > 1 && parents.back().end <= i) parents.pop_back();
+      while (!highlight_ends.empty() && highlight_ends.back() <= i) highlight_ends.pop_back();
+      if (mark.presence == Presence::kAbsent || mark.presence == Presence::kLeftOut) {
+        i = node.subtree_end;
+        continue;
+      }
+      Parent& parent = parents.back();
+      const bool own_background =
+          (node.modifiers & kBackground) != 0 && mark.presence == Presence::kBackground;
+      const bool is_operand = mark.presence != Presence::kBackground;
+      const bool is_first = is_operand && !parent.has_first;
+      parent.has_first = parent.has_first || is_operand;
+      const bool carried_on = !own_background && parent.keeps_highlighted &&
+                              (parent.kind != NodeKind::kDifference || is_first);
+      const bool in_render = parent.kind == NodeKind::kRender;
+      if (own_background && !in_render) marks_.background.push_back(i);
+      if (mark.highlighted && !carried_on && !in_render &&
+          highlight_ends.size() < kMostNestedHighlights) {
+        marks_.highlight.push_back(i);
+        highlight_ends.push_back(node.subtree_end);
+      }
+      parents.push_back({node.subtree_end, node.kind, mark.keeps_highlighted, false});
+      ++i;
+    }
+  }
+
+  const SyntaxTree& tree_;
+  NodeRange selected_;
+  std::span<const Presence> leaves_;
+  Marks marks_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+Marks find_marks(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves) {
+  return MarkFinder(tree, selected, leaves).find();
+}
+
+}  // namespace frontend

@@ -1,0 +1,49 @@
+// What the modifiers % # ! * do to each node of a file (frontend/OPENSCAD.md, "What nodes
+// mean"; OpenSCAD 2021.01's preview).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frontend/syntax_tree.hpp"
+
+namespace frontend {
+
+/// What a node is as an operand.
+enum class Presence : uint8_t {
+  kAbsent,      // nothing: disabled, or outside the subtree that `!` selects
+  kBackground,  // `%`, or nothing but `%` parts: no operand
+  kLeftOut,     // what cannot be drawn was left out, and nothing else is there: no operand
+  kEmpty,       // the empty set
+  kSolid,
+};
+
+/// One node's part in the picture.
+struct Mark {
+  Presence presence = Presence::kSolid;
+  /// The node's solid is overlaid: it has `#`, or consists of such parts only.
+  bool highlighted = false;
+  /// All operands are highlighted: the node keeps them, and is highlighted as a whole.
+  bool keeps_highlighted = false;
+};
+
+/// A file's nodes as operands. Empty `nodes`: there is nothing special, all are solid or empty.
+struct Marks {
+  std::vector<Mark> nodes;
+  std::vector<uint32_t> background;  // roots of the `%` parts, in file order
+  std::vector<uint32_t> highlight;   // roots of the `#` parts, in file order
+  bool keeps_highlighted = false;    // as in Mark, for the file's top level
+};
+
+/// The nodes that `!` leaves: the subtree of the first one that is not inside `*`, or all.
+struct NodeRange {
+  uint32_t begin = 0;
+  uint32_t end = 0;
+};
+
+/// `leaves` says for each node without children, and for each that cannot be drawn (whose children
+/// are then not looked at), what it is: kSolid, kEmpty or kLeftOut.
+Marks find_marks(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves);
+
+}  // namespace frontend

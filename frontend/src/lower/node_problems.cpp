@@ -1,0 +1,23 @@
+#include "lower/node_problems.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace frontend {
+
+std::vector<Warning> NodeProblems::warnings(const std::string& file_name) const {
+  std::vector<const Problem*> sorted;
+  for (const Problem& problem : problems_) sorted.push_back(&problem);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem* a, const Problem* b) {
+    return std::tie(a->first.line, a->first.column) < std::tie(b->first.line, b->first.column);
+  });
+  std::vector<Warning> result;
+  for (const Problem* problem : sorted) {
+    std::string what = std::string(name_of(problem->kind)) + problem->description.what;
+    if (problem->count > 1) what += "; the first of " + std::to_string(problem->count);
+    result.push_back(make_warning(file_name, problem->first, what, problem->description.todo));
+  }
+  return result;
+}
+
+}  // namespace frontend

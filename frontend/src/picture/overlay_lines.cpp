@@ -1,0 +1,67 @@
+#include "picture/overlay_lines.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+
+constexpr double kNearPlane = 0.1;    // of the camera's distance, where OpenSCAD clips its lines
+constexpr double kStippleRun_px = 3;  // OpenSCAD's glLineStipple(3, 0xAAAA): 3 off, 3 on
+// An axis that lies in a face is drawn: z is a float, and the renderer's may be off by a few ulp.
+constexpr double kCoincidence = 1e-5;  // of the camera's distance
+/// The GL's grid within a pixel. On it an end that should lie between two pixels does so exactly,
+/// and the line is not drawn now in one, now in the other.
+constexpr double kSubpixels = 256;
+
+double snapped(double position_px) { return std::round(position_px * kSubpixels) / kSubpixels; }
+
+}  // namespace
+
+LinePainter::LinePainter(Canvas& canvas, const csgcore::View& view, const Camera& camera)
+    : canvas_(canvas),
+      view_(view),
+      distance_(std::abs(camera.distance)),
+      is_perspective_(view.projection == csgcore::Projection::kPerspective) {}
+
+void LinePainter::draw(const Vec3& from, const Vec3& to, LineStyle style) {
+  Vec3 a = to_eye(from);
+  Vec3 b = to_eye(to);
+  if (!clip(a, b) || !clip(b, a)) return;
+  walk_line(
+      canvas_, to_screen(a), to_screen(b),
+      [&](int64_t column, int64_t row, double depth, double step) {
+        if (style == LineStyle::kStippled && std::fmod(step, 2 * kStippleRun_px) < kStippleRun_px) {
+          return;
+        }
+        const double s = is_perspective_ ? 1 / depth : depth;
+        if (s <= canvas_.z(column, row) + kCoincidence * distance_) canvas_.draw(column, row);
+      });
+}
+
+/// (right, up, s).
+Vec3 LinePainter::to_eye(const Vec3& point) const {
+  const Vec3 offset = point - view_.eye;
+  return Vec3(glm::dot(offset, view_.right), glm::dot(offset, view_.up),
+              glm::dot(offset, view_.forward));
+}
+
+/// Moves `point` onto the near plane if it lies before it. False if `other` does, too.
+bool LinePainter::clip(Vec3& point, const Vec3& other) const {
+  const double near = kNearPlane * distance_;
+  if (!is_perspective_ || point.z >= near) return true;
+  if (other.z <= near) return false;
+  point += (near - point.z) / (other.z - point.z) * (other - point);
+  return true;
+}
+
+ScreenPoint LinePainter::to_screen(const Vec3& p) const {
+  const double half_height = is_perspective_ ? p.z * view_.half_height : view_.half_height;
+  const double scale = view_.height_px / (2 * half_height);
+  return {snapped(view_.width_px / 2.0 + p.x * scale), snapped(view_.height_px / 2.0 - p.y * scale),
+          is_perspective_ ? 1 / p.z : p.z};
+}
+
+}  // namespace frontend

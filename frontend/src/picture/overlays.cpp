@@ -1,0 +1,39 @@
+#include "frontend/overlays.hpp"
+
+#include "picture/axes_overlay.hpp"
+#include "picture/edge_overlay.hpp"
+#include "picture/scale_marks.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+
+/// They stay in the middle of the picture, whatever the camera looks at.
+void draw_crosshairs(LinePainter& painter, const Camera& camera) {
+  const double reach = camera.distance / 8;
+  for (const double x : {-reach, reach}) {
+    for (const double y : {-reach, reach}) {
+      const Vec3 corner(x, y, reach);
+      painter.draw(camera.target - corner, camera.target + corner);
+    }
+  }
+}
+
+}  // namespace
+
+void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
+                   const Overlays& overlays, const ColorScheme& scheme) {
+  Canvas canvas(image, scheme.crosshair);
+  if (!sees_nothing(camera, view.projection)) {
+    if (overlays.edges) draw_edges(image, view, scheme.background);
+    LinePainter painter(canvas, view, camera);
+    if (overlays.crosshairs) draw_crosshairs(painter, camera);
+    canvas.set_color(scheme.axes);
+    if (overlays.axes) draw_axes(painter, camera);
+    if (overlays.axes && overlays.scales) draw_scale_marks(painter, camera);
+  }
+  if (overlays.axes) draw_gnomon(canvas, view, scheme.axes);
+}
+
+}  // namespace frontend

@@ -1,0 +1,151 @@
+#include "render/cpu_renderer.hpp"
+
+#include <optional>
+#include <span>
+
+#include "base/elapsed.hpp"
+#include "csgcore/tracer.hpp"
+#include "render/cells_picture.hpp"
+#include "render/scene_subdivision.hpp"
+#include "render/solid_renderer.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Boundary;
+using csgcore::FrameSettings;
+using csgcore::Image;
+using csgcore::Solid;
+using csgcore::Subdivision;
+using csgcore::TraceStats;
+
+/// Times and counts of a picture that is drawn with others. Primitives are counted once, by the
+/// model.
+void add(const TraceStats& frame, RenderStats& stats) {
+  stats.trace.tiles += frame.tiles;
+  stats.trace.rays += frame.rays;
+  stats.trace.intersections += frame.intersections;
+  stats.trace.resolved_rays += frame.resolved_rays;
+  stats.trace.edge_pixels += frame.edge_pixels;
+  stats.trace.cull_ms += frame.cull_ms;
+  stats.trace.trace_ms += frame.trace_ms;
+  stats.render_ms += frame.cull_ms + frame.trace_ms;
+}
+
+csgcore::TraceOptions trace_options(const RenderSettings& settings, Boundary boundary) {
+  csgcore::TraceOptions options;
+  options.threads = settings.threads;
+  options.boundary = boundary;
+  options.stop = settings.stop;
+  return options;
+}
+
+class CpuRenderer final : public SolidRenderer {
+ public:
+  Image draw_model(const Solid& solid, const FrameSettings& frame,
+                   const PictureRequest& request) override {
+    note_renderer(request);
+    if (request.settings.show == Show::kCells) return draw_cells(solid, frame, request);
+    Image image;
+    with_traced(solid, request, [&](const auto& traced) {
+      draw_area(traced, frame, request, std::nullopt, image);
+    });
+    return image;
+  }
+
+  bool draws_areas() const override { return true; }
+
+  void draw_model_areas(const Solid& solid, const FrameSettings& frame,
+                        const PictureRequest& request, std::span<const csgcore::PixelArea> areas,
+                        Image& image) override {
+    note_renderer(request);
+    with_traced(solid, request, [&](const auto& traced) {
+      for (const csgcore::PixelArea& area : areas) draw_area(traced, frame, request, area, image);
+    });
+  }
+
+  Sides draw_sides(const Solid& solid, const FrameSettings& frame,
+                   const PictureRequest& request) override {
+    if (!uses_cells(request.settings)) return trace_sides(solid, frame, request);
+    return trace_sides(subdivisions_.of(solid, request).subdivision, frame, request);
+  }
+
+  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
+               csgcore::TreeEdit tree_edit) override {
+    subdivisions_.replace(before, after, edit, tree_edit);
+  }
+
+  void forget() override { subdivisions_.forget(); }
+
+ private:
+  static void note_renderer(const PictureRequest& request) {
+    request.stats.renderer = "cpu";
+    request.stats.technique = uses_cells(request.settings) ? "cells" : "tiles";
+  }
+
+  /// Calls `draw` with what the model's rays are traced through.
+  template <typename Draw>
+  void with_traced(const Solid& solid, const PictureRequest& request, Draw draw) {
+    if (uses_cells(request.settings)) {
+      draw(subdivide_model(solid, request));
+    } else {
+      draw(solid);
+    }
+  }
+
+  /// No area: the whole picture.
+  template <typename Traced>
+  static void draw_area(const Traced& traced, const FrameSettings& frame,
+                        const PictureRequest& request, std::optional<csgcore::PixelArea> area,
+                        Image& image) {
+    csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
+    options.samples = samples_of(request.settings);
+    options.count_skipped = request.settings.all_stats;
+    options.area = area;
+    TraceStats frame_stats;
+    csgcore::draw(traced, request.view, frame, options, image, frame_stats);
+    RenderStats& stats = request.stats;
+    add(frame_stats, stats);
+    stats.trace.primitives = frame_stats.primitives;
+    stats.trace.intersected = frame_stats.intersected;
+    stats.trace.skipped = frame_stats.skipped;
+  }
+
+  const Subdivision& subdivide_model(const Solid& solid, const PictureRequest& request) {
+    const Subdivision& subdivision = subdivisions_.of(solid, request).subdivision;
+    count_cells(subdivision, request.stats);
+    return subdivision;
+  }
+
+  Image draw_cells(const Solid& solid, const FrameSettings& frame, const PictureRequest& request) {
+    const Subdivision& subdivision = subdivide_model(solid, request);
+    const Clock::time_point start = Clock::now();
+    Image image =
+        cells_picture(subdivision, request.view, frame, color_of(request.settings.scheme.axes));
+    request.stats.render_ms += ms_since(start);
+    return image;
+  }
+
+  template <typename Traced>
+  static Sides trace_sides(const Traced& traced, const FrameSettings& frame,
+                           const PictureRequest& request) {
+    const auto trace_side = [&](Boundary boundary, Image& side) {
+      TraceStats frame_stats;
+      csgcore::draw(traced, request.view, frame, trace_options(request.settings, boundary), side,
+                    frame_stats);
+      add(frame_stats, request.stats);
+    };
+    Sides sides;
+    trace_side(Boundary::kFirst, sides.front);
+    trace_side(Boundary::kBehind, sides.behind);
+    return sides;
+  }
+
+  SceneSubdivisions subdivisions_;
+};
+
+}  // namespace
+
+std::unique_ptr<SolidRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }
+
+}  // namespace frontend

@@ -1,0 +1,200 @@
+#include "render/gl_renderer.hpp"
+
+#include <map>
+#include <type_traits>
+#include <utility>
+
+#include "base/elapsed.hpp"
+#include "glrender/renderer.hpp"
+#include "render/renderer_choice.hpp"
+#include "render/scene_subdivision.hpp"
+#include "render/solid_renderer.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+using csgcore::Solid;
+using csgcore::Subdivision;
+
+/// Calls `function`, turning what OpenGL throws into what render() expects.
+template <typename Function>
+auto translate_errors(Function function) {
+  try {
+    return function();
+  } catch (const glrender::GlError& error) {
+    throw GlFailure(error.what());
+  }
+}
+
+class GlRenderer final : public SolidRenderer {
+ public:
+  explicit GlRenderer(bool takes_software) {
+    if (!takes_software && is_software(context_.renderer_name())) {
+      throw GlFailure("OpenGL runs in software here: " + context_.renderer_name());
+    }
+  }
+
+  Image draw_model(const Solid& solid, const csgcore::FrameSettings& frame,
+                   const PictureRequest& request) override {
+    return translate_errors([&] {
+      request.stats.renderer = "gl: " + context_.renderer_name();
+      return with_technique(request, [&](glrender::Technique technique) {
+        return draw_model(solid, frame_settings(frame, request.settings, technique), request);
+      });
+    });
+  }
+
+  Sides draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
+                   const PictureRequest& request) override {
+    return translate_errors([&] {
+      return with_technique(request, [&](glrender::Technique technique) {
+        glrender::Renderer& renderer = load(solid, request, technique);
+        const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings, technique);
+        Sides sides;
+        sides.front = count(
+            [&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
+        sides.behind =
+            count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
+                  request);
+        return sides;
+      });
+    });
+  }
+
+  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
+               csgcore::TreeEdit tree_edit) override {
+    auto loaded = loaded_.extract(&before);
+    loaded_.clear();
+    const auto followed = subdivisions_.replace(before, after, edit, tree_edit);
+    if (loaded.empty()) return;
+    Loaded& kept = loaded.mapped();
+    try {
+      if (followed && kept.has_cells) {
+        kept.renderer.update(followed->subdivision, edit, followed->update);
+      } else {
+        kept.renderer.update(after, edit);
+        kept.has_cells = false;
+      }
+    } catch (const glrender::GlError&) {
+      return;  // the next picture loads all, and tells if that fails, too
+    }
+    loaded.key() = &after;
+    loaded_.insert(std::move(loaded));
+  }
+
+  void forget() override {
+    loaded_.clear();
+    subdivisions_.forget();
+  }
+
+ private:
+  /// A solid as OpenGL holds it.
+  struct Loaded {
+    Loaded(glrender::HeadlessContext& context, const Solid& solid) : renderer(context, solid) {}
+    glrender::Renderer renderer;
+    uint64_t reported_bytes = 0;  // of those that were uploaded
+    bool has_cells = false;
+  };
+
+  /// Calls `draw` with the technique that the settings ask for, and with cells where tiles have
+  /// lists that are too long for OpenGL. A picture counts as one of cells if any of it is.
+  template <typename Draw>
+  static std::invoke_result_t<Draw, glrender::Technique> with_technique(
+      const PictureRequest& request, Draw draw) {
+    std::string& technique = request.stats.technique;
+    if (!uses_cells(request.settings)) {
+      try {
+        auto drawn = draw(glrender::Technique::kTiles);
+        if (technique.empty()) technique = "tiles";
+        return drawn;
+      } catch (const glrender::ListsTooLong&) {
+      }
+    }
+    technique = "cells";
+    return draw(glrender::Technique::kCells);
+  }
+
+  Image draw_model(const Solid& solid, glrender::FrameSettings frame,
+                   const PictureRequest& request) {
+    const bool has_cells = frame.technique == glrender::Technique::kCells;
+    glrender::Renderer& renderer = load(solid, request, frame.technique);
+    if (has_cells) count_cells(subdivisions_.of(solid, request).subdivision, request.stats);
+    frame.samples = samples_of(request.settings);
+    if (request.settings.show == Show::kCells) frame.subject = glrender::Subject::kCells;
+    Image image =
+        count([&](auto& stats) { return renderer.draw(request.view, frame, stats); }, request);
+    if (has_cells && request.settings.all_stats) {
+      measure(renderer, frame, request);
+      loaded_.erase(&solid);  // measuring leaves nothing loaded
+    }
+    return image;
+  }
+
+  /// With its cells, as the view needs them, if they are what is drawn.
+  glrender::Renderer& load(const Solid& solid, const PictureRequest& request,
+                           glrender::Technique technique) {
+    Loaded& loaded = loaded_.try_emplace(&solid, context_, solid).first->second;
+    if (technique == glrender::Technique::kCells) {
+      const auto [subdivision, changed] = subdivisions_.of(solid, request);
+      if (changed || !loaded.has_cells) loaded.renderer.load(subdivision);
+      loaded.has_cells = true;
+    }
+    const uint64_t bytes = loaded.renderer.uploaded_bytes();
+    request.stats.edit.bytes_uploaded += bytes - std::exchange(loaded.reported_bytes, bytes);
+    return loaded.renderer;
+  }
+
+  static glrender::FrameSettings frame_settings(const csgcore::FrameSettings& frame,
+                                                const RenderSettings& settings,
+                                                glrender::Technique technique) {
+    glrender::FrameSettings result;
+    static_cast<csgcore::FrameSettings&>(result) = frame;
+    result.edge = color_of(settings.scheme.axes);
+    result.technique = technique;
+    result.threads = settings.threads;
+    return result;
+  }
+
+  template <typename Draw>
+  static Image count(Draw draw, const PictureRequest& request) {
+    glrender::FrameStats frame;
+    Image image = draw(frame);
+    RenderStats& stats = request.stats;
+    stats.draw_calls += frame.draw_calls;
+    stats.cells_drawn += frame.cells_drawn;
+    stats.trace.tiles += frame.tiles_drawn;
+    stats.traverse_ms += frame.list_ms + frame.traverse_ms;
+    stats.render_ms += frame.draw_ms + frame.read_ms;
+    stats.read_ms += frame.read_ms;
+    return image;
+  }
+
+  /// Draws again, one sample a pixel: by now every shader is compiled.
+  static void measure(glrender::Renderer& renderer, glrender::FrameSettings frame,
+                      const PictureRequest& request) {
+    const Clock::time_point start = Clock::now();
+    frame.samples = 1;
+    glrender::FrameStats drawn;
+    renderer.draw(request.view, frame, drawn);
+    RenderStats& stats = request.stats;
+    stats.paper_tr_ms = drawn.traverse_ms + drawn.draw_ms;
+    stats.paper_ts_ms = renderer.traversal_ms(request.view);
+    renderer.draw_while_subdividing(subdivision_options(request.view, request.settings),
+                                    request.view, frame, drawn);
+    stats.paper_sr_ms = drawn.draw_ms;
+    stats.measuring_ms = ms_since(start);
+  }
+
+  glrender::HeadlessContext context_;
+  SceneSubdivisions subdivisions_;
+  std::map<const Solid*, Loaded> loaded_;
+};
+
+}  // namespace
+
+std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software) {
+  return translate_errors([&] { return std::make_unique<GlRenderer>(takes_software); });
+}
+
+}  // namespace frontend

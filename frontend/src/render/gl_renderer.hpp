@@ -1,0 +1,28 @@
+// The drawing by OpenGL.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "frontend/error.hpp"
+#include "render/solid_renderer.hpp"
+
+namespace frontend {
+
+/// OpenGL cannot be had, or failed. The CPU may still draw.
+class GlFailure : public Error {
+ public:
+  explicit GlFailure(const std::string& reason, const std::string& todo = {})
+      : Error({}, {}, reason, todo), reason_(reason) {}
+  /// Without what to do, and without the word "error".
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; without `takes_software` also
+/// if OpenGL runs in software.
+std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software);
+
+}  // namespace frontend

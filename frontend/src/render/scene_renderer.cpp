@@ -1,0 +1,236 @@
+// The drawing of a scene by one renderer or the other.
+#include "frontend/scene_renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "base/elapsed.hpp"
+#include "render/cpu_renderer.hpp"
+#include "render/gl_renderer.hpp"
+#include "render/prepared_scene.hpp"
+#include "render/renderer_choice.hpp"
+#include "render/scene_scale.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+using ScenePointer = std::shared_ptr<const csgcore::Scene>;
+
+/// A picture of one pixel.
+csgcore::View pixel_view(const csgcore::View& view, double x_px, double y_px) {
+  const csgcore::Ray ray = csgcore::pixel_ray(view, x_px - 0.5, y_px - 0.5);
+  csgcore::View result = view;
+  result.width_px = result.height_px = 1;
+  result.half_height = view.half_height / view.height_px;
+  if (view.projection == csgcore::Projection::kOrthographic) {
+    result.eye = ray.origin;
+  } else {
+    result.forward = glm::normalize(ray.direction);
+    result.right = glm::normalize(glm::cross(result.forward, view.up));
+    result.up = glm::cross(result.right, result.forward);
+  }
+  return result;
+}
+
+}  // namespace
+
+class SceneRenderer::Impl {
+ public:
+  explicit Impl(const GpuFolders& folders) : folders_(folders) {}
+
+  void load(ScenePointer scene) {
+    const Clock::time_point start = Clock::now();
+    const int exponent = scale_exponent(*scene);
+    if (exponent != 0) scene = std::make_shared<const csgcore::Scene>(scaled(*scene, exponent));
+    if (scene_ && exponent == exponent_) {
+      follow(std::move(scene), start);
+    } else {
+      auto prepared = std::make_shared<const PreparedScene>(std::move(scene));
+      prepare_ms_ = ms_since(start);
+      if (renderer_) renderer_->forget();
+      edited_ = {};
+      scene_ = std::move(prepared);
+    }
+    exponent_ = exponent;
+  }
+
+  Image draw(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats) {
+    Image image = draw_whole(view, settings, stats);
+    if (exponent_ != 0) undo_scale(exponent_, image);
+    return image;
+  }
+
+  Image redraw(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats) {
+    Kept before = std::exchange(kept_, {});
+    const bool is_kept = before.scene && before.exponent == exponent_ && before.view == view &&
+                         draw_the_same(before.settings, settings);
+    Image image = is_kept ? draw_changes(std::move(before), settings, stats)
+                          : draw_whole(view, settings, stats);
+    if (!settings.stop.stop_requested()) kept_ = {scene_, exponent_, view, settings, image};
+    if (exponent_ != 0) undo_scale(exponent_, image);
+    return image;
+  }
+
+  csgcore::Hits pick(const csgcore::View& view, double x_px, double y_px) const {
+    csgcore::Hits hits;
+    csgcore::TraceStats stats;
+    csgcore::trace(scene_->model(), scaled_view(pixel_view(view, x_px, y_px)),
+                   csgcore::TraceOptions{}, hits, stats);
+    hits.s[0] = std::ldexp(hits.s[0], -exponent_);
+    for (int axis = 0; axis < 3; ++axis) {
+      hits.position[0][axis] = std::ldexp(hits.position[0][axis], -exponent_);
+    }
+    return hits;
+  }
+
+ private:
+  /// A picture, not scaled back, and what it shows.
+  struct Kept {
+    std::shared_ptr<const PreparedScene> scene;
+    int exponent = 0;
+    csgcore::View view;
+    RenderSettings settings;
+    Image image;
+  };
+
+  /// What the last load() changed.
+  struct Edited {
+    std::weak_ptr<const PreparedScene> before;
+    csgcore::SceneEdit edit;
+  };
+
+  void follow(ScenePointer scene, Clock::time_point start) {
+    csgcore::SceneEdit edit = compared(scene_->scene(), *scene);
+    auto prepared = std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
+    prepare_ms_ = ms_since(start);
+    if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit, edit.model);
+    edited_ = {scene_, std::move(edit)};
+    scene_ = std::move(prepared);
+  }
+
+  csgcore::SceneEdit compared(const csgcore::Scene& before, const csgcore::Scene& after) {
+    ++comparisons_;
+    return csgcore::compare(before, after);
+  }
+
+  /// From that scene to the loaded one: most often what load() has found out.
+  csgcore::SceneEdit edit_since(const std::shared_ptr<const PreparedScene>& before) {
+    Edited last = std::exchange(edited_, {});
+    if (last.before.lock() == before) return std::move(last.edit);
+    return compared(before->scene(), scene_->scene());
+  }
+
+  csgcore::View scaled_view(const csgcore::View& view) const {
+    return exponent_ == 0 ? view : scaled(view, exponent_);
+  }
+
+  Image draw_whole(const csgcore::View& view, const RenderSettings& settings, RenderStats& stats) {
+    const csgcore::View drawn = scaled_view(view);
+    Image image;
+    with_renderer(settings, stats, [&] {
+      image = scene_->draw(*renderer_, {drawn, settings, stats});
+    });
+    return image;
+  }
+
+  Image draw_changes(Kept before, const RenderSettings& settings, RenderStats& stats) {
+    const csgcore::View drawn = scaled_view(before.view);
+    const csgcore::SceneEdit edit = edit_since(before.scene);
+    with_renderer(settings, stats, [&] {
+      stats.edit.primitives_changed =
+          std::max(edit.removed.size(), edit.added.size()) + edit.recolored.size();
+      scene_->redraw(*renderer_, {drawn, settings, stats}, *before.scene, edit, before.image);
+    });
+    return std::move(before.image);
+  }
+
+  /// Calls `draw`, again with the CPU where kAuto took OpenGL and that fails.
+  template <typename Draw>
+  void with_renderer(const RenderSettings& settings, RenderStats& stats, Draw draw) {
+    start_stats(stats);
+    if (!renderer_) renderer_ = make_renderer(settings.renderer, stats);
+    stats.reason = reason_;
+    const RenderStats before = stats;
+    try {
+      draw();
+      return;
+    } catch (const GlFailure& failure) {
+      if (!is_replaceable_) throw;
+      reason_ = failure.reason();
+    }
+    is_replaceable_ = false;
+    renderer_ = make_cpu_renderer();
+    stats = before;
+    stats.reason = reason_;
+    draw();
+  }
+
+  void start_stats(RenderStats& stats) {
+    stats = {};
+    stats.primitives = scene_->scene().primitives.size();
+    stats.edit.primitives = stats.edit.primitives_changed = stats.primitives;
+    stats.edit.comparisons = std::exchange(comparisons_, 0);
+    stats.prepare_ms = std::exchange(prepare_ms_, 0.0);
+  }
+
+  std::unique_ptr<SolidRenderer> make_renderer(RendererKind kind, RenderStats& stats) {
+    if (kind == RendererKind::kCpu) return make_cpu_renderer();
+    if (kind == RendererKind::kAuto) {
+      if (const std::optional<std::string> reason = why_no_gpu(folders_)) {
+        reason_ = *reason;
+        return make_cpu_renderer();
+      }
+    }
+    const Clock::time_point start = Clock::now();
+    try {
+      auto renderer = make_gl_renderer(kind == RendererKind::kGl);
+      stats.context_ms = ms_since(start);
+      is_replaceable_ = kind == RendererKind::kAuto;
+      return renderer;
+    } catch (const GlFailure& failure) {
+      if (kind == RendererKind::kGl) throw;
+      stats.context_ms = ms_since(start);
+      reason_ = failure.reason();
+    }
+    return make_cpu_renderer();
+  }
+
+  const GpuFolders folders_;
+  std::shared_ptr<const PreparedScene> scene_;
+  int exponent_ = 0;       // of 2, by which the scene is scaled
+  double prepare_ms_ = 0;  // not reported yet
+  std::unique_ptr<SolidRenderer> renderer_;
+  bool is_replaceable_ = false;  // by the CPU, should it fail
+  std::string reason_;           // for which kAuto chose it
+  Kept kept_;                    // redraw()'s last
+  Edited edited_;                // until it is drawn
+  uint64_t comparisons_ = 0;     // not reported yet
+};
+
+SceneRenderer::SceneRenderer() : SceneRenderer(GpuFolders{}) {}
+SceneRenderer::SceneRenderer(const GpuFolders& folders) : impl_(std::make_unique<Impl>(folders)) {}
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+
+void SceneRenderer::load(ScenePointer scene) { impl_->load(std::move(scene)); }
+
+Image SceneRenderer::draw(const csgcore::View& view, const RenderSettings& settings,
+                          RenderStats& stats) {
+  return impl_->draw(view, settings, stats);
+}
+
+Image SceneRenderer::redraw(const csgcore::View& view, const RenderSettings& settings,
+                            RenderStats& stats) {
+  return impl_->redraw(view, settings, stats);
+}
+
+csgcore::Hits SceneRenderer::pick(const csgcore::View& view, double x_px, double y_px) const {
+  return impl_->pick(view, x_px, y_px);
+}
+
+}  // namespace frontend

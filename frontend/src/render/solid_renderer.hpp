@@ -1,0 +1,75 @@
+// What a renderer does for SceneRenderer: pictures of single solids. What the renderers share
+// (colours, translucent parts, scale, the choice between them) is scene_renderer.cpp's.
+#pragma once
+
+#include <span>
+
+#include "csgcore/frame_settings.hpp"
+#include "csgcore/image.hpp"
+#include "csgcore/scene_edit.hpp"
+#include "csgcore/solid.hpp"
+#include "csgcore/view.hpp"
+#include "frontend/render_settings.hpp"
+#include "frontend/render_stats.hpp"
+
+namespace frontend {
+
+/// As a renderer takes it, each channel in [0, 1].
+inline glm::vec3 color_of(const Rgb& color) {
+  return glm::vec3(color.r, color.g, color.b) / 255.0f;
+}
+
+/// Whether the settings ask for a kd-tree.
+inline bool uses_cells(const RenderSettings& settings) {
+  return settings.technique == Technique::kCells || settings.show == Show::kCells;
+}
+
+/// Of the model's picture: only a surface's is smoothed.
+inline uint32_t samples_of(const RenderSettings& settings) {
+  return settings.show == Show::kSurface ? settings.samples : 1;
+}
+
+/// One picture: from where, and how. `stats` is added to, but for `primitives`, `prepare_ms`,
+/// `context_ms` and `reason`.
+struct PictureRequest {
+  const csgcore::View& view;
+  const RenderSettings& settings;
+  RenderStats& stats;
+};
+
+/// Draws one solid after another, and keeps what it makes of each (a kd-tree, what OpenGL holds)
+/// for further pictures of it. The solids must live until forget().
+class SolidRenderer {
+ public:
+  virtual ~SolidRenderer() = default;
+
+  /// What settings.show asks for of the model: the surface, or the cells.
+  virtual csgcore::Image draw_model(const csgcore::Solid& solid,
+                                    const csgcore::FrameSettings& frame,
+                                    const PictureRequest& request) = 0;
+
+  /// Whether draw_model_areas() can be asked for.
+  virtual bool draws_areas() const { return false; }
+  /// The surface of the model, within the areas alone: the rest of `image` stays.
+  virtual void draw_model_areas(const csgcore::Solid&, const csgcore::FrameSettings&,
+                                const PictureRequest&, std::span<const csgcore::PixelArea>,
+                                csgcore::Image&) {}
+
+  struct Sides {
+    csgcore::Image front;   // where each ray enters the solid
+    csgcore::Image behind;  // and where it leaves it again
+  };
+  /// One ray a pixel: at the edge of a layer that is blended later, a colour mixed with the
+  /// background's would show as a seam.
+  virtual Sides draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
+                           const PictureRequest& request) = 0;
+
+  /// What was made of `before` follows the edit of its tree to `after`, before `before` ends; what
+  /// was made of other solids is forgotten.
+  virtual void replace(const csgcore::Solid& before, const csgcore::Solid& after,
+                       const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit) = 0;
+  /// All solids that were drawn.
+  virtual void forget() = 0;
+};
+
+}  // namespace frontend

@@ -1,0 +1,409 @@
+// The command line: OpenSCAD's syntax and options, scadray's own, and every error.
+#include "frontend/options.hpp"
+
+#include <gmock/gmock.h>
+
+#include "command/option_table.hpp"
+#include "frontend/color_scheme.hpp"
+#include "frontend/error.hpp"
+
+namespace frontend {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+using Words = std::vector<std::string>;
+
+/// Parses `words` with what every drawing needs before them.
+Options parse_drawing(Words words) {
+  words.insert(words.begin(), {"-o", "x.png", "a.csg"});
+  return parse_options(words);
+}
+
+std::string error_of(const Words& words) {
+  try {
+    parse_options(words);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string drawing_error(Words words) {
+  words.insert(words.begin(), {"-o", "x.png", "a.csg"});
+  return error_of(words);
+}
+
+TEST(Options, Defaults) {
+  const Options options = parse_drawing({});
+  EXPECT_EQ(options.action, Action::kDraw);
+  EXPECT_EQ(options.input, "a.csg");
+  ASSERT_EQ(options.outputs.size(), 1u);
+  EXPECT_EQ(options.outputs[0].path, "x.png");
+  EXPECT_EQ(options.outputs[0].format, PictureFormat::kPng);
+  EXPECT_EQ(options.camera.width_px, 512u);
+  EXPECT_EQ(options.camera.height_px, 512u);
+  EXPECT_FALSE(options.camera.camera);
+  EXPECT_EQ(options.camera.projection, csgcore::Projection::kPerspective);
+  EXPECT_STREQ(options.render.scheme.name, "Cornfield");
+  EXPECT_EQ(options.render.shading, Shading::kOpenScad);
+  EXPECT_EQ(options.render.show, Show::kSurface);
+  EXPECT_EQ(options.render.leaf_primitives, 8u);
+  EXPECT_EQ(options.render.threshold_px, 0);
+  EXPECT_EQ(options.render.threads, 0u);
+  EXPECT_EQ(options.render.renderer, RendererKind::kAuto);
+  EXPECT_EQ(options.render.technique, Technique::kAuto);
+  EXPECT_EQ(options.render.samples, 1u);
+  EXPECT_FALSE(options.has_hard_warnings);
+  EXPECT_FALSE(options.overlays.any());
+  EXPECT_FALSE(options.import.rendered);
+  EXPECT_FALSE(options.quiet);
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_THAT(options.stats_path, IsEmpty());
+}
+
+TEST(Options, EveryOutputOption) {
+  const Options options = parse_options(
+      {"-o", "a.png", "-ob.EXR", "--o", "c.exr", "--o=d.PNG", "-s", "e.png", "-x", "f.exr", "in"});
+  std::vector<std::string> names;
+  std::string formats;
+  for (const Output& output : options.outputs) {
+    names.push_back(output.path);
+    formats += output.format == PictureFormat::kPng ? 'p' : 'e';
+  }
+  EXPECT_THAT(names, ElementsAre("a.png", "b.EXR", "c.exr", "d.PNG", "e.png", "f.exr"));
+  EXPECT_EQ(formats, "peeppe");
+}
+
+TEST(Options, ExportFormatStandsAboveTheSuffix) {
+  EXPECT_EQ(parse_options({"-o", "-", "--export-format=exr", "a"}).outputs[0].format,
+            PictureFormat::kExr);
+  EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
+            PictureFormat::kPng);
+  EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
+  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=stl", "a"}), HasSubstr("png and exr"));
+}
+
+TEST(Options, OutputsThatCannotBe) {
+  EXPECT_THAT(error_of({"-o", "x.stl", "a.scad"}), HasSubstr("openscad writes"));
+  for (const char* name : {"x.stl", "x", "a.png/x", ".", "x.png.gz"}) {
+    EXPECT_THAT(error_of({"-o", name, "a"}), HasSubstr(".png or .exr")) << name;
+  }
+  EXPECT_THAT(error_of({"-o", "-", "-o", "-", "--export-format=png", "a"}),
+              HasSubstr("standard output"));
+  EXPECT_THAT(error_of({"-o", "-", "--stats=-", "--export-format=png", "a"}),
+              HasSubstr("standard output"));
+  Words many;
+  for (std::size_t i = 0; i <= kMaxPictures; ++i) many.insert(many.end(), {"-o", "x.png"});
+  many.push_back("a");
+  EXPECT_EQ(error_of(many),
+            "error: more than 4096 pictures: 4097 of -o (give -o at most 4096 times)");
+  many.insert(many.begin(), "--animate=2");
+  EXPECT_THAT(error_of(many), HasSubstr("for each of 2 frames (give -o at most 4096 times)"));
+}
+
+TEST(Options, WithoutAnOutputAWindowIsOpened) {
+  EXPECT_EQ(parse_options({"a.csg"}).action, Action::kOpenWindow);
+  EXPECT_EQ(parse_options({"-o", "x.png", "a.csg"}).action, Action::kDraw);
+  EXPECT_FALSE(parse_options({"a.csg"}).has_image_size);
+  EXPECT_TRUE(parse_options({"--imgsize=10,10", "a.csg"}).has_image_size);
+  EXPECT_THAT(parse_options({"-d", "x.d", "--animate=3", "a.scad"}).warnings,
+              testing::ElementsAre(HasSubstr("in a window, which needs no -o: -d, --animate")));
+}
+
+TEST(Options, Animation) {
+  EXPECT_EQ(parse_drawing({}).frames, 0u);
+  const Options options = parse_drawing({"--animate", "10"});
+  EXPECT_EQ(options.frames, 10u);
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_EQ(parse_drawing({"--animate=0"}).frames, 0u);
+  for (const char* value : {"-1", "x", "1.5", "100000"}) {
+    EXPECT_THAT(drawing_error({"--animate", value}), HasSubstr("--animate=")) << value;
+  }
+  EXPECT_EQ(parse_options({"-o", "x.png", "-o", "y.png", "--animate=2048", "a"}).frames, 2048u);
+  // The limit is said, and what it leaves.
+  EXPECT_EQ(drawing_error({"--animate=4097"}),
+            "error: --animate=4097 is not understood (give a number from 0 to 4096)");
+  EXPECT_EQ(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
+            "error: more than 4096 pictures: 2 of -o, for each of 2049 frames (give --animate at "
+            "most 2048, or fewer -o)");
+  EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
+              HasSubstr("standard output"));
+}
+
+TEST(Options, File) {
+  EXPECT_EQ(parse_options({"-o", "x.png", "-"}).input, "-");
+  EXPECT_EQ(parse_options({"-o", "x.png", "--", "-a.csg"}).input, "-a.csg");
+  EXPECT_EQ(parse_options({"validate", "-o", "x.png"}).input, "validate");
+  EXPECT_THAT(error_of({"-o", "x.png"}), HasSubstr("no file"));
+  EXPECT_THAT(error_of({}), HasSubstr("no file"));
+  EXPECT_THAT(error_of({"-o", "x.png", "a", "b"}), HasSubstr("more than one file"));
+}
+
+TEST(Options, ImageSize) {
+  const Options options = parse_drawing({"--imgsize=640,480"});
+  EXPECT_EQ(options.camera.width_px, 640u);
+  EXPECT_EQ(options.camera.height_px, 480u);
+  EXPECT_EQ(parse_drawing({"--imgsize", "16384,1"}).camera.width_px, 16384u);
+  EXPECT_EQ(parse_drawing({"--imgsize= 640, 480 "}).camera.height_px, 480u);
+  for (const char* value : {"640", "640,480,1", "0,1", "1,0", "-1,2", "1.5,2", "a,b", ",", "1,",
+                            "16385,1", "1,99999999999", "1 2,3"}) {
+    EXPECT_THAT(drawing_error({"--imgsize", value}), HasSubstr("--imgsize")) << value;
+  }
+}
+
+TEST(Options, CameraFlags) {
+  const Options options =
+      parse_drawing({"--camera=1,-2,+3.5,4e1,5,6,7", "--viewall", "--autocenter"});
+  ASSERT_TRUE(options.camera.camera);
+  EXPECT_EQ(options.camera.camera->target, csgcore::Vec3(1, -2, 3.5));
+  EXPECT_EQ(options.camera.camera->rotation_deg, csgcore::Vec3(40, 5, 6));
+  EXPECT_EQ(options.camera.camera->distance, 7);
+  EXPECT_TRUE(options.camera.view_all);
+  EXPECT_TRUE(options.camera.auto_center);
+  for (const char* value : {"1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,", "1,2,3,4,5,nan",
+                            "1,2,3,4,5,6,inf", "1,2,3,4,5,6,7,8"}) {
+    EXPECT_THAT(drawing_error({"--camera", value}), HasSubstr("--camera")) << value;
+  }
+}
+
+TEST(Options, AutoCenterAloneIsSaidToDoNothing) {
+  EXPECT_THAT(parse_drawing({"--camera=1,2,3,4,5,6,7", "--autocenter"}).warnings,
+              ElementsAre(HasSubstr("--autocenter")));
+  EXPECT_THAT(parse_drawing({"--camera=1,2,3,4,5,6,7", "--autocenter", "--viewall"}).warnings,
+              IsEmpty());
+  EXPECT_THAT(parse_drawing({"--autocenter"}).warnings, IsEmpty());
+}
+
+TEST(Options, Projection) {
+  for (const char* value : {"o", "ortho", "orthogonal"}) {
+    EXPECT_EQ(parse_drawing({"--projection", value}).camera.projection,
+              csgcore::Projection::kOrthographic);
+  }
+  for (const char* value : {"p", "perspective"}) {
+    EXPECT_EQ(parse_drawing({"--projection", value}).camera.projection,
+              csgcore::Projection::kPerspective);
+  }
+  EXPECT_THAT(drawing_error({"--projection=z"}), HasSubstr("--projection"));
+}
+
+TEST(Options, EveryColorScheme) {
+  EXPECT_EQ(color_schemes().size(), 11u);
+  for (const ColorScheme& scheme : color_schemes()) {
+    EXPECT_STREQ(parse_drawing({"--colorscheme", scheme.name}).render.scheme.name, scheme.name);
+  }
+  EXPECT_THAT(drawing_error({"--colorscheme=cornfield"}), HasSubstr("Tomorrow Night"));
+  const Rgb back = find_color_scheme("Tomorrow Night")->back;
+  EXPECT_THAT((std::vector<int>{back.r, back.g, back.b}), ElementsAre(0xde, 0x93, 0x5f));
+}
+
+TEST(Options, View) {
+  EXPECT_TRUE(parse_drawing({"--view=axes"}).overlays.axes);
+  const Overlays two = parse_drawing({"--view", "edges,axes"}).overlays;
+  EXPECT_TRUE(two.axes && two.edges);
+  EXPECT_FALSE(two.crosshairs || two.scales);
+  const Options all = parse_drawing({"--view=scales,crosshairs,edges,axes"});
+  EXPECT_TRUE(all.overlays.axes && all.overlays.edges && all.overlays.crosshairs &&
+              all.overlays.scales);
+  EXPECT_THAT(all.warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--view=scales"}).warnings, ElementsAre(HasSubstr("without axes")));
+  EXPECT_THAT(parse_drawing({"--view=wireframe"}).warnings, ElementsAre(HasSubstr("wireframe")));
+  // OpenSCAD goes on, too.
+  EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
+}
+
+TEST(Options, RenderAndPreview) {
+  EXPECT_TRUE(parse_drawing({"--render", "-q"}).import.rendered);
+  EXPECT_TRUE(parse_drawing({"--render=cgal"}).import.rendered);
+  EXPECT_THAT(parse_drawing({"--render=1"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--preview", "-q"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_drawing({"--preview=throwntogether"}).warnings,
+              ElementsAre(HasSubstr("throwntogether")));
+  const Options both = parse_drawing({"--render", "--preview", "-q"});
+  EXPECT_FALSE(both.import.rendered);
+  EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("--render has no effect with --preview")));
+}
+
+TEST(Options, ShadingAndShow) {
+  EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
+  EXPECT_EQ(parse_drawing({"--shading=openscad"}).render.shading, Shading::kOpenScad);
+  EXPECT_THAT(drawing_error({"--shading=x"}), HasSubstr("--shading"));
+  EXPECT_EQ(parse_drawing({"--show=surface"}).render.show, Show::kSurface);
+  EXPECT_EQ(parse_drawing({"--show=cells"}).render.show, Show::kCells);
+  EXPECT_EQ(parse_drawing({"--show=depth"}).render.show, Show::kDepth);
+  EXPECT_EQ(parse_drawing({"--show=normals"}).render.show, Show::kNormals);
+  EXPECT_EQ(parse_drawing({"--show=id"}).render.show, Show::kId);
+  EXPECT_THAT(drawing_error({"--show=x"}), HasSubstr("--show"));
+}
+
+TEST(Options, Numbers) {
+  EXPECT_EQ(parse_drawing({"--leaf-primitives=2"}).render.leaf_primitives, 2u);
+  EXPECT_EQ(parse_drawing({"--threshold=1.5"}).render.threshold_px, 1.5);
+  EXPECT_EQ(parse_drawing({"--threads=3"}).render.threads, 3u);
+  EXPECT_EQ(parse_drawing({"--samples=1"}).render.samples, 1u);
+  EXPECT_EQ(parse_drawing({"--samples=64"}).render.samples, 64u);
+  EXPECT_THAT(drawing_error({"--samples=65"}), HasSubstr("1 to 64"));
+  for (const char* option : {"--leaf-primitives", "--threads", "--samples"}) {
+    for (const char* value : {"0", "-1", "x", "1.5", "", "99999999999"}) {
+      EXPECT_THAT(drawing_error({option, value}), HasSubstr(option)) << value;
+    }
+  }
+  for (const char* value : {"-1", "nan", "inf", "x", ""}) {
+    EXPECT_THAT(drawing_error({"--threshold", value}), HasSubstr("--threshold")) << value;
+  }
+}
+
+TEST(Options, Renderer) {
+  EXPECT_EQ(parse_drawing({"--renderer=auto"}).render.renderer, RendererKind::kAuto);
+  EXPECT_EQ(parse_drawing({"--renderer=gl"}).render.renderer, RendererKind::kGl);
+  EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
+  for (const char* value : {"x", "", "CPU"}) {
+    EXPECT_THAT(drawing_error({"--renderer", value}), HasSubstr("give auto, gl or cpu")) << value;
+  }
+}
+
+TEST(Options, Technique) {
+  const auto technique_of = [](const Words& words) {
+    return parse_drawing(words).render.technique;
+  };
+  EXPECT_EQ(technique_of({"--technique=cells"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--technique=tiles"}), Technique::kTiles);
+  EXPECT_THAT(drawing_error({"--technique=x"}), HasSubstr("give cells or tiles"));
+  EXPECT_THAT(drawing_error({"--technique=auto"}), HasSubstr("give cells or tiles"));
+  // What speaks of cells, although it be the default's value.
+  EXPECT_EQ(technique_of({"--leaf-primitives=8"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--threshold=1"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--show=cells"}), Technique::kCells);
+  EXPECT_EQ(technique_of({"--threshold=0"}), Technique::kAuto);
+  EXPECT_EQ(technique_of({"--show=depth"}), Technique::kAuto);
+}
+
+TEST(Options, TilesHaveNoCells) {
+  EXPECT_THAT(drawing_error({"--technique=tiles", "--show=cells"}), HasSubstr("no cells to show"));
+  const Options options =
+      parse_drawing({"--technique=tiles", "--threshold=1", "--leaf-primitives=4"});
+  EXPECT_EQ(options.render.technique, Technique::kTiles);
+  EXPECT_THAT(options.warnings, ElementsAre("without effect on --technique=tiles: "
+                                            "--leaf-primitives, --threshold"));
+  EXPECT_THAT(parse_drawing({"--technique=cells", "--threshold=1"}).warnings, IsEmpty());
+}
+
+TEST(Options, Facets) {
+  const auto import = [](const std::vector<std::string>& words) {
+    const Options options = parse_drawing(words);
+    EXPECT_THAT(options.warnings, IsEmpty());
+    return options.import;
+  };
+  EXPECT_EQ(import({}).facets, Facets::kFew);
+  EXPECT_EQ(import({}).few_fragments, 8);
+  EXPECT_EQ(import({"--facets=all"}).facets, Facets::kAll);
+  EXPECT_EQ(import({"--facets", "none"}).facets, Facets::kNone);
+  EXPECT_EQ(import({"--facets=0"}).few_fragments, 0);
+  EXPECT_EQ(import({"--facets=12"}).facets, Facets::kFew);
+  EXPECT_EQ(import({"--facets=12"}).few_fragments, 12);
+  for (const char* value : {"x", "-1", "8.5", "", "ALL", "8 "}) {
+    EXPECT_THAT(drawing_error({"--facets=" + std::string(value)}), HasSubstr("--facets")) << value;
+  }
+}
+
+TEST(Options, OtherFlags) {
+  const Options options = parse_drawing({"--skip-unsupported", "-q", "--info", "--stats=s.json"});
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_TRUE(options.quiet);
+  EXPECT_TRUE(options.info);
+  EXPECT_EQ(options.stats_path, "s.json");
+  EXPECT_TRUE(parse_drawing({"--quiet"}).quiet);
+}
+
+TEST(Options, Actions) {
+  for (const char* word : {"-h", "--help"}) {
+    EXPECT_EQ(parse_options({word}).action, Action::kHelp);
+  }
+  for (const char* word : {"-v", "--version"}) {
+    EXPECT_EQ(parse_options({word, "a.csg"}).action, Action::kVersion);
+  }
+  EXPECT_EQ(parse_options({"--info"}).action, Action::kInfo);
+  for (const char* name : {"--imgsize", "--renderer", "--technique", "--samples", "-D",
+                           "--skip-unsupported", "--csglimit"}) {
+    EXPECT_THAT(help_text(), HasSubstr(name));
+  }
+}
+
+TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
+  const Options options =
+      parse_options({"-o", "x.png", "-D", "a=1", "-Db=2", "--D", "c=\"x y\"", "-p", "f.json", "-P",
+                     "set", "--hardwarnings", "--check-parameters=true", "--check-parameter-ranges",
+                     "false", "-m", "make", "a.SCAD"});
+  EXPECT_THAT(options.openscad_arguments,
+              ElementsAre("-D", "a=1", "-D", "b=2", "-D", "c=\"x y\"", "-p", "f.json", "-P", "set",
+                          "--hardwarnings", "--check-parameters=true",
+                          "--check-parameter-ranges=false", "-m", "make"));
+  EXPECT_THAT(options.warnings, IsEmpty());
+  EXPECT_TRUE(options.has_hard_warnings);
+  EXPECT_THAT(parse_drawing({"-D", "a=1"}).warnings, ElementsAre(HasSubstr(".csg: -D")));
+  EXPECT_THAT(parse_drawing({"--hardwarnings"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_options({"-o", "x.png", "-D", "a=1", "scad-x7Qf"}).warnings, IsEmpty());
+}
+
+TEST(Options, WhatHasNoEffectIsSaidOnce) {
+  const Options options = parse_drawing({"--csglimit=10", "--debug=all"});
+  EXPECT_THAT(options.warnings, ElementsAre("without effect in this version: --csglimit, --debug"));
+  EXPECT_THAT(drawing_error({"--csglimit=x"}), HasSubstr("csglimit"));
+}
+
+// Each line was tried with openscad 2021.01.
+TEST(Options, SyntaxIsOpenScads) {
+  // An option whose value may be missing swallows the next word.
+  EXPECT_THAT(error_of({"-o", "x.png", "--render", "a.scad"}), HasSubstr("no file"));
+  EXPECT_EQ(parse_options({"a.scad", "-o", "x.png", "--render"}).input, "a.scad");
+  EXPECT_EQ(parse_options({"--render", "-o", "x.png", "a.scad"}).input, "a.scad");
+  EXPECT_THAT(error_of({"-o", "x.png", "--preview", "a.scad"}), HasSubstr("no file"));
+  // Abbreviations.
+  EXPECT_EQ(parse_drawing({"--imgs", "10,20"}).camera.width_px, 10u);
+  EXPECT_TRUE(parse_drawing({"--cam=0,0,0,1,1,1"}).camera.camera);
+  EXPECT_EQ(parse_drawing({"--pro=o"}).camera.projection, csgcore::Projection::kOrthographic);
+  EXPECT_THAT(drawing_error({"--vi=axes"}), HasSubstr("ambiguous"));
+  EXPECT_TRUE(parse_drawing({"--viewa"}).camera.view_all);
+  // Clusters of short options.
+  EXPECT_TRUE(parse_options({"-qo", "x.png", "a"}).quiet);
+  // What it refuses.
+  EXPECT_THAT(drawing_error({"--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(drawing_error({"-z"}), HasSubstr("-z"));
+  EXPECT_THAT(drawing_error({"-camera=0,0,0,0,0,0"}), HasSubstr("-c"));
+  EXPECT_THAT(drawing_error({"--Camera=0,0,0,0,0,0"}), HasSubstr("--Camera"));
+  EXPECT_THAT(drawing_error({"--viewall=1"}), HasSubstr("viewall"));
+  EXPECT_THAT(drawing_error({"--camera="}), HasSubstr("camera"));
+  EXPECT_THAT(drawing_error({"--imgsize=1,1", "--imgsize=2,2"}), HasSubstr("more than once"));
+  EXPECT_THAT(error_of({"a", "-o"}), HasSubstr("missing"));
+}
+
+TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
+  EXPECT_TRUE(parse_drawing({"--rend"}).import.rendered);
+  EXPECT_TRUE(parse_drawing({"--rend=cgal"}).import.rendered);
+  EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
+  EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
+}
+
+TEST(Options, EveryWordThatTheShellsOfferIsUnderstood) {
+  std::size_t words = 0;
+  for (const auto rows : {openscad_options(), own_options()}) {
+    for (const OptionRow& row : rows) {
+      if (!row.completion.words) continue;
+      const std::string option = "--" + std::string(row.names);
+      for (const std::string& word : row.completion.words()) {
+        const Options options = parse_options({"-o", "x.png", "a.scad", option + "=" + word});
+        for (const std::string& warning : options.warnings) {
+          EXPECT_THAT(warning, Not(HasSubstr("not known"))) << option << "=" << word;
+        }
+        ++words;
+      }
+    }
+  }
+  EXPECT_GT(words, 30u);
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,298 @@
+// Following a design: every way in which editors save, what comes and goes, and what is reported.
+#include "frontend/design_follower.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "follow/followed.hpp"
+#include "follow/saves.hpp"
+#include "temporary_folder.hpp"
+
+namespace frontend {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct SaveCase {
+  Save save;
+  bool polls;
+};
+
+class EveryWayOfSaving : public testing::TestWithParam<SaveCase> {
+ protected:
+  FollowOptions options() const { return GetParam().polls ? by_polling() : by_inotify(); }
+  TemporaryFolder folder_;
+};
+
+TEST_P(EveryWayOfSaving, ShowsTheLastContent) {
+  Followed design(folder_.write("a.csg", spheres(1)), options());
+  design.next_of(1);
+  for (int i = 2; i < 12; ++i) {
+    const auto before = std::chrono::steady_clock::now();
+    GetParam().save.write(folder_, "a.csg", spheres(i));
+    const DesignVersion version = design.next_of(static_cast<uint32_t>(i));
+    EXPECT_GE(version.noticed, before);
+    EXPECT_LE(version.noticed, std::chrono::steady_clock::now());
+  }
+  design.wait_until_idle();
+}
+
+TEST_P(EveryWayOfSaving, MissingValidBrokenValid) {
+  Followed design(folder_ / "a.csg", options());
+  EXPECT_THAT(design.next_error().error,
+              AllOf(StartsWith(folder_ / "a.csg: error: "), HasSubstr("No such file")));
+  folder_.write("a.csg", spheres(2));
+  const DesignVersion valid = design.next_of(2);
+  GetParam().save.write(folder_, "a.csg", "sphere(r = 1);\nspher(r = 1);\n");
+  const DesignVersion broken = design.next([](const DesignVersion& version) {
+    return version.error.find("spher") != std::string::npos;
+  });
+  EXPECT_THAT(broken.error, StartsWith(folder_ / "a.csg:2:1: error: unknown node"));
+  EXPECT_EQ(broken.design, nullptr);
+  GetParam().save.write(folder_, "a.csg", spheres(3));
+  EXPECT_EQ(design.next_of(3).error, "");
+  fs::remove(folder_ / "a.csg");
+  EXPECT_THAT(design.next_error().error, HasSubstr("No such file"));
+  folder_.write("a.csg", spheres(3));
+  const DesignVersion again = design.next_of(3);
+  EXPECT_TRUE(again.unchanged);
+}
+
+std::vector<SaveCase> save_cases() {
+  std::vector<SaveCase> cases;
+  for (const Save& save : kSaves) {
+    for (const bool polls : {false, true}) cases.push_back({save, polls});
+  }
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Follow, EveryWayOfSaving, testing::ValuesIn(save_cases()),
+                         [](const auto& test) {
+                           return std::string(test.param.save.name) +
+                                  (test.param.polls ? "Polled" : "");
+                         });
+
+/// Whatever watches.
+class Follow : public testing::TestWithParam<bool> {
+ protected:
+  FollowOptions options() const { return GetParam() ? by_polling() : by_inotify(); }
+  TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(By, Follow, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "Polling" : "Inotify");
+});
+
+TEST_P(Follow, HalfAFileDoesNotStay) {
+  Followed design(folder_.write("a.csg", spheres(1)), options());
+  design.next_of(1);
+  std::ofstream file(folder_ / "a.csg", std::ios::binary);
+  file << "sphere(r = 1); sphere(r = " << std::flush;
+  EXPECT_THAT(design.next_error().error, StartsWith(folder_ / "a.csg:1:"));
+  file << "2); sphere(r = 3);" << std::flush;  // still open
+  design.next_of(3);
+  file << "sphere(r = 3);" << std::flush;
+  file.close();
+  design.next_of(4);
+}
+
+TEST_P(Follow, OneThatIsEmptyInTheEndIsShownEmpty) {
+  Followed design(folder_.write("a.csg", spheres(1)), options());
+  design.next_of(1);
+  folder_.write("a.csg", "");
+  EXPECT_EQ(design.next().error, "");
+}
+
+TEST_P(Follow, FoldersThatVanishAndComeBack) {
+  fs::create_directories(folder_ / "x/y");
+  const std::string path = folder_.write("x/y/a.csg", spheres(1));
+  Followed design(path, options());
+  design.next_of(1);
+  fs::rename(folder_ / "x", folder_ / "z");
+  EXPECT_THAT(design.next_error().error, HasSubstr("No such file"));
+  fs::create_directories(folder_ / "x/y");
+  folder_.write("x/y/a.csg", spheres(2));
+  design.next_of(2);
+  folder_.write("x/y/a.csg", spheres(3));
+  design.next_of(3);
+  fs::remove_all(folder_ / "x");
+  design.next_error();
+  folder_.write("z/y/a.csg", spheres(4));  // elsewhere by now
+  fs::rename(folder_ / "z", folder_ / "x");
+  design.next_of(4);
+}
+
+TEST_P(Follow, LinksToFilesAndFolders) {
+  for (const char* name : {"one", "two"}) fs::create_directory(folder_ / name);
+  folder_.write("one/real.csg", spheres(1));
+  folder_.write("two/real.csg", spheres(2));
+  fs::create_directory_symlink("one", folder_ / "now");
+  fs::create_symlink("now/../now/real.csg", folder_ / "a.csg");
+  Followed design(folder_ / "a.csg", options());
+  design.next_of(1);
+  folder_.write("one/real.csg", spheres(3));
+  design.next_of(3);
+  fs::rename(folder_.write("one/new", spheres(4)), folder_ / "one/real.csg");
+  design.next_of(4);
+  fs::create_directory_symlink("two", folder_ / "next");
+  fs::rename(folder_ / "next", folder_ / "now");  // of a folder on the way
+  design.next_of(2);
+  fs::create_symlink("one/real.csg", folder_ / "b.csg");
+  fs::rename(folder_ / "b.csg", folder_ / "a.csg");  // of the file
+  design.next_of(4);
+  fs::remove(folder_ / "one/real.csg");  // a dangling link
+  EXPECT_THAT(design.next_error().error, HasSubstr("No such file"));
+  folder_.write("one/real.csg", spheres(5));
+  design.next_of(5);
+}
+
+TEST_P(Follow, AFileUnderAnotherName) {  // two hard links
+  const std::string path = folder_.write("a.csg", spheres(1));
+  fs::create_directory(folder_ / "other");
+  fs::create_hard_link(path, folder_ / "other/b.csg");
+  Followed design(path, options());
+  design.next_of(1);
+  folder_.write("other/b.csg", spheres(2));
+  design.next_of(2);
+}
+
+TEST_P(Follow, AFolderInItsPlace) {
+  fs::create_directory(folder_ / "a.csg");
+  Followed design(folder_ / "a.csg", options());
+  EXPECT_THAT(design.next_error().error, HasSubstr("is a folder"));
+  fs::remove(folder_ / "a.csg");
+  folder_.write("a.csg", spheres(2));
+  design.next_of(2);
+}
+
+TEST_P(Follow, ASaveThatChangesNothingSaysSo) {
+  Followed design(folder_.write("a.csg", spheres(2)), options());
+  const DesignVersion first = design.next_of(2);
+  EXPECT_FALSE(first.unchanged);
+  EXPECT_EQ(first.number, 1u);
+  EXPECT_EQ(first.nodes, 2u);
+  EXPECT_EQ(first.csg->view(), spheres(2));
+  fs::rename(folder_.write("new", spheres(2)), folder_ / "a.csg");
+  const DesignVersion second = design.next();
+  EXPECT_TRUE(second.unchanged);
+  EXPECT_EQ(second.design, first.design);
+  EXPECT_EQ(second.nodes, 2u);
+  folder_.write("a.csg", "sphere(");
+  EXPECT_FALSE(design.next_error().unchanged);
+  folder_.write("a.csg", spheres(2));
+  const DesignVersion mended = design.next_of(2);
+  EXPECT_TRUE(mended.unchanged);
+  EXPECT_EQ(mended.design, first.design);
+}
+
+TEST_P(Follow, OtherFilesOfTheFolderDoNotMatter) {
+  Followed design(folder_.write("a.csg", spheres(1)), options());
+  design.next_of(1);
+  design.wait_until_idle();
+  folder_.write("b.csg", spheres(2));
+  fs::rename(folder_ / "b.csg", folder_ / "c.csg");
+  fs::remove(folder_ / "c.csg");
+  folder_.write("a.csg", spheres(3));
+  EXPECT_EQ(design.next_of(3).number, 2u);
+}
+
+TEST(DesignFollower, IsIdleOnceItHasRead) {
+  const TemporaryFolder folder;
+  Followed design(folder.write("a.csg", spheres(1)));
+  EXPECT_EQ(design.next_of(1).number, 1u);
+  design.wait_until_idle();
+  EXPECT_FALSE(design->take());  // once only
+}
+
+TEST(DesignFollower, ReadsAgainOnDemand) {
+  const TemporaryFolder folder;
+  Followed design(folder.write("a.csg", spheres(1)));
+  const DesignVersion first = design.next_of(1);
+  design->reload();
+  const DesignVersion second = design.next();
+  EXPECT_TRUE(second.unchanged);
+  EXPECT_EQ(second.number, 2u);
+  EXPECT_GT(second.noticed, first.noticed);
+}
+
+TEST(DesignFollower, ListsWhatIsLeftOut) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.csg", "sphere(r = 1); text(\"x\");");
+  Followed design(path);
+  const DesignVersion version = design.next_of(2);
+  EXPECT_THAT(version.messages, ElementsAre(HasSubstr("text is left out")));
+  design->reload();
+  EXPECT_THAT(design.next_of(2).messages, ElementsAre(HasSubstr("text is left out")));
+}
+
+TEST(DesignFollower, FollowsARelativePath) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  folder.write("a.csg", spheres(1));
+  {
+    Followed design("a.csg");
+    EXPECT_THAT(design.next_of(1).files, ElementsAre("a.csg"));
+    folder.write("a.csg", spheres(2));
+    design.next_of(2);
+  }
+  fs::current_path(before);
+}
+
+/// A pipe as standard input.
+class FromStandardInput : public testing::Test {
+ protected:
+  void SetUp() override {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    saved_ = dup(STDIN_FILENO);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    write_end_ = ends[1];
+  }
+  void TearDown() override {
+    dup2(saved_, STDIN_FILENO);
+    close(saved_);
+    if (write_end_ >= 0) close(write_end_);
+  }
+  int saved_ = -1;
+  int write_end_ = -1;
+};
+
+TEST_F(FromStandardInput, IsReadOnce) {
+  Followed design("-");
+  ASSERT_GT(write(write_end_, "sphere(r = 1);", 14), 0);
+  close(std::exchange(write_end_, -1));
+  design.next_of(1);
+  design->reload();
+  design.wait_until_idle();
+  EXPECT_FALSE(design->take());
+}
+
+TEST_F(FromStandardInput, DoesNotHoldUpTheEnd) {
+  Followed design("-");
+  design.end();  // nobody has written anything
+}
+
+TEST(DesignFollower, ANamedPipeWithoutAWriterDoesNotHoldUpTheEnd) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.csg").c_str(), 0600), 0);
+  Followed design(folder / "a.csg");
+  design.end();
+}
+
+TEST(DesignFollower, ReadsANamedPipeOnce) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.csg").c_str(), 0600), 0);
+  Followed design(folder / "a.csg");
+  folder.write("a.csg", spheres(1));  // waits for a reader
+  EXPECT_EQ(design.next().design->primitive_nodes, 1u);
+}
+
+}  // namespace
+}  // namespace frontend

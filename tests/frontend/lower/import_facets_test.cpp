@@ -1,0 +1,146 @@
+// OpenSCAD's facets of round primitives.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "csgcore/facets.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "lower/imported_text.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Shape;
+using csgcore::Vec3;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+/// The faces of the only primitive, 0 if it is smooth.
+size_t faces_of(const std::string& text, ImportOptions options = {}) {
+  const ImportedDesign design = import_text(text, options);
+  EXPECT_THAT(design.scene.primitives, SizeIs(1)) << text;
+  const Primitive& primitive = design.scene.primitives.at(0);
+  return primitive.polyhedron ? primitive.polyhedron->half_spaces().size() : 0;
+}
+
+TEST(ImporterFacets, OfFewFragmentsAreKept) {
+  EXPECT_EQ(faces_of("cylinder($fn = 6);"), 8u);
+  EXPECT_EQ(faces_of("cylinder($fn = 8, r1 = 0);"), 9u);
+  EXPECT_EQ(faces_of("cylinder($fn = 9);"), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 8.5);"), 0u);  // as written, not as it is truncated
+  EXPECT_EQ(faces_of("cylinder($fn = 1);"), 5u);
+  EXPECT_EQ(faces_of("sphere($fn = 6);"), 14u);
+  for (const char* fn : {"0", "-3", "inf", "nan", "100"}) {
+    EXPECT_EQ(faces_of("sphere($fn = " + std::string(fn) + ");"), 0u) << fn;
+  }
+  EXPECT_EQ(faces_of("cylinder();"), 0u);
+}
+
+TEST(ImporterFacets, AsTheOptionsSay) {
+  const ImportOptions none{.facets = Facets::kNone};
+  const ImportOptions all{.facets = Facets::kAll};
+  const ImportOptions few{.few_fragments = 12};
+  EXPECT_EQ(faces_of("cylinder($fn = 6);", none), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 12);", few), 14u);
+  EXPECT_EQ(faces_of("cylinder($fn = 13);", few), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 3);", {.few_fragments = 0}), 0u);
+  EXPECT_EQ(faces_of("cylinder($fn = 100);", all), 102u);
+  EXPECT_EQ(faces_of("cylinder($fn = 0, $fa = 12, $fs = 2, r = 9);", all), 31u);
+  EXPECT_EQ(faces_of("cylinder($fn = inf);", all), 5u);
+  // As if every one had that $fn; cubes have their own faces.
+  const ImportOptions forced{.facets = Facets::kAll, .fn = 5};
+  EXPECT_EQ(faces_of("cylinder($fn = 100);", forced), 7u);
+  EXPECT_EQ(faces_of("cylinder();", forced), 7u);
+  EXPECT_EQ(faces_of("cylinder();", {.fn = 5}), 7u);
+  EXPECT_EQ(faces_of("cylinder($fn = 5);", {.fn = 50}), 0u);
+  EXPECT_EQ(faces_of("cube();", none), 6u);
+}
+
+TEST(ImporterFacets, HaveOpenScadsVertices) {
+  const auto expect_vertices = [](const std::string& text, const csgcore::Mesh& mesh) {
+    const Primitive primitive = only_primitive(text);
+    ASSERT_TRUE(primitive.polyhedron) << text;
+    const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
+    ASSERT_EQ(vertices.size(), mesh.vertices.size()) << text;
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3 vertex = primitive.local_to_world.point(vertices[i]);
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(vertex[k], mesh.vertices[i][k], 1e-14) << text;
+    }
+  };
+  expect_vertices("sphere($fn = 7, r = 3);", csgcore::sphere_mesh(3, 7));
+  expect_vertices("cylinder($fn = 6, h = 4, r1 = 3, r2 = 1);",
+                  csgcore::frustum_mesh(0, 4, 3, 1, 6));
+  expect_vertices("cylinder($fn = 5, h = 4, r1 = 0, r2 = 3, center = true);",
+                  csgcore::frustum_mesh(-2, 2, 0, 3, 5));
+}
+
+TEST(ImporterFacets, AreSharedWhereOnlyTheSizeDiffers) {
+  const auto polyhedra = [](const std::string& text) {
+    std::vector<const csgcore::Polyhedron*> result;
+    for (const Primitive& primitive : import_text(text).scene.primitives) {
+      result.push_back(primitive.polyhedron.get());
+    }
+    return result;
+  };
+  const auto prisms =
+      polyhedra("cylinder($fn = 6); cylinder($fn = 6, h = 9, r = 7, center = true);");
+  EXPECT_EQ(prisms[0], prisms[1]);
+  const auto cones =
+      polyhedra("cylinder($fn = 6, r1 = 2, r2 = 1); cylinder($fn = 6, d1 = 8, d2 = 4);");
+  EXPECT_EQ(cones[0], cones[1]);
+  const auto balls = polyhedra("sphere($fn = 6); sphere($fn = 6, r = 5); sphere($fn = 7);");
+  EXPECT_EQ(balls[0], balls[1]);
+  EXPECT_NE(balls[0], balls[2]);
+  const auto others = polyhedra(
+      "cylinder($fn = 6); cylinder($fn = 6, r2 = 0); cylinder($fn = 6, r1 = 0); cylinder($fn = 5);"
+      "sphere($fn = 6);");
+  for (size_t i = 0; i < others.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) EXPECT_NE(others[i], others[k]) << i << ' ' << k;
+  }
+}
+
+TEST(ImporterFacets, KeepPlaceColourAndId) {
+  const std::vector<Primitive> primitives =
+      import_text(
+          "cube(); color([0, 1, 0]) { multmatrix([[-1,0,0,7],[0,1,0,0],[0,0,1,0]]) "
+          "{ cylinder($fn = 4, h = 3, r = 2, center = true); } }")
+          .scene.primitives;
+  expect_box(box_of(primitives.at(1)), Vec3(5, -2, -1.5), Vec3(9, 2, 1.5), 1e-15);
+  EXPECT_EQ(primitives[1].id, 1u);
+  EXPECT_EQ(primitives[1].color->g, 1);
+  EXPECT_LT(primitives[1].local_to_world.determinant(), 0);
+}
+
+TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
+  const ImportedDesign design = import_text(
+      "cylinder($fn = 50);\n sphere($fn = 1e6); cylinder($fn = 1e300);\n"
+      "sphere($fn = 60); cylinder($fn = 6);",
+      {.facets = Facets::kAll});
+  ASSERT_THAT(design.warnings, SizeIs(1));
+  EXPECT_EQ(design.warnings[0].text,
+            "a.csg:2:2: warning: 2 round primitives are smooth; this is the first: more than "
+            "131072 facets would be needed (give a smaller $fn)");
+  std::vector<Shape> shapes;
+  for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
+  EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
+                                  Shape::kPolyhedron, Shape::kPolyhedron));
+  // Many that are small each are too much as well, but for those that their text pays for.
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += "sphere($fn = " + std::to_string(30 + i) + ");";
+  text += "cylinder($fn = 6);";
+  const ImportedDesign many = import_text(text, {.facets = Facets::kAll});
+  uint64_t faces = 0;
+  for (const Primitive& primitive : many.scene.primitives) {
+    if (primitive.polyhedron) faces += primitive.polyhedron->half_spaces().size();
+  }
+  EXPECT_GT(faces, 100000u);
+  EXPECT_LT(faces, 131072u + 16u);
+  EXPECT_EQ(many.scene.primitives.back().shape, Shape::kPolyhedron);
+  EXPECT_THAT(many.warnings, SizeIs(1));
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,202 @@
+// cube() and polyhedron().
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "csgcore/polyhedron.hpp"
+#include "lower/imported_text.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Vec3;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(ImporterCube, TakesEverySpellingOfItsSize) {
+  const auto expect_cube = [](const std::string& text, const Vec3& min, const Vec3& max) {
+    SCOPED_TRACE(text);
+    expect_box(box_of(only_primitive(text)), min, max, 0);
+  };
+  expect_cube("cube(size = [2, 3.5, 4], center = false);", Vec3(0.0), Vec3(2, 3.5, 4));
+  expect_cube("cube(size = [2, 3.5, 4], center = true);", Vec3(-1, -1.75, -2), Vec3(1, 1.75, 2));
+  expect_cube("cube([1, 2, 3], true);", Vec3(-0.5, -1, -1.5), Vec3(0.5, 1, 1.5));
+  expect_cube("cube(3);", Vec3(0.0), Vec3(3.0));
+  expect_cube("cube(size = undef, center = undef);", Vec3(0.0), Vec3(1.0));
+  expect_cube("cube();", Vec3(0.0), Vec3(1.0));
+  expect_cube("multmatrix([[0,-1,0,5],[2,0,0,0],[0,0,1,0],[0,0,0,1]]) { cube([1, 2, 3]); }",
+              Vec3(3, 0, 0), Vec3(5, 2, 3));
+}
+
+TEST(ImporterCube, HasColourAndId) {
+  const Primitive cube = import_text("sphere(); color([1, 0, 0]) { cube(); }").scene.primitives[1];
+  EXPECT_EQ(cube.id, 1u);
+  EXPECT_EQ(cube.color->r, 1);
+}
+
+TEST(ImporterCube, SharesOnePolyhedron) {
+  const std::vector<Primitive> cubes =
+      import_text("cube([1, 2, 3]); multmatrix([[0,1,0,0],[1,0,0,0],[0,0,1,0]]) { cube(7); }")
+          .scene.primitives;
+  EXPECT_EQ(cubes[0].polyhedron, cubes[1].polyhedron);
+}
+
+TEST(ImporterPolyhedron, IsTakenWhereItIsConvex) {
+  const Primitive primitive = only_primitive("polyhedron(" + kCorner + kFaces + ");");
+  expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
+  EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+  const std::string older =
+      "polyhedron(" + kCorner + "triangles = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);";
+  const std::string positional =
+      "polyhedron([[0,0],[3,0],[0,4],[0,0,5],[9,9,9]], [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], 2);";
+  const std::string careless =
+      "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3.2,2,-5,77,1e99,nan]]);";
+  for (const std::string& text : {older, positional, careless}) {
+    EXPECT_EQ(only_primitive(text).polyhedron->half_spaces().size(), 4u) << text;
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
+  }
+}
+
+TEST(ImporterPolyhedron, EqualOnesAreOne) {
+  const std::string tetrahedron = "polyhedron(" + kCorner + kFaces + ");";
+  const std::vector<Primitive> primitives =
+      import_text(tetrahedron + "multmatrix([[1,0,0,9]]) { " + tetrahedron + "}" +
+                  "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5.5]], " + kFaces + ");")
+          .scene.primitives;
+  EXPECT_EQ(primitives[0].polyhedron, primitives[1].polyhedron);
+  EXPECT_NE(primitives[0].polyhedron, primitives[2].polyhedron);
+}
+
+TEST(ImporterPolyhedron, OfAnySize) {
+  for (const char* size : {"1e-90", "1e90"}) {
+    const std::string text = "polyhedron(points = [[0,0,0],[" + std::string(size) + ",0,0],[0," +
+                             size + ",0],[0,0," + size + "]], " + kFaces + ");";
+    const double expected = std::stod(size);
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(expected), 1e-15 * expected);
+  }
+}
+
+TEST(ImporterPolyhedron, IsLeftOutWhereItIsNotConvexAndClosed) {
+  const std::string open = "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3]]);";
+  const std::string flat = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);";
+  // An octahedron with one vertex pushed in.
+  const std::string dented =
+      "polyhedron([[1,0,0],[0,1,0],[-1,0,0],[0,-1,0],[0,0,1],[0,0,0.5]], [[4,1,0],[4,2,1],[4,3,2],"
+      "[4,0,3],[0,1,5],[1,2,5],[2,3,5],[3,0,5]]);";
+  for (const std::string& text : {open, flat, dented}) {
+    const std::string cut = "difference() { cube(); " + text + " }";
+    EXPECT_EQ(model_of(cut), "0") << text;
+    EXPECT_EQ(warning_of(cut),
+              "a.csg:1:24: warning: polyhedron is left out (it is not the closed boundary of one "
+              "convex solid with plane faces)");
+  }
+}
+
+TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
+  const Primitive wanted = only_primitive("polyhedron(" + kCorner + kFaces + ");");
+  for (const char* faces :
+       {"[[2,1,0],[1,3,0],[3,2,0],[2,3,1]]", "[[0,1,2],[1,3,0],[0,2,3],[2,3,1]]"}) {
+    const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
+    EXPECT_THAT(warnings_of(text), IsEmpty());
+    const Primitive primitive = only_primitive(text);
+    expect_box(box_of(primitive), Vec3(0.0), Vec3(3, 4, 5), 0);
+    EXPECT_EQ(primitive.polyhedron->half_spaces().size(), 4u);
+    for (size_t i = 0; i < 4; ++i) {
+      const csgcore::HalfSpace& found = primitive.polyhedron->half_spaces()[i];
+      EXPECT_NEAR(found.offset, wanted.polyhedron->half_spaces()[i].offset, 1e-15);
+    }
+  }
+}
+
+/// What OpenSCAD 2021.01 makes of them (frontend/OPENSCAD.md, "Polyhedra").
+TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
+  const auto expect_whole = [](const std::string& faces, const std::string& warning) {
+    const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
+    EXPECT_EQ(warning_of(text), "a.csg:1:1: warning: polyhedron: " + warning);
+    expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
+  };
+  expect_whole("[[0,1,2,4],[0,3,1],[-1,0,2,3],[1,3,nan,2]]",
+               "4 is no index of its 4 points, and is left out; the first of 3 (the first point "
+               "is 0)");
+  expect_whole("[[\"a\",1,2],[undef,3,1],[[1],2,3],[1,3,2]]",
+               "an index of a face is a string, and counts as 0; the first of 3 (it must be a "
+               "number)");
+  expect_whole("[[0,1,2],[0,3,1],7,[0,2,3],undef,[1,3,2]]",
+               "a face is a number, and is left out; the first of 2 (it must be a list of indices "
+               "of points)");
+}
+
+TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
+  for (const auto& [point, words] : {std::pair("undef", "undef"),
+                                     {"7", "a number"},
+                                     {"[]", "a list of 0"},
+                                     {"[1]", "a list of 1"},
+                                     {"[1,2,3,4]", "a list of 4"},
+                                     {"[1,\"a\",3]", "a list with a string"},
+                                     {"[1,nan,3]", "a list with nan"},
+                                     {"[-inf,2,3]", "a list with inf"},
+                                     {"[1,2,true]", "a list with a boolean"}}) {
+    const std::string points =
+        "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]," + std::string(point) + "], ";
+    // As if the points beyond it were none.
+    const std::string late = points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2,4,0],[4,4,9]]);";
+    EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: a point is " + std::string(words) +
+                                    ", and the faces from there on are left out (it must be a "
+                                    "list of three finite numbers)");
+    expect_box(box_of(only_primitive(late)), Vec3(0.0), Vec3(3, 4, 5), 0);
+    const std::string early = points + "faces = [[0,1,2],[0,4,1],[0,2,3],[1,3,2]]); cube();";
+    EXPECT_EQ(model_of(early), "1") << point;
+    EXPECT_THAT(warnings_of(early),
+                ElementsAre(HasSubstr("a point is "), HasSubstr("is left out (it is not")));
+    // No face has it.
+    EXPECT_THAT(warnings_of(points + kFaces + ");"), IsEmpty()) << point;
+  }
+}
+
+TEST(ImporterPolyhedron, OfTooManyFacesIsNotLookedAt) {
+  // Two apexes and a ring: convex, with n + 2 vertices and 2n faces.
+  constexpr int kRing = 16384;
+  static_assert(2ull * kRing * (kRing + 2) > (1 << 28));
+  std::string points = "[0,0,1],[0,0,-1]", faces;
+  for (int i = 0; i < kRing; ++i) {
+    const double angle = 2 * M_PI * i / kRing;
+    const std::string a = std::to_string(2 + i), b = std::to_string(2 + (i + 1) % kRing);
+    points += ",[" + std::to_string(std::cos(angle)) + "," + std::to_string(std::sin(angle)) + "]";
+    faces += (i == 0 ? "[" : ",[") + b + "," + a + ",0],[" + a + "," + b + ",1]";
+  }
+  EXPECT_THAT(warning_of("polyhedron([" + points + "],[" + faces + "]);"),
+              HasSubstr("polyhedron is left out (it has too many faces)"));
+}
+
+TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {
+  EXPECT_THAT(
+      warnings_of("polyhedron(points = 3, faces = [[0,1]]);"),
+      ElementsAre(HasSubstr("points is a number, and counts as missing (it must be a list)"),
+                  HasSubstr("0 is no index of its 0 points, and is left out; the first of 2")));
+  EXPECT_THAT(warning_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
+  EXPECT_THAT(warning_of("polyhedron([], triangles = true);"), HasSubstr("triangles is a boolean"));
+}
+
+TEST(ImporterPrimitives, PolyhedraThatAreTheEmptySetCount) {
+  const std::string infinite = "polyhedron([[inf,0,0],[3,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
+  const std::string nan = "polyhedron([[nan,0,0],[3,0,0],[0,4,0],[0,0,1]], " + kFaces + ");";
+  const std::string flattened =
+      "multmatrix([[inf,0,0,0]]) { polyhedron(" + kCorner + "faces = [[0,1,2]]); }";
+  for (const std::string& empty :
+       {std::string("cube(0);"), std::string("cube([1, -1, 1]);"),
+        std::string("cube([-1, -1, 1]);"), std::string("cube([1, 0, 1], center = true);"),
+        std::string("cube(inf);"), std::string("cube([1, nan, 1]);"), std::string("polyhedron();"),
+        std::string("polyhedron([[1,2,3]], []);"), infinite, nan, flattened}) {
+    EXPECT_EQ(model_of(empty + "sphere();"), "1") << empty;
+    EXPECT_EQ(model_of("difference() { " + empty + " sphere(); }"), "-") << empty;
+    EXPECT_EQ(import_text(empty).primitive_nodes, 1u) << empty;
+  }
+}
+
+}  // namespace
+}  // namespace frontend

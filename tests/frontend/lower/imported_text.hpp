@@ -1,0 +1,46 @@
+// A .csg's text, imported, and what the tests of the importer ask of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "frontend/importer.hpp"
+
+namespace frontend {
+
+/// In one pass, and by the tree: both must say the same.
+ImportedDesign import_text(const std::string& text, ImportOptions options = {});
+
+/// What import_text() throws; "no error" if nothing.
+std::string error_of(const std::string& text);
+
+std::vector<std::string> warnings_of(const std::string& text);
+
+/// There must be one.
+std::string warning_of(const std::string& text);
+
+/// The tree with its primitives' ids: "(0-1-(2+3))", "-" for the empty set.
+std::string shape_of(const csgcore::CsgTree& tree,
+                     const std::vector<csgcore::Primitive>& primitives);
+
+std::string model_of(const std::string& text, ImportOptions options = {});
+
+/// "model | background | highlight".
+std::string trees_of(const std::string& text, ImportOptions options = {});
+
+csgcore::Primitive only_primitive(const std::string& text);
+
+/// Of a polyhedron, which it must be, in the world.
+csgcore::Box box_of(const csgcore::Primitive& primitive);
+
+void expect_box(const csgcore::Box& box, const csgcore::Vec3& min, const csgcore::Vec3& max,
+                double tolerance);
+
+// A tetrahedron; faces clockwise seen from outside.
+inline const std::string kCorner = "points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]], ";
+inline const std::string kFaces = "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]";
+
+}  // namespace frontend
