@@ -42,10 +42,10 @@ std::string scad_of(const Affine& map) {
   if (map.linear == Mat3(1.0)) return "translate([" + coordinates(map.translation) + "]) ";
   std::string rows;
   for (int row = 0; row < 3; ++row) {
-    rows += "[" +
-            joined({map.linear[0][row], map.linear[1][row], map.linear[2][row],
-                     map.translation[row]}) +
-            "], ";
+    rows +=
+        "[" +
+        joined({map.linear[0][row], map.linear[1][row], map.linear[2][row], map.translation[row]}) +
+        "], ";
   }
   return "multmatrix([" + rows + "[0, 0, 0, 1]]) ";
 }
