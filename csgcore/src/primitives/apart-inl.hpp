@@ -39,8 +39,8 @@ struct alignas(64) PacketPoints {
 };
 
 /// The rays' at t.
-HWY_NOINLINE inline void find_points(const RayPacket& rays, const PacketV& t, double distance,
-                                     PacketPoints& points) {
+HWY_NOINLINE static HWY_MAYBE_UNUSED void find_points(const RayPacket& rays, const PacketV& t,
+                                                      double distance, PacketPoints& points) {
   const Wide d;
   const hn::Rebind<float, Wide> narrow;
   const WideV furthest = hn::Set(d, kApartFurthest * distance);
@@ -81,8 +81,10 @@ HWY_INLINE LaneMask lanes_apart_from(const CanonicalPrimitive& primitive, const 
 
 /// The lanes whose points lie further away from the primitive (of a polyhedron: from what encloses
 /// it) than `distance`, as far as float tells.
-HWY_NOINLINE inline LaneMask lanes_apart(const CanonicalPrimitive& primitive, const Vec3& pivot,
-                                         const PacketPoints& points, double distance) {
+HWY_NOINLINE static HWY_MAYBE_UNUSED LaneMask lanes_apart(const CanonicalPrimitive& primitive,
+                                                          const Vec3& pivot,
+                                                          const PacketPoints& points,
+                                                          double distance) {
   const Vec3 center = primitive.center - pivot;
   const double reach = kApartAsked * distance * primitive.canonical_stretch;
   const double furthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});

@@ -73,9 +73,10 @@ HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
 }
 
 /// The segments of all chunks that hold any of the lanes; those of the others stay.
-HWY_NOINLINE inline void intersect_lanes(const FrameRays& frame, const RayPacket& packet,
-                                         LaneMask lanes, const CanonicalPrimitive& primitive,
-                                         PacketSegments& segments) {
+HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame,
+                                                          const RayPacket& packet, LaneMask lanes,
+                                                          const CanonicalPrimitive& primitive,
+                                                          PacketSegments& segments) {
   const Wide d;
   const Vec3 center = primitive.center - frame.pivot;
   LaneMask start_on_cap = 0;
@@ -99,10 +100,11 @@ HWY_NOINLINE inline void intersect_lanes(const FrameRays& frame, const RayPacket
 }
 
 /// The normals of all chunks that hold any of the lanes.
-HWY_NOINLINE inline void find_normals(const FrameRays& frame, const RayPacket& packet,
-                                      LaneMask lanes, const CanonicalPrimitive& primitive,
-                                      const PacketV& t, LaneMask on_cap,
-                                      Lanes3<Wide> (&normals)[kChunks]) {
+HWY_NOINLINE static HWY_MAYBE_UNUSED void find_normals(const FrameRays& frame,
+                                                       const RayPacket& packet, LaneMask lanes,
+                                                       const CanonicalPrimitive& primitive,
+                                                       const PacketV& t, LaneMask on_cap,
+                                                       Lanes3<Wide> (&normals)[kChunks]) {
   const Wide d;
   const Vec3 center = primitive.center - frame.pivot;
   with_shape(primitive, [&](auto shape) {
