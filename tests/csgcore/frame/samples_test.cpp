@@ -9,6 +9,8 @@
 #include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
 #include "frame/edge_samples.hpp"
+#include "packets/shading.hpp"
+#include "rays/make_rays.hpp"
 #include "trace_scenes.hpp"
 #include "whole_list.hpp"
 

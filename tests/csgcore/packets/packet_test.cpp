@@ -12,6 +12,9 @@
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "primitives/intersect.hpp"
+#include "rays/make_rays.hpp"
+#include "screen/reached.hpp"
 #include "screen/screen_outline.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"

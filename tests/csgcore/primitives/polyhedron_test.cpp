@@ -10,6 +10,7 @@
 
 #include "checks.hpp"
 #include "packets/packet.hpp"
+#include "primitives/intersect.hpp"
 
 namespace csgcore {
 namespace {

@@ -10,9 +10,12 @@
 
 #include "checks.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "primitives/intersect.hpp"
+#include "rays/make_rays.hpp"
 #include "rays/packet_blocks.hpp"
 #include "screen/screen_outline.hpp"
 #include "simd_levels.hpp"
+#include "solid/extent_tests.hpp"
 #include "support/models.hpp"
 #include "tiles/tile_list.hpp"
 #include "trace_scenes.hpp"
