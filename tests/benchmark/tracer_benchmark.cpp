@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "base/simd.hpp"
 #include "frame.hpp"
 #include "named_design.hpp"
-#include "base/simd.hpp"
 
 namespace {
 

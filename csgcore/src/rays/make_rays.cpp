@@ -1,5 +1,5 @@
-// Compiled once per instruction set by Highway. Multiplications and additions are never fused: every
-// instruction set gives the same bits.
+// Compiled once per instruction set by Highway. Multiplications and additions are never fused:
+// every instruction set gives the same bits.
 #include "rays/make_rays.hpp"
 
 #include "base/simd.hpp"

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <regex>
 
-#include "process.hpp"
 #include "base/simd.hpp"
+#include "process.hpp"
 
 namespace measure {
 namespace {
