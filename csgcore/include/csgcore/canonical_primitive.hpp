@@ -1,6 +1,5 @@
-// Primitives in canonical form, and the questions that the subdivision asks of them. A new
-// primitive is one file that answers these questions (see sphere.cpp, frustum.cpp,
-// polyhedron_primitive.cpp).
+// Primitives in canonical form, and the questions that the subdivision asks of them. Each kind
+// answers them in a file of its own (src/primitives/primitive_kind.hpp).
 #pragma once
 
 #include "csgcore/primitive.hpp"
@@ -61,6 +60,17 @@ double reach(const CanonicalPrimitive& primitive);
 
 /// Whether the ball, of a radius in world units, certainly lies in the primitive.
 bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius);
+
+/// Whether a primitive certainly reaches no further than `limit` beyond another one's surface, in
+/// world units; or stays −limit within it, where that is negative.
+bool lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer, double limit);
+
+/// The distance, in world units, of the two planes across a direction, of any length, that the
+/// primitive just lies between.
+double width(const CanonicalPrimitive& primitive, const Vec3& direction_world);
+
+/// Whether the primitive is certainly thinner than that, in world units, across some direction.
+bool is_thinner(const CanonicalPrimitive& primitive, double thickness);
 
 /// Membership in the closed solid, as exact as double evaluates it.
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world);

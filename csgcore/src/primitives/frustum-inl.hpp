@@ -173,14 +173,6 @@ HWY_INLINE Segment<D> canonical_segment(D d, const CanonicalPrimitive& primitive
                  : cone_wall(d, primitive, p, direction, lateral2, inverse, ends));
 }
 
-template <class D>
-HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                              const Rays<D>& rays) {
-  const Mat3& map = primitive.world_to_canonical;
-  return canonical_segment(d, primitive, transformed(d, map, rays.origin - broadcast(d, center)),
-                           transformed(d, map, rays.direction));
-}
-
 /// The points, relative to the centre, that lie further away than `reach` in canonical space:
 /// beyond an end, or beyond the wall moved outward.
 template <class D>
@@ -198,41 +190,55 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
 /// Where a cone's radius is less, it is not taken for a guess at the distance from the axis.
 constexpr double kNearApex = 0x1p-20;
 
-/// Outward and unit, at the point that lies at τ = t.
-template <class D>
-HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
-  const Mat3& map = primitive.world_to_canonical;
-  const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
-  const Lanes3<D> point = transformed(d, map, offset);
-  const auto one = hn::Set(d, 1.0);
-  auto wall_z = hn::Zero(d);
-  if (primitive.radius_slope != 0) {
-    // The wall's gradient has the distance from the axis for a radius: the wall's own but for
-    // rounding, of which one step leaves nothing, unless next to the apex. There none is left, and
-    // the axis' direction away from the cone's body stands in.
-    const auto downhill = hn::Set(d, -primitive.radius_slope);
-    const auto radius = hn::Sub(hn::Set(d, primitive.radius_mid), hn::Mul(downhill, point.z));
-    const auto across2 = dot_xy(point, point);
-    const auto guess = hn::Div(one, radius);
-    const auto across = hn::Mul(across2, newton_inverse_sqrt(d, across2, guess, 1));
-    wall_z = hn::Mul(downhill, across);
-    const auto near_apex = hn::Lt(radius, hn::Set(d, kNearApex));
-    if (!hn::AllFalse(d, near_apex)) {
-      const auto exact = hn::Mul(across2, inverse_sqrt(d, across2));
-      const auto is_apex = hn::Eq(exact, hn::Zero(d));
-      const auto there =
-          hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, exact));
-      wall_z = hn::IfThenElse(near_apex, there, wall_z);
-    }
-  }
-  const Lanes3<D> gradient = {hn::IfThenElseZero(hn::Not(on_cap), point.x),
-                              hn::IfThenElseZero(hn::Not(on_cap), point.y),
-                              hn::IfThenElse(on_cap, hn::CopySign(one, point.z), wall_z)};
-  return normalized(d, transformed_back(d, map, gradient));
-}
-
 }  // namespace frustum_rays
+
+/// See kind_rays-inl.hpp. An end lies on a cap or on the wall.
+struct FrustumRays {
+  static constexpr bool kHasCaps = true;
+
+  template <class D>
+  static HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                       const Rays<D>& rays) {
+    const Mat3& map = primitive.world_to_canonical;
+    return frustum_rays::canonical_segment(d, primitive,
+                                           transformed(d, map, rays.origin - broadcast(d, center)),
+                                           transformed(d, map, rays.direction));
+  }
+
+  template <class D>
+  static HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                     const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
+    const Mat3& map = primitive.world_to_canonical;
+    const Lanes3<D> offset = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
+    const Lanes3<D> point = transformed(d, map, offset);
+    const auto one = hn::Set(d, 1.0);
+    auto wall_z = hn::Zero(d);
+    if (primitive.radius_slope != 0) {
+      // The wall's gradient has the distance from the axis for a radius: the wall's own but for
+      // rounding, of which one step leaves nothing, unless next to the apex. There none is left,
+      // and the axis' direction away from the cone's body stands in.
+      const auto downhill = hn::Set(d, -primitive.radius_slope);
+      const auto radius = hn::Sub(hn::Set(d, primitive.radius_mid), hn::Mul(downhill, point.z));
+      const auto across2 = frustum_rays::dot_xy(point, point);
+      const auto guess = hn::Div(one, radius);
+      const auto across = hn::Mul(across2, newton_inverse_sqrt(d, across2, guess, 1));
+      wall_z = hn::Mul(downhill, across);
+      const auto near_apex = hn::Lt(radius, hn::Set(d, frustum_rays::kNearApex));
+      if (!hn::AllFalse(d, near_apex)) {
+        const auto exact = hn::Mul(across2, inverse_sqrt(d, across2));
+        const auto is_apex = hn::Eq(exact, hn::Zero(d));
+        const auto there =
+            hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, exact));
+        wall_z = hn::IfThenElse(near_apex, there, wall_z);
+      }
+    }
+    const Lanes3<D> gradient = {hn::IfThenElseZero(hn::Not(on_cap), point.x),
+                                hn::IfThenElseZero(hn::Not(on_cap), point.y),
+                                hn::IfThenElse(on_cap, hn::CopySign(one, point.z), wall_z)};
+    return normalized(d, transformed_back(d, map, gradient));
+  }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace csgcore
 HWY_AFTER_NAMESPACE();

@@ -4,57 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
-#include "primitives/shapes.hpp"
+#include "primitives/primitive_kind.hpp"
 
-namespace csgcore::frustum {
-CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  CanonicalPrimitive result;
-  result.shape = result.enclosure = Shape::kFrustum;
-  const double radius = std::max(primitive.r_bottom, primitive.r_top);
-  const double half_height = 0.5 * (primitive.z_max - primitive.z_min);
-  const double middle = 0.5 * primitive.z_min + 0.5 * primitive.z_max;
-  result.radius_mid = 0.5 * (primitive.r_bottom / radius + primitive.r_top / radius);
-  result.radius_slope = 0.5 * (primitive.r_top / radius - primitive.r_bottom / radius);
-  const Mat3& linear = primitive.local_to_world.linear;
-  result.center = primitive.local_to_world.point({0, 0, middle});
-  result.canonical_to_world = Mat3{linear[0] * radius, linear[1] * radius, linear[2] * half_height};
-  result.world_to_canonical = inverse(result.canonical_to_world);
-  // The two end discs bound it; a disc's support along a world axis is its radius times the norm of
-  // that axis' row over the disc's two directions.
-  const Mat3& map = result.canonical_to_world;
-  for (const double end : {-1.0, 1.0}) {
-    const double end_radius = result.radius_mid + end * result.radius_slope;
-    const Vec3 disc_center = result.center + end * map[2];
-    Vec3 extent;
-    for (int axis = 0; axis < 3; ++axis) {
-      extent[axis] = end_radius * std::hypot(map[0][axis], map[1][axis]);
-    }
-    result.bounds.merge(Box{disc_center - extent, disc_center + extent});
-  }
-  return result;
-}
-
-bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& p, double r) {
-  const double depth = primitive.radius_mid + primitive.radius_slope * p.z - std::hypot(p.x, p.y);
-  return std::abs(p.z) < 1 - r && depth > r * std::hypot(1.0, primitive.radius_slope);
-}
-
-Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) {
-  const double top = primitive.radius_mid + primitive.radius_slope;
-  const double bottom = primitive.radius_mid - primitive.radius_slope;
-  const double lateral = std::sqrt(direction.x * direction.x + direction.y * direction.y);
-  const bool at_top = direction.z + lateral * top >= -direction.z + lateral * bottom;
-  const double radius = at_top ? top : bottom;
-  const double scale = lateral > 0 ? radius / lateral : 0.0;
-  return {direction.x * scale, direction.y * scale, at_top ? 1.0 : -1.0};
-}
-
-bool contains(const CanonicalPrimitive& primitive, const Vec3& p) {
-  const double radius = primitive.radius_mid + primitive.radius_slope * p.z;
-  return std::abs(p.z) <= 1.0 && radius >= 0 && p.x * p.x + p.y * p.y <= radius * radius;
-}
-
+namespace csgcore {
 namespace {
 
 bool within(const Box& inner, const Box& outer) {
@@ -108,43 +62,168 @@ bool holds_corners(const CanonicalPrimitive& primitive, const CanonicalCell& cel
   return true;
 }
 
-}  // namespace
+/// So far from coaxial, in canonical units, two frusta are by rounding alone.
+constexpr double kCoaxial = 1e-14;
 
-Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
-  if (!within(cell_world, primitive.bounds) && axis_meets(primitive, cell_world)) {
-    return Classification::kCrosses;
+/// Of two frusta that have one axis. `reach`: in the outer one's canonical units.
+bool frustum_lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer,
+                         double reach) {
+  const Mat3 map = outer.world_to_canonical * inner.canonical_to_world;
+  const Vec3 offset = outer.world_to_canonical * (inner.center - outer.center);
+  const double radius = glm::length(map[0]);
+  const double off_axis =
+      std::max({std::abs(map[2].x), std::abs(map[2].y), std::abs(map[0].z), std::abs(map[1].z),
+                std::abs(glm::dot(map[0], map[1])), std::abs(glm::length(map[1]) - radius),
+                std::hypot(offset.x, offset.y)});
+  if (!(off_axis <= kCoaxial)) return false;
+  for (const double end : {-1.0, 1.0}) {
+    const double z = offset.z + end * map[2].z;
+    const double rim = radius * (inner.radius_mid + end * inner.radius_slope);
+    if (std::abs(z) > 1 + reach) return false;
+    if (rim > outer.radius_mid + outer.radius_slope * z + reach) return false;
   }
-  const CanonicalCell cell = to_canonical(primitive, cell_world);
-  const Vec3& center = cell.center;
-  const double z_reach =
-      std::abs(cell.half[0].z) + std::abs(cell.half[1].z) + std::abs(cell.half[2].z);
-  if (std::abs(center.z) - z_reach > 1.0 + cell.slack) return Classification::kOutside;
-  if (frustum::contains(primitive, center)) {
-    const bool between_ends = std::abs(center.z) + z_reach < 1.0 - cell.slack;
-    return between_ends && holds_corners(primitive, cell) ? Classification::kInside
-                                                          : Classification::kCrosses;
-  }
-
-  // A separating direction, starting from the wall's normal on the cell's side. Each step reflects
-  // it at the plane between the two supporting points (Chung and Wang, "Quick collision detection
-  // of polytopes in virtual environments", 1996); a step ends with a proof or without an answer.
-  constexpr int kSteps = 5;
-  const Vec3 nearest = nearest_to_axis(cell);
-  if (frustum::contains(primitive, nearest)) return Classification::kCrosses;
-  const double lateral = std::sqrt(nearest.x * nearest.x + nearest.y * nearest.y);
-  Vec3 direction = lateral > 0
-                       ? Vec3{nearest.x / lateral, nearest.y / lateral, -primitive.radius_slope}
-                       : Vec3{0, 0, center.z > 0 ? 1.0 : -1.0};
-  direction /= std::sqrt(glm::dot(direction, direction));
-  for (int step = 0; step < kSteps; ++step) {
-    const Vec3 near = cell.lowest(direction);
-    if (frustum::contains(primitive, near)) return Classification::kCrosses;
-    const Vec3 gap = near - support(primitive, direction);
-    const double along = glm::dot(gap, direction);
-    if (along > cell.slack) return Classification::kOutside;
-    direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
-  }
-  return Classification::kCrosses;
+  return true;
 }
 
-}  // namespace csgcore::frustum
+/// The direction across a frustum's axis that canonical space stretches most: where an elliptical
+/// cylinder is thinnest.
+Vec3 most_stretched_across(const Vec3& row_x, const Vec3& row_y) {
+  const double angle =
+      0.5 * std::atan2(2 * glm::dot(row_x, row_y), glm::dot(row_x, row_x) - glm::dot(row_y, row_y));
+  return std::cos(angle) * row_x + std::sin(angle) * row_y;
+}
+
+class FrustumKind final : public PrimitiveKind {
+ public:
+  bool has_valid_shape(const Primitive& primitive) const override {
+    const double height = primitive.z_max - primitive.z_min;
+    return std::isfinite(height) && height > 0 && std::isfinite(primitive.r_bottom) &&
+           std::isfinite(primitive.r_top) && primitive.r_bottom >= 0 && primitive.r_top >= 0 &&
+           primitive.r_bottom + primitive.r_top > 0;
+  }
+
+  CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
+    CanonicalPrimitive result;
+    result.shape = result.enclosure = Shape::kFrustum;
+    const double radius = std::max(primitive.r_bottom, primitive.r_top);
+    const double half_height = 0.5 * (primitive.z_max - primitive.z_min);
+    const double middle = 0.5 * primitive.z_min + 0.5 * primitive.z_max;
+    result.radius_mid = 0.5 * (primitive.r_bottom / radius + primitive.r_top / radius);
+    result.radius_slope = 0.5 * (primitive.r_top / radius - primitive.r_bottom / radius);
+    const Mat3& linear = primitive.local_to_world.linear;
+    result.center = primitive.local_to_world.point({0, 0, middle});
+    result.canonical_to_world =
+        Mat3{linear[0] * radius, linear[1] * radius, linear[2] * half_height};
+    result.world_to_canonical = inverse(result.canonical_to_world);
+    // The two end discs bound it; a disc's support along a world axis is its radius times the norm
+    // of that axis' row over the disc's two directions.
+    const Mat3& map = result.canonical_to_world;
+    for (const double end : {-1.0, 1.0}) {
+      const double end_radius = result.radius_mid + end * result.radius_slope;
+      const Vec3 disc_center = result.center + end * map[2];
+      Vec3 extent;
+      for (int axis = 0; axis < 3; ++axis) {
+        extent[axis] = end_radius * std::hypot(map[0][axis], map[1][axis]);
+      }
+      result.bounds.merge(Box{disc_center - extent, disc_center + extent});
+    }
+    return result;
+  }
+
+  bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& p, double r) const override {
+    const double depth = primitive.radius_mid + primitive.radius_slope * p.z - std::hypot(p.x, p.y);
+    return std::abs(p.z) < 1 - r && depth > r * std::hypot(1.0, primitive.radius_slope);
+  }
+
+  Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) const override {
+    const double top = primitive.radius_mid + primitive.radius_slope;
+    const double bottom = primitive.radius_mid - primitive.radius_slope;
+    const double lateral = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+    const bool at_top = direction.z + lateral * top >= -direction.z + lateral * bottom;
+    const double radius = at_top ? top : bottom;
+    const double scale = lateral > 0 ? radius / lateral : 0.0;
+    return {direction.x * scale, direction.y * scale, at_top ? 1.0 : -1.0};
+  }
+
+  bool contains(const CanonicalPrimitive& primitive, const Vec3& p) const override {
+    const double radius = primitive.radius_mid + primitive.radius_slope * p.z;
+    return std::abs(p.z) <= 1.0 && radius >= 0 && p.x * p.x + p.y * p.y <= radius * radius;
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    if (!within(cell_world, primitive.bounds) && axis_meets(primitive, cell_world)) {
+      return Classification::kCrosses;
+    }
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    const Vec3& center = cell.center;
+    const double z_reach =
+        std::abs(cell.half[0].z) + std::abs(cell.half[1].z) + std::abs(cell.half[2].z);
+    if (std::abs(center.z) - z_reach > 1.0 + cell.slack) return Classification::kOutside;
+    if (contains(primitive, center)) {
+      const bool between_ends = std::abs(center.z) + z_reach < 1.0 - cell.slack;
+      return between_ends && holds_corners(primitive, cell) ? Classification::kInside
+                                                            : Classification::kCrosses;
+    }
+
+    // A separating direction, starting from the wall's normal on the cell's side. Each step
+    // reflects it at the plane between the two supporting points (Chung and Wang, "Quick collision
+    // detection of polytopes in virtual environments", 1996); a step ends with a proof or without
+    // an answer.
+    constexpr int kSteps = 5;
+    const Vec3 nearest = nearest_to_axis(cell);
+    if (contains(primitive, nearest)) return Classification::kCrosses;
+    const double lateral = std::sqrt(nearest.x * nearest.x + nearest.y * nearest.y);
+    Vec3 direction = lateral > 0
+                         ? Vec3{nearest.x / lateral, nearest.y / lateral, -primitive.radius_slope}
+                         : Vec3{0, 0, center.z > 0 ? 1.0 : -1.0};
+    direction /= std::sqrt(glm::dot(direction, direction));
+    for (int step = 0; step < kSteps; ++step) {
+      const Vec3 near = cell.lowest(direction);
+      if (contains(primitive, near)) return Classification::kCrosses;
+      const Vec3 gap = near - support(primitive, direction);
+      const double along = glm::dot(gap, direction);
+      if (along > cell.slack) return Classification::kOutside;
+      direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
+    }
+    return Classification::kCrosses;
+  }
+
+  bool holds(const CanonicalPrimitive& outer, const CanonicalPrimitive& inner,
+             double limit) const override {
+    if (inner.shape == Shape::kFrustum) {
+      // Canonical lengths are at most so many times the world's.
+      const double reach = limit > 0 ? kCoaxial : limit * outer.canonical_stretch;
+      if (frustum_lies_within(inner, outer, reach)) return true;
+    }
+    return PrimitiveKind::holds(outer, inner, limit);
+  }
+
+  bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
+    // Canonical space has it no more than 2 thick in any direction.
+    if (primitive.canonical_stretch * thickness <= 2) return false;
+    const Mat3 rows = glm::transpose(primitive.world_to_canonical);
+    return width(primitive, rows[2]) < thickness ||
+           width(primitive, most_stretched_across(rows[0], rows[1])) < thickness;
+  }
+};
+
+constexpr FrustumKind kKind;
+
+}  // namespace
+
+constinit const PrimitiveKind& Frustum_kind = kKind;
+
+Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
+                       const Affine& local_to_world) {
+  Primitive primitive;
+  primitive.shape = Shape::kFrustum;
+  primitive.z_min = z_min;
+  primitive.z_max = z_max;
+  primitive.r_bottom = r_bottom;
+  primitive.r_top = r_top;
+  primitive.local_to_world = local_to_world;
+  return primitive;
+}
+
+}  // namespace csgcore

@@ -149,17 +149,6 @@ HWY_NOINLINE Segment<D> box_segment(D d, const CanonicalPrimitive& primitive,
   return segment_if(d, hn::Lt(start, end), start, end, no_lanes(d), hn::Not(no_lanes(d)));
 }
 
-template <class D>
-HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                              const Rays<D>& rays) {
-  if (const auto& slabs = primitive.polyhedron->slabs()) {
-    return box_segment(d, primitive, *slabs, center, rays);
-  }
-  const FacedSegment<D> faced = faced_segment<false>(d, primitive, center, rays);
-  return segment_if(d, hn::Lt(faced.start, faced.end), faced.start, faced.end, no_lanes(d),
-                    hn::Not(no_lanes(d)));
-}
-
 /// The faces by which rays cross a box; of those that are crossed at once, the first.
 template <class D>
 HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive, const Vec3& center,
@@ -180,19 +169,38 @@ HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive,
   return segment;
 }
 
-/// Outward and unit, where the ray enters or leaves: of the face that cuts it there.
-template <class D>
-HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Mask<D> leaves) {
-  const FacedSegment<D> faced = primitive.polyhedron->slabs()
-                                    ? box_faces(d, primitive, center, rays)
-                                    : faced_segment<true>(d, primitive, center, rays);
-  return normalized(d,
-                    transformed_back(d, primitive.world_to_canonical,
-                                     if_then_else(leaves, faced.end_normal, faced.start_normal)));
-}
-
 }  // namespace polyhedron_rays
+
+/// See kind_rays-inl.hpp. "On a cap" is where the ray leaves: the normal is that of the face that
+/// cuts it there.
+struct PolyhedronRays {
+  static constexpr bool kHasCaps = true;
+
+  template <class D>
+  static HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                       const Rays<D>& rays) {
+    if (const auto& slabs = primitive.polyhedron->slabs()) {
+      return polyhedron_rays::box_segment(d, primitive, *slabs, center, rays);
+    }
+    const polyhedron_rays::FacedSegment<D> faced =
+        polyhedron_rays::faced_segment<false>(d, primitive, center, rays);
+    return segment_if(d, hn::Lt(faced.start, faced.end), faced.start, faced.end, no_lanes(d),
+                      hn::Not(no_lanes(d)));
+  }
+
+  template <class D>
+  static HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                     const Rays<D>& rays, hn::Vec<D> /*t*/, hn::Mask<D> leaves) {
+    const polyhedron_rays::FacedSegment<D> faced =
+        primitive.polyhedron->slabs()
+            ? polyhedron_rays::box_faces(d, primitive, center, rays)
+            : polyhedron_rays::faced_segment<true>(d, primitive, center, rays);
+    return normalized(d,
+                      transformed_back(d, primitive.world_to_canonical,
+                                       if_then_else(leaves, faced.end_normal, faced.start_normal)));
+  }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace csgcore
 HWY_AFTER_NAMESPACE();

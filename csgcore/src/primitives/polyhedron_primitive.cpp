@@ -1,11 +1,13 @@
 // The convex polyhedron under affine maps. Canonical: see polyhedron.hpp.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "csgcore/polyhedron.hpp"
-#include "primitives/shapes.hpp"
+#include "primitives/primitive_kind.hpp"
 
-namespace csgcore::polyhedron {
+namespace csgcore {
 namespace {
 
 /// By convexity, a cell whose 8 corners are inside is inside.
@@ -16,57 +18,115 @@ bool holds_corners(const Polyhedron& polyhedron, const CanonicalCell& cell) {
   return true;
 }
 
+/// A polyhedron of more faces is not asked whether it holds another primitive.
+constexpr size_t kMostFaces = 64;
+
+class PolyhedronKind final : public PrimitiveKind {
+ public:
+  bool has_valid_shape(const Primitive& primitive) const override {
+    return primitive.polyhedron != nullptr;
+  }
+
+  CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
+    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const Polyhedron::Canonical& canonical = polyhedron.canonical();
+    CanonicalPrimitive result;
+    result.shape = Shape::kPolyhedron;
+    result.enclosure = canonical.in_frustum ? Shape::kFrustum : Shape::kSphere;
+    result.radius_mid = canonical.radius_mid;
+    result.radius_slope = canonical.radius_slope;
+    result.polyhedron = primitive.polyhedron;
+    const Mat3& linear = primitive.local_to_world.linear;
+    result.center = primitive.local_to_world.point(canonical.center);
+    for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
+    result.world_to_canonical = inverse(result.canonical_to_world);
+    // Its support along a world axis is that along the axis' row of the map.
+    const Mat3 rows = glm::transpose(result.canonical_to_world);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto reach = [&](const Vec3& direction) {
+        return glm::dot(direction, polyhedron.support(direction));
+      };
+      result.bounds.min[axis] = result.center[axis] - reach(-rows[axis]);
+      result.bounds.max[axis] = result.center[axis] + reach(rows[axis]);
+    }
+    return result;
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    const Polyhedron& polyhedron = *primitive.polyhedron;
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    if (polyhedron.contains(cell.center)) {
+      return holds_corners(polyhedron, cell) ? Classification::kInside : Classification::kCrosses;
+    }
+    // Most of what is outside is outside of what encloses it.
+    const Classification enclosure = kind_of(primitive.enclosure).classify(primitive, cell_world);
+    if (enclosure == Classification::kOutside) return enclosure;
+    // A separating direction, as the frustum's kind finds it, from the normal of the face towards
+    // the cell on.
+    constexpr int kSteps = 8;
+    Vec3 direction = glm::normalize(polyhedron.face_towards(cell.center));
+    for (int step = 0; step < kSteps; ++step) {
+      const Vec3 near = cell.lowest(direction);
+      if (polyhedron.contains(near)) return Classification::kCrosses;
+      const Vec3 gap = near - polyhedron.support(direction);
+      const double along = glm::dot(gap, direction);
+      if (along > cell.slack) return Classification::kOutside;
+      direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
+    }
+    return Classification::kCrosses;
+  }
+
+  bool contains(const CanonicalPrimitive& primitive, const Vec3& point) const override {
+    return primitive.polyhedron->contains(point);
+  }
+
+  Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) const override {
+    return primitive.polyhedron->support(direction);
+  }
+
+  bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center,
+                  double radius) const override {
+    return primitive.polyhedron->contains(center, radius);
+  }
+
+  bool holds(const CanonicalPrimitive& outer, const CanonicalPrimitive& inner,
+             double limit) const override {
+    const std::vector<Polyhedron::Entry>& entries = outer.polyhedron->entries();
+    if (entries.size() > kMostFaces) return false;
+    return std::ranges::all_of(entries, [&](const Polyhedron::Entry& entry) {
+      if (entry.skip > 0) return true;
+      const Vec3 normal = glm::transpose(outer.world_to_canonical) * entry.normal;
+      const Vec3 furthest = furthest_point(inner, normal) - outer.center;
+      return glm::dot(normal, furthest) - 1 <= limit * glm::length(normal);
+    });
+  }
+
+  bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
+    for (const Polyhedron::Entry& face : primitive.polyhedron->entries()) {
+      if (face.skip > 0) continue;
+      const Vec3 normal = face.normal * primitive.world_to_canonical;
+      // Further from the canonical origin, which lies within, than all of it is thick.
+      if (glm::dot(normal, normal) * thickness * thickness <= 1) continue;
+      if (width(primitive, normal) < thickness) return true;
+    }
+    return false;
+  }
+};
+
+constexpr PolyhedronKind kKind;
+
 }  // namespace
 
-CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  const Polyhedron& polyhedron = *primitive.polyhedron;
-  const Polyhedron::Canonical& canonical = polyhedron.canonical();
-  CanonicalPrimitive result;
-  result.shape = Shape::kPolyhedron;
-  result.enclosure = canonical.in_frustum ? Shape::kFrustum : Shape::kSphere;
-  result.radius_mid = canonical.radius_mid;
-  result.radius_slope = canonical.radius_slope;
-  result.polyhedron = primitive.polyhedron;
-  const Mat3& linear = primitive.local_to_world.linear;
-  result.center = primitive.local_to_world.point(canonical.center);
-  for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
-  result.world_to_canonical = inverse(result.canonical_to_world);
-  // Its support along a world axis is that along the axis' row of the map.
-  const Mat3 rows = glm::transpose(result.canonical_to_world);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto reach = [&](const Vec3& direction) {
-      return glm::dot(direction, polyhedron.support(direction));
-    };
-    result.bounds.min[axis] = result.center[axis] - reach(-rows[axis]);
-    result.bounds.max[axis] = result.center[axis] + reach(rows[axis]);
-  }
-  return result;
+constinit const PrimitiveKind& Polyhedron_kind = kKind;
+
+Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
+                          const Affine& local_to_world) {
+  Primitive primitive;
+  primitive.shape = Shape::kPolyhedron;
+  primitive.polyhedron = std::move(polyhedron);
+  primitive.local_to_world = local_to_world;
+  return primitive;
 }
 
-Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
-  const Polyhedron& polyhedron = *primitive.polyhedron;
-  const CanonicalCell cell = to_canonical(primitive, cell_world);
-  if (polyhedron.contains(cell.center)) {
-    return holds_corners(polyhedron, cell) ? Classification::kInside : Classification::kCrosses;
-  }
-  // Most of what is outside is outside of what encloses it.
-  const Classification enclosure = primitive.enclosure == Shape::kSphere
-                                       ? sphere::classify(primitive, cell_world)
-                                       : frustum::classify(primitive, cell_world);
-  if (enclosure == Classification::kOutside) return enclosure;
-  // A separating direction, as frustum::classify finds it, from the normal of the face towards the
-  // cell on.
-  constexpr int kSteps = 8;
-  Vec3 direction = glm::normalize(polyhedron.face_towards(cell.center));
-  for (int step = 0; step < kSteps; ++step) {
-    const Vec3 near = cell.lowest(direction);
-    if (polyhedron.contains(near)) return Classification::kCrosses;
-    const Vec3 gap = near - polyhedron.support(direction);
-    const double along = glm::dot(gap, direction);
-    if (along > cell.slack) return Classification::kOutside;
-    direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
-  }
-  return Classification::kCrosses;
-}
-
-}  // namespace csgcore::polyhedron
+}  // namespace csgcore

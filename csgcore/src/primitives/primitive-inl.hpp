@@ -1,4 +1,4 @@
-// What a primitive answers about rays, by its shape. Included once per instruction set.
+// What a primitive answers about rays, by its kind. Included once per instruction set.
 #if defined(CSGCORE_PRIMITIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_PRIMITIVE_INL_HPP
 #undef CSGCORE_PRIMITIVE_INL_HPP
@@ -8,50 +8,23 @@
 
 #include <hwy/cache_control.h>
 
-#include <type_traits>
-
-#include "primitives/frustum-inl.hpp"
+#include "primitives/kind_rays-inl.hpp"
 #include "primitives/packet_segments.hpp"
-#include "primitives/polyhedron-inl.hpp"
-#include "primitives/sphere-inl.hpp"
 #include "rays/frame_rays.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-template <Shape kShape, class D>
-HWY_INLINE Segment<D> segment_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                                       const Rays<D>& rays) {
-  if constexpr (kShape == Shape::kSphere) return sphere_rays::segment(d, primitive, center, rays);
-  if constexpr (kShape == Shape::kFrustum) return frustum_rays::segment(d, primitive, center, rays);
-  if constexpr (kShape == Shape::kPolyhedron) {
-    return polyhedron_rays::segment(d, primitive, center, rays);
-  }
-}
-
-template <Shape kShape, class D>
-HWY_INLINE Lanes3<D> normal_of_shape(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                                     const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
-  if constexpr (kShape == Shape::kSphere) return sphere_rays::normal(d, primitive, center, rays, t);
-  if constexpr (kShape == Shape::kFrustum) {
-    return frustum_rays::normal(d, primitive, center, rays, t, on_cap);
-  }
-  if constexpr (kShape == Shape::kPolyhedron) {
-    return polyhedron_rays::normal(d, primitive, center, rays, on_cap);
-  }
-}
-
-/// Calls back with the primitive's shape as a constant, so that loops need not ask for it.
+/// Calls back with the …Rays of the primitive's kind, so that loops need not ask for it.
 template <class Visit>
-HWY_INLINE void with_shape(const CanonicalPrimitive& primitive, Visit&& visit) {
+HWY_INLINE void with_rays_of_kind(const CanonicalPrimitive& primitive, Visit&& visit) {
   switch (primitive.shape) {
-    case Shape::kSphere:
-      return visit(std::integral_constant<Shape, Shape::kSphere>());
-    case Shape::kFrustum:
-      return visit(std::integral_constant<Shape, Shape::kFrustum>());
-    case Shape::kPolyhedron:
-      return visit(std::integral_constant<Shape, Shape::kPolyhedron>());
+#define CSGCORE_CASE(Name) \
+  case Shape::k##Name:     \
+    return visit(Name##Rays());
+    CSGCORE_FOR_EACH_SHAPE(CSGCORE_CASE)
+#undef CSGCORE_CASE
   }
 }
 
@@ -60,8 +33,8 @@ template <class D>
 HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
                                const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
   Lanes3<D> normal;
-  with_shape(primitive, [&](auto shape) {
-    normal = normal_of_shape<shape.value>(d, primitive, primitive.center - pivot, rays, t, on_cap);
+  with_rays_of_kind(primitive, [&](auto kind) {
+    normal = kind.normal(d, primitive, primitive.center - pivot, rays, t, on_cap);
   });
   return normal;
 }
@@ -82,15 +55,14 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame
   LaneMask start_on_cap = 0;
   LaneMask end_on_cap = 0;
   LaneMask done = 0;
-  with_shape(primitive, [&](auto shape) {
+  with_rays_of_kind(primitive, [&](auto kind) {
     for (const int c : ChunksOf(lanes)) {
       const size_t first = first_lane(c);
-      const auto segment =
-          segment_of_shape<shape.value>(d, primitive, center, load_rays(d, packet, first));
+      const auto segment = kind.segment(d, primitive, center, load_rays(d, packet, first));
       hn::Store(segment.start, d, segments.start + first);
       hn::Store(segment.end, d, segments.end + first);
       done |= chunk_lanes(c);
-      if constexpr (shape.value == Shape::kSphere) continue;
+      if constexpr (!kind.kHasCaps) continue;
       start_on_cap |= bits_of(segment.start_on_cap, c);
       end_on_cap |= bits_of(segment.end_on_cap, c);
     }
@@ -107,11 +79,10 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void find_normals(const FrameRays& frame,
                                                        Lanes3<Wide> (&normals)[kChunks]) {
   const Wide d;
   const Vec3 center = primitive.center - frame.pivot;
-  with_shape(primitive, [&](auto shape) {
+  with_rays_of_kind(primitive, [&](auto kind) {
     for (const int c : ChunksOf(lanes)) {
-      normals[c] =
-          normal_of_shape<shape.value>(d, primitive, center, load_rays(d, packet, first_lane(c)),
-                                       t.chunk[c], mask_of(on_cap, c));
+      normals[c] = kind.normal(d, primitive, center, load_rays(d, packet, first_lane(c)),
+                               t.chunk[c], mask_of(on_cap, c));
     }
   });
 }

@@ -23,22 +23,6 @@ HWY_INLINE Segment<D> within_radius(D d, const Lanes3<D>& o, const Lanes3<D>& di
   return segment_about(d, middle, hn::Sub(radius2, dot(d, foot, foot)), inverse_length2);
 }
 
-/// `center`: relative to the rays' pivot.
-template <class D>
-HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                              const Rays<D>& rays) {
-  const Lanes3<D> o = rays.origin - broadcast(d, center);
-  if (primitive.ball_radius > 0) {
-    // Distances are the world's: the rays' lengths are known.
-    const auto radius2 = hn::Set(d, primitive.ball_radius * primitive.ball_radius);
-    return within_radius(d, o, rays.direction, rays.inverse_length2, radius2);
-  }
-  const Lanes3<D> direction = transformed(d, primitive.world_to_canonical, rays.direction);
-  const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
-  return within_radius(d, transformed(d, primitive.world_to_canonical, o), direction,
-                       inverse_length2, hn::Set(d, 1.0));
-}
-
 /// The points, relative to the centre, that lie further away than `reach` in canonical space.
 template <class D>
 HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& point,
@@ -47,22 +31,42 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
   return hn::Gt(dot(d, p, p), set(d, (1 + reach) * (1 + reach)));
 }
 
-/// Outward and unit, at the point that lies at τ = t.
-template <class D>
-HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
-                            const Rays<D>& rays, hn::Vec<D> t) {
-  const Lanes3<D> point = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
-  if (primitive.ball_radius > 0) {
-    // The length is the radius but for rounding: less than 1e-6 of it where a ball is not too small
-    // to exist, of which two steps leave nothing.
-    const auto guess = hn::Set(d, 1 / primitive.ball_radius);
-    return scaled(point, newton_inverse_sqrt(d, dot(d, point, point), guess, 2));
-  }
-  const Lanes3<D> canonical = transformed(d, primitive.world_to_canonical, point);
-  return normalized(d, transformed_back(d, primitive.world_to_canonical, canonical));
-}
-
 }  // namespace sphere_rays
+
+/// See kind_rays-inl.hpp. A ball, and an ellipsoid, has no caps.
+struct SphereRays {
+  static constexpr bool kHasCaps = false;
+
+  template <class D>
+  static HWY_INLINE Segment<D> segment(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                       const Rays<D>& rays) {
+    const Lanes3<D> o = rays.origin - broadcast(d, center);
+    if (primitive.ball_radius > 0) {
+      // Distances are the world's: the rays' lengths are known.
+      const auto radius2 = hn::Set(d, primitive.ball_radius * primitive.ball_radius);
+      return sphere_rays::within_radius(d, o, rays.direction, rays.inverse_length2, radius2);
+    }
+    const Lanes3<D> direction = transformed(d, primitive.world_to_canonical, rays.direction);
+    const auto inverse_length2 = hn::Div(hn::Set(d, 1.0), dot(d, direction, direction));
+    return sphere_rays::within_radius(d, transformed(d, primitive.world_to_canonical, o), direction,
+                                      inverse_length2, hn::Set(d, 1.0));
+  }
+
+  template <class D>
+  static HWY_INLINE Lanes3<D> normal(D d, const CanonicalPrimitive& primitive, const Vec3& center,
+                                     const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> /*on_cap*/) {
+    const Lanes3<D> point = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
+    if (primitive.ball_radius > 0) {
+      // The length is the radius but for rounding: less than 1e-6 of it where a ball is not too
+      // small to exist, of which two steps leave nothing.
+      const auto guess = hn::Set(d, 1 / primitive.ball_radius);
+      return scaled(point, newton_inverse_sqrt(d, dot(d, point, point), guess, 2));
+    }
+    const Lanes3<D> canonical = transformed(d, primitive.world_to_canonical, point);
+    return normalized(d, transformed_back(d, primitive.world_to_canonical, canonical));
+  }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace csgcore
 HWY_AFTER_NAMESPACE();

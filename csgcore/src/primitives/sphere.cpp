@@ -1,11 +1,12 @@
 // The sphere, under affine maps an ellipsoid. Canonical: the unit ball.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "primitives/shapes.hpp"
+#include "primitives/primitive_kind.hpp"
 
-namespace csgcore::sphere {
+namespace csgcore {
 namespace {
 
 /// Relative deviation of LᵀL from a multiple of the identity below which the image of a sphere is
@@ -24,64 +25,110 @@ bool is_similarity(const Mat3& linear) {
   return true;
 }
 
+/// The world's direction that canonical space stretches most: an ellipsoid's shortest axis.
+Vec3 most_stretched(const Mat3& world_to_canonical) {
+  // Powers of its square lead to it; ten squarings to the 1,024th.
+  Mat3 power = glm::transpose(world_to_canonical) * world_to_canonical;
+  for (int i = 0; i < 10; ++i) {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max(largest, glm::length(power[k]));
+    power *= 1 / largest;
+    power = power * power;
+  }
+  return *std::max_element(&power[0], &power[0] + 3, [](const Vec3& a, const Vec3& b) {
+    return glm::length(a) < glm::length(b);
+  });
+}
+
+class SphereKind final : public PrimitiveKind {
+ public:
+  bool has_valid_shape(const Primitive& primitive) const override {
+    return std::isfinite(primitive.r_bottom) && primitive.r_bottom > 0;
+  }
+  CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
+    CanonicalPrimitive result;
+    result.shape = Shape::kSphere;
+    result.center = primitive.local_to_world.translation;
+    result.canonical_to_world = primitive.local_to_world.linear * primitive.r_bottom;
+    result.world_to_canonical = inverse(result.canonical_to_world);
+    if (is_similarity(result.canonical_to_world)) {
+      result.ball_radius = glm::length(result.canonical_to_world[0]);
+    }
+    // The support of the ellipsoid along a world axis is the norm of that row of the map.
+    const Mat3 rows = glm::transpose(result.canonical_to_world);
+    const Vec3 extent{glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])};
+    result.bounds = {result.center - extent, result.center + extent};
+    return result;
+  }
+
+  bool contains(const CanonicalPrimitive&, const Vec3& p) const override {
+    return glm::dot(p, p) <= 1.0;
+  }
+
+  Vec3 support(const CanonicalPrimitive&, const Vec3& direction) const override {
+    const double length = glm::length(direction);
+    return length > 0 ? direction / length : Vec3{1, 0, 0};
+  }
+
+  bool holds_ball(const CanonicalPrimitive&, const Vec3& center, double radius) const override {
+    return glm::length(center) < 1 - radius;
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    // By convexity, a cell whose 8 corners are inside is inside.
+    const double inner = 1.0 - cell.slack;
+    if (contains(primitive, cell.center)) {
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 point = cell.corner(corner);
+        if (!(inner > 0 && glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
+      }
+      return Classification::kInside;
+    }
+    // The cell's point nearest to the ball's centre, by cyclic coordinate descent on the box of the
+    // three edge parameters: convex, and exact after one sweep where the edges are orthogonal. Each
+    // sweep ends with a proof: the plane through that point, if it separates.
+    constexpr int kSweeps = 6;
+    Vec3 parameter{0.0};
+    Vec3 nearest = cell.center;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (int i = 0; i < 3; ++i) {
+        const double length2 = glm::dot(cell.half[i], cell.half[i]);
+        const double moved = parameter[i] - glm::dot(cell.half[i], nearest) / length2;
+        const double clamped = glm::clamp(moved, -1.0, 1.0);
+        nearest += (clamped - parameter[i]) * cell.half[i];
+        parameter[i] = clamped;
+      }
+      const double distance2 = glm::dot(nearest, nearest);
+      if (distance2 <= 1.0) return Classification::kCrosses;
+      const double low =
+          glm::dot(nearest, cell.center) - std::abs(glm::dot(nearest, cell.half[0])) -
+          std::abs(glm::dot(nearest, cell.half[1])) - std::abs(glm::dot(nearest, cell.half[2]));
+      if (low > std::sqrt(distance2) * (1.0 + cell.slack)) return Classification::kOutside;
+    }
+    return Classification::kCrosses;
+  }
+
+  bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
+    // Canonical space has it 2 thick in every direction.
+    if (primitive.canonical_stretch * thickness <= 2) return false;
+    return width(primitive, most_stretched(primitive.world_to_canonical)) < thickness;
+  }
+};
+
+constexpr SphereKind kKind;
+
 }  // namespace
 
-CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  CanonicalPrimitive result;
-  result.shape = Shape::kSphere;
-  result.center = primitive.local_to_world.translation;
-  result.canonical_to_world = primitive.local_to_world.linear * primitive.r_bottom;
-  result.world_to_canonical = inverse(result.canonical_to_world);
-  if (is_similarity(result.canonical_to_world)) {
-    result.ball_radius = glm::length(result.canonical_to_world[0]);
-  }
-  // The support of the ellipsoid along a world axis is the norm of that row of the map.
-  const Mat3 rows = glm::transpose(result.canonical_to_world);
-  const Vec3 extent{glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])};
-  result.bounds = {result.center - extent, result.center + extent};
-  return result;
+constinit const PrimitiveKind& Sphere_kind = kKind;
+
+Primitive make_sphere(double radius, const Affine& local_to_world) {
+  Primitive primitive;
+  primitive.shape = Shape::kSphere;
+  primitive.r_bottom = radius;
+  primitive.local_to_world = local_to_world;
+  return primitive;
 }
 
-bool contains(const Vec3& p) { return glm::dot(p, p) <= 1.0; }
-
-Vec3 support(const Vec3& direction) {
-  const double length = glm::length(direction);
-  return length > 0 ? direction / length : Vec3{1, 0, 0};
-}
-
-Classification classify(const CanonicalPrimitive& primitive, const Box& cell_world) {
-  const CanonicalCell cell = to_canonical(primitive, cell_world);
-  // By convexity, a cell whose 8 corners are inside is inside.
-  const double inner = 1.0 - cell.slack;
-  if (contains(cell.center)) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 point = cell.corner(corner);
-      if (!(inner > 0 && glm::dot(point, point) < inner * inner)) return Classification::kCrosses;
-    }
-    return Classification::kInside;
-  }
-  // The cell's point nearest to the ball's centre, by cyclic coordinate descent on the box of the
-  // three edge parameters: convex, and exact after one sweep where the edges are orthogonal. Each
-  // sweep ends with a proof: the plane through that point, if it separates.
-  constexpr int kSweeps = 6;
-  Vec3 parameter{0.0};
-  Vec3 nearest = cell.center;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (int i = 0; i < 3; ++i) {
-      const double length2 = glm::dot(cell.half[i], cell.half[i]);
-      const double moved = parameter[i] - glm::dot(cell.half[i], nearest) / length2;
-      const double clamped = glm::clamp(moved, -1.0, 1.0);
-      nearest += (clamped - parameter[i]) * cell.half[i];
-      parameter[i] = clamped;
-    }
-    const double distance2 = glm::dot(nearest, nearest);
-    if (distance2 <= 1.0) return Classification::kCrosses;
-    const double low = glm::dot(nearest, cell.center) - std::abs(glm::dot(nearest, cell.half[0])) -
-                       std::abs(glm::dot(nearest, cell.half[1])) -
-                       std::abs(glm::dot(nearest, cell.half[2]));
-    if (low > std::sqrt(distance2) * (1.0 + cell.slack)) return Classification::kOutside;
-  }
-  return Classification::kCrosses;
-}
-
-}  // namespace csgcore::sphere
+}  // namespace csgcore

@@ -93,61 +93,11 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
 constexpr size_t kLargest = 4;
 constexpr size_t kMostOperands = size_t{1} << 17;
 
-/// A polyhedron of more faces is not asked.
-constexpr size_t kMostFaces = 64;
-
 /// As shares of the tolerance: a thousand times what is rounded, which a primitive may stand out of
 /// one that holds it, if coincident faces are that one's; and how far from its surface it stays
 /// otherwise.
 constexpr double kCoplanar = 0x1p-10;
 constexpr double kApartInside = 4;
-
-/// So far from coaxial, in canonical units, two frusta are by rounding alone.
-constexpr double kCoaxial = 1e-14;
-
-/// Of two frusta that have one axis. `reach`: in the outer one's canonical units.
-bool frustum_lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer,
-                         double reach) {
-  const Mat3 map = outer.world_to_canonical * inner.canonical_to_world;
-  const Vec3 offset = outer.world_to_canonical * (inner.center - outer.center);
-  const double radius = glm::length(map[0]);
-  const double off_axis =
-      std::max({std::abs(map[2].x), std::abs(map[2].y), std::abs(map[0].z), std::abs(map[1].z),
-                std::abs(glm::dot(map[0], map[1])), std::abs(glm::length(map[1]) - radius),
-                std::hypot(offset.x, offset.y)});
-  if (!(off_axis <= kCoaxial)) return false;
-  for (const double end : {-1.0, 1.0}) {
-    const double z = offset.z + end * map[2].z;
-    const double rim = radius * (inner.radius_mid + end * inner.radius_slope);
-    if (std::abs(z) > 1 + reach) return false;
-    if (rim > outer.radius_mid + outer.radius_slope * z + reach) return false;
-  }
-  return true;
-}
-
-/// Whether a primitive certainly reaches no further than `limit` beyond another one's surface, in
-/// world units; or stays −limit within it, where that is negative.
-bool lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer, double limit) {
-  if (outer.ball_radius > 0) {
-    return glm::length(inner.center - outer.center) + reach(inner) <= outer.ball_radius + limit;
-  }
-  if (outer.shape == Shape::kPolyhedron) {
-    const std::vector<Polyhedron::Entry>& entries = outer.polyhedron->entries();
-    if (entries.size() > kMostFaces) return false;
-    return std::ranges::all_of(entries, [&](const Polyhedron::Entry& entry) {
-      if (entry.skip > 0) return true;
-      const Vec3 normal = glm::transpose(outer.world_to_canonical) * entry.normal;
-      const Vec3 furthest = furthest_point(inner, normal) - outer.center;
-      return glm::dot(normal, furthest) - 1 <= limit * glm::length(normal);
-    });
-  }
-  if (inner.shape == Shape::kFrustum && outer.shape == Shape::kFrustum) {
-    // Canonical lengths are at most so many times the world's.
-    const double reach = limit > 0 ? kCoaxial : limit * outer.canonical_stretch;
-    if (frustum_lies_within(inner, outer, reach)) return true;
-  }
-  return holds_ball(outer, inner.center, reach(inner) + std::max(-limit, 0.0));
-}
 
 /// Marks primitives that lie within another operand of their union.
 class InnerOperands {

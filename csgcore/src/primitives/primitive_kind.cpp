@@ -1,52 +1,33 @@
-#include "primitives/shapes.hpp"
+#include "primitives/primitive_kind.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <stdexcept>
 
-#include "csgcore/polyhedron.hpp"
 #include "primitives/canonical_slack.hpp"
 
 namespace csgcore {
+
+// A kind's file defines it.
+#define CSGCORE_DECLARE(Name) extern const PrimitiveKind& Name##_kind;
+CSGCORE_FOR_EACH_SHAPE(CSGCORE_DECLARE)
+#undef CSGCORE_DECLARE
+
+const PrimitiveKind& kind_of(Shape shape) {
+  switch (shape) {
+#define CSGCORE_CASE(Name) \
+  case Shape::k##Name:     \
+    return Name##_kind;
+    CSGCORE_FOR_EACH_SHAPE(CSGCORE_CASE)
+#undef CSGCORE_CASE
+  }
+  throw std::logic_error("a shape that is none");
+}
+
 namespace {
-
-bool contains_canonical(const CanonicalPrimitive& primitive, const Vec3& point) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return sphere::contains(point);
-    case Shape::kFrustum:
-      return frustum::contains(primitive, point);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return primitive.polyhedron->contains(point);
-}
-
-CanonicalPrimitive canonicalize_shape(const Primitive& primitive) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return sphere::canonicalize(primitive);
-    case Shape::kFrustum:
-      return frustum::canonicalize(primitive);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return polyhedron::canonicalize(primitive);
-}
-
-Vec3 support_canonical(const CanonicalPrimitive& primitive, const Vec3& direction) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return sphere::support(direction);
-    case Shape::kFrustum:
-      return frustum::support(primitive, direction);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return primitive.polyhedron->support(direction);
-}
 
 /// A ball against a box, by the exact distances of the box's nearest and furthest points.
 Classification classify_ball(const Vec3& center, double radius, const Box& cell) {
@@ -103,8 +84,41 @@ double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell&
 
 }  // namespace
 
+Vec3 PrimitiveKind::support(const CanonicalPrimitive& primitive, const Vec3& direction) const {
+  return kind_of(primitive.enclosure).support(primitive, direction);
+}
+
+bool PrimitiveKind::holds_ball(const CanonicalPrimitive&, const Vec3&, double) const {
+  return false;
+}
+
+Classification PrimitiveKind::classify(const CanonicalPrimitive& primitive, const Box& cell) const {
+  const Classification enclosure = kind_of(primitive.enclosure).classify(primitive, cell);
+  return enclosure == Classification::kOutside ? enclosure : Classification::kCrosses;
+}
+
+bool PrimitiveKind::holds(const CanonicalPrimitive& outer, const CanonicalPrimitive& inner,
+                          double limit) const {
+  return csgcore::holds_ball(outer, inner.center, reach(inner) + std::max(-limit, 0.0));
+}
+
+bool PrimitiveKind::is_thinner(const CanonicalPrimitive&, double) const { return false; }
+
+bool has_valid_shape(const Primitive& primitive) {
+  return kind_of(primitive.shape).has_valid_shape(primitive);
+}
+
+bool is_valid(const Primitive& primitive) {
+  if (!primitive.local_to_world.finite()) return false;
+  const double determinant = primitive.local_to_world.determinant();
+  if (!std::isfinite(determinant) || determinant == 0) return false;
+  // The inverse must be representable too: a determinant that underflows flattens the solid.
+  if (!Affine{inverse(primitive.local_to_world.linear), Vec3{0.0}}.finite()) return false;
+  return has_valid_shape(primitive);
+}
+
 CanonicalPrimitive canonicalize(const Primitive& primitive) {
-  CanonicalPrimitive result = canonicalize_shape(primitive);
+  CanonicalPrimitive result = kind_of(primitive.shape).canonicalize(primitive);
   const Mat3& map = result.world_to_canonical;
   result.canonical_stretch =
       std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
@@ -129,15 +143,7 @@ Classification classify(const CanonicalPrimitive& primitive, const Box& cell) {
 }
 
 Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell) {
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return sphere::classify(primitive, cell);
-    case Shape::kFrustum:
-      return frustum::classify(primitive, cell);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return polyhedron::classify(primitive, cell);
+  return kind_of(primitive.shape).classify(primitive, cell);
 }
 
 CanonicalCell to_canonical(const CanonicalPrimitive& primitive, const Box& cell) {
@@ -163,11 +169,12 @@ double largest_coordinate(const CanonicalPrimitive& primitive) {
 
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world) {
   const Vec3 direction = direction_world * primitive.canonical_to_world;
-  return primitive.center + primitive.canonical_to_world * support_canonical(primitive, direction);
+  const Vec3 furthest = kind_of(primitive.shape).support(primitive, direction);
+  return primitive.center + primitive.canonical_to_world * furthest;
 }
 
-/// A separating direction is sought by reflections, as in frustum::classify; from that between the
-/// centres on, which is the one for balls.
+/// A separating direction is sought by reflections, as the frustum's kind does it; from that
+/// between the centres on, which is the one for balls.
 bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
   constexpr int kSteps = 12;
   margin += kTermRounding * (largest_coordinate(a) + largest_coordinate(b));
@@ -209,20 +216,28 @@ bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, d
   const double terms = largest(glm::abs(offset) + glm::abs(center_world));
   const double canonical_radius =
       radius * primitive.canonical_stretch + kCanonicalSlack + primitive.canonical_error * terms;
-  switch (primitive.shape) {
-    case Shape::kSphere:
-      return glm::length(center) < 1 - canonical_radius;
-    case Shape::kFrustum:
-      return frustum::holds_ball(primitive, center, canonical_radius);
-    case Shape::kPolyhedron:
-      break;
-  }
-  return primitive.polyhedron->contains(center, canonical_radius);
+  return kind_of(primitive.shape).holds_ball(primitive, center, canonical_radius);
 }
 
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world) {
-  return contains_canonical(primitive,
-                            primitive.world_to_canonical * (point_world - primitive.center));
+  const Vec3 point = primitive.world_to_canonical * (point_world - primitive.center);
+  return kind_of(primitive.shape).contains(primitive, point);
+}
+
+bool lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer, double limit) {
+  if (outer.ball_radius > 0) {
+    return glm::length(inner.center - outer.center) + reach(inner) <= outer.ball_radius + limit;
+  }
+  return kind_of(outer.shape).holds(outer, inner, limit);
+}
+
+double width(const CanonicalPrimitive& primitive, const Vec3& direction) {
+  const Vec3 across = glm::normalize(direction);
+  return glm::dot(across, furthest_point(primitive, across) - furthest_point(primitive, -across));
+}
+
+bool is_thinner(const CanonicalPrimitive& primitive, double thickness) {
+  return kind_of(primitive.shape).is_thinner(primitive, thickness);
 }
 
 }  // namespace csgcore
