@@ -67,7 +67,7 @@ double most_wrong(const std::string& family) {
       {"tangent", 2e-4},               // which of two surfaces that touch
       {"needles", 7e-4},               // silhouettes at 1e-6 of the length
       {"plates", 5e-3},                // edges of 1e-6
-      {"apexes", 5e-4},                // an apex that a ray just passes
+      {"apexes", 1e-3},                // an apex that a ray just passes
       {"random_lattice", 0.015},       // eyes in faces
       {"far_models", 0.04},            // what is 1e-6 of the model
       {"sheared_and_mirrored", 0.04},  // a map of condition 1e5
