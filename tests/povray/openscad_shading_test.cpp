@@ -25,7 +25,7 @@ using csgcore::Scene;
 using csgcore::Vec3;
 using csgcore::View;
 
-const csgcore::ReferenceColors kColors{
+const csgcore::ReferenceColors kPaleColors{
     .background = {1, 1, 0.9}, .front = {0.5, 0.4, 0.2}, .back = {0.6, 0.8, 0.3}};
 
 /// Along −z, from above.
@@ -60,7 +60,8 @@ class PovRayScenes : public testing::Test {
 };
 
 TEST_F(PovRayScenes, AreShadedAsOpenScadDoes) {
-  const Pixels pixels = render(openscad_scene_text(dented_box(), from_above(2), kColors), 101, 101);
+  const Pixels pixels =
+      render(openscad_scene_text(dented_box(), from_above(2), kPaleColors), 101, 101);
   // The normal is the view's axis in the middle of the dent and on top: 0.2 + 1/√3 of the colour.
   EXPECT_THAT(pixels[kMiddle], testing::ElementsAre(119, 159, 59));
   EXPECT_THAT(pixels[kMiddle + 20], testing::ElementsAre(99, 79, 40));

@@ -48,7 +48,7 @@ Part drilled() {
 }
 
 /// One block whose pocket and plug are given in frames that are composed the other way round.
-Part turned_frames() {
+Part turned_box_frames() {
   const Affine first = turn(17, 29, 0), second = turn(0, 0, 43);
   const Part body = brick({-8, -8, 0}, {8, 8, 4}).under(csgcore::compose(first, second));
   const Part pocket = brick({-8, -2, 2}, {3, 6, 4}).under(second).under(first);
@@ -84,7 +84,7 @@ Family coincident_cubes() {
               return ((cube(8) - cube(8)) + cube(1, {5, 0, 0})).scene();
             }},
            {"drilled", [] { return drilled().scene(); }},
-           {"turned_frames", [] { return turned_frames().scene(); }},
+           {"turned_frames", [] { return turned_box_frames().scene(); }},
            {"quarter_turns", [] { return quarter_turns().scene(); }},
            {"common_face",
             [] {
@@ -158,7 +158,7 @@ Cameras close_up(double width) {
   };
 }
 
-constexpr double kShares[] = {0.2, 0.7, 0.99, 1.01, 1.3, 2, 7, 50};  // of the tolerance
+constexpr double kToleranceShares[] = {0.2, 0.7, 0.99, 1.01, 1.3, 2, 7, 50};  // of the tolerance
 
 /// Plates on a block, and gaps and slits in it, of so many tolerances.
 Scene tolerances() {
@@ -166,7 +166,7 @@ Scene tolerances() {
   const double tolerance = csgcore::thinnest_piece(csgcore::reference_box(block.scene()));
   Part result = block;
   double x = -10;
-  for (const double share : kShares) {
+  for (const double share : kToleranceShares) {
     const double t = share * tolerance;
     result = result + brick({x, -9, 0}, {x + 2, -6, t});             // a plate
     result = result + brick({x, -5, t}, {x + 2, -2, 1});             // over a gap
@@ -199,7 +199,7 @@ Family thin_polyhedra() {
 
 // --- Scales and maps ---
 
-Part block() {
+Part faceted_block() {
   const Part body = brick({-8, -8, 0}, {8, 8, 10}) - prism(4, 10, 5, 6) - rod(0, 4, 2);
   return (body + prism(4, 10, 2.5, 5, {2, 0, 0})) - faceted_ball(4, 9, {8, 8, 10});
 }
@@ -207,7 +207,7 @@ Part block() {
 Family scaled_polyhedra() {
   Family family{"scaled_polyhedra", {}};
   const auto add = [&](const char* name, const Mat3& map, const Vec3& at = Vec3{0.0}) {
-    family.cases.push_back({name, [=] { return block().under({map, at}).scene(); }});
+    family.cases.push_back({name, [=] { return faceted_block().under({map, at}).scene(); }});
   };
   add("1e12", Mat3{1e12});
   add("1e-9", Mat3{1e-9});
@@ -217,10 +217,11 @@ Family scaled_polyhedra() {
   add("mirrored", {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}});
   add("stretched", {{1, 0, 0}, {0, 30, 0}, {0, 0, 1000}});
   add("nearly_flat", {{1, 0.5, 0.3}, {1, 0.50001, 0.3}, {0.2, -0.4, 1}});
-  family.cases.push_back({"mirrored_twin", [] {
-                            const Mat3 mirror{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-                            return (block() + block().under({mirror, Vec3{0.0}})).scene();
-                          }});
+  family.cases.push_back(
+      {"mirrored_twin", [] {
+         const Mat3 mirror{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+         return (faceted_block() + faceted_block().under({mirror, Vec3{0.0}})).scene();
+       }});
   // Local numbers and the matrix take each other back.
   family.cases.push_back({"1e12_times_1e-12", [] {
                             const Part huge =

@@ -8,7 +8,7 @@
 namespace stress {
 namespace {
 
-double uniform(std::mt19937& random, double low, double high) {
+double uniform_number(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
@@ -65,7 +65,7 @@ Scene shells_of(double share) {
   return (bowl + cup).scene();
 }
 
-Family shells() {
+Family thin_shells() {
   Family family{"shells", {}};
   for (int digits = 1; digits <= 7; ++digits) {
     const double share = std::pow(10.0, -digits);
@@ -84,8 +84,9 @@ std::vector<Part> needles(int count, double radius, double length) {
   std::mt19937 random(7);
   std::vector<Part> parts;
   for (int i = 0; i < count; ++i) {
-    const double x = uniform(random, 0, 180), y = uniform(random, 0, 180);
-    const Vec3 at{uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2)};
+    const double x = uniform_number(random, 0, 180), y = uniform_number(random, 0, 180);
+    const Vec3 at{uniform_number(random, -2, 2), uniform_number(random, -2, 2),
+                  uniform_number(random, -2, 2)};
     parts.push_back(rod(-length / 2, length / 2, radius).under({turned(x, y, 0), at}));
   }
   return parts;
@@ -141,6 +142,8 @@ Family plates() {
 
 }  // namespace
 
-std::vector<Family> thin_families() { return {tangent(), shells(), needle_family(), plates()}; }
+std::vector<Family> thin_families() {
+  return {tangent(), thin_shells(), needle_family(), plates()};
+}
 
 }  // namespace stress

@@ -22,14 +22,14 @@ std::string bytes_of(const std::string& path) {
 /// Where the numbers of an xwd file's head stand (X11/XWDFile.h): 32 bits each, the highest byte
 /// first.
 enum XwdHead : std::size_t {
-  kHeadSize = 0,
-  kWidth = 4,
-  kHeight = 5,
-  kLowestByteFirst = 7,  // 0: yes
-  kBitsPerPixel = 11,
-  kBytesPerLine = 12,
-  kColors = 19,
-  kNumbers = 25
+  kXwdHeadSize = 0,
+  kXwdWidth = 4,
+  kXwdHeight = 5,
+  kXwdLowestByteFirst = 7,  // 0: yes
+  kXwdBitsPerPixel = 11,
+  kXwdBytesPerLine = 12,
+  kXwdColors = 19,
+  kXwdNumbers = 25
 };
 constexpr std::size_t kColorSize = 12;
 
@@ -75,12 +75,13 @@ Picture read_xwd(const std::string& path) {
     const std::size_t at = 4 * index;
     return byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
   };
-  if (bytes.size() < 4 * kNumbers || number(kBitsPerPixel) != 32 || number(kLowestByteFirst) != 0) {
+  if (bytes.size() < 4 * kXwdNumbers || number(kXwdBitsPerPixel) != 32 ||
+      number(kXwdLowestByteFirst) != 0) {
     throw std::runtime_error(path + " is no screen of 24 bits");
   }
-  const std::size_t start = number(kHeadSize) + number(kColors) * kColorSize;
-  const std::size_t line = number(kBytesPerLine);
-  Picture picture{number(kWidth), number(kHeight), {}};
+  const std::size_t start = number(kXwdHeadSize) + number(kXwdColors) * kColorSize;
+  const std::size_t line = number(kXwdBytesPerLine);
+  Picture picture{number(kXwdWidth), number(kXwdHeight), {}};
   if (bytes.size() < start + line * picture.height) throw std::runtime_error(path + " is short");
   picture.rgb.reserve(std::size_t{picture.width} * picture.height);
   for (uint32_t y = 0; y < picture.height; ++y) {

@@ -519,7 +519,8 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
   if (!is_large(screen)) return;
   screen.inside2 = kCornered;
   for (int i = 0; i < ScreenCorners::kCount; ++i) {
-    const auto [x, y] = kCornerDirections[i];
+    const double x = kCornerDirections[i][0];
+    const double y = kCornerDirections[i][1];
     const auto along = [x, y](const glm::dvec2& point) { return x * point.x + y * point.y; };
     const auto [least, most] = std::ranges::minmax(points_px, {}, along);
     const double margin_along = kLongestDirection * margin_px;

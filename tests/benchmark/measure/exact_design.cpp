@@ -19,7 +19,7 @@ using csgcore::Scene;
 using csgcore::View;
 using frontend::RenderSettings;
 
-constexpr double kExportLimit_s = 600;
+constexpr double kMeshExportLimit_s = 600;
 
 Hits trace(const Scene& scene, const View& view) {
   const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
@@ -133,7 +133,7 @@ const FacetedDesign& ExactDesign::faceted(uint32_t fragments) {
                                    "-D$fn=" + std::to_string(fragments)};
   command.insert(command.end(), source.defines.begin(), source.defines.end());
   command.push_back(source.file);
-  const ProcessResult exported = run_process(command, {kExportLimit_s});
+  const ProcessResult exported = run_process(command, {kMeshExportLimit_s});
   if (!exported.succeeded()) {
     faceted_.erase(entry);
     throw std::runtime_error(design_ + ": openscad: " + exported.output);

@@ -61,9 +61,9 @@ std::vector<Design> designs_of(const Settings& settings) {
 }
 
 /// One design's picture, by the program itself.
-class Drawing {
+class MeasuredRun {
  public:
-  Drawing(const Settings& settings, const std::string& design)
+  MeasuredRun(const Settings& settings, const std::string& design)
       : settings_(settings),
         csg_(csg_of(design, settings)),
         picture_(settings.work_folder / (design + ".png")),
@@ -104,7 +104,7 @@ class Drawing {
 };
 
 /// By two methods that share no more than a ray's evaluation; and with something to see.
-void require_right(const Drawing& drawing) {
+void require_right(const MeasuredRun& drawing) {
   const std::string name = drawing.csg().stem();
   const Png by_default = drawing.picture({});
   if (by_default.width_px != kWidth_px || by_default.height_px != kHeight_px ||
@@ -138,7 +138,7 @@ class Stages {
 
 json measure_design(const Design& design, const Settings& settings) {
   say(design.name);
-  const Drawing drawing(settings, design.name);
+  const MeasuredRun drawing(settings, design.name);
   require_right(drawing);
 
   std::vector<double> cpu_ms;

@@ -21,7 +21,7 @@ std::string read_line(int pipe) {
   for (;;) {
     pollfd waiting{pipe, POLLIN, 0};
     char letter = 0;
-    if (poll(&waiting, 1, kStartLimit_ms) <= 0 || read(pipe, &letter, 1) != 1) return {};
+    if (poll(&waiting, 1, kStartLimit_ms) <= 0 || ::read(pipe, &letter, 1) != 1) return {};
     if (letter == '\n') return line;
     line += letter;
   }

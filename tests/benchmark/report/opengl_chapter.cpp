@@ -16,7 +16,7 @@ std::string rule_of(const json& frame) {
   return rule + ", by " + frame.at("technique").get<std::string>();
 }
 
-double megapixels_of(const json& frame) {
+double frame_megapixels(const json& frame) {
   return frame.at("width_px").get<double>() * frame.at("height_px").get<double>() / 1e6;
 }
 
@@ -31,7 +31,7 @@ Panel panel_of(const json& frames, const std::string& design) {
     if (series == panel.series.end()) {
       series = panel.series.insert(panel.series.end(), Series{name, {}});
     }
-    series->points.push_back(summary_point(megapixels_of(frame), frame.at("frame")));
+    series->points.push_back(summary_point(frame_megapixels(frame), frame.at("frame")));
   }
   return panel;
 }

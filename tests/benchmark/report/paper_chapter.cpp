@@ -98,7 +98,7 @@ void write_dependences(const json& section, Report& report) {
   report.figure(std::move(figure), "T_R over area, cells in view and depth complexity");
 }
 
-void write_growth(const json& growth, Report& report) {
+void write_growth_of_models(const json& growth, Report& report) {
   Panel panel{"Figure 14: CC100 to CC1000", {"cones"}, {"T_R in ms"}, {}};
   Series paper{"paper, C1", {}};
   for (const json& point : growth.at("paper_c1_t_r")) {
@@ -169,7 +169,7 @@ void write_paper(const json& section, Report& report) {
   report.heading("The paper's measurements");
   write_table(section.at("table"), report);
   write_dependences(section, report);
-  if (section.contains("growth")) write_growth(section.at("growth"), report);
+  if (section.contains("growth")) write_growth_of_models(section.at("growth"), report);
   if (section.contains("threshold")) {
     write_sweep(section.at("threshold"), "threshold_px", "threshold in pixels", "threshold",
                 "Figure 3, K = 2", report);

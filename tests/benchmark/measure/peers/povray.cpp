@@ -11,7 +11,7 @@ namespace measure {
 namespace {
 
 /// OpenSCAD's default colours.
-csgcore::ReferenceColors cornfield() {
+csgcore::ReferenceColors reference_cornfield() {
   const frontend::ColorScheme scheme = frontend::RenderSettings{}.scheme;
   const auto color = [](const frontend::Rgb& rgb) {
     return csgcore::Vec3(rgb.r, rgb.g, rgb.b) / 255.0;
@@ -84,7 +84,7 @@ Candidate of(ExactDesign& subject, const std::string& series, const std::string&
 
 std::vector<Candidate> povray_candidates(ExactDesign& subject) {
   std::ofstream(subject.file(".pov"))
-      << povray::openscad_scene_text(subject.scene(), subject.view(), cornfield());
+      << povray::openscad_scene_text(subject.scene(), subject.view(), reference_cornfield());
   const std::string antialiased = "POV-Ray, antialiased";
   std::vector<Candidate> candidates{of(subject, "POV-Ray", "", {"-A"})};
   candidates.push_back(of(subject, antialiased, "+A0.3 +R2", {"+A0.3", "+AM1", "+R2"}));
