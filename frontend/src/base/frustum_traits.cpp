@@ -51,7 +51,7 @@ class FrustumTraits final : public PrimitiveTraits {
   }
   /// Face 0 is the cap at z_min, face 1 the one at z_max; each may be an apex. Both normals point
   /// to z_max, and the corners are three points of each rim.
-  void add_plane_faces(const Primitive& p, PlaneFaces& faces) const override {
+  void find_plane_faces(const Primitive& p, PlaneFaces& faces) const override {
     const double r = p.r_bottom, s = p.r_top;
     const std::array<Vec3, 6> rims{Vec3(r, 0, p.z_min), Vec3(0, r, p.z_min), Vec3(-r, -r, p.z_min),
                                    Vec3(s, 0, p.z_max), Vec3(0, s, p.z_max), Vec3(-s, -s, p.z_max)};

@@ -48,7 +48,7 @@ class PolyhedronTraits final : public PrimitiveTraits {
   }
 
   /// Faces are numbered as half-spaces are; their normals point outwards.
-  void add_plane_faces(const Primitive& primitive, PlaneFaces& result) const override {
+  void find_plane_faces(const Primitive& primitive, PlaneFaces& result) const override {
     const Polyhedron& polyhedron = *primitive.polyhedron;
     if (polyhedron.half_spaces().size() > kMostComparedFaces) return;
     for (const csgcore::HalfSpace& half_space : polyhedron.half_spaces()) {

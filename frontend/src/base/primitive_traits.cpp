@@ -66,7 +66,7 @@ std::shared_ptr<const csgcore::Polyhedron> PrimitiveTraits::faceted(const Primit
 
 Roundness PrimitiveTraits::roundness(const Primitive&) const { return {}; }
 
-void PrimitiveTraits::add_plane_faces(const Primitive&, PlaneFaces&) const {}
+void PrimitiveTraits::find_plane_faces(const Primitive&, PlaneFaces&) const {}
 
 double PrimitiveTraits::inscribed_share(int) const { return 1; }
 

@@ -49,7 +49,8 @@ class PrimitiveTraits {
   /// No coordinate of the solid is larger. It may exceed the largest one by a small factor.
   virtual double extent(const csgcore::Primitive& primitive) const;
 
-  /// The fragments that OpenSCAD gives it around; 0: it has no facets, or is made of nothing else.
+  /// The fragments that OpenSCAD gives it around; 0: OpenSCAD draws it alike whatever the settings
+  /// are.
   virtual int fragments(const csgcore::Primitive& primitive,
                         const csgcore::FacetSettings& settings) const;
   /// The box of the solid that OpenSCAD draws, in facets.
@@ -57,14 +58,15 @@ class PrimitiveTraits {
                                    const csgcore::FacetSettings& settings) const;
   /// What primitives with the same facets have in common. `fragments` is 3 or more, here and below.
   virtual Faceting faceting(const csgcore::Primitive& primitive, int fragments) const;
-  /// The convex polyhedron that stands for the solid where nothing else will do: OpenSCAD's facets.
-  /// Null: there is none, and `scadray validate` leaves CGAL out.
+  /// The convex polyhedron that OpenSCAD makes of the solid; of a polyhedron, itself. Null: there
+  /// is none, and `scadray validate` does not compare the design with CGAL.
   virtual std::shared_ptr<const csgcore::Polyhedron> faceted(const csgcore::Primitive& primitive,
                                                              int fragments) const;
 
   virtual Roundness roundness(const csgcore::Primitive& primitive) const;
-  /// Adds the solid's plane faces to none; nothing if they are more than kMostComparedFaces.
-  virtual void add_plane_faces(const csgcore::Primitive& primitive, PlaneFaces& faces) const;
+  /// Writes the solid's plane faces into an empty list; none if there are more than
+  /// kMostComparedFaces.
+  virtual void find_plane_faces(const csgcore::Primitive& primitive, PlaneFaces& faces) const;
 
   /// The facets are nowhere further below the smooth surface than at this share of its radius.
   virtual double inscribed_share(int fragments) const;
@@ -78,7 +80,8 @@ class PrimitiveTraits {
 
 const PrimitiveTraits& traits_of(csgcore::Shape shape);
 
-/// Primitives with equal ones have the same local solid.
+/// All that makes a local solid: primitives of which these are equal have the same one. A parameter
+/// that Primitive gains has to be added.
 using LocalSolid =
     std::tuple<csgcore::Shape, double, double, double, double, const csgcore::Polyhedron*>;
 LocalSolid local_solid(const csgcore::Primitive& primitive);

@@ -24,7 +24,7 @@ Box box_of_rings(int fragments) {
           {polygon.max.x * widest, polygon.max.y * widest, height}};
 }
 
-/// Cheap if the last call in this thread had the same number.
+/// A call with the same number as the last one in this thread computes nothing.
 const Box& unit_sphere_box(int fragments) {
   struct Last {
     int fragments = 0;

@@ -13,7 +13,7 @@ using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// Of a plane's image under the linear map, which may be a mirror: by the cofactors.
+/// The normal of a plane's image under the linear map, which may be a mirror: by the cofactors.
 Vec3 image_of_normal(const Mat3& map, const Vec3& normal) {
   return glm::normalize(glm::cross(map[1], map[2]) * normal.x +
                         glm::cross(map[2], map[0]) * normal.y +
@@ -21,7 +21,7 @@ Vec3 image_of_normal(const Mat3& map, const Vec3& normal) {
 }
 
 void find_faces(const Primitive& primitive, PlaneFaces& faces) {
-  traits_of(primitive.shape).add_plane_faces(primitive, faces);
+  traits_of(primitive.shape).find_plane_faces(primitive, faces);
   assert(faces.faces.size() <= kMostComparedFaces);
 }
 

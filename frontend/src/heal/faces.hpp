@@ -21,9 +21,9 @@ Face face_in_world(const PlaneFace& face, const csgcore::Affine& local_to_world)
 /// must outlive it.
 class Faces {
  public:
-  /// In local coordinates; valid until the next call.
+  /// The primitive's faces in local coordinates; valid until the next call.
   const PlaneFaces& of(const csgcore::Primitive& primitive);
-  /// By the primitive's present matrix.
+  /// The face under the primitive's present matrix.
   Face at(const csgcore::Primitive& primitive, uint32_t face) {
     return face_in_world(of(primitive).faces[face], primitive.local_to_world);
   }

@@ -127,7 +127,7 @@ TEST(PrimitiveTraits, FacetsOfOneSizeAreTheSameUnits) {
 TEST(PrimitiveTraits, PlaneFacesBoundTheSolid) {
   for (const Primitive& primitive : samples()) {
     PlaneFaces found;
-    traits_of(primitive.shape).add_plane_faces(primitive, found);
+    traits_of(primitive.shape).find_plane_faces(primitive, found);
     EXPECT_LE(found.faces.size(), kMostComparedFaces);
     for (uint32_t i = 0; i < found.faces.size(); ++i) {
       const PlaneFace& face = found.faces[i];
