@@ -217,7 +217,9 @@ class Validation {
     const double least_s = kLeastNefTime_s * static_cast<double>(scene_.primitives.size());
     const double left_s = std::chrono::duration<double>(deadline - Clock::now()).count();
     if (left_s <= least_s) return too_large();
-    facets_ = faceted(scene_, settings_.fragments);
+    std::optional<Scene> facets = faceted(scene_, settings_.fragments);
+    if (!facets) return no_polyhedra();
+    facets_ = *std::move(facets);
     const Clock::time_point start = Clock::now();
     const auto keep_waiting = [this, deadline] {
       const auto left = std::chrono::ceil<std::chrono::seconds>(deadline - Clock::now());
@@ -234,6 +236,13 @@ class Validation {
     if (truth->status() == oracle::NefStatus::kDeadline) return too_large();
     result_.notes.push_back("CGAL failed (" + truth->reason() +
                             "): compared with rays in exact arithmetic only");
+    return nullptr;
+  }
+
+  std::unique_ptr<const NefTruth> no_polyhedra() {
+    result_.notes.push_back(
+        "not all primitives have facets that make convex polyhedra: compared with rays in exact "
+        "arithmetic only");
     return nullptr;
   }
 

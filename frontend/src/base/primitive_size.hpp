@@ -10,8 +10,8 @@ namespace frontend {
 constexpr int kLargestExponent = 300;
 
 /// A bound of the primitive's extents, from its local size and the matrix without the translation;
-/// inf where it is beyond the doubles, 0 where all of them vanish. The matrix must be finite, and a
-/// polyhedron must be there.
+/// inf where it is beyond the doubles, 0 where all of them vanish. The shape must be valid
+/// (csgcore::has_valid_shape) and the matrix finite.
 double size_of(const csgcore::Primitive& primitive);
 
 }  // namespace frontend

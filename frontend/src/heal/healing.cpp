@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/primitive_traits.hpp"
 #include "heal/faces.hpp"
 
 namespace frontend {
@@ -16,7 +17,6 @@ namespace {
 using csgcore::Affine;
 using csgcore::Mat3;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 // Features that are closer than this part of the design's size are one already: the double
@@ -52,28 +52,31 @@ struct Entry {
   uint8_t face;  // of a plane
 };
 
-/// Where the caps' centres and the axis are.
-struct FrustumPlace {
-  std::array<Vec3, 2> center;  // of the cap at z_min and at z_max
-  Vec3 normal;                 // unit, of both cap planes
-  Vec3 axis;                   // unit
+/// Where the axis of a primitive that is round about one lies.
+struct AxisPlace {
+  std::array<Vec3, 2> point;  // two of the axis
+  Vec3 normal;                // unit, of the planes that were across the axis in local space
+  Vec3 axis;                  // unit
 };
 
-double cap_radius(const Primitive& primitive, int cap) {
-  return cap == 0 ? primitive.r_bottom : primitive.r_top;
+Roundness roundness_of(const Primitive& primitive) {
+  return traits_of(primitive.shape).roundness(primitive);
 }
 
-Vec3 cap_center_local(const Primitive& primitive, int cap) {
-  return Vec3(0, 0, cap == 0 ? primitive.z_min : primitive.z_max);
-}
-
-FrustumPlace place_of(const Primitive& primitive) {
+AxisPlace place_of(const Primitive& primitive, const Roundness& roundness) {
   const Affine& map = primitive.local_to_world;
-  FrustumPlace place;
-  for (int cap = 0; cap < 2; ++cap) place.center[cap] = map.point(cap_center_local(primitive, cap));
+  AxisPlace place;
+  for (int i = 0; i < 2; ++i) place.point[i] = map.point(Vec3(0, 0, roundness.axis_z[i]));
   place.normal = glm::normalize(glm::cross(map.linear[0], map.linear[1]));
   place.axis = glm::normalize(map.linear[2]);
   return place;
+}
+
+/// All faces are in parallel pairs: the image of a cube.
+bool is_parallelepiped(const PlaneFaces& faces) {
+  const auto has_opposite = [](const PlaneFace& face) { return face.opposite.has_value(); };
+  return faces.faces.size() == 6 &&
+         std::all_of(faces.faces.begin(), faces.faces.end(), has_opposite);
 }
 
 /// y ↦ y − shift − turn·(y − pivot).
@@ -146,13 +149,12 @@ class Merger {
 
   void add_planes(uint32_t index, std::vector<Entry>& entries) {
     const Primitive& primitive = primitives_[index];
-    const auto count = static_cast<uint8_t>(faces_.count(primitive));
-    if (count == 0) return;
+    const PlaneFaces& local = faces_.of(primitive);
+    if (local.faces.empty()) return;
     const double turn = 2 * size_ * turn_error(index);
-    const bool is_frustum = primitive.shape == Shape::kFrustum;
-    for (uint8_t i = 0; i < count; ++i) {
-      if (is_frustum && cap_radius(primitive, i) == 0) continue;
-      const Face face = faces_.at(primitive, i);
+    for (uint8_t i = 0; i < local.faces.size(); ++i) {
+      if (local.faces[i].corner_count == 0) continue;
+      const Face face = face_in_world(local.faces[i], primitive.local_to_world);
       entries.push_back({directed_key(face.normal, face.center - origin_, true),
                          error_at(index, face.center) + turn, index, i});
     }
@@ -160,18 +162,19 @@ class Merger {
 
   void add_axis(uint32_t index, std::vector<Entry>& entries) const {
     const Primitive& primitive = primitives_[index];
-    if (primitive.shape != Shape::kFrustum) return;
-    const FrustumPlace place = place_of(primitive);
+    const Roundness roundness = roundness_of(primitive);
+    if (roundness.about != Roundness::About::kAxis) return;
+    const AxisPlace place = place_of(primitive, roundness);
     const double turn = 2 * size_ * turn_error(index);
-    const Vec3 from_origin = place.center[0] - origin_;
+    const Vec3 from_origin = place.point[0] - origin_;
     const Vec3 foot = from_origin - place.axis * glm::dot(from_origin, place.axis);
     entries.push_back(
-        {directed_key(place.axis, foot, false), error_at(index, place.center[0]) + turn, index, 0});
+        {directed_key(place.axis, foot, false), error_at(index, place.point[0]) + turn, index, 0});
   }
 
   void add_center(uint32_t index, std::vector<Entry>& entries) const {
     const Primitive& primitive = primitives_[index];
-    if (primitive.shape != Shape::kSphere) return;
+    if (roundness_of(primitive).about != Roundness::About::kCenter) return;
     const Vec3& center = primitive.local_to_world.translation;
     entries.push_back(
         {glm::dot(center - origin_, kOffsetProbe), error_at(index, center), index, 0});
@@ -268,12 +271,15 @@ class Merger {
   }
 
   bool merge_planes(const Entry& leader, const Entry& entry) {
-    const Face ours = faces_.at(primitives_[entry.primitive], entry.face);
     const Face theirs = faces_.at(primitives_[leader.primitive], leader.face);
+    const Affine& map = primitives_[entry.primitive].local_to_world;
+    const PlaneFaces& local = faces_.of(primitives_[entry.primitive]);
+    const Face ours = face_in_world(local.faces[entry.face], map);
     // The corners tell both the face's place and its tilt.
     double extent = 0;
     bool all_noise = true;
-    for (const Vec3& corner : faces_.corners(primitives_[entry.primitive], entry.face)) {
+    for (const Vec3& corner_local : local.corners_of(local.faces[entry.face])) {
+      const Vec3 corner = map.point(corner_local);
       const double gap = glm::dot(theirs.normal, corner - theirs.center);
       if (!may_close(leader, entry, corner, theirs.normal, gap)) return false;
       all_noise = all_noise && is_noise(gap);
@@ -290,7 +296,7 @@ class Merger {
     Primitive& primitive = primitives_[entry.primitive];
     const std::optional<Vec3> along = way_of(entry, ours, target.normal);
     if (!along) return false;
-    const std::optional<uint32_t> other = faces_.opposite(primitive, entry.face);
+    const std::optional<uint32_t> other = faces_.of(primitive).faces[entry.face].opposite;
     const double gap = glm::dot(target.normal, ours.center - target.center);
     const Vec3 step = *along / glm::dot(*along, target.normal);
     const Vec3 slope = target.normal - ours.normal / glm::dot(ours.normal, step);
@@ -311,8 +317,8 @@ class Merger {
   /// Faces that are not parallel to `normal` all run in the direction: a stretch along it moves
   /// none of them out of its plane.
   bool others_run_along(const Primitive& primitive, const Vec3& normal, const Vec3& direction) {
-    for (uint32_t face = 0; face < faces_.count(primitive); ++face) {
-      const Vec3 other = faces_.at(primitive, face).normal;
+    for (const PlaneFace& face : faces_.of(primitive).faces) {
+      const Vec3 other = face_in_world(face, primitive.local_to_world).normal;
       if (!parallel(other, normal) && std::abs(glm::dot(other, direction)) > kParallel) {
         return false;
       }
@@ -325,11 +331,12 @@ class Merger {
   /// moves along its normal. None: it may not.
   std::optional<Vec3> way_of(const Entry& entry, const Face& ours, const Vec3& normal) {
     const Primitive& primitive = primitives_[entry.primitive];
-    const bool keeps_all = faces_.is_parallelepiped(primitive);
+    const PlaneFaces& local = faces_.of(primitive);
+    const bool keeps_all = is_parallelepiped(local);
     std::vector<Vec3> kept;  // normals, no two of them parallel
-    for (uint32_t face = 0; face < faces_.count(primitive); ++face) {
+    for (uint32_t face = 0; face < local.faces.size(); ++face) {
       if (!keeps_all && !locked(entry.primitive, face)) continue;
-      const Vec3 other = faces_.at(primitive, face).normal;
+      const Vec3 other = face_in_world(local.faces[face], primitive.local_to_world).normal;
       const auto is_parallel = [&](const Vec3& known) { return parallel(known, other); };
       if (is_parallel(ours.normal) || std::any_of(kept.begin(), kept.end(), is_parallel)) continue;
       kept.push_back(other);
@@ -347,30 +354,31 @@ class Merger {
 
   bool merge_axes(const Entry& leader, const Entry& entry) {
     const uint32_t index = entry.primitive;
-    const FrustumPlace ours = place_of(primitives_[index]);
-    const FrustumPlace theirs = place_of(primitives_[leader.primitive]);
+    const Primitive& leading = primitives_[leader.primitive];
+    const AxisPlace ours = place_of(primitives_[index], roundness_of(primitives_[index]));
+    const AxisPlace theirs = place_of(leading, roundness_of(leading));
     std::array<Vec3, 2> gaps;
     bool all_noise = true;
-    for (int cap = 0; cap < 2; ++cap) {
-      const Vec3 offset = ours.center[cap] - theirs.center[0];
-      gaps[cap] = offset - theirs.axis * glm::dot(offset, theirs.axis);
-      const double size = glm::length(gaps[cap]);
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 offset = ours.point[i] - theirs.point[0];
+      gaps[i] = offset - theirs.axis * glm::dot(offset, theirs.axis);
+      const double size = glm::length(gaps[i]);
       if (is_noise(size)) continue;
       all_noise = false;
-      if (!may_close(leader, entry, ours.center[cap], gaps[cap] / size, size)) return false;
+      if (!may_close(leader, entry, ours.point[i], gaps[i] / size, size)) return false;
     }
     if (!all_noise) align_axis(primitives_[index], ours, theirs.axis, gaps);
     merge_radii(leader.primitive, index);
     return true;
   }
 
-  /// Moves the axis onto the line, along the cap planes: they stay where they are.
-  static void align_axis(Primitive& primitive, const FrustumPlace& ours, const Vec3& line,
+  /// Moves the axis onto the line, along the planes across it: they stay where they are.
+  static void align_axis(Primitive& primitive, const AxisPlace& ours, const Vec3& line,
                          std::array<Vec3, 2> gaps) {
     for (Vec3& gap : gaps) gap -= line * (glm::dot(ours.normal, gap) / glm::dot(ours.normal, line));
-    const double height = glm::dot(ours.normal, ours.center[1] - ours.center[0]);
+    const double height = glm::dot(ours.normal, ours.point[1] - ours.point[0]);
     const Vec3 slope = (gaps[1] - gaps[0]) / height;
-    move(primitive, ours.center[0], gaps[0], glm::outerProduct(slope, ours.normal));
+    move(primitive, ours.point[0], gaps[0], glm::outerProduct(slope, ours.normal));
   }
 
   bool merge_centers(const Entry& leader, const Entry& entry) {
@@ -389,11 +397,11 @@ class Merger {
     return true;
   }
 
-  /// World radius for each unit of local radius; 0 if the cross-section is not a circle (for a
-  /// sphere: if the image is not a sphere).
-  static double radial_scale(const Primitive& primitive) {
+  /// World radius for each unit of local radius; 0 if the cross-section is not a circle (for what
+  /// is round about a centre: if the image is not).
+  static double radial_scale(const Primitive& primitive, const Roundness& roundness) {
     const Mat3& map = primitive.local_to_world.linear;
-    const int columns = primitive.shape == Shape::kSphere ? 3 : 2;
+    const int columns = roundness.about == Roundness::About::kCenter ? 3 : 2;
     const double scale = glm::length(map[0]);
     for (int i = 1; i < columns; ++i) {
       if (std::abs(glm::length(map[i]) - scale) > kCircular * scale) return 0;
@@ -424,28 +432,30 @@ class Merger {
     if (exact(index)) return;
     Primitive& ours = primitives_[index];
     const Primitive& theirs = primitives_[leader];
-    const double our_scale = radial_scale(ours);
-    const double their_scale = radial_scale(theirs);
+    const Roundness our_roundness = roundness_of(ours);
+    const Roundness their_roundness = roundness_of(theirs);
+    const double our_scale = radial_scale(ours, our_roundness);
+    const double their_scale = radial_scale(theirs, their_roundness);
     if (our_scale == 0 || their_scale == 0) return;
-    for (const double r : {ours.r_bottom, ours.r_top}) {
-      for (const double other : {theirs.r_bottom, theirs.r_top}) {
+    for (const double r : our_roundness.radii) {
+      for (const double other : their_roundness.radii) {
         if (r == 0 || other == 0) continue;
         const double gap = r * our_scale - other * their_scale;
         const Vec3 radius = r * ours.local_to_world.linear[0];
         if (is_noise(gap)) return;
         if (std::abs(gap) >= explained_radius(leader, index, radius)) continue;
-        widen(ours, other * their_scale / (r * our_scale));
+        widen(ours, our_roundness, other * their_scale / (r * our_scale));
         return;
       }
     }
   }
 
-  /// Multiplies the radii in the world: about the centre, or along the cap planes about the axis.
-  static void widen(Primitive& primitive, double factor) {
+  /// Multiplies the radii in the world: about the centre, or along the planes across the axis.
+  static void widen(Primitive& primitive, const Roundness& roundness, double factor) {
     Mat3& map = primitive.local_to_world.linear;
     map[0] *= factor;
     map[1] *= factor;
-    if (primitive.shape == Shape::kSphere) map[2] *= factor;
+    if (roundness.about == Roundness::About::kCenter) map[2] *= factor;
   }
 
   std::span<Primitive> primitives_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/primitive_size.hpp"
+#include "base/primitive_traits.hpp"
 #include "lower/import_arguments.hpp"
 #include "lower/import_view_box.hpp"
 #include "lower/node_roles.hpp"
@@ -235,14 +236,13 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   primitive.id = id;
   primitive_of[index] = static_cast<uint32_t>(primitives.size());
   boxes.push_back(faceted_box(primitive, facets));
-  fragments.push_back(keeps_facets(primitive, facets) ? fragment_count(primitive, facets) : 0);
+  fragments.push_back(keeps_facets(facets) ? traits_of(primitive.shape).fragments(primitive, facets)
+                                           : 0);
   frame_of.push_back(context.frame);
   primitives.push_back(std::move(primitive));
 }
 
-bool Collector::keeps_facets(const Primitive& primitive,
-                             const csgcore::FacetSettings& facets) const {
-  if (primitive.shape == csgcore::Shape::kPolyhedron) return false;
+bool Collector::keeps_facets(const csgcore::FacetSettings& facets) const {
   switch (options_.facets) {
     case Facets::kNone:
       return false;

@@ -72,8 +72,8 @@ class Collector final : public NodeSink {
   void enter_color(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
-  bool keeps_facets(const csgcore::Primitive& primitive,
-                    const csgcore::FacetSettings& facets) const;
+  /// What OpenSCAD draws with these settings is drawn in facets, if it has any.
+  bool keeps_facets(const csgcore::FacetSettings& facets) const;
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;

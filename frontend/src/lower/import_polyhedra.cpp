@@ -12,7 +12,6 @@ using csgcore::Affine;
 using csgcore::Mat3;
 using csgcore::Mesh;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 /// x ↦ map(origin + size · x), by coordinate.
@@ -37,11 +36,6 @@ std::vector<double> numbers_of(const Mesh& mesh) {
     numbers.insert(numbers.end(), face.begin(), face.end());
   }
   return numbers;
-}
-
-uint64_t face_count(int fragments, bool is_sphere) {
-  const uint64_t bands = is_sphere ? csgcore::ring_count(fragments) - 1 : 1;
-  return bands * static_cast<uint64_t>(fragments) + 2;
 }
 
 }  // namespace
@@ -75,17 +69,11 @@ Convexity PolyhedronPool::convex(const PolyhedronArguments& arguments, const Aff
 }
 
 bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
-  const bool is_sphere = primitive.shape == Shape::kSphere;
-  const double radius = std::max(primitive.r_bottom, primitive.r_top);
-  Shared polyhedron =
-      round(is_sphere ? RoundKey{fragments, 0, 0}
-                      : RoundKey{fragments, primitive.r_bottom / radius, primitive.r_top / radius});
+  const Faceting faceting = traits_of(primitive.shape).faceting(primitive, fragments);
+  Shared polyhedron = faceted(faceting, fragments);
   if (!polyhedron) return false;
-  const double height = is_sphere ? radius : primitive.z_max - primitive.z_min;
-  const Vec3 origin(0, 0, is_sphere ? 0 : primitive.z_min);
   Primitive faceted = csgcore::make_polyhedron(
-      std::move(polyhedron),
-      resized(primitive.local_to_world, origin, Vec3(radius, radius, height)));
+      std::move(polyhedron), resized(primitive.local_to_world, faceting.origin, faceting.size));
   // Only where sizes near the ends of double's range meet: not to be drawn in either form.
   if (!csgcore::is_valid(faceted)) return true;
   faceted.color = primitive.color;
@@ -94,18 +82,15 @@ bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
   return true;
 }
 
-PolyhedronPool::Shared PolyhedronPool::round(const RoundKey& key) {
-  const auto found = rounds_.find(key);
-  if (found != rounds_.end()) return found->second;
-  const auto& [fragments, r_bottom, r_top] = key;
-  const bool is_sphere = r_bottom == 0 && r_top == 0;
-  const uint64_t faces = face_count(fragments, is_sphere);
-  if (faces > kFewFacets) {
-    if (facets_ + faces > kMostFacets) return nullptr;
-    facets_ += faces;
+PolyhedronPool::Shared PolyhedronPool::faceted(const Faceting& faceting, int fragments) {
+  const FacetedKey key{fragments, local_solid(faceting.unit)};
+  const auto found = faceted_.find(key);
+  if (found != faceted_.end()) return found->second;
+  if (faceting.faces > kFewFacets) {
+    if (facets_ + faceting.faces > kMostFacets) return nullptr;
+    facets_ += faceting.faces;
   }
-  return rounds_[key] = is_sphere ? csgcore::Polyhedron::sphere(1, fragments)
-                                  : csgcore::Polyhedron::frustum(0, 1, r_bottom, r_top, fragments);
+  return faceted_[key] = traits_of(faceting.unit.shape).faceted(faceting.unit, fragments);
 }
 
 }  // namespace frontend

@@ -6,9 +6,10 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "base/primitive_traits.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/primitive.hpp"
 #include "lower/import_arguments.hpp"
@@ -36,19 +37,19 @@ class PolyhedronPool {
   Convexity convex(const PolyhedronArguments& arguments, const csgcore::Affine& local_to_world,
                    csgcore::Primitive& primitive);
 
-  /// A valid sphere or frustum becomes OpenSCAD's polyhedron with that many fragments (≥ 3). False:
-  /// it stays as it is, since there would be more than kMostFacets.
+  /// A valid primitive of a kind that has facets becomes OpenSCAD's polyhedron with that many
+  /// fragments (≥ 3). False: it stays as it is, since there would be more than kMostFacets.
   bool facet(csgcore::Primitive& primitive, int fragments);
 
  private:
   using Shared = std::shared_ptr<const csgcore::Polyhedron>;
-  /// Of unit size: fragments, and a frustum's radii, of which the larger is 1; a sphere's are 0.
-  using RoundKey = std::tuple<int, double, double>;
+  /// Fragments, and Faceting::unit.
+  using FacetedKey = std::pair<int, LocalSolid>;
 
-  Shared round(const RoundKey& key);
+  Shared faceted(const Faceting& faceting, int fragments);
 
   Shared unit_box_;
-  std::map<RoundKey, Shared> rounds_;
+  std::map<FacetedKey, Shared> faceted_;
   std::map<std::vector<double>, Shared> meshes_;  // by all their numbers; null: not convex
   uint64_t facets_ = 0;                           // of those of more than kFewFacets
 };

@@ -10,9 +10,6 @@
 
 namespace frontend {
 
-/// The fragments that OpenSCAD gives a sphere or frustum, by its larger radius.
-int fragment_count(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings);
-
 /// The box of the corners of the (faceted) primitive's local box under its matrix, in world space.
 csgcore::Box faceted_box(const csgcore::Primitive& primitive,
                          const csgcore::FacetSettings& settings);

@@ -1,0 +1,199 @@
+// What every kind of primitive answers the frontend, against the solid itself and the defaults.
+#include "base/primitive_traits.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "base/plane_faces.hpp"
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/polyhedron.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Box;
+using csgcore::Primitive;
+using csgcore::Shape;
+using csgcore::Vec3;
+
+constexpr double kRounding = 1e-12;  // the solids below are of size 1 to 10
+
+class Defaults final : public PrimitiveTraits {};
+
+/// Some of each kind.
+std::vector<Primitive> samples() {
+  std::vector<Primitive> primitives{
+      csgcore::make_sphere(1),
+      csgcore::make_sphere(2.5),
+      csgcore::make_frustum(0, 3, 1, 1),
+      csgcore::make_frustum(-1, 2, 2, 0.5),
+      csgcore::make_frustum(-4, -1, 0, 3),
+      csgcore::make_frustum(2, 5, 1.5, 0),
+      csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(-1, 0, 2), Vec3(3, 1, 4)})),
+      csgcore::make_polyhedron(csgcore::Polyhedron::sphere(2, 7)),
+      csgcore::make_polyhedron(csgcore::Polyhedron::frustum(0, 1, 2, 0, 5)),
+  };
+  std::set<Shape> missing{
+#define FRONTEND_SHAPE(Name) Shape::k##Name,
+      CSGCORE_FOR_EACH_SHAPE(FRONTEND_SHAPE)
+#undef FRONTEND_SHAPE
+  };
+  for (const Primitive& primitive : primitives) missing.erase(primitive.shape);
+  EXPECT_THAT(missing, testing::IsEmpty()) << "give a sample of each kind";
+  return primitives;
+}
+
+bool holds(const Primitive& primitive, const Vec3& point) {
+  return csgcore::contains(csgcore::canonicalize(primitive), point);
+}
+
+void expect_same(const Vec3& a, const Vec3& b, double tolerance = kRounding) {
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], tolerance);
+}
+
+TEST(PrimitiveTraits, SizesAreTheSolids) {
+  const Defaults defaults;
+  for (const Primitive& primitive : samples()) {
+    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    const double extent = defaults.extent(primitive);
+    EXPECT_GE(traits.extent(primitive), extent * (1 - kRounding));
+    EXPECT_LE(traits.extent(primitive), 2 * extent);
+    const csgcore::FacetSettings fine{.fn = 10000};
+    const Box box = traits.faceted_box(primitive, fine);
+    expect_same(box.min, defaults.faceted_box(primitive, fine).min, 1e-6);
+    expect_same(box.max, defaults.faceted_box(primitive, fine).max, 1e-6);
+  }
+}
+
+TEST(PrimitiveTraits, DefaultsDoNotDependOnTheMatrix) {
+  const Defaults defaults;
+  Primitive primitive = csgcore::make_sphere(2);
+  primitive.local_to_world.linear = csgcore::Mat3(0.0);  // not valid
+  primitive.local_to_world.translation = Vec3(1e300);
+  EXPECT_EQ(defaults.extent(primitive), 2);
+  expect_same(defaults.faceted_box(primitive, {}).max, Vec3(2));
+}
+
+TEST(PrimitiveTraits, FacetsHaveTheFacetedBox) {
+  for (const Primitive& primitive : samples()) {
+    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    for (const int fragments : {3, 4, 5, 6, 7, 30}) {
+      const auto faceted = traits.faceted(primitive, fragments);
+      if (!faceted) continue;
+      Box box;
+      for (const Vec3& vertex : faceted->vertices()) box.merge(vertex);
+      const csgcore::FacetSettings settings{.fn = double(fragments)};
+      expect_same(traits.faceted_box(primitive, settings).min, box.min);
+      expect_same(traits.faceted_box(primitive, settings).max, box.max);
+    }
+  }
+}
+
+TEST(PrimitiveTraits, FacetsAreThoseOfTheUnit) {
+  for (const Primitive& primitive : samples()) {
+    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    if (traits.fragments(primitive, {}) == 0) continue;
+    EXPECT_EQ(traits.fragments(primitive, {.fn = 7}), 7);
+    for (const int fragments : {3, 6, 11}) {
+      const Faceting faceting = traits.faceting(primitive, fragments);
+      const auto unit = traits.faceted(faceting.unit, fragments);
+      const auto faceted = traits.faceted(primitive, fragments);
+      ASSERT_TRUE(unit && faceted);
+      EXPECT_GE(faceting.faces, faceted->half_spaces().size());
+      ASSERT_EQ(unit->vertices().size(), faceted->vertices().size());
+      for (size_t i = 0; i < unit->vertices().size(); ++i) {
+        expect_same(faceting.origin + faceting.size * unit->vertices()[i], faceted->vertices()[i]);
+      }
+    }
+  }
+}
+
+TEST(PrimitiveTraits, FacetsOfOneSizeAreTheSameUnits) {
+  const auto unit_of = [](const Primitive& primitive) {
+    return local_solid(traits_of(primitive.shape).faceting(primitive, 6).unit);
+  };
+  EXPECT_EQ(unit_of(csgcore::make_sphere(2)), unit_of(csgcore::make_sphere(3)));
+  EXPECT_EQ(unit_of(csgcore::make_frustum(0, 1, 2, 1)), unit_of(csgcore::make_frustum(3, 9, 4, 2)));
+  EXPECT_NE(unit_of(csgcore::make_frustum(0, 1, 2, 1)), unit_of(csgcore::make_frustum(0, 1, 1, 2)));
+}
+
+TEST(PrimitiveTraits, PlaneFacesBoundTheSolid) {
+  for (const Primitive& primitive : samples()) {
+    PlaneFaces found;
+    traits_of(primitive.shape).find_plane_faces(primitive, found);
+    EXPECT_LE(found.faces.size(), kMostComparedFaces);
+    for (uint32_t i = 0; i < found.faces.size(); ++i) {
+      const PlaneFace& face = found.faces[i];
+      EXPECT_NEAR(glm::length(face.normal), 1, kRounding);
+      if (face.opposite) {
+        ASSERT_LT(*face.opposite, found.faces.size());
+        EXPECT_TRUE(parallel(face.normal, found.faces[*face.opposite].normal));
+        EXPECT_EQ(found.faces[*face.opposite].opposite, i);
+      }
+      if (face.corner_count == 0) continue;  // an apex
+      ASSERT_GE(face.corner_count, 3u);
+      for (const Vec3& corner : found.corners_of(face)) {
+        EXPECT_NEAR(glm::dot(face.normal, corner - face.center), 0, kRounding);
+      }
+      const Vec3 step = 1e-6 * face.normal;
+      EXPECT_NE(holds(primitive, face.center + step), holds(primitive, face.center - step));
+    }
+  }
+}
+
+TEST(PrimitiveTraits, WhatIsRoundStaysWhenItIsTurned) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-5, 5);
+  for (const Primitive& primitive : samples()) {
+    const Roundness roundness = traits_of(primitive.shape).roundness(primitive);
+    if (roundness.about == Roundness::About::kNothing) continue;
+    EXPECT_LE(std::max(roundness.radii[0], roundness.radii[1]),
+              traits_of(primitive.shape).extent(primitive));
+    const bool has_axis = roundness.about == Roundness::About::kAxis;
+    EXPECT_EQ(has_axis, roundness.axis_z[0] != roundness.axis_z[1]);
+    int inside = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 point(coordinate(random), coordinate(random), coordinate(random));
+      // Onto the half-plane of x, or onto the half-axis.
+      const Vec3 turned = has_axis ? Vec3(std::hypot(point.x, point.y), 0, point.z)
+                                   : Vec3(glm::length(point), 0, 0);
+      EXPECT_EQ(holds(primitive, point), holds(primitive, turned));
+      inside += holds(primitive, point);
+    }
+    EXPECT_GT(inside, 0);
+  }
+}
+
+TEST(PrimitiveTraits, RadialPlacesAreTheSmoothSurfaces) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-5, 5);
+  for (const Primitive& primitive : samples()) {
+    const PrimitiveTraits& traits = traits_of(primitive.shape);
+    int within = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 point(coordinate(random), coordinate(random), coordinate(random));
+      const std::optional<RadialPlace> place = traits.radial_place(primitive, point);
+      EXPECT_EQ(place.has_value(), traits.fragments(primitive, {}) > 0);
+      if (!place || place->height < 0 || place->height > 1) continue;
+      ++within;
+      EXPECT_LE(place->surface, place->largest_surface);
+      const double length = glm::length(place->part);
+      const auto at = [&](double share) {
+        return point + (share * place->surface / length - 1) * place->part;
+      };
+      EXPECT_TRUE(holds(primitive, at(1 - 1e-9)));
+      EXPECT_FALSE(holds(primitive, at(1 + 1e-9)));
+    }
+    EXPECT_EQ(within > 0, traits.fragments(primitive, {}) > 0);
+  }
+}
+
+}  // namespace
+}  // namespace frontend
