@@ -97,8 +97,9 @@ TEST(CoincidentFacesTest, LeaveNoSpeckle) {
   const std::vector<NamedScene> upright = gl_test::coincident_scenes({});
   const std::vector<NamedScene> tilted = gl_test::coincident_scenes(turned());
   for (size_t i = 0; i < upright.size(); ++i) {
-    Speckle scene = speckle_of(upright[i], {}, Projection::kPerspective);
-    scene += speckle_of(tilted[i], turned(), Projection::kOrthographic);
+    Speckle scene;
+    if (full || i % 2 == 0) scene += speckle_of(upright[i], {}, Projection::kPerspective);
+    if (full || i % 2 == 1) scene += speckle_of(tilted[i], turned(), Projection::kOrthographic);
     if (full) {
       scene += speckle_of(upright[i], {}, Projection::kOrthographic);
       scene += speckle_of(tilted[i], turned(), Projection::kPerspective);
@@ -108,7 +109,7 @@ TEST(CoincidentFacesTest, LeaveNoSpeckle) {
     family += scene;
   }
   print("all", family);
-  EXPECT_GT(family.hits, 1'000'000u);
+  EXPECT_GT(family.hits, 500'000u);
   // Edges that lie within the rounding of a float of a pixel's ray.
   EXPECT_LE(family.wrong * 1000, family.hits);
 }
