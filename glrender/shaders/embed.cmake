@@ -1,11 +1,18 @@
 # Writes OUTPUT, a header with each shader of SHADERS as a string in namespace glrender::shader_source,
-# named after its file: cell.frag.glsl becomes cell_frag.
+# named after its file: cell.vert.glsl becomes kCellVert.
 set(text "// Generated from glrender/shaders.\n#pragma once\n#include <string_view>\n\n")
 string(APPEND text "namespace glrender::shader_source {\n")
 foreach(shader IN LISTS SHADERS)
-  get_filename_component(name "${shader}" NAME)
-  string(REGEX REPLACE "\\.glsl$" "" name "${name}")
-  string(REPLACE "." "_" name "${name}")
+  get_filename_component(words "${shader}" NAME)
+  string(REGEX REPLACE "\\.glsl$" "" words "${words}")
+  string(REGEX REPLACE "[._]" ";" words "${words}")
+  set(name "k")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 initial)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${initial}" initial)
+    string(APPEND name "${initial}${rest}")
+  endforeach()
   file(READ "${shader}" source)
   string(APPEND text "inline constexpr std::string_view ${name} = R\"glsl(${source})glsl\";\n")
 endforeach()

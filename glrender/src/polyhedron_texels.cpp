@@ -1,5 +1,7 @@
 #include "polyhedron_texels.hpp"
 
+#include <algorithm>
+
 #include "glrender/context.hpp"
 
 namespace glrender {
@@ -41,6 +43,12 @@ uint32_t PolyhedronTexels::first_of(const Polyhedron* polyhedron) {
     }
   }
   return place->second;
+}
+
+uint64_t face_rounds(const Polyhedron* polyhedron) {
+  /// Of a polyhedron with thousands of faces; it grows little with them.
+  constexpr size_t kOfManyFaces = 256;
+  return polyhedron ? std::min(polyhedron->entries().size(), kOfManyFaces) : 0;
 }
 
 }  // namespace glrender

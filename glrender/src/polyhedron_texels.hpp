@@ -1,4 +1,4 @@
-// Convex polyhedra as the shaders read them (ray.glsl, cut_by_faces).
+// Convex polyhedra as the shaders read them (polyhedron.glsl).
 #pragma once
 
 #include <array>
@@ -34,5 +34,9 @@ class PolyhedronTexels {
   std::vector<Texel> texels_{Texel{}};
   std::unordered_map<const csgcore::Polyhedron*, uint32_t> first_;
 };
+
+/// Rounds of a loop in which the shaders cut a segment by the polyhedron's faces, about; 0 if it is
+/// null.
+uint64_t face_rounds(const csgcore::Polyhedron* polyhedron);
 
 }  // namespace glrender

@@ -263,7 +263,7 @@ class Renderer::Impl {
 
   InstanceSorter sorter(const Pass& pass) {
     const bool boxes = pass.settings.subject == Subject::kCells;
-    return {pass.frame,   *solid_,         short_list(buffers_.has_polyhedron(), false),
+    return {pass.frame,   *solid_,         short_list(!buffers_.cuts().empty(), false),
             pass.overlap, pass.eye_inside, boxes,
             streams_};
   }
@@ -295,7 +295,7 @@ class Renderer::Impl {
     options.boundary = pass.first ? csgcore::Boundary::kBehind : csgcore::Boundary::kFirst;
     options.centers_only = pass.settings.samples <= 1;
     options.thinnest_piece = pass.tolerance;
-    options.short_list = short_list(buffers_.has_polyhedron(), true);
+    options.short_list = short_list(!buffers_.cuts().empty(), true);
     options.threads = pass.settings.threads;
     options.longest_list = kLongList;
     if (!csgcore::list_tiles(*solid_, pass.frame.view, options, lists_)) refuse_lists();

@@ -24,12 +24,10 @@ enum class Path : int {
 };
 constexpr int kPaths = 9;
 
-/// Up to so many primitives a fragment keeps all segments: in cells the default K. Those of
-/// polyhedra, which take a hundred rounds of a loop each (see kMostRounds), it rather keeps than
-/// finds again; in tiles, all.
-constexpr uint32_t short_list(bool has_polyhedron, bool tiles) {
-  return has_polyhedron || tiles ? 32 : 8;
-}
+/// Up to so many primitives a fragment keeps all segments: in cells the default K. Segments
+/// that are cut by faces take a hundred rounds of a loop each (see kMostRounds): it rather keeps
+/// them than finds them again; in tiles, all.
+constexpr uint32_t short_list(bool has_cuts, bool tiles) { return has_cuts || tiles ? 32 : 8; }
 /// Longer lists of a tile are refused, as are those of too many rounds.
 constexpr uint32_t kLongList = 128;
 
@@ -50,12 +48,10 @@ constexpr unsigned kLocationHigh = 1;
 constexpr unsigned kLocationList = 2;
 
 /// Texels of the primitive buffer: centre, with the first texel of a polyhedron's faces beside it;
-/// three rows of world_to_canonical, with radius_mid, radius_slope and the shape (of a polyhedron
-/// the enclosure) beside them.
+/// three rows of world_to_canonical, with radius_mid, radius_slope and the enclosure's kind beside
+/// them, as its number in csgcore::Shape, or kShapeNone.
 constexpr int kPrimitiveTexels = 4;
-constexpr float kShapeSphere = 0;
-constexpr float kShapeFrustum = 1;
-constexpr float kShapeNone = 2;  // of what is too thin to exist
+constexpr float kShapeNone = -1;  // of what is too thin to exist
 
 struct ShaderConstant {
   std::string_view name;
@@ -77,8 +73,6 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"LOCATION_HIGH", kLocationHigh, true},
     ShaderConstant{"LOCATION_LIST", kLocationList, true},
     ShaderConstant{"PRIMITIVE_TEXELS", kPrimitiveTexels, true},
-    ShaderConstant{"SHAPE_SPHERE", kShapeSphere, false},
-    ShaderConstant{"SHAPE_FRUSTUM", kShapeFrustum, false},
     ShaderConstant{"SHAPE_NONE", kShapeNone, false},
     ShaderConstant{"SHADING_OPENSCAD", 0, true},
     ShaderConstant{"SHADING_PHONG", 1, true},

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "shader_kinds.hpp"
 #include "shader_sources.hpp"
 
 namespace glrender {
@@ -30,17 +31,16 @@ std::string prologue(const ProgramKey& key) {
   }
   source += "#define LIST_TRUE " + std::to_string(csgcore::kListTrue) + "u\n";
   source += "#define LIST_FALSE " + std::to_string(csgcore::kListFalse) + "u\n";
+  const bool has_cuts = !key.cuts.empty();
   const bool is_long = key.path == Path::kLongList;
   define(source, "SHORT_LIST",
-         static_cast<int>(is_long ? kLongList : short_list(key.has_polyhedron, key.tiles)));
+         static_cast<int>(is_long ? kLongList : short_list(has_cuts, key.tiles)));
   define(source, "PATH", static_cast<int>(is_long ? Path::kShortList : key.path));
   define(source, "TILES", key.tiles);
   define(source, "SHADING", static_cast<int>(key.shading));
   define(source, "PERSPECTIVE", key.perspective);
   define(source, "MEASURED", key.measured);
-  define(source, "HAS_SPHERE", key.has_sphere);
-  define(source, "HAS_FRUSTUM", key.has_frustum);
-  define(source, "HAS_POLYHEDRON", key.has_polyhedron);
+  define(source, "HAS_CUTS", has_cuts);
   define(source, "CONSERVATIVE_DEPTH", key.conservative_depth);
   define(source, "CLIP_ZERO_TO_ONE", key.clip_zero_to_one);
   define(source, "BEHIND", key.behind);
@@ -77,15 +77,16 @@ void attach(GLuint program, GLenum stage, const ProgramKey& key,
 Program compile_program(const ProgramKey& key) {
   Program program = Program::make();
   attach(program.name(), GL_VERTEX_SHADER, key,
-         {shader_source::frame, key.tiles ? shader_source::tile_vert : shader_source::cell_vert});
+         {shader_source::kFrame, key.tiles ? shader_source::kTileVert : shader_source::kCellVert});
+  const std::string kinds = kinds_source(key.enclosures, key.cuts);
   if (key.path == Path::kBoxes) {
-    attach(
-        program.name(), GL_FRAGMENT_SHADER, key,
-        {shader_source::frame, shader_source::ray, shader_source::shade, shader_source::box_frag});
+    attach(program.name(), GL_FRAGMENT_SHADER, key,
+           {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,
+            shader_source::kBoxFrag});
   } else {
     attach(program.name(), GL_FRAGMENT_SHADER, key,
-           {shader_source::frame, shader_source::ray, shader_source::shade,
-            shader_source::first_hit, shader_source::shared_faces, shader_source::trace_frag});
+           {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,
+            shader_source::kFirstHit, shader_source::kSharedFaces, shader_source::kTraceFrag});
   }
   glLinkProgram(program.name());
   GLint linked = GL_FALSE;

@@ -7,6 +7,7 @@
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
 #include "glrender/frame_settings.hpp"
+#include "kind_set.hpp"
 #include "shader_constants.hpp"
 
 namespace glrender {
@@ -18,9 +19,8 @@ struct ProgramKey {
   Shading shading = Shading::kOpenScad;
   bool perspective = true;
   bool measured = false;
-  bool has_sphere = true;
-  bool has_frustum = true;
-  bool has_polyhedron = false;
+  KindSet enclosures;  // of the scene's primitives: see kinds_source()
+  KindSet cuts;
   bool conservative_depth = false;
   bool clip_zero_to_one = false;
   bool behind = false;  // Renderer::draw_behind

@@ -10,14 +10,12 @@
 
 #include "glrender/context.hpp"
 #include "shader_constants.hpp"
-#include "thickness.hpp"
 
 namespace glrender {
 namespace {
 
 using csgcore::CanonicalPrimitive;
 using csgcore::Literal;
-using csgcore::Shape;
 
 uint32_t pack_rgba8(const csgcore::Color& color) {
   const float channels[] = {color.r, color.g, color.b, color.a};
@@ -138,17 +136,18 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thinnest_piece)
   surfaces.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
     surfaces.push_back(surface_of(primitive));
-    (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
-    number_faces(primitive);
+    take_in(primitive);
   }
   surfaces_.upload(surfaces.data(), surfaces.size() * sizeof(Surface));
-  if (has_polyhedron()) {
+  if (has_faces()) {
     polyhedra_.upload(faces_.texels().data(),
                       faces_.texels().size() * sizeof(PolyhedronTexels::Texel));
   }
 }
 
-void SolidBuffers::number_faces(const CanonicalPrimitive& primitive) {
+void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
+  enclosures_.add(primitive.enclosure);
+  if (primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
   const size_t before = faces_.texels().size();
   faces_.first_of(primitive.polyhedron.get());
   if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
@@ -160,16 +159,14 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
   solid_ = &solid;
   const std::span<const CanonicalPrimitive> primitives = solid.primitives();
   const size_t faces_before = polyhedra_.uploaded_bytes() == 0 ? 0 : faces_.texels().size();
-  for (const uint32_t i : edit.added) number_faces(primitives[i]);
-  if (has_polyhedron()) {
+  for (const uint32_t i : edit.added) take_in(primitives[i]);
+  if (has_faces()) {
     polyhedra_.update(faces_before * sizeof(PolyhedronTexels::Texel),
                       faces_.texels().data() + faces_before,
                       (faces_.texels().size() - faces_before) * sizeof(PolyhedronTexels::Texel));
   }
-  has_sphere_ = has_frustum_ = false;
-  for (const CanonicalPrimitive& primitive : primitives) {
-    (primitive.enclosure == Shape::kSphere ? has_sphere_ : has_frustum_) = true;
-  }
+  enclosures_ = {};
+  for (const CanonicalPrimitive& primitive : primitives) enclosures_.add(primitive.enclosure);
   // The tolerance goes by the size of the whole.
   std::vector<bool> is_too_thin = too_thin(solid, thinnest_piece);
   for (const uint32_t i : edit.added) is_too_thin_[i] = is_too_thin[i];
@@ -199,9 +196,7 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
 
 void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels) {
   const CanonicalPrimitive& primitive = solid_->primitives()[index];
-  const float shape = is_too_thin_[index]                     ? kShapeNone
-                      : primitive.enclosure == Shape::kSphere ? kShapeSphere
-                                                              : kShapeFrustum;
+  const float shape = is_too_thin_[index] ? kShapeNone : static_cast<float>(primitive.enclosure);
   const glm::vec3 center(primitive.center - focus);
   texels.insert(texels.end(), {center.x, center.y, center.z,
                                static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
@@ -246,11 +241,11 @@ void SolidBuffers::bind(GLuint program, ListsOf of) const {
   primitives_.bind(0);
   surfaces_.bind(1);
   (of == ListsOf::kTiles ? tile_literals_ : literals_).bind(2);
-  if (has_polyhedron()) polyhedra_.bind(3);
+  if (has_faces()) polyhedra_.bind(3);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);
   glUniform1i(glGetUniformLocation(program, "u_literals"), 2);
-  if (has_polyhedron()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
+  if (has_faces()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
 }
 
 }  // namespace glrender

@@ -9,6 +9,7 @@
 #include "csgcore/solid.hpp"
 #include "frame.hpp"
 #include "gl_object.hpp"
+#include "kind_set.hpp"
 #include "polyhedron_texels.hpp"
 
 namespace glrender {
@@ -71,13 +72,16 @@ class SolidBuffers {
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program, ListsOf of) const;
 
-  /// Also those that enclose polyhedra.
-  bool has_sphere() const { return has_sphere_; }
-  bool has_frustum() const { return has_frustum_; }
-  bool has_polyhedron() const { return !faces_.empty(); }
+  /// The kinds of the primitives' enclosures.
+  KindSet enclosures() const { return enclosures_; }
+  /// The kinds of the primitives whose enclosure is of another kind. A kind stays among them though
+  /// an edit takes its last primitive away.
+  KindSet cuts() const { return cuts_; }
 
  private:
-  void number_faces(const csgcore::CanonicalPrimitive& primitive);
+  /// Notes which kinds the primitive needs, and numbers its faces.
+  void take_in(const csgcore::CanonicalPrimitive& primitive);
+  bool has_faces() const { return !faces_.empty(); }
   void append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels);
 
   const csgcore::Solid* solid_;
@@ -87,8 +91,7 @@ class SolidBuffers {
   TextureBuffer primitives_, surfaces_, literals_, tile_literals_, polyhedra_;
   std::vector<bool> is_too_thin_;  // by primitive
   std::optional<Vec3> placed_at_;
-  bool has_sphere_ = false;
-  bool has_frustum_ = false;
+  KindSet enclosures_, cuts_;
 };
 
 }  // namespace glrender

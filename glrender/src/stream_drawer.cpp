@@ -89,9 +89,8 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
   key.shading = pass.settings.shading;
   key.perspective = pass.frame.perspective();
   key.measured = pass.settings.measured_channels;
-  key.has_sphere = buffers.has_sphere();
-  key.has_frustum = buffers.has_frustum();
-  key.has_polyhedron = buffers.has_polyhedron();
+  key.enclosures = buffers.enclosures();
+  key.cuts = buffers.cuts();
   key.clip_zero_to_one = conservative_depth_;
   key.behind = pass.first != 0;
   // A back face lies behind the hit, so that its depth promises nothing; a box's own face is at

@@ -1,13 +1,12 @@
 #include "traversal.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "csgcore/polyhedron.hpp"
 #include "glrender/context.hpp"
+#include "polyhedron_texels.hpp"
 
 namespace glrender {
 
@@ -39,12 +38,9 @@ uint64_t InstanceStreams::size() const {
 }
 
 uint64_t rounds(const csgcore::Solid& solid, std::span<const Literal> literals) {
-  /// Of a polyhedron with thousands of faces; it grows little with them.
-  constexpr size_t kOfManyFaces = 256;
   uint64_t sum = literals.size();
   for (const Literal& literal : literals) {
-    const csgcore::Polyhedron* polyhedron = solid.primitives()[literal.primitive].polyhedron.get();
-    if (polyhedron) sum += std::min(polyhedron->entries().size(), kOfManyFaces);
+    sum += face_rounds(solid.primitives()[literal.primitive].polyhedron.get());
   }
   return sum;
 }

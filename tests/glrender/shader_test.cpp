@@ -15,7 +15,6 @@
 #include "polyhedron_texels.hpp"
 #include "shader_program.hpp"
 #include "support/full_run.hpp"
-#include "thickness.hpp"
 
 namespace {
 
@@ -28,37 +27,80 @@ constexpr bool kMoveOnly =
 static_assert(kMoveOnly<Buffer> && kMoveOnly<Texture> && kMoveOnly<Framebuffer> &&
               kMoveOnly<VertexArray> && kMoveOnly<Program> && kMoveOnly<HeadlessContext>);
 
-/// Of a minute's worth, every fifth but in a full run: five shares no factor with what a bit or a
-/// path repeats by.
+bool compiles(csgcore::Shape enclosure, KindSet cuts) {
+  ProgramKey key;
+  key.path = Path::kList;
+  key.enclosures = {enclosure};
+  key.cuts = cuts;
+  try {
+    compile_program(key);
+    return true;
+  } catch (const GlError&) {
+    return false;
+  }
+}
+
+/// Kinds by which of the two ways of ray.glsl they answer in, as their shaders say.
+struct Roles {
+  std::vector<csgcore::Shape> enclosures, cuts;
+};
+
+Roles find_roles() {
+  Roles roles;
+#define FIND_ROLE(Name)                                                   \
+  (compiles(csgcore::Shape::k##Name, {}) ? roles.enclosures : roles.cuts) \
+      .push_back(csgcore::Shape::k##Name);
+  CSGCORE_FOR_EACH_SHAPE(FIND_ROLE)
+#undef FIND_ROLE
+  return roles;
+}
+
+TEST(ShaderTest, EveryKindHasASegmentOrCutsOne) {
+  HeadlessContext context;
+  const Roles roles = find_roles();
+  ASSERT_FALSE(roles.enclosures.empty());
+  for (const csgcore::Shape cut : roles.cuts) {
+    EXPECT_TRUE(compiles(roles.enclosures[0], {cut})) << "kind " << int(cut);
+  }
+}
+
+/// Every set of kinds that a scene may have. Of a minute's worth, every fifth but in a full run:
+/// five shares no factor with what a bit or a path repeats by.
 TEST(ShaderTest, EveryVariantCompiles) {
   HeadlessContext context;
+  const Roles roles = find_roles();
+  // The sets of enclosures, and whether all cuts are there or none.
+  const int sets = 1 << roles.enclosures.size();
   const int step = test_support::full_run() ? 1 : 5;
   int variants = 0;
   for (int path = 0; path < kPaths; ++path) {
-    for (int bits = 0; bits < 512; ++bits) {
+    for (int bits = 0; bits < 128 * sets; ++bits) {
       ProgramKey key;
       key.path = static_cast<Path>(path);
       key.shading = bits & 1 ? Shading::kPhong : Shading::kOpenScad;
       key.perspective = bits & 2;
       key.measured = bits & 4;
-      key.has_sphere = bits & 8;
-      key.has_frustum = bits & 16;
-      key.behind = bits & 32;
-      key.conservative_depth = key.clip_zero_to_one = bits & 64;
-      key.has_polyhedron = bits & 128;
-      key.tiles = bits & 256;
-      if (!key.has_sphere && !key.has_frustum) continue;
+      key.behind = bits & 8;
+      key.conservative_depth = key.clip_zero_to_one = bits & 16;
+      if (bits & 32) {
+        for (const csgcore::Shape cut : roles.cuts) key.cuts.add(cut);
+      }
+      key.tiles = bits & 64;
+      for (size_t i = 0; i < roles.enclosures.size(); ++i) {
+        if (bits / 128 >> i & 1) key.enclosures.add(roles.enclosures[i]);
+      }
+      if (key.enclosures.empty()) continue;
       const bool is_of_tiles =
           key.path == Path::kSingle || key.path == Path::kShortList || key.path == Path::kLongList;
       if (key.tiles && (!is_of_tiles || key.conservative_depth)) continue;
       if (!key.tiles && key.path == Path::kLongList) continue;
       // Their faces have to do with neither.
-      if (key.has_polyhedron && (key.shading == Shading::kPhong || key.measured)) continue;
+      if (!key.cuts.empty() && (key.shading == Shading::kPhong || key.measured)) continue;
       if (variants++ % step != 0) continue;
       ASSERT_NO_THROW(compile_program(key)) << path << " " << bits;
     }
   }
-  EXPECT_EQ(variants, (kPaths - 1) * (96 + 24) + 3 * (48 + 12));
+  EXPECT_EQ(variants, (sets - 1) * ((kPaths - 1) * (32 + 8) + 3 * (16 + 4)));
   std::printf("compiled one in %d of %d variants\n", step, variants);
 }
 
@@ -71,6 +113,9 @@ TEST(ShaderTest, CacheCompilesOnce) {
   EXPECT_EQ(cache.size(), 1u);
   key.perspective = false;
   EXPECT_NE(cache.get(key), first);
+  key.enclosures.add(csgcore::Shape::kSphere);
+  cache.get(key);
+  EXPECT_EQ(cache.size(), 3u);
 }
 
 TEST(PolyhedronTexelsTest, HoldEveryFaceOnce) {
@@ -118,6 +163,12 @@ TEST(PolyhedronTexelsTest, RefuseMoreThanFloatsCanCount) {
   const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
   EXPECT_NO_THROW(PolyhedronTexels(9).first_of(box.get()));
   EXPECT_THROW(PolyhedronTexels(7).first_of(box.get()), GlError);
+}
+
+TEST(FaceRoundsTest, AreOneAFaceButForThousands) {
+  EXPECT_EQ(face_rounds(nullptr), 0u);
+  EXPECT_EQ(face_rounds(csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)}).get()), 6u);
+  EXPECT_EQ(face_rounds(csgcore::Polyhedron::sphere(2, 100).get()), 256u);
 }
 
 TEST(ThicknessTest, IsThatBetweenTheNearestPlanes) {

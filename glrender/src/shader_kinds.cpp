@@ -1,0 +1,92 @@
+#include "shader_kinds.hpp"
+
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "shader_sources.hpp"
+
+namespace glrender {
+namespace {
+
+using csgcore::Shape;
+
+struct Kind {
+  Shape shape;
+  std::string_view name;
+  std::string_view source;
+};
+
+// A kind whose shader is not embedded does not compile here.
+#define GLRENDER_KIND(Name) Kind{Shape::k##Name, #Name, shader_source::k##Name},
+constexpr std::array kKinds = {CSGCORE_FOR_EACH_SHAPE(GLRENDER_KIND)};
+#undef GLRENDER_KIND
+static_assert(kKinds.size() <= 32, "a KindSet has 32 bits");
+
+/// "RoundedBox" as the names of its functions start in GLSL: "rounded_box".
+std::string glsl_name(const Kind& kind) {
+  std::string result;
+  for (const char c : kind.name) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isupper(letter) && !result.empty()) result += '_';
+    result += static_cast<char>(std::tolower(letter));
+  }
+  return result;
+}
+
+std::vector<Kind> listed(KindSet kinds) {
+  std::vector<Kind> result;
+  for (const Kind& kind : kKinds) {
+    if (kinds.has(kind.shape)) result.push_back(kind);
+  }
+  return result;
+}
+
+/// Returns from the function of the ray's enclosure. The last kind needs no test, as there is no
+/// other.
+std::string call_by_enclosure(const std::vector<Kind>& enclosures, std::string_view function,
+                              std::string_view arguments, std::string_view without_kinds) {
+  if (enclosures.empty()) return "  return " + std::string(without_kinds) + ";\n";
+  std::string result;
+  for (const Kind& kind : enclosures) {
+    result += "  ";
+    if (&kind != &enclosures.back()) {
+      result += "if (ray.enclosure == " + std::to_string(static_cast<int>(kind.shape)) + ".0) ";
+    }
+    result.append("return ").append(glsl_name(kind)).append(function).append(arguments) += ";\n";
+  }
+  return result;
+}
+
+std::string call_each_cut(const std::vector<Kind>& cuts, std::string_view result_name,
+                          std::string_view function, std::string_view arguments) {
+  std::string result;
+  for (const Kind& kind : cuts) {
+    result.append("  ").append(result_name).append(" = ");
+    result.append(glsl_name(kind)).append(function).append(arguments) += ";\n";
+  }
+  return result.append("  return ").append(result_name) += ";\n";
+}
+
+}  // namespace
+
+std::string kinds_source(KindSet enclosures, KindSet cuts) {
+  const std::vector<Kind> enclosing = listed(enclosures);
+  const std::vector<Kind> cutting = listed(cuts);
+  std::string source;
+  for (const Kind& kind : enclosing) source += kind.source;
+  for (const Kind& kind : cutting) source += kind.source;
+  source += "Segment enclosure_segment(CanonicalRay ray) {\n" +
+            call_by_enclosure(enclosing, "_segment", "(ray)", "NO_SEGMENT") + "}\n";
+  source += "vec3 enclosure_gradient(CanonicalRay ray, vec3 point) {\n" +
+            call_by_enclosure(enclosing, "_gradient", "(ray, point)", "point") + "}\n";
+  if (cutting.empty()) return source;
+  source += "Segment cut_segment(CanonicalRay ray, Segment segment) {\n" +
+            call_each_cut(cutting, "segment", "_cut", "(ray, segment)") + "}\n";
+  source += "vec3 cut_gradient(int face, vec3 gradient) {\n" +
+            call_each_cut(cutting, "gradient", "_cut_gradient", "(face, gradient)") + "}\n";
+  return source;
+}
+
+}  // namespace glrender
