@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <limits>
 #include <set>
 
-#include "csgcore/polyhedron.hpp"
 #include "support/evaluate_tree.hpp"
 #include "support/models.hpp"
 
@@ -24,107 +20,11 @@ Vec3 random_point(std::mt19937& random, const Box& box) {
           uniform(random, box.min.z, box.max.z)};
 }
 
-Vec3 random_direction(std::mt19937& random) {
-  for (;;) {
-    const Vec3 v = random_point(random, {Vec3(-1.0), Vec3(1.0)});
-    const double length = glm::length(v);
-    if (length > 0.1 && length < 1) return v / length;
-  }
-}
-
-Primitive random_primitive(std::mt19937& random) {
-  const Affine map = test_support::random_affine(random);
-  switch (random() % 9) {
-    case 0:
-      return make_sphere(uniform(random, 0.2, 3), map);
-    case 1: {  // a ball: the matrix is a similarity
-      const double scale = uniform(random, 0.2, 3);
-      return make_sphere(1, {Mat3{scale}, map.translation});
-    }
-    case 2:
-      return make_frustum(-uniform(random, 0, 2), 1, 0, uniform(random, 0.2, 3), map);
-    case 3:
-      return make_frustum(0.5, uniform(random, 1, 3), uniform(random, 0.2, 3), 0, map);
-    case 4: {
-      const Vec3 corner = random_point(random, {Vec3(-2.0), Vec3(0.0)});
-      const Vec3 size = random_point(random, {Vec3(0.2), Vec3(3.0)});
-      return make_polyhedron(Polyhedron::box({corner, corner + size}), map);
-    }
-    case 5:
-      return make_octahedron(map);
-    case 6:
-      return faceted(make_sphere(uniform(random, 0.2, 3), map), 3 + int(random() % 30));
-    case 7:
-      return faceted(make_frustum(-1, uniform(random, 0, 3), uniform(random, 0, 3),
-                                  uniform(random, 0.2, 3), map),
-                     3 + int(random() % 60));
-    default:
-      return make_frustum(-1, uniform(random, 0, 3), uniform(random, 0.2, 3),
-                          uniform(random, 0.2, 3), map);
-  }
-}
-
-Primitive faceted(const Primitive& primitive, int fragments) {
-  Primitive result = primitive;
-  result.shape = Shape::kPolyhedron;
-  result.polyhedron = Polyhedron::faceted(primitive, fragments);
-  return result;
-}
-
-Primitive make_octahedron(const Affine& local_to_world) {
-  const Vec3 x(1, 0.2, 0), y(-0.3, 0.8, 0.1), z(0, 0, 1.1);
-  Mesh mesh{{x, y, -x, -y, z, -z}, {}};
-  for (uint32_t i = 0; i < 4; ++i) {
-    const uint32_t next = (i + 1) % 4;
-    mesh.faces.push_back({i, next, 4});
-    mesh.faces.push_back({next, i, 5});
-  }
-  return make_polyhedron(Polyhedron::from(mesh), local_to_world);
-}
-
-double room_along(std::span<const HalfSpace> half_spaces, const Vec3& point,
-                  const Vec3& direction) {
-  double room = std::numeric_limits<double>::infinity();
-  for (const HalfSpace& half_space : half_spaces) {
-    const double growth = glm::dot(half_space.normal, direction);
-    if (growth <= 0) continue;
-    room = std::min(room, (half_space.offset - glm::dot(half_space.normal, point)) / growth);
-  }
-  return room;
-}
-
-Vec3 surface_point(const Primitive& primitive, std::mt19937& random) {
-  const Affine& map = primitive.local_to_world;
-  const Vec3 direction = random_direction(random);
-  if (primitive.shape == Shape::kSphere) return map.point(primitive.r_bottom * direction);
-  if (primitive.shape == Shape::kPolyhedron) {
-    const Polyhedron& polyhedron = *primitive.polyhedron;
-    const std::vector<Vec3>& vertices = polyhedron.vertices();
-    if (random() % 3 == 0) return map.point(vertices[random() % vertices.size()]);
-    const Vec3& middle = polyhedron.canonical().center;
-    return map.point(middle + room_along(polyhedron.half_spaces(), middle, direction) * direction);
-  }
-  const double share =
-      random() % 3 == 0 ? static_cast<double>(random() % 2) : uniform(random, 0, 1);
-  const double z = primitive.z_min + share * (primitive.z_max - primitive.z_min);
-  const double r = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
-  const double across = std::hypot(direction.x, direction.y);
-  return map.point({r * direction.x / across, r * direction.y / across, z});
-}
-
-bool holds(const Primitive& primitive, const Vec3& point) {
-  const Affine& map = primitive.local_to_world;
-  const Vec3 local = glm::inverse(map.linear) * (point - map.translation);
-  if (primitive.shape == Shape::kSphere) return glm::length(local) <= primitive.r_bottom;
-  if (primitive.shape == Shape::kPolyhedron) {
-    const std::vector<HalfSpace>& half_spaces = primitive.polyhedron->half_spaces();
-    return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half_space) {
-      return glm::dot(half_space.normal, local) <= half_space.offset;
-    });
-  }
-  const double share = (local.z - primitive.z_min) / (primitive.z_max - primitive.z_min);
-  const double radius = primitive.r_bottom + share * (primitive.r_top - primitive.r_bottom);
-  return share >= 0 && share <= 1 && std::hypot(local.x, local.y) <= radius;
+Primitive random_primitive(std::mt19937& random, const test_support::SizeRange& range) {
+  Affine map = test_support::random_affine(random);
+  if (random() % 4 == 0) map.linear = Mat3{uniform(random, 0.5, 1.5)};
+  test_support::Sizes sizes(random, range);
+  return test_support::random_primitive(sizes, map);
 }
 
 bool holds(const Scene& scene, const Vec3& point) {

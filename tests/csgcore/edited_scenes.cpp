@@ -15,12 +15,9 @@ Color random_color(std::mt19937& random) {
   return {channel(), channel(), channel(), 1};
 }
 
-/// Of any shape, smaller than what most scenes are.
+/// Of any kind, smaller than what most scenes are.
 Primitive new_primitive(std::mt19937& random) {
-  Primitive primitive = random_primitive(random);
-  if (random() % 4 == 0 && primitive.shape != Shape::kPolyhedron) {
-    primitive = faceted(primitive, 3 + static_cast<int>(random() % 6));
-  }
+  Primitive primitive = random_primitive(random, {.most_fragments = 8});
   const double scale = uniform(random, 0.1, 0.8);
   primitive.local_to_world = compose({Mat3{scale}, {}}, primitive.local_to_world);
   primitive.local_to_world.translation += random_point(random, {Vec3(-4.0), Vec3(4.0)});

@@ -9,8 +9,6 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-#include "csgcore/polyhedron.hpp"
-
 namespace csgcore::checks {
 namespace {
 
@@ -38,32 +36,16 @@ RayPacket packet_of(std::span<const PivotRay> rays) {
 
 RayOracle::RayOracle(const Primitive& primitive, const Vec3& pivot)
     : primitive_(primitive),
+      kind_(test_support::test_kind_of(primitive.shape)),
       world_to_local_(glm::inverse(LongMat3(primitive.local_to_world.linear))),
-      pivot_from_local_origin_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)) {
+      pivot_from_local_origin_(LongVec3(pivot) - LongVec3(primitive.local_to_world.translation)),
+      size_(kind_.reach_world(primitive)) {
   const LongMat3 local_to_world(primitive.local_to_world.linear);
-  const LongVec3 translation(primitive.local_to_world.translation);
   condition_ = largest_row_sum(absolute(local_to_world) * absolute(world_to_local_));
-  if (primitive.shape == Shape::kPolyhedron) {
-    const LongVec3 center(primitive.polyhedron->canonical().center);
-    size_ = 0;
-    for (const Vec3& vertex : primitive.polyhedron->vertices()) {
-      size_ = std::max(size_, glm::length(local_to_world * (LongVec3(vertex) - center)));
-    }
-    const LongVec3 to_middle = local_to_world * center;
-    middle_from_pivot_ = to_middle - pivot_from_local_origin_;
-    coordinates_ =
-        glm::length(to_middle) == 0 ? 0 : glm::length(to_middle) + glm::length(translation);
-    return;
-  }
-  const bool is_sphere = primitive.shape == Shape::kSphere;
-  const Real radius = std::max(primitive.r_bottom, primitive.r_top);
-  const Real half_height = is_sphere ? radius : (Real(primitive.z_max) - Real(primitive.z_min)) / 2;
-  const Real middle = is_sphere ? 0 : (Real(primitive.z_max) + Real(primitive.z_min)) / 2;
-  size_ = glm::length(local_to_world[0]) * radius + glm::length(local_to_world[1]) * radius +
-          glm::length(local_to_world[2]) * half_height;
-  const LongVec3 to_middle = local_to_world[2] * middle;
+  const LongVec3 to_middle = local_to_world * kind_.middle(primitive);
   middle_from_pivot_ = to_middle - pivot_from_local_origin_;
-  coordinates_ = middle == 0 ? 0 : glm::length(to_middle) + glm::length(translation);
+  const LongVec3 translation(primitive.local_to_world.translation);
+  coordinates_ = to_middle == LongVec3(0) ? 0 : glm::length(to_middle) + glm::length(translation);
 }
 
 Real RayOracle::error_bound(const LongRay& ray) const {
@@ -74,37 +56,16 @@ Real RayOracle::error_bound(const LongRay& ray) const {
 
 Real RayOracle::Side::gap() const { return outside / glm::length(gradient); }
 
+LongVec3 RayOracle::to_local(const LongVec3& point) const {
+  return world_to_local_ * (point + pivot_from_local_origin_);
+}
+
 std::vector<RayOracle::Side> RayOracle::sides(const LongVec3& point) const {
-  const LongVec3 local = world_to_local_ * (point + pivot_from_local_origin_);
-  const auto side = [&](Real outside, const LongVec3& gradient) {
-    return Side{outside, glm::transpose(world_to_local_) * gradient};
-  };
-  if (primitive_.shape == Shape::kSphere) {
-    const Real length = glm::length(local);
-    const Side all = side(length - primitive_.r_bottom, length > 0 ? local / length : LongVec3(1));
-    return {all};
+  std::vector<Side> sides;
+  for (const test_support::Side& side : kind_.sides(primitive_, to_local(point))) {
+    sides.push_back({side.outside, glm::transpose(world_to_local_) * side.gradient});
   }
-  if (primitive_.shape == Shape::kPolyhedron) {
-    std::vector<Side> faces;
-    for (const HalfSpace& half_space : primitive_.polyhedron->half_spaces()) {
-      const LongVec3 normal(half_space.normal);
-      faces.push_back(side(glm::dot(normal, local) - half_space.offset, normal));
-    }
-    return faces;
-  }
-  const Real above = local.z - primitive_.z_max;
-  const Real below = primitive_.z_min - local.z;
-  const Real slope = (Real(primitive_.r_top) - Real(primitive_.r_bottom)) /
-                     (Real(primitive_.z_max) - Real(primitive_.z_min));
-  // From the nearer end, so that next to an apex nothing cancels.
-  const Real radius =
-      above > below ? primitive_.r_top + slope * above : primitive_.r_bottom - slope * below;
-  const Real across = std::hypot(local.x, local.y);
-  const LongVec3 outwards = across > 0 ? LongVec3(local.x, local.y, 0) / across : LongVec3(1, 0, 0);
-  const Side wall = side(across - radius, outwards - LongVec3(0, 0, slope));
-  // At a pointed end the wall alone ends the primitive.
-  return {wall, primitive_.r_top > 0 ? side(above, {0, 0, 1}) : wall,
-          primitive_.r_bottom > 0 ? side(below, {0, 0, -1}) : wall};
+  return sides;
 }
 
 RayOracle::Side RayOracle::nearest(const LongVec3& point) const {
@@ -138,7 +99,9 @@ void RayOracle::expect_normal(const LongVec3& point, const Vec3& normal, Real re
 
 Real RayOracle::outside(const LongRay& ray, Real t) const {
   Real result = -std::numeric_limits<Real>::infinity();
-  for (const Side& side : sides(ray.at(t))) result = std::max(result, side.outside);
+  for (const test_support::Side& side : kind_.sides(primitive_, to_local(ray.at(t)))) {
+    result = std::max(result, side.outside);
+  }
   return result;
 }
 

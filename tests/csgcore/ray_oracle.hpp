@@ -8,11 +8,12 @@
 
 #include "csgcore/primitive.hpp"
 #include "packets/packet.hpp"
+#include "support/kinds/test_kind.hpp"
 
 namespace csgcore::checks {
 
-using Real = long double;
-using LongVec3 = glm::vec<3, Real>;
+using Real = csgcore::Real;
+using LongVec3 = csgcore::LongVec3;
 using LongMat3 = glm::mat<3, 3, Real>;
 
 /// origin + t·direction, relative to a pivot.
@@ -44,7 +45,7 @@ class RayOracle {
   double expect_segment(const LongRay& ray, double start, double end) const;
 
   /// How far a surface may seem displaced along its normal, in world units: kRoundings of a double,
-  /// of the coordinates that it is computed from: relative to the pivot and, of a frustum whose
+  /// of the coordinates that it is computed from: relative to the pivot and, of a primitive whose
   /// middle is not its origin, the world's. They are taken to the primitive's canonical space and
   /// back, which costs the condition of its map.
   Real error_bound(const LongRay& ray) const;
@@ -57,12 +58,13 @@ class RayOracle {
   void expect_normal(const LongVec3& point, const Vec3& normal, Real reach) const;
 
  private:
-  /// The sides of a primitive: its wall and, of a frustum, its two caps; a polyhedron's faces.
+  /// As test_support::Side, its gradient in the world.
   struct Side {
-    Real outside;       // local units; convex, negative on the inside
-    LongVec3 gradient;  // of it, in the world
+    Real outside;
+    LongVec3 gradient;
     Real gap() const;
   };
+  LongVec3 to_local(const LongVec3& point) const;
   std::vector<Side> sides(const LongVec3& point) const;
   Side nearest(const LongVec3& point) const;
   /// Negative within the primitive, and convex along any line.
@@ -73,6 +75,7 @@ class RayOracle {
   Real error_of_end(const LongRay& ray, Real computed, Real expected) const;
 
   Primitive primitive_;
+  const test_support::TestKind& kind_;
   LongMat3 world_to_local_;
   LongVec3 middle_from_pivot_, pivot_from_local_origin_;
   Real size_;         // world units: no point is further from the primitive's middle

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "checks.hpp"
-#include "csgcore/polyhedron.hpp"
 
 namespace csgcore::checks {
 
@@ -19,29 +18,24 @@ const char* name_of(RayKind kind) {
 
 namespace {
 
-/// A polyhedron as a cylinder with its heights, at which its axis lies within.
-Primitive cylinder_of(const Primitive& primitive) {
-  if (primitive.shape != Shape::kPolyhedron) return primitive;
-  Box box;
-  for (const Vec3& vertex : primitive.polyhedron->vertices()) box.merge(vertex);
-  Primitive cylinder = make_frustum(box.min.z, box.max.z, 1, 1);
-  cylinder.polyhedron = primitive.polyhedron;
-  return cylinder;
+double size_of(const test_support::TestKind& kind, const Primitive& primitive) {
+  const auto [low, high] = kind.heights(primitive);
+  const Vec3 sideways(1, 0, 0);
+  return std::max({kind.on_surface(primitive, sideways, low).x,
+                   kind.on_surface(primitive, sideways, high).x, high - low});
 }
 
 }  // namespace
 
 SpecialRays::SpecialRays(const Primitive& primitive, const Vec3& pivot, std::mt19937& random)
-    : map_(primitive.local_to_world),
+    : primitive_(primitive),
+      map_(primitive.local_to_world),
       pivot_(pivot),
       random_(random),
-      primitive_(cylinder_of(primitive)),
-      is_sphere_(primitive.shape == Shape::kSphere),
-      r_bottom_(primitive_.r_bottom),
-      r_top_(is_sphere_ ? r_bottom_ : primitive_.r_top),
-      z_min_(is_sphere_ ? -r_bottom_ : primitive_.z_min),
-      z_max_(is_sphere_ ? r_bottom_ : primitive_.z_max),
-      size_(std::max({r_bottom_, r_top_, z_max_ - z_min_})) {}
+      kind_(test_support::test_kind_of(primitive.shape)),
+      z_min_(kind_.heights(primitive).low),
+      z_max_(kind_.heights(primitive).high),
+      size_(size_of(kind_, primitive)) {}
 
 std::vector<PivotRay> SpecialRays::next(RayKind kind) {
   std::vector<PivotRay> rays;
@@ -90,19 +84,6 @@ Vec3 SpecialRays::sideways() {
   return {std::cos(angle), std::sin(angle), 0};
 }
 
-Vec3 SpecialRays::on_surface(const Vec3& sideways, double z) const {
-  if (primitive_.polyhedron) {
-    const double length = glm::length(sideways);  // the share of the way to the surface
-    if (length == 0) return {0, 0, z};
-    const double room = room_along(primitive_.polyhedron->half_spaces(), {0, 0, z}, sideways);
-    return length * room * sideways + Vec3{0, 0, z};
-  }
-  const double share = (z - z_min_) / (z_max_ - z_min_);
-  const double radius = is_sphere_ ? std::sqrt(std::max(0.0, r_bottom_ * r_bottom_ - z * z))
-                                   : r_bottom_ + share * (r_top_ - r_bottom_);
-  return radius * sideways + Vec3{0, 0, z};
-}
-
 double SpecialRays::trace() {
   constexpr double kTraces[] = {5e-324, 1e-320, 1e-310, 3e-308, 1e-300, 1e-200, 1e-160,
                                 1e-155, 1e-150, 1e-100, 1e-30,  1e-17,  1e-16,  1e-15};
@@ -129,10 +110,9 @@ PivotRay SpecialRays::any() {
 PivotRay SpecialRays::tangent() {
   const Vec3 aside = sideways();
   const Vec3 point = on_surface(aside, any_height());
-  const Vec3 along = on_surface(aside, z_max_) - on_surface(aside, z_min_);
   const Vec3 around{-aside.y, aside.x, 0};
-  const Vec3 upwards = is_sphere_ ? glm::cross(point, around) : along;
-  const Vec3 normal = glm::normalize(is_sphere_ ? point : glm::cross(around, along));
+  const Vec3 upwards = kind_.upwards(primitive_, aside, point);
+  const Vec3 normal = glm::normalize(glm::cross(around, upwards));
   const double kind = pick(0, 1);
   const Vec3 direction = kind < 0.3   ? around
                          : kind < 0.6 ? upwards
@@ -159,7 +139,7 @@ PivotRay SpecialRays::through_rim() {
 
 PivotRay SpecialRays::along_generatrix() {
   const Vec3 aside = sideways();
-  const Vec3 direction = on_surface(aside, z_max_) - on_surface(aside, z_min_);
+  const Vec3 direction = generatrix(aside);
   const Vec3 around{-aside.y, aside.x, 0};
   const double kind = pick(0, 1);
   Vec3 point = on_surface(aside, any_height());
@@ -169,11 +149,9 @@ PivotRay SpecialRays::along_generatrix() {
 }
 
 PivotRay SpecialRays::through_apex() {
-  // Where the wall's lines meet, be it within the primitive or not; of a sphere or a cylinder, some
+  // Where the wall's lines meet, be it within the primitive or not; of what has no such point, some
   // point of the axis.
-  const double apex = r_top_ == r_bottom_
-                          ? any_height()
-                          : z_min_ + (z_max_ - z_min_) * r_bottom_ / (r_bottom_ - r_top_);
+  const double apex = kind_.apex(primitive_).value_or(any_height());
   const Vec3 point{0, 0, apex};
   const double kind = pick(0, 1);
   const Vec3 direction = kind < 0.2   ? sideways()

@@ -6,6 +6,7 @@
 
 #include "csgcore/primitive.hpp"
 #include "ray_oracle.hpp"
+#include "support/kinds/test_kind.hpp"
 
 namespace csgcore::checks {
 
@@ -50,8 +51,14 @@ class SpecialRays {
   Vec3 any_direction();
   /// A unit vector in the local x-y plane, often an axis.
   Vec3 sideways();
-  /// On the wall or, of a sphere or a polyhedron, at that height.
-  Vec3 on_surface(const Vec3& sideways, double z) const;
+  /// On the side of `sideways`; with another length, such a share of the way from the axis.
+  Vec3 on_surface(const Vec3& sideways, double height) const {
+    return kind_.on_surface(primitive_, sideways, height);
+  }
+  /// From the lowest point on that side to the highest.
+  Vec3 generatrix(const Vec3& sideways) const {
+    return on_surface(sideways, z_max_) - on_surface(sideways, z_min_);
+  }
   double any_height() {
     return chance(0.3) ? (chance(0.5) ? z_min_ : z_max_) : pick(z_min_, z_max_);
   }
@@ -62,12 +69,12 @@ class SpecialRays {
   /// Through a local point, from somewhere on its line; of any length.
   PivotRay through(const Vec3& point_local, const Vec3& direction_local);
 
+  const Primitive primitive_;
   const Affine map_;
   const Vec3 pivot_;
   std::mt19937& random_;
-  const Primitive primitive_;
-  const bool is_sphere_;
-  const double r_bottom_, r_top_, z_min_, z_max_;
+  const test_support::TestKind& kind_;
+  const double z_min_, z_max_;
   const double size_;  // local
 };
 

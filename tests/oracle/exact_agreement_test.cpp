@@ -1,12 +1,16 @@
 // The exact ray oracle against the long-double reference of tests/support: two formulations of one
-// definition. They may differ only where a ray is undecided.
+// definition. They may differ only where a ray is undecided. And of every kind of primitive the
+// exact twin against csgcore's own crossings.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "csgcore/solid.hpp"
+#include "csgcore/tracer.hpp"
 #include "oracle/exact_rays.hpp"
 #include "support/full_run.hpp"
+#include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
 #include "support/reference.hpp"
 
@@ -98,6 +102,72 @@ TEST(ExactAgreement, WithTheReferenceOnRandomTrees) {
               (unsigned long long)sum.counts.comparisons,
               (unsigned long long)sum.counts.exact_comparisons);
 }
+
+/// Some primitives of a variant, one cut by another beside a third.
+Scene scene_of(const test_support::Variant& variant, std::mt19937& random) {
+  test_support::Sizes sizes(random, {.low = 0.5, .high = 2, .most_fragments = 12});
+  Scene scene;
+  for (uint32_t id = 0; id < 3; ++id) {
+    csgcore::Primitive primitive = variant.make(sizes);
+    primitive.local_to_world = test_support::random_affine(random);
+    primitive.local_to_world.translation *= 0.15;  // so that they overlap
+    primitive.id = id;
+    scene.primitives.push_back(primitive);
+  }
+  csgcore::CsgTreeBuilder tree;
+  tree.open(csgcore::Op::kUnion);
+  tree.open(csgcore::Op::kDifference);
+  tree.primitive(0);
+  tree.primitive(1);
+  tree.close();
+  tree.primitive(2);
+  tree.close();
+  scene.model = tree.finish();
+  return scene;
+}
+
+/// What csgcore's rays show, against the exact twins.
+void expect_hits_of_csgcore(const Scene& scene, const View& view) {
+  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
+  csgcore::Hits hits;
+  csgcore::TraceStats stats;
+  csgcore::trace(solid, view, csgcore::TraceOptions{}, hits, stats);
+  const ExactScene prepared(scene);
+  ExactRays rays(prepared);
+  for (size_t i = 0; i < hits.primitive.size(); ++i) {
+    const csgcore::Ray ray =
+        csgcore::pixel_ray(view, double(i % view.width_px), double(i / view.width_px));
+    const ExactHit hit = rays.first_hit(ray, view.projection);
+    const bool same =
+        hits.primitive[i] == hit.primitive &&
+        glm::length(hits.position[i] - hit.position) <= kExactPositionError * prepared.size() &&
+        glm::length(hits.normal[i] - hit.normal) <= kExactNormalError;
+    if (same) continue;
+    EXPECT_NE(rays.doubt(ray, view.projection), Doubt::kNone) << "pixel " << i;
+  }
+}
+
+class ExactAgreementOf : public testing::TestWithParam<test_support::Variant> {};
+
+TEST_P(ExactAgreementOf, WithTheReferenceAndCsgcore) {
+  std::mt19937 random(1);
+  Agreement sum;
+  for (int round = 0; round < (test_support::full_run() ? 40 : 4); ++round) {
+    SCOPED_TRACE(round);
+    const Scene scene = scene_of(GetParam(), random);
+    const Vec3 aside = Vec3{0.5, -0.3, 0.4} + test_support::random_direction(random);
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+      const View view = view_of(scene, aside, 2, projection);
+      expect_agreement(scene, view, sum);
+      expect_hits_of_csgcore(scene, view);
+    }
+  }
+  EXPECT_GT(sum.hits, sum.rays / 20);
+  EXPECT_LE(sum.undecided, sum.rays / 10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ExactAgreementOf, testing::ValuesIn(test_support::all_variants()),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(ExactAgreement, WithTheReferenceOnThousandsOfPrimitives) {
   Agreement sum;

@@ -8,6 +8,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "exact_primitive.hpp"
 #include "near_planes.hpp"
+#include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
 
 namespace oracle {
@@ -216,11 +217,18 @@ TEST(ExactSegment, ApexesAndRimsBelongToTheCap) {
 TEST(ExactSegment, IntervalsEncloseWhatIsExact) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> number(-0.4, 0.4);  // in the unit
-  const csgcore::Scene scene = test_support::random_tree(60, 8);
+  std::vector<Primitive> primitives;
+  test_support::Sizes sizes(random, {.low = 1, .high = 4, .most_fragments = 12});
+  for (const test_support::Variant& variant : test_support::all_variants()) {
+    for (int i = 0; i < 8; ++i) {
+      primitives.push_back(variant.make(sizes));
+      primitives.back().local_to_world = test_support::random_affine(random);
+    }
+  }
   const Vec3 pivot{0.5, 0.25, 0};
   const RoundingUp rounding_up;
   int met = 0, undecided = 0;
-  for (const Primitive& primitive : scene.primitives) {
+  for (const Primitive& primitive : primitives) {
     const Target<Exact> target = make_target(primitive, pivot, 0x1p-4);
     const Target<Interval> enclosed = enclose(target);
     for (int i = 0; i < 50; ++i) {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace test_support {
 namespace {
 
@@ -118,6 +120,18 @@ Scene scene_of(Op op, std::vector<csgcore::Primitive> primitives) {
   scene.primitives = std::move(primitives);
   scene.model = builder.finish();
   return scene;
+}
+
+std::shared_ptr<const csgcore::Polyhedron> octahedron(double scale) {
+  const Vec3 x = scale * Vec3(1, 0.2, 0), y = scale * Vec3(-0.3, 0.8, 0.1);
+  const Vec3 z = scale * Vec3(0, 0, 1.1);
+  csgcore::Mesh mesh{{x, y, -x, -y, z, -z}, {}};
+  for (uint32_t i = 0; i < 4; ++i) {
+    const uint32_t next = (i + 1) % 4;
+    mesh.faces.push_back({i, next, 4});
+    mesh.faces.push_back({next, i, 5});
+  }
+  return csgcore::Polyhedron::from(mesh);
 }
 
 Affine random_affine(std::mt19937& random) {

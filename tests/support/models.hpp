@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -27,6 +28,9 @@ csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);
 
 /// One operation over the primitives, whose ids are their indices.
 csgcore::Scene scene_of(csgcore::Op op, std::vector<csgcore::Primitive> primitives);
+
+/// The convex solid of 8 triangles between three skewed axes, from −scale to scale about.
+std::shared_ptr<const csgcore::Polyhedron> octahedron(double scale = 1);
 
 /// A random affine map of moderate condition.
 csgcore::Affine random_affine(std::mt19937& random);

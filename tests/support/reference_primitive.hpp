@@ -2,31 +2,16 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
-#include <span>
+#include <memory>
 
 #include "csgcore/primitive.hpp"
 #include "csgcore/view.hpp"
+#include "kinds/local_solid.hpp"
 #include "reference.hpp"
 
 namespace csgcore::reference {
 
 using LongMat3 = glm::mat<3, 3, Real>;
-
-/// A ray near the model, however far from it the eye, or the world's origin, may be: positions are
-/// relative to a point near the model, and t = 0 is where the ray is nearest to it, or about there.
-struct NearRay {
-  LongVec3 origin, direction;
-};
-
-/// Of a polyhedron, the half-space of that index.
-enum class Surface : uint32_t { kBottom = 0, kTop = 1, kSide = 0xFFFFFFFFu };
-
-/// The part of a ray inside a primitive. Empty unless begin < end.
-struct Span {
-  Real begin = 0, end = 0;
-  Surface begin_surface = Surface::kSide, end_surface = Surface::kSide;
-  bool empty() const { return !(begin < end); }
-};
 
 /// A valid primitive, prepared for rays whose positions are relative to `pivot`.
 class RayTarget {
@@ -38,18 +23,10 @@ class RayTarget {
 
  private:
   NearRay localize(const NearRay& ray) const;
-  Span cross_sphere(const NearRay& local) const;
-  Span cross_frustum(const NearRay& local) const;
-  Span cross_polyhedron(const NearRay& local) const;
-  Real radius_at(Real z) const;
 
-  Shape shape_;
-  std::shared_ptr<const Polyhedron> polyhedron_;
+  std::shared_ptr<const LocalSolid> solid_;
   LongMat3 world_to_local_;
-  LongVec3 middle_to_pivot_;  // from the local solid's middle (a polyhedron's origin), in the world
-  Real r_bottom_, r_top_;
-  Real half_height_ = 0;  // of the frustum; local z is measured from its middle
-  Real slope_ = 0;
+  LongVec3 middle_to_pivot_;  // from the point that the local solid is relative to, in the world
 };
 
 /// a + s·d − b, exact up to one rounding of the result, whatever cancels.

@@ -9,7 +9,9 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "evaluate_tree.hpp"
 #include "full_run.hpp"
+#include "kinds/test_kind.hpp"
 
 namespace csgcore {
 namespace {
@@ -218,36 +220,15 @@ TEST(Reference, BoxOfTheModelFollowsTheOperations) {
 
 // --- Random trees against point membership ---
 
-bool contains(const Primitive& p, const Vec3& point) {
-  const Vec3 local = glm::inverse(p.local_to_world.linear) * (point - p.local_to_world.translation);
-  if (p.shape == Shape::kSphere) return glm::dot(local, local) <= p.r_bottom * p.r_bottom;
-  const double share = (local.z - p.z_min) / (p.z_max - p.z_min);
-  const double radius = p.r_bottom + share * (p.r_top - p.r_bottom);
-  return share >= 0 && share <= 1 && std::hypot(local.x, local.y) <= radius;
-}
-
 bool contains(const Scene& scene, const Vec3& point) {
-  std::vector<bool> stack;
-  for (const CsgToken& token : scene.model.tokens()) {
-    if (token.is_primitive) {
-      stack.push_back(contains(scene.primitives[token.value], point));
-      continue;
-    }
-    const size_t first = stack.size() - token.value;
-    const auto rest = stack.begin() + long(first) + (token.op == Op::kDifference);
-    const long held = std::count(rest, stack.end(), true);
-    const bool inside = token.op == Op::kUnion          ? held > 0
-                        : token.op == Op::kIntersection ? held == long(token.value)
-                                                        : stack[first] && held == 0;
-    stack.resize(first);
-    stack.push_back(inside);
-  }
-  return !stack.empty() && stack.front();
+  return test_support::evaluate_tree(scene.model.tokens(), [&](uint32_t i) {
+    return test_support::holds(scene.primitives[i], point);
+  });
 }
 
 class RandomScene {
  public:
-  explicit RandomScene(uint64_t seed) : random_(seed) {}
+  explicit RandomScene(uint32_t seed) : random_(seed) {}
 
   Scene make() {
     builder_.open(Op::kUnion);
@@ -269,21 +250,21 @@ class RandomScene {
     builder_.close();
   }
   void leaf() {
-    Primitive p = random_() % 2
-                      ? sphere(number(0.3, 1.2))
-                      : frustum(-number(0, 1), number(0.1, 1), number(0, 1), number(0.1, 1));
+    Affine map;
     for (int column = 0; column < 3; ++column) {
       for (int row = 0; row < 3; ++row) {
-        p.local_to_world.linear[column][row] = number(-0.6, 0.6) + (column == row);
+        map.linear[column][row] = number(-0.6, 0.6) + (column == row);
       }
-      p.local_to_world.translation[column] = number(-0.7, 0.7);
+      map.translation[column] = number(-0.7, 0.7);
     }
+    test_support::Sizes sizes(random_, {.low = 0.2, .high = 1});
+    Primitive p = test_support::random_primitive(sizes, map);
     p.id = uint32_t(scene_.primitives.size());
     builder_.primitive(p.id);
     scene_.primitives.push_back(p);
   }
 
-  std::mt19937_64 random_;
+  std::mt19937 random_;
   CsgTreeBuilder builder_;
   Scene scene_;
 };
@@ -306,8 +287,8 @@ void check_pixel(const Scene& scene, const Vec3& origin, const Vec3& direction, 
 
 TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
   int hits = 0, inside = 0;
-  const uint64_t seeds = test_support::full_run() ? 60 : 15;
-  for (uint64_t seed = 0; seed < seeds; ++seed) {
+  const uint32_t seeds = test_support::full_run() ? 60 : 15;
+  for (uint32_t seed = 0; seed < seeds; ++seed) {
     const Scene scene = RandomScene(seed).make();
     View view = from_above(seed % 3 == 0 ? 0.1 : 4,
                            seed % 2 ? Projection::kPerspective : Projection::kOrthographic);

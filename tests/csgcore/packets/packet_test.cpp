@@ -11,7 +11,6 @@
 #include <numbers>
 
 #include "checks.hpp"
-#include "csgcore/polyhedron.hpp"
 #include "primitives/intersect.hpp"
 #include "rays/make_rays.hpp"
 #include "screen/reached.hpp"
@@ -33,6 +32,7 @@ using checks::RayKind;
 using checks::RayOracle;
 using checks::Real;
 using checks::uniform;
+using test_support::Variant;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -160,19 +160,9 @@ Mat3 random_map(MapKind kind, std::mt19937& random) {
   return Mat3{1.0};
 }
 
-const Primitive kShapes[] = {make_sphere(1),
-                             make_frustum(-1, 1, 0.5, 0.5),
-                             make_frustum(0, 2, 1, 0),  // cones, pointed at either end
-                             make_frustum(-1, 0.5, 0, 1),
-                             make_frustum(-1, 1, 0.25, 1),
-                             make_frustum(-1, 1, 1, 1 - 1e-12),  // hardly a cone
-                             make_polyhedron(Polyhedron::box({Vec3(-1), {0.5, 1, 2}})),
-                             checks::make_octahedron(),
-                             checks::faceted(make_sphere(1), 5),
-                             checks::faceted(make_sphere(1), 12),
-                             checks::faceted(make_frustum(-1, 1, 0.5, 0.5), 6),
-                             checks::faceted(make_frustum(0, 2, 1, 0), 4),
-                             checks::faceted(make_frustum(-1, 1, 0.25, 1), 32)};
+/// Often of lengths that are exact in few bits, so that rays are exactly in a cap's plane.
+constexpr test_support::SizeRange kSizes{
+    .low = 0.5, .high = 2, .even_share = 0.6, .step = 0.25, .most_fragments = 12};
 
 struct Placement {
   const char* name;
@@ -193,8 +183,9 @@ struct Target {
   FrameRays frame;
   CanonicalPrimitive canonical;
 
-  Target(const Primitive& shape, const Placement& placement, MapKind map, std::mt19937& random)
-      : primitive(shape) {
+  Target(const Variant& variant, const Placement& placement, MapKind map, std::mt19937& random) {
+    test_support::Sizes sizes(random, kSizes);
+    primitive = variant.make(sizes);
     frame.pivot = placement.from_world * checks::random_direction(random);
     primitive.local_to_world.linear = placement.size * random_map(map, random);
     primitive.local_to_world.translation =
@@ -203,15 +194,21 @@ struct Target {
   }
 };
 
-/// Calls back with a Target of every shape, map and place, several times in a full run.
+const Variant& variant_of(size_t number) {
+  const std::vector<Variant>& variants = test_support::all_variants();
+  return variants[number % variants.size()];
+}
+
+/// Calls back with a Target of every variant, map and place, several times in a full run.
 template <typename Visit>
 void for_each_target(std::mt19937& random, Visit&& visit) {
   const int rounds = test_support::full_run() ? 20 : 1;
   for (int round = 0; round < rounds; ++round) {
     for (const Placement& placement : kPlacements) {
       for (int map = 0; map < kMapKinds; ++map) {
-        for (const Primitive& shape : kShapes) {
-          visit(Target(shape, placement, static_cast<MapKind>(map), random), placement);
+        for (const Variant& variant : test_support::all_variants()) {
+          SCOPED_TRACE(variant.name);
+          visit(Target(variant, placement, static_cast<MapKind>(map), random), placement);
           if (testing::Test::HasFailure()) return;
         }
       }
@@ -258,7 +255,7 @@ TEST(Crossings, AreAsExactFromFarAway) {
     int crossed = 0;
     for (int round = 0; round < (test_support::full_run() ? 2000 : 100); ++round) {
       const Placement placement{"", 1, uniform(random, 0, 1), 0};
-      Target target(kShapes[round % std::size(kShapes)], placement, MapKind::kTurned, random);
+      Target target(variant_of(static_cast<size_t>(round)), placement, MapKind::kTurned, random);
       const Box& bounds = target.canonical.bounds;
       const double size = bounds.diagonal();
       const View view = random_view(random, bounds.center(), distance * size, size / 2);
@@ -553,8 +550,8 @@ Bytes bytes_of_all() {
   Bytes bytes;
   for (int round = 0; round < 3000; ++round) {
     const Placement& placement = kPlacements[random() % std::size(kPlacements)];
-    const Target target(kShapes[random() % std::size(kShapes)], placement,
-                        static_cast<MapKind>(random() % kMapKinds), random);
+    const Target target(variant_of(random()), placement, static_cast<MapKind>(random() % kMapKinds),
+                        random);
     checks::SpecialRays rays(target.primitive, target.frame.pivot, random);
     const RayPacket special =
         checks::packet_of(rays.next(static_cast<RayKind>(random() % checks::kRayKinds)));

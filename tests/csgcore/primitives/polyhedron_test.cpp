@@ -26,7 +26,7 @@ struct Named {
 std::vector<Named> all_kinds() {
   return {{"cube", Polyhedron::box({Vec3(-1), Vec3(1)})},
           {"plate", Polyhedron::box({Vec3(3), Vec3(4, 8, 3 + 1e-7)})},
-          {"octahedron", checks::make_octahedron().polyhedron},
+          {"octahedron", test_support::octahedron()},
           {"triangular prism", Polyhedron::frustum(0, 1, 2, 2, 3)},
           {"hexagonal prism", Polyhedron::frustum(-4, 1, 2, 2, 6)},
           {"pyramid", Polyhedron::frustum(0, 3, 1, 0, 4)},

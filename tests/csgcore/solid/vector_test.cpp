@@ -22,7 +22,7 @@ class VectorTest : public testing::Test {
   VectorTest() {
     std::mt19937 random(1);
     for (int i = 0; i < 3000; ++i) {
-      primitives_.push_back(canonicalize(checks::random_primitive(random)));
+      primitives_.push_back(canonicalize(checks::random_primitive(random, {.low = 1, .high = 4})));
       extents_.push_back(extent_of(primitives_.back()));
       indices_.push_back(static_cast<uint32_t>(random() % 3000) | (random() % 2 ? 1u << 31 : 0));
     }

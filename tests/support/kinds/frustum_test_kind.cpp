@@ -1,0 +1,207 @@
+// The test kind of the frustum: cylinders, and cones with either end pointed.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "kinds/test_kind.hpp"
+
+namespace test_support {
+namespace {
+
+using csgcore::LongVec3;
+using csgcore::Primitive;
+using csgcore::Real;
+using csgcore::Vec3;
+using csgcore::reference::LocalSolid;
+using csgcore::reference::NearRay;
+using csgcore::reference::Span;
+using csgcore::reference::Surface;
+using csgcore::reference::Wide;
+
+constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+
+/// The roots' side of a cone: f(t) = a·t² + 2b·t + c ≤ 0 on the nappe of positive radius. a > 0 is
+/// one segment; a < 0 is two half-lines, one in each nappe, of which the radius's growth along the
+/// ray tells ours; a = 0 is one half-line.
+Span solve_cone(Real a, Real b, Real c, Real growth) {
+  if (a == 0) {
+    if (b == 0) return c <= 0 ? Span{-kInfinity, kInfinity} : Span{};
+    return b > 0 ? Span{-kInfinity, -c / (2 * b)} : Span{-c / (2 * b), kInfinity};
+  }
+  Real discriminant = b * b - a * c;
+  if (discriminant < 0) {
+    if (a > 0) return {};
+    discriminant = 0;  // rounding: at the apex's height f ≥ 0, so for a < 0 there are roots
+  }
+  const Real q = -(b + std::copysign(std::sqrt(discriminant), b));
+  if (q == 0) return a > 0 ? Span{} : growth > 0 ? Span{0, kInfinity} : Span{-kInfinity, 0};
+  const Real low = std::min(q / a, c / q), high = std::max(q / a, c / q);
+  if (a > 0) return {low, high};
+  return growth > 0 ? Span{high, kInfinity} : Span{-kInfinity, low};
+}
+
+/// The part of the ray with |z| ≤ half_height; a ray along the end planes belongs to it.
+Span cross_slab(const NearRay& ray, Real half_height) {
+  if (ray.direction.z == 0) {
+    const bool inside = std::abs(ray.origin.z) <= half_height;
+    return inside ? Span{-kInfinity, kInfinity} : Span{};
+  }
+  const Real at_bottom = (-half_height - ray.origin.z) / ray.direction.z;
+  const Real at_top = (half_height - ray.origin.z) / ray.direction.z;
+  if (at_bottom < at_top) return {at_bottom, at_top, Surface::kBottom, Surface::kTop};
+  return {at_top, at_bottom, Surface::kTop, Surface::kBottom};
+}
+
+/// z is measured from the middle.
+class FrustumSolid final : public LocalSolid {
+ public:
+  explicit FrustumSolid(const Primitive& p)
+      : middle_z_((Wide(p.z_min) + Wide(p.z_max)) / 2),
+        half_height_(Real((Wide(p.z_max) - Wide(p.z_min)) / 2)),
+        r_bottom_(p.r_bottom),
+        r_top_(p.r_top),
+        slope_((r_top_ - r_bottom_) / (2 * half_height_)) {}
+
+  Wide middle_z() const override { return middle_z_; }
+
+  Span span(const NearRay& ray) const override {
+    Span span = cross_slab(ray, half_height_);
+    if (span.empty()) return span;
+    // The wall as seen from the ray's point next to the axis within the slab: what is subtracted
+    // there is of the primitive's own size, be it ever so long and thin.
+    const LongVec3& d = ray.direction;
+    const Real dd = d.x * d.x + d.y * d.y;
+    const Real next_to_axis = dd > 0 ? -(ray.origin.x * d.x + ray.origin.y * d.y) / dd : Real(0);
+    const Real base = std::clamp(next_to_axis, span.begin, span.end);
+    const LongVec3 o = ray.origin + base * d;
+    const Real radius = radius_at(o.z), growth = slope_ * d.z;
+    const Span side = solve_cone(dd - growth * growth, o.x * d.x + o.y * d.y - radius * growth,
+                                 o.x * o.x + o.y * o.y - radius * radius, growth);
+    if (side.empty()) return {};
+    const Real begin = base + side.begin, end = base + side.end;
+    if (begin > span.begin) span.begin = begin, span.begin_surface = Surface::kSide;
+    if (end < span.end) span.end = end, span.end_surface = Surface::kSide;
+    return span;
+  }
+
+  LongVec3 normal(const LongVec3& point, Surface surface) const override {
+    if (surface == Surface::kBottom) return {0, 0, -1};
+    if (surface == Surface::kTop) return {0, 0, 1};
+    const LongVec3 normal{point.x, point.y, -slope_ * std::hypot(point.x, point.y)};
+    // At the very apex every direction on the cone is as good: the axis.
+    return normal == LongVec3(0) ? LongVec3(0, 0, r_top_ == 0 ? 1 : -1) : normal;
+  }
+
+ private:
+  /// From the nearer end, so that next to an apex nothing cancels.
+  Real radius_at(Real z) const {
+    return z > 0 ? r_top_ + slope_ * (z - half_height_) : r_bottom_ + slope_ * (z + half_height_);
+  }
+
+  const Wide middle_z_;
+  const Real half_height_, r_bottom_, r_top_, slope_;
+};
+
+/// Around the local origin, upon it, or beyond it.
+Primitive standing(Sizes& sizes, double r_bottom, double r_top) {
+  const double height = sizes.length();
+  if (sizes.by_chance(0.5)) return csgcore::make_frustum(-sizes.length(), height, r_bottom, r_top);
+  const double bottom = sizes.by_chance(0.5) ? 0 : sizes.length();
+  return csgcore::make_frustum(bottom, bottom + height, r_bottom, r_top);
+}
+
+constexpr Variant kVariants[] = {
+    {"Cylinder",
+     [](Sizes& sizes) {
+       const double radius = sizes.length();
+       return standing(sizes, radius, radius);
+     }},
+    {"Frustum",
+     [](Sizes& sizes) {
+       const double r_bottom = sizes.length();
+       return standing(sizes, r_bottom, sizes.length());
+     }},
+    {"Cone", [](Sizes& sizes) { return standing(sizes, sizes.length(), 0); }},
+    {"ConeUpsideDown", [](Sizes& sizes) { return standing(sizes, 0, sizes.length()); }},
+    {"HardlyACone", [](Sizes& sizes) { return standing(sizes, 1, 1 - 1e-12); }}};
+
+double radius_at(const Primitive& p, double z) {
+  return p.r_bottom + (z - p.z_min) / (p.z_max - p.z_min) * (p.r_top - p.r_bottom);
+}
+
+class FrustumTestKind final : public TestKind {
+ public:
+  std::span<const Variant> variants() const override { return kVariants; }
+
+  bool holds(const Primitive& p, const Vec3& point) const override {
+    return point.z >= p.z_min && point.z <= p.z_max &&
+           std::hypot(point.x, point.y) <= radius_at(p, point.z);
+  }
+  Vec3 surface_point(const Primitive& p, std::mt19937& random) const override {
+    std::uniform_real_distribution<double> share(0, 1);
+    const double angle = 2 * std::numbers::pi * share(random);
+    const bool at_end = random() % 2 == 0, at_top = random() % 2 == 0;
+    const double z = !at_end  ? p.z_min + share(random) * (p.z_max - p.z_min)
+                     : at_top ? p.z_max
+                              : p.z_min;
+    double radius = at_end ? (at_top ? p.r_top : p.r_bottom) : radius_at(p, z);
+    if (at_end && random() % 3 == 0) radius *= std::sqrt(share(random));  // of the cap, not its rim
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+  }
+  Vec3 core(const Primitive& p, const Vec3&) const override {
+    return {0, 0, 0.5 * p.z_min + 0.5 * p.z_max};
+  }
+
+  LongVec3 middle(const Primitive& p) const override {
+    return {0, 0, (Real(p.z_max) + Real(p.z_min)) / 2};
+  }
+  Real reach_world(const Primitive& p) const override {
+    const csgcore::Mat3& linear = p.local_to_world.linear;
+    const Real radius = std::max(p.r_bottom, p.r_top);
+    const Real half_height = (Real(p.z_max) - Real(p.z_min)) / 2;
+    return glm::length(LongVec3(linear[0])) * radius + glm::length(LongVec3(linear[1])) * radius +
+           glm::length(LongVec3(linear[2])) * half_height;
+  }
+  std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
+    const Real above = point.z - p.z_max, below = p.z_min - point.z;
+    const Real slope = (Real(p.r_top) - Real(p.r_bottom)) / (Real(p.z_max) - Real(p.z_min));
+    // From the nearer end, so that next to an apex nothing cancels.
+    const Real radius = above > below ? p.r_top + slope * above : p.r_bottom - slope * below;
+    const Real across = std::hypot(point.x, point.y);
+    const LongVec3 outwards =
+        across > 0 ? LongVec3(point.x, point.y, 0) / across : LongVec3(1, 0, 0);
+    std::vector<Side> sides{{across - radius, outwards - LongVec3(0, 0, slope)}};
+    // At a pointed end the wall alone ends the primitive.
+    if (p.r_top > 0) sides.push_back({above, {0, 0, 1}});
+    if (p.r_bottom > 0) sides.push_back({below, {0, 0, -1}});
+    return sides;
+  }
+
+  std::unique_ptr<const LocalSolid> solid(const Primitive& p) const override {
+    return std::make_unique<FrustumSolid>(p);
+  }
+  double furthest(const Primitive& p, const Vec3& direction) const override {
+    const double across = std::hypot(direction.x, direction.y);
+    return std::max(direction.z * p.z_min + across * p.r_bottom,
+                    direction.z * p.z_max + across * p.r_top);
+  }
+
+  Heights heights(const Primitive& p) const override { return {p.z_min, p.z_max}; }
+  Vec3 on_surface(const Primitive& p, const Vec3& sideways, double height) const override {
+    return radius_at(p, height) * sideways + Vec3{0, 0, height};
+  }
+  std::optional<double> apex(const Primitive& p) const override {
+    if (p.r_top == p.r_bottom) return std::nullopt;
+    return p.z_min + (p.z_max - p.z_min) * p.r_bottom / (p.r_bottom - p.r_top);
+  }
+};
+
+constexpr FrustumTestKind kTestKind;
+
+}  // namespace
+
+constinit const TestKind& Frustum_test_kind = kTestKind;
+
+}  // namespace test_support
