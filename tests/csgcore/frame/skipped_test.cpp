@@ -53,7 +53,7 @@ void add_range(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
 /// Two balls far off, which make the solid's box the same whatever else there is.
 const Primitive kLeft = make_sphere(1, checks::moved({-1e3, -1e3, -1e3}));
 const Primitive kRight = make_sphere(1, checks::moved({1e3, 1e3, 50}));
-constexpr uint32_t kCorners = 2;
+constexpr uint32_t kCornerParts = 2;
 
 constexpr Projection kBothProjections[] = {Projection::kOrthographic, Projection::kPerspective};
 
@@ -78,8 +78,8 @@ void expect_skipped(const Parts& parts, uint64_t SkippedPrimitives::*count_of,
     EXPECT_GT(checks::count_hits(without), 500u);
     EXPECT_EQ(stats.primitives, stats_without.primitives + kParts);
     EXPECT_EQ(stats.intersected, stats_without.intersected);
-    const uint64_t by_corners = count_of == &SkippedPrimitives::off_screen ? kCorners : 0;
-    EXPECT_EQ(stats_without.skipped.off_screen, kCorners);
+    const uint64_t by_corners = count_of == &SkippedPrimitives::off_screen ? kCornerParts : 0;
+    EXPECT_EQ(stats_without.skipped.off_screen, kCornerParts);
     EXPECT_EQ(stats.skipped.*count_of, kParts + by_corners);
     EXPECT_LE(stats.intersections, stats_without.intersections * 11 / 10);
     EXPECT_TRUE(checks::same_bits(with, checks::WholeList(solid, view).picture()));
@@ -145,7 +145,7 @@ TEST(Skipped, BehindTheEye) {
   TraceStats stats;
   const Scene scene = make_scene(parts, kParts);
   trace(Solid(canonical_primitives(scene), scene.model), view, options, hits, stats);
-  EXPECT_EQ(stats.skipped.off_screen, kParts + kCorners + 1);
+  EXPECT_EQ(stats.skipped.off_screen, kParts + kCornerParts + 1);
   EXPECT_EQ(stats.intersected, 1u);
 }
 

@@ -115,16 +115,16 @@ std::vector<Primitive> stretched_primitives(std::mt19937& random, int count) {
 }
 
 /// The space that random_primitives fill, about.
-const Box kSpace{Vec3(-8.0), Vec3(8.0)};
+const Box kSeenSpace{Vec3(-8.0), Vec3(8.0)};
 
-FrameRays rays_of(const View& view) { return frame_rays(view, kSpace); }
+FrameRays rays_of(const View& view) { return frame_rays(view, kSeenSpace); }
 
 /// Views of that: from outside, from amidst them, from one point of it.
 std::vector<View> random_views(std::mt19937& random) {
   std::vector<View> views;
   for (const double distance : {40.0, 12.0, 3.0, 0.0, 1e5}) {
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-      View view = checks::view_of(kSpace, checks::random_direction(random), distance);
+      View view = checks::view_of(kSeenSpace, checks::random_direction(random), distance);
       view.projection = projection;
       view.half_height = projection == Projection::kOrthographic ? 5 : distance > 100 ? 5e-5 : 0.4;
       view.width_px = 120;
