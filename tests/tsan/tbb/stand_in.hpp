@@ -1,6 +1,7 @@
-// A stand-in for the parts of oneTBB that scadray uses, for ThreadSanitizer: the sanitizer does not see
-// how Debian's libtbb, which it has not compiled, hands work from thread to thread, and takes that for
-// races. What runs in parallel here is what may in oneTBB; how work is dealt out is much simpler.
+// A stand-in for the parts of oneTBB that scadray uses, for ThreadSanitizer: the sanitizer does not
+// see how Debian's libtbb, which it has not compiled, hands work from thread to thread, and takes
+// that for races. What runs in parallel here is what may in oneTBB; how work is dealt out is much
+// simpler.
 #pragma once
 
 #include <algorithm>
