@@ -1,6 +1,5 @@
 // The frustum's traits: cylinders, and cones with either end pointed.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +16,21 @@ using csgcore::Primitive;
 using csgcore::Vec3;
 
 double larger_radius(const Primitive& p) { return std::max(p.r_bottom, p.r_top); }
+
+/// Adds a cap whose normal points to z_max, with three points of its rim; or an apex. Healing asks
+/// for caps often: they are written in place, since a copy waits for what has just been written.
+void add_cap(double z, double radius, uint32_t opposite, PlaneFaces& faces) {
+  PlaneFace& cap = faces.faces.emplace_back();
+  cap.center = Vec3(0, 0, z);
+  cap.normal = Vec3(0, 0, 1);
+  cap.opposite = opposite;
+  cap.first_corner = static_cast<uint32_t>(faces.corners.size());
+  if (radius == 0) return;
+  cap.corner_count = 3;
+  faces.corners.emplace_back(radius, 0.0, z);
+  faces.corners.emplace_back(0.0, radius, z);
+  faces.corners.emplace_back(-radius, -radius, z);
+}
 
 class FrustumTraits final : public PrimitiveTraits {
  public:
@@ -49,17 +63,10 @@ class FrustumTraits final : public PrimitiveTraits {
   Roundness roundness(const Primitive& p) const override {
     return {Roundness::About::kAxis, {p.r_bottom, p.r_top}, {p.z_min, p.z_max}};
   }
-  /// Face 0 is the cap at z_min, face 1 the one at z_max; each may be an apex. Both normals point
-  /// to z_max, and the corners are three points of each rim.
+  /// Face 0 is the cap at z_min, face 1 the one at z_max.
   void find_plane_faces(const Primitive& p, PlaneFaces& faces) const override {
-    const double r = p.r_bottom, s = p.r_top;
-    const std::array<Vec3, 6> rims{Vec3(r, 0, p.z_min), Vec3(0, r, p.z_min), Vec3(-r, -r, p.z_min),
-                                   Vec3(s, 0, p.z_max), Vec3(0, s, p.z_max), Vec3(-s, -s, p.z_max)};
-    const uint32_t below = r > 0 ? 3 : 0, above = s > 0 ? 3 : 0;
-    faces.corners.assign(rims.begin() + (3 - below), rims.begin() + (3 + above));
-    const Vec3 up(0, 0, 1);
-    faces.faces = {{Vec3(0, 0, p.z_min), up, 1, 0, below},
-                   {Vec3(0, 0, p.z_max), up, 0, below, above}};
+    add_cap(p.z_min, p.r_bottom, 1, faces);
+    add_cap(p.z_max, p.r_top, 0, faces);
   }
 
   /// The middle of a chord between two neighbouring vertices of a circle is nearest.
