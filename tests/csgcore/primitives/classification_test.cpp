@@ -132,7 +132,7 @@ constexpr NamedMap kMaps[] = {
     {"Similarity", similarity}, {"AxisAligned", axis_aligned}, {"Affine", affine}};
 
 /// Of moderate proportions, so that a grid of points finds what it looks for.
-constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2};
+constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2, .most_fragments = 24};
 
 bool is_told_tightly(const Primitive& primitive) {
   return test_support::test_kind_of(primitive.shape).is_told_tightly();
