@@ -1,20 +1,17 @@
 #include "random_scenes.hpp"
 
 #include <cmath>
-#include <memory>
 #include <random>
 
-#include "csgcore/polyhedron.hpp"
+#include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
 
 namespace stress {
 namespace {
 
-using csgcore::Polyhedron;
 using Random = std::mt19937;
 
 constexpr uint32_t kMostPrimitives = 12;
-constexpr uint32_t kMostFragments = 8;
 constexpr int kMostDepth = 5;
 
 double uniform(Random& random, double low, double high) {
@@ -23,52 +20,16 @@ double uniform(Random& random, double low, double high) {
 
 bool by_chance(Random& random, double share) { return uniform(random, 0, 1) < share; }
 
-/// From 1 to 4; often whole, so that sizes are equal.
-double length(Random& random) {
-  const double number = uniform(random, 1, 4);
-  return by_chance(random, 0.6) ? std::round(number) : number;
-}
-
-struct FrustumSize {
-  double z_min, z_max, r_bottom, r_top;
-};
-
-FrustumSize frustum_size(Random& random) {
-  const double z_min = -length(random), z_max = length(random), radius = length(random);
-  switch (random() % 4) {
-    case 0:
-      return {z_min, z_max, radius, length(random)};
-    case 1:
-      return {z_min, z_max, radius, 0};
-    case 2:
-      return {z_min, z_max, 0, radius};
-    default:
-      return {z_min, z_max, radius, radius};
-  }
-}
+/// Often whole, so that sizes are equal.
+constexpr test_support::SizeRange kSizes{
+    .low = 1, .high = 4, .even_share = 0.6, .step = 1, .most_fragments = 8};
 
 /// In its own frame, which is to be a place in the world.
 Primitive random_primitive(Random& random, bool only_polyhedra) {
-  const int fragments = 3 + int(random() % (kMostFragments - 2));
-  switch (random() % (only_polyhedra ? 3 : 5)) {
-    case 0: {
-      const Vec3 size{length(random), length(random), length(random)};
-      return csgcore::make_polyhedron(Polyhedron::box({-size, size}));
-    }
-    case 1:
-      return csgcore::make_polyhedron(Polyhedron::sphere(length(random), fragments));
-    case 2: {
-      const FrustumSize size = frustum_size(random);
-      return csgcore::make_polyhedron(
-          Polyhedron::frustum(size.z_min, size.z_max, size.r_bottom, size.r_top, fragments));
-    }
-    case 3:
-      return csgcore::make_sphere(length(random));
-    default: {
-      const FrustumSize size = frustum_size(random);
-      return csgcore::make_frustum(size.z_min, size.z_max, size.r_bottom, size.r_top);
-    }
-  }
+  test_support::Sizes sizes(random, kSizes);
+  if (!only_polyhedra) return test_support::random_primitive(sizes, {});
+  const auto& polyhedra = test_support::test_kind_of(csgcore::Shape::kPolyhedron);
+  return test_support::random_primitive(polyhedra, sizes, {});
 }
 
 Vec3 whole_offset(Random& random) {

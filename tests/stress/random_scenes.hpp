@@ -7,8 +7,8 @@
 
 namespace stress {
 
-/// Up to 12 primitives within about [-10, 10]³: spheres, frusta, cubes, faceted spheres and frusta
-/// of 3 to 8 fragments, often of whole numbers. Half of them share planes or an axis with an
+/// Up to 12 primitives of all kinds within about [-10, 10]³, with up to 8 fragments, often of whole
+/// numbers. Half of them share planes or an axis with an
 /// earlier one, or are the same. `only_polyhedra`: no smooth ones.
 Scene random_scene(uint32_t seed, bool only_polyhedra);
 

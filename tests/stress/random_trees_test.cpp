@@ -114,7 +114,7 @@ TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
               number(sums.exact.exact_comparisons));
   const auto rays = double(sums.exact.rays);
   EXPECT_GT(double(sums.hits), rays / 10);
-  EXPECT_GT(double(sums.exact.exact_comparisons), rays / 50);
+  EXPECT_GT(double(sums.exact.exact_comparisons), rays / 100);
   EXPECT_LE(double(sums.undecided), std::max(1.0, kMostUndecided * rays));
 }
 

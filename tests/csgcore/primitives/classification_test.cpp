@@ -132,7 +132,7 @@ constexpr NamedMap kMaps[] = {
     {"Similarity", similarity}, {"AxisAligned", axis_aligned}, {"Affine", affine}};
 
 /// Of moderate proportions, so that a grid of points finds what it looks for.
-constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2};
+constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2, .most_fragments = 24};
 
 bool is_told_tightly(const Primitive& primitive) {
   return test_support::test_kind_of(primitive.shape).is_told_tightly();
@@ -198,6 +198,24 @@ TEST_P(ClassificationOf, FurthestPointsAreFurthest) {
   }
 }
 
+/// Where a ball leaves the primitive first: the directions out of each side, at its centre, in
+/// world space; and how far off the nearest side is.
+struct WaysOut {
+  std::vector<Vec3> directions;
+  double nearest = std::numeric_limits<double>::infinity();
+
+  WaysOut(const Primitive& primitive, const Vec3& center) {
+    const Mat3 world_to_local = glm::inverse(primitive.local_to_world.linear);
+    const Vec3 local = world_to_local * (center - primitive.local_to_world.translation);
+    for (const test_support::Side& side :
+         test_support::test_kind_of(primitive.shape).sides(primitive, LongVec3(local))) {
+      const Vec3 gradient = glm::transpose(world_to_local) * Vec3(side.gradient);
+      directions.push_back(glm::normalize(gradient));
+      nearest = std::min(nearest, -static_cast<double>(side.outside) / glm::length(gradient));
+    }
+  }
+};
+
 TEST_P(ClassificationOf, HoldsBallsThatLieInside) {
   std::mt19937 random(7);
   int held = 0;
@@ -208,9 +226,17 @@ TEST_P(ClassificationOf, HoldsBallsThatLieInside) {
     const double smallest = std::min({size.x, size.y, size.z});
     for (int k = 0; k < 100; ++k) {
       const Vec3 center = checks::random_point(random, canonical.bounds);
-      const double radius = smallest * checks::uniform(random, 0.001, 0.3);
+      const WaysOut ways_out(primitive, center);
+      double radius = smallest * checks::uniform(random, 0.001, 0.3);
+      // Often one that is just held, or just not.
+      if (k % 2 == 0 && ways_out.nearest > 0) {
+        radius = ways_out.nearest * checks::uniform(random, 0.8, 1.05);
+      }
       if (!holds_ball(canonical, center, radius)) continue;
       ++held;
+      for (const Vec3& direction : ways_out.directions) {
+        ASSERT_TRUE(checks::holds(primitive, center + radius * direction));
+      }
       for (int on_ball = 0; on_ball < 100; ++on_ball) {
         ASSERT_TRUE(checks::holds(primitive, center + radius * checks::random_direction(random)));
       }
