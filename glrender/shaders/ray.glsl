@@ -71,7 +71,7 @@ struct CanonicalRay {
   vec3 origin, direction;
   float base_t;
   float radius_mid, radius_slope;
-  float enclosure;  // the primitive's kind, or its enclosure's
+  float enclosure;  // kind of the primitive's enclosure, which is its own unless it is cut
   bool is_none;     // the primitive is too thin to exist
   int faces;        // first texel of the primitive's faces (polyhedron.glsl)
   mat3 world_to_canonical;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "glrender/context.hpp"
 #include "shader_constants.hpp"
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/primitive.hpp"
 #include "gl_object.hpp"
