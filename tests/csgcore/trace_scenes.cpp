@@ -212,7 +212,7 @@ std::vector<NamedScene> trace_scenes() {
   scenes.push_back({"Crowd", crowd(1)});
   for (const uint32_t primitives : {3, 10, 40, 150}) {
     scenes.push_back({"Random" + std::to_string(primitives),
-                      colored(test_support::random_tree(primitives, primitives))});
+                      colored(test_support::random_tree_of_all_kinds(primitives, primitives))});
   }
   return scenes;
 }

@@ -82,7 +82,7 @@ TEST(ExactAgreement, WithTheReferenceOnRandomTrees) {
   const uint32_t seeds = test_support::full_run() ? 200 : 25;
   for (uint32_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = test_support::random_tree(3 + seed % 40, seed);
+    const Scene scene = test_support::random_tree_of_all_kinds(3 + seed % 40, seed);
     if (csgcore::reference_box(scene).empty()) continue;
     const Vec3 aside{1.0 + seed % 3, -2.0 + seed % 5, 1.5};
     expect_agreement(scene, view_of(scene, aside, 2, Projection::kPerspective), sum);

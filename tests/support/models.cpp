@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "csgcore/polyhedron.hpp"
+#include "kinds/test_kind.hpp"
 
 namespace test_support {
 namespace {
@@ -178,6 +179,18 @@ Scene random_tree(uint32_t primitives, uint32_t seed) {
   }
   for (; depth > 0; --depth) tree.close();
   scene.model = tree.finish();
+  return scene;
+}
+
+Scene random_tree_of_all_kinds(uint32_t primitives, uint32_t seed) {
+  Scene scene = random_tree(primitives, seed);
+  std::mt19937 random(seed);
+  Sizes sizes(random, {.low = 1, .high = 4, .most_fragments = 8});
+  for (csgcore::Primitive& primitive : scene.primitives) {
+    const uint32_t id = primitive.id;
+    primitive = random_primitive(sizes, primitive.local_to_world);
+    primitive.id = id;
+  }
   return scene;
 }
 

@@ -26,6 +26,9 @@ csgcore::Scene stacked_frusta(uint32_t rings);
 /// mirrored, unevenly scaled), within about [-10, 10]³.
 csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);
 
+/// The same of primitives of all kinds, which cannot stay the same when a kind is added.
+csgcore::Scene random_tree_of_all_kinds(uint32_t primitives, uint32_t seed);
+
 /// One operation over the primitives, whose ids are their indices.
 csgcore::Scene scene_of(csgcore::Op op, std::vector<csgcore::Primitive> primitives);
 

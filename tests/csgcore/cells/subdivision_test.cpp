@@ -37,7 +37,7 @@ class SubdivisionBy : public testing::TestWithParam<std::tuple<uint32_t, SplitRu
 TEST_P(SubdivisionBy, RandomTreesKeepTheirMeaning) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = test_support::random_tree(4 + 3 * seed, seed);
+    const Scene scene = test_support::random_tree_of_all_kinds(4 + 3 * seed, seed);
     const Solid solid = solid_of(scene);
     const Subdivision subdivision(solid, options());
     checks::expect_correct(subdivision, scene, 2);

@@ -47,7 +47,7 @@ Box random_cell(std::mt19937& random, const Box& bounds) {
 class RestrictionOf : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(RestrictionOf, RandomTreeEqualsTheListWithinTheCell) {
-  const Scene scene = test_support::random_tree(GetParam(), GetParam());
+  const Scene scene = test_support::random_tree_of_all_kinds(GetParam(), GetParam());
   const Solid solid(canonical_primitives(scene), scene.model);
   if (solid.list().literals.empty()) GTEST_SKIP() << "an empty tree";
   const WorldClassifier classifier(solid.primitives());
