@@ -35,7 +35,7 @@ uint32_t trees_of_a_part() {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
     return uint32_t(std::strtoul(trees, nullptr, 10)) / kParts;
   }
-  return test_support::full_run() ? 1000 : 60;
+  return test_support::full_run() ? 1000 : 300;
 }
 
 Hits picture_by(const Method& method, const Scene& scene, const View& view) {

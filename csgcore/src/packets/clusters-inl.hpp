@@ -206,8 +206,9 @@ class ClusterFinder {
       const auto held = mask_from(i, before >> first);
       const auto holds = mask_from(i, behind >> first);
       const auto if_holds = hn::IfThenElse(held, hn::Set(i, turning::kHolds), primitive);
-      hn::Store(hn::IfThenElse(holds, if_holds, hn::Set(i, turning::kFails)), i,
-                states.lane + first);
+      const auto if_not =
+          hn::IfThenElse(held, hn::Set(i, turning::kEnds), hn::Set(i, turning::kFails));
+      hn::Store(hn::IfThenElse(holds, if_holds, if_not), i, states.lane + first);
     }
   }
 
@@ -237,15 +238,21 @@ class ClusterFinder {
     const Ints i;
     const auto holds = hn::Set(i, turning::kHolds);
     const auto fails = hn::Set(i, turning::kFails);
+    const auto ends = hn::Set(i, turning::kEnds);
     for (size_t first = 0; first < kPacketRays; first += hn::Lanes(i)) {
       const auto a = hn::Load(i, from.lane + first);
       const auto b = hn::Load(i, to.lane + first);
       const auto last = hn::Max(a, b);
       const auto first_of_both = hn::Min(a, b);
-      // What holds all along does not count in an intersection.
-      const auto turned = hn::IfThenElse(hn::Eq(last, holds), first_of_both, last);
-      const auto both = hn::IfThenElse(hn::Eq(first_of_both, fails), fails, turned);
-      hn::Store(is_union ? last : both, i, to.lane + first);
+      // turning::union_of and turning::intersection_of.
+      if (is_union) {
+        const auto hands_over = hn::And(hn::Eq(first_of_both, ends), hn::Gt(last, ends));
+        hn::Store(hn::IfThenElse(hands_over, holds, last), i, to.lane + first);
+      } else {
+        const auto first_counts = hn::Or(hn::Eq(last, holds), hn::Eq(first_of_both, last));
+        const auto otherwise = hn::IfThenElse(hn::Gt(first_of_both, ends), last, fails);
+        hn::Store(hn::IfThenElse(first_counts, first_of_both, otherwise), i, to.lane + first);
+      }
     }
   }
 

@@ -46,20 +46,29 @@ class ListExpression {
 /// by which operations compare. Anything else than these is the index of the primitive by which the
 /// operand turns.
 namespace turning {
-constexpr int32_t kFails = -1;                                   // it is false behind them
-constexpr int32_t kHolds = std::numeric_limits<int32_t>::max();  // it is true before and behind
-constexpr bool is_turned(int32_t state) { return state != kFails && state != kHolds; }
+constexpr int32_t kFails = -2;                                   // it is false before and behind
+constexpr int32_t kEnds = -1;                                    // true before, false behind
+constexpr int32_t kHolds = std::numeric_limits<int32_t>::max();  // true before and behind
+constexpr bool is_turned(int32_t state) { return state >= 0 && state != kHolds; }
 
 constexpr int32_t state_of(bool before, bool behind, uint32_t primitive) {
-  return !behind ? kFails : before ? kHolds : static_cast<int32_t>(primitive);
+  if (!behind) return before ? kEnds : kFails;
+  return before ? kHolds : static_cast<int32_t>(primitive);
 }
-/// The last of those that turn is shown.
-constexpr int32_t union_of(int32_t a, int32_t b) { return a > b ? a : b; }
+/// The last of those that turn is shown. Where one operand ends as another one turns, the union
+/// holds.
+constexpr int32_t union_of(int32_t a, int32_t b) {
+  const int32_t last = a > b ? a : b;
+  const int32_t first = a > b ? b : a;
+  return first == kEnds && last >= 0 ? kHolds : last;
+}
+/// What holds all along does not count. Where one operand ends as another one turns, the
+/// intersection fails.
 constexpr int32_t intersection_of(int32_t a, int32_t b) {
-  if (a == kFails || b == kFails) return kFails;
-  if (a == kHolds) return b;
-  if (b == kHolds) return a;
-  return a > b ? a : b;
+  const int32_t last = a > b ? a : b;
+  const int32_t first = a > b ? b : a;
+  if (last == kHolds || first == last) return first;
+  return first < 0 ? kFails : last;
 }
 }  // namespace turning
 

@@ -122,6 +122,19 @@ TEST(Definition, OfFacesThatTurnNoOperationNoneIsShown) {
   EXPECT_TRUE(shows(look_at(in_other, "(* 0 (+ 1 3))", {}), 0u, 1, kUp));
 }
 
+/// Where one operand ends as another one starts, the operation holds before and behind.
+TEST(Definition, AnOperationThatIsHandedOverHasNotTurned) {
+  const std::vector<Primitive> stacked{slab(0, 1), slab(1, 2), slab(0, 1, 4)};
+  EXPECT_TRUE(shows(look_at(stacked, "(* 0 (+ 1 2))", {}), 0u, 1, kUp));
+  EXPECT_TRUE(shows(look_at(stacked, "(* (+ 1 2) 0)", {}), 0u, 1, kUp));
+  // 1 is cut away all along, and what is cut of it ends with it.
+  Look look;
+  look.projection = Projection::kPerspective;
+  look.height = 0.5;
+  const std::vector<Primitive> cut_away{slab(0, 1), slab(0, 1, 4), slab(0, 2, 3)};
+  EXPECT_TRUE(shows(look_at(cut_away, "(+ 0 (- 1 2))", look), 0u, 0, kDown));
+}
+
 TEST(Definition, APrimitiveThatIsAddedAndSubtractedFacesOutBothWays) {
   const std::vector<Primitive> parts{slab(0, 2), slab(1, 3)};
   const std::string either_or = "(+ (- 0 1) (- 1 0))";

@@ -14,8 +14,9 @@ namespace {
 
 using Step = ListExpression::Step;
 
-/// Evaluates it by literals' states, without the negation that an end of the solid asks for.
-int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_of_literal) {
+/// Evaluates it by the states of its literals; or its complement, by those of their complements.
+int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_of_literal,
+                        bool complement = false) {
   ListExpression expression;
   expression.parse(list);
   std::vector<int32_t> stack;
@@ -27,8 +28,9 @@ int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_
     }
     const int32_t last = stack.back();
     stack.pop_back();
-    stack.back() = step == Step::kUnion ? turning::union_of(stack.back(), last)
-                                        : turning::intersection_of(stack.back(), last);
+    stack.back() = (step == Step::kUnion) != complement
+                       ? turning::union_of(stack.back(), last)
+                       : turning::intersection_of(stack.back(), last);
   }
   EXPECT_EQ(index, list.count());
   EXPECT_EQ(stack.size(), 1u);
@@ -49,28 +51,39 @@ bool holds(const CellList& list, const std::vector<uint8_t>& inside) {
   return number == CellList::kTrue;
 }
 
-/// Of a random tree, with some literals decided.
-CellList random_list(std::mt19937& random, uint32_t seed) {
+/// A random tree, and its list with some primitives decided.
+struct RandomList {
+  CsgTree tree;
+  std::vector<Restrictor::Decision> decisions;  // by primitive
+  CellList list;
+};
+
+RandomList random_list(std::mt19937& random, uint32_t seed) {
   const Scene scene = test_support::random_tree(1 + random() % 20, seed);
-  CellList whole, list;
+  RandomList result;
+  result.tree = scene.model;
+  for (size_t i = 0; i < scene.primitives.size(); ++i) {
+    const uint32_t kind = random() % 8;
+    result.decisions.push_back(kind == 0   ? Restrictor::Decision::kInside
+                               : kind == 1 ? Restrictor::Decision::kOutside
+                                           : Restrictor::Decision::kOpen);
+  }
+  CellList whole;
   assign(whole, compile(scene.model).literals);
   std::vector<Restrictor::Decision> decisions(whole.count());
-  for (Restrictor::Decision& decision : decisions) {
-    const uint32_t kind = random() % 8;
-    decision = kind == 0   ? Restrictor::Decision::kInside
-               : kind == 1 ? Restrictor::Decision::kOutside
-                           : Restrictor::Decision::kOpen;
+  for (uint32_t i = 0; i < whole.count(); ++i) {
+    decisions[i] = result.decisions[whole.primitive[i] & kPrimitiveBits];
   }
   const WorldClassifier none(std::span<const CanonicalPrimitive>{});
-  Restrictor({}, none).restrict(whole, decisions, list);
-  return list;
+  Restrictor({}, none).restrict(whole, decisions, result.list);
+  return result;
 }
 
 TEST(ListExpression, HoldsWhereTheListDoes) {
   std::mt19937 random(1);
   uint32_t literals = 0;
   for (uint32_t seed = 1; seed <= 500; ++seed) {
-    const CellList list = random_list(random, seed);
+    const CellList list = random_list(random, seed).list;
     if (list.is_constant()) continue;
     literals = std::max(literals, list.count());
     for (int round = 0; round < 10; ++round) {
@@ -86,61 +99,82 @@ TEST(ListExpression, HoldsWhereTheListDoes) {
   EXPECT_GT(literals, 15u);
 }
 
-/// A change counts if the value turns by it, some of the other changes that go the same way undone.
-uint32_t last_that_counts(const CellList& list, const std::vector<uint8_t>& behind,
-                          const std::vector<uint32_t>& changed) {
-  uint32_t last = 0xFFFFFFFFu;
-  for (uint32_t undone = 0; undone < 1u << changed.size(); ++undone) {
-    std::vector<uint8_t> inside = behind;
-    for (size_t k = 0; k < changed.size(); ++k) {
-      if (undone >> k & 1) inside[changed[k]] ^= 1;
-    }
-    if (!holds(list, inside)) continue;
-    for (size_t k = 0; k < changed.size(); ++k) {
-      if (undone >> k & 1) continue;
-      inside[changed[k]] ^= 1;
-      const uint32_t primitive = list.primitive[changed[k]] & kPrimitiveBits;
-      if (!holds(list, inside) && (last == 0xFFFFFFFFu || primitive > last)) last = primitive;
-      inside[changed[k]] ^= 1;
-    }
-  }
-  return last;
-}
+/// The definition (NUMERICS.md): a tree's value before and behind some changes of primitives, and
+/// the last primitive that its turn is due to.
+struct Turn {
+  bool before, behind;
+  uint32_t last;  // kNobody if none
+};
+constexpr uint32_t kNobody = 0xFFFFFFFFu;
 
-TEST(ListExpression, TurnsByTheLastChangeThatCounts) {
-  std::mt19937 random(2);
-  uint32_t turned = 0;
-  uint32_t several = 0;
-  for (uint32_t seed = 1; seed <= 8000; ++seed) {
-    const CellList list = random_list(random, seed);
-    if (list.is_constant()) continue;
-    std::vector<uint8_t> before(list.count()), behind(list.count());
-    std::vector<uint32_t> towards;  // literals that become true
-    for (uint32_t i = 0; i < list.count(); ++i) {
-      before[i] = random() % 2;
-      const bool changes = random() % 3 == 0;
-      behind[i] = before[i] != changes;
-      if (changes && (behind[i] != 0) != is_complement(list, i) && towards.size() < 8) {
-        towards.push_back(i);
-      } else if (changes && (behind[i] != 0) != is_complement(list, i)) {
-        before[i] = behind[i];
+Turn turn_of(const CsgTree& tree, const std::vector<uint8_t>& before,
+             const std::vector<uint8_t>& behind) {
+  std::vector<Turn> operands;
+  for (const CsgToken& token : tree.tokens()) {
+    if (token.is_primitive) {
+      const bool turns = before[token.value] != behind[token.value];
+      operands.push_back(
+          {before[token.value] != 0, behind[token.value] != 0, turns ? token.value : kNobody});
+      continue;
+    }
+    const std::span<const Turn> own = std::span(operands).last(token.value);
+    const auto value = [&](auto&& of) {
+      bool result = token.op != Op::kUnion;
+      for (size_t k = 0; k < own.size(); ++k) {
+        const bool holds = of(own[k]) != (token.op == Op::kDifference && k > 0);
+        result = token.op == Op::kUnion ? result || holds : result && holds;
+      }
+      return result;
+    };
+    Turn turn{value([](const Turn& t) { return t.before; }),
+              value([](const Turn& t) { return t.behind; }), kNobody};
+    for (size_t k = 0; k < own.size() && turn.before != turn.behind; ++k) {
+      const bool is_subtracted = token.op == Op::kDifference && k > 0;
+      if (own[k].before == own[k].behind || (own[k].behind != is_subtracted) != turn.behind) {
+        continue;
+      }
+      if (own[k].last != kNobody && (turn.last == kNobody || own[k].last > turn.last)) {
+        turn.last = own[k].last;
       }
     }
-    if (holds(list, before) || !holds(list, behind)) continue;
+    operands.resize(operands.size() - token.value);
+    operands.push_back(turn);
+  }
+  return operands.back();
+}
+
+TEST(ListExpression, TurnsByTheLastPrimitiveThatTheTurnIsDueTo) {
+  std::mt19937 random(2);
+  uint32_t started = 0;
+  uint32_t ended = 0;
+  for (uint32_t seed = 1; seed <= 8000; ++seed) {
+    const RandomList made = random_list(random, seed);
+    const CellList& list = made.list;
+    if (list.is_constant()) continue;
+    std::vector<uint8_t> before(made.decisions.size()), behind(made.decisions.size());
+    for (size_t i = 0; i < before.size(); ++i) {
+      const Restrictor::Decision decision = made.decisions[i];
+      const bool is_open = decision == Restrictor::Decision::kOpen;
+      before[i] = is_open ? random() % 2 : decision == Restrictor::Decision::kInside;
+      behind[i] = before[i] != (is_open && random() % 3 == 0);
+    }
+    const Turn turn = turn_of(made.tree, before, behind);
+    if (turn.before == turn.behind) continue;
+    // Where the solid ends, its complement starts.
+    const bool ends = turn.before;
     std::vector<int32_t> states(list.count());
     for (uint32_t i = 0; i < list.count(); ++i) {
-      states[i] = turning::state_of((before[i] != 0) != is_complement(list, i),
-                                    (behind[i] != 0) != is_complement(list, i),
-                                    list.primitive[i] & kPrimitiveBits);
+      const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
+      const bool negated = is_complement(list, i) != ends;
+      states[i] = turning::state_of((before[primitive] != 0) != negated,
+                                    (behind[primitive] != 0) != negated, primitive);
     }
-    ASSERT_EQ(static_cast<uint32_t>(evaluate_states(list, states)),
-              last_that_counts(list, behind, towards))
+    ASSERT_EQ(static_cast<uint32_t>(evaluate_states(list, states, ends)), turn.last)
         << "seed " << seed;
-    ++turned;
-    several += towards.size() > 1;
+    ++(ends ? ended : started);
   }
-  EXPECT_GT(turned, 300u);
-  EXPECT_GT(several, 100u);
+  EXPECT_GT(started, 300u);
+  EXPECT_GT(ended, 300u);
 }
 
 }  // namespace
