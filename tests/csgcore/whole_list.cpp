@@ -23,7 +23,7 @@ bool equal(const std::vector<T>& a, const std::vector<T>& b) {
 }  // namespace
 
 WholeList::WholeList(const Solid& solid, const View& view, Boundary boundary)
-    : solid_(solid), frame_(frame_rays(view, solid.bounds())) {
+    : frame_(frame_rays(view, solid.bounds())) {
   subject_.thinnest_piece = thinnest_piece(solid.bounds());
   subject_.boundary = boundary;
   list_.primitives = solid.primitives().data();

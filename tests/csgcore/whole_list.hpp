@@ -22,7 +22,6 @@ class WholeList {
   Hits picture();
 
  private:
-  const Solid& solid_;
   const FrameRays frame_;
   TraceSubject subject_;
   std::vector<double> nearest_t_;

@@ -366,8 +366,9 @@ TEST(MemberRectangles, EveryInstructionSetAgrees) {
       row.push_back(static_cast<float>(uniform(random, 0.01, 8)));
     }
   }
-  for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
+  for (const auto& [name, seen] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
+    const View& view = seen;
     std::vector<std::vector<float>> answers;
     checks::for_each_simd_level([&](SimdLevel) {
       std::vector<float> rows(4 * kCount);

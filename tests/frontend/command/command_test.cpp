@@ -601,7 +601,7 @@ TEST_F(Command, MakeDrawsAgainWhatItReads) {
     EXPECT_EQ(std::system(command.c_str()), 0);
     return folder_.read("said");
   };
-  const auto set_age = [this](const std::string& path, int hours) {
+  const auto set_age = [](const std::string& path, int hours) {
     std::filesystem::last_write_time(
         path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
   };
