@@ -51,8 +51,8 @@ class Model {
   bool contains(const Vec3& point) const {
     const csgcore::Leaf* leaf = subdivision_.find(point);
     if (!leaf) return false;
-    if (leaf->literal_count == 0) return leaf->solid;
-    return csgcore::evaluate(subdivision_.literals_of(*leaf), [&](uint32_t primitive) {
+    if (leaf->test_count == 0) return leaf->solid;
+    return csgcore::evaluate(subdivision_.tests_of(*leaf), [&](uint32_t primitive) {
       return csgcore::contains(solid_.primitives()[primitive], point);
     });
   }
@@ -226,9 +226,9 @@ class Validation {
       progress_("CGAL, at most " + std::to_string(left.count()) + " s more", -1);
       return true;
     };
-    auto truth =
-        std::make_unique<const NefTruth>(facets_, box_.diagonal(), csgcore::thinnest_piece(box_),
-                                         oracle::NefLimits{deadline, keep_waiting});
+    auto truth = std::make_unique<const NefTruth>(facets_, box_.diagonal(),
+                                                  csgcore::thickness_tolerance(box_),
+                                                  oracle::NefLimits{deadline, keep_waiting});
     if (truth->status() == oracle::NefStatus::kBuilt) {
       result_.cgal_s = std::chrono::duration<double>(Clock::now() - start).count();
       return truth;

@@ -75,7 +75,7 @@ Pass trace_grid(const csgcore::Subdivision& subdivision, uint64_t side, uint64_t
     const double difference = area * (a.length - b.length) / 2;
     pass.volume += area * (a.length + b.length) / 2;
     pass.variance += difference * difference;
-    pass.hidden += area * csgcore::thinnest_piece(box) *
+    pass.hidden += area * csgcore::thickness_tolerance(box) *
                    static_cast<double>(std::max(a.crossings, b.crossings));
   }
   return pass;

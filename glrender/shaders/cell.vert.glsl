@@ -3,7 +3,7 @@
 
 layout(location = LOCATION_LOW) in vec3 a_box_min;
 layout(location = LOCATION_HIGH) in vec3 a_box_max;
-layout(location = LOCATION_LIST) in uvec2 a_list;  // first literal, number of literals
+layout(location = LOCATION_LIST) in uvec2 a_list;  // first test, number of tests
 
 flat out vec3 v_box_min;
 flat out vec3 v_box_max;

@@ -1,7 +1,7 @@
 // Where the ray of a pixel enters the solid within its cell (paper §3). PATH selects how the cell's
 // primitives are combined; every path looks for the first t in (enter, leave].
 
-flat in uvec2 v_list;           // first literal; how many (PATH_UNION: how many come behind it)
+flat in uvec2 v_list;           // first test; how many (PATH_UNION: how many come behind it)
 
 #if TILES
 flat in float v_cut_t;          // the solid holds there, however thin the piece; +inf: nobody knows
@@ -20,11 +20,11 @@ struct Hit {
 
 const Hit NO_HIT = Hit(INFINITY, 0u, 0, false, 0.0);
 
-Hit start_of(Segment segment, Literal literal) {
-  return Hit(segment.start, literal.primitive, segment.start_face, literal.complement, 0.0);
+Hit start_of(Segment segment, BlistTest test) {
+  return Hit(segment.start, test.primitive, segment.start_face, test.complement, 0.0);
 }
-Hit end_of(Segment segment, Literal literal) {
-  return Hit(segment.end, literal.primitive, segment.end_face, literal.complement, 0.0);
+Hit end_of(Segment segment, BlistTest test) {
+  return Hit(segment.end, test.primitive, segment.end_face, test.complement, 0.0);
 }
 
 // How fast the ray crosses the face, along its normal: what is t long is so many times t thick.
@@ -59,16 +59,16 @@ bool starts_within(Hit hit, float enter, float leave) { return hit.t > enter && 
 
 #if PATH == PATH_SINGLE || PATH == PATH_UNION
 
-Hit hit_of(Ray ray, Literal literal) {
-  Segment segment = intersect(ray, literal.primitive);
-  if (literal.complement) return end_of(segment, literal);
-  return start_of(segment, literal);
+Hit hit_of(Ray ray, BlistTest test) {
+  Segment segment = intersect(ray, test.primitive);
+  if (test.complement) return end_of(segment, test);
+  return start_of(segment, test);
 }
 
 // Paper §3.2: one primitive or its complement. Step 8 is the condition t > enter: a segment that
 // covers the cell's front extends towards the camera and is drawn by the cell in front.
 Hit first_hit(Ray ray, float enter, float leave) {
-  Hit hit = hit_of(ray, fetch_literal(v_list.x));
+  Hit hit = hit_of(ray, fetch_test(v_list.x));
   return starts_within(hit, enter, leave) ? hit : NO_HIT;
 }
 
@@ -77,8 +77,8 @@ Hit first_hit(Ray ray, float enter, float leave) {
 // Paper §3.3.4, case 1: segment ∩ segment (figures 7 and 8). The later start, if it comes before
 // the earlier end.
 Hit first_hit(Ray ray, float enter, float leave) {
-  Literal a = fetch_literal(v_list.x);
-  Literal b = fetch_literal(v_list.x + 1u);
+  BlistTest a = fetch_test(v_list.x);
+  BlistTest b = fetch_test(v_list.x + 1u);
   Segment segment_a = intersect(ray, a.primitive);
   Segment segment_b = intersect(ray, b.primitive);
   Hit hit = start_of(segment_a, a);
@@ -93,10 +93,10 @@ Hit first_hit(Ray ray, float enter, float leave) {
 // Paper §3.3.4, cases 2 and 3: segment ∩ two half-lines (figures 9 and 10): up to two pieces, what
 // of A lies before B and what lies after it.
 Hit first_hit(Ray ray, float enter, float leave) {
-  Literal a = fetch_literal(v_list.x);
-  Literal b = fetch_literal(v_list.x + 1u);
+  BlistTest a = fetch_test(v_list.x);
+  BlistTest b = fetch_test(v_list.x + 1u);
   if (a.complement) {
-    Literal swap = a;
+    BlistTest swap = a;
     a = b;
     b = swap;
   }
@@ -119,8 +119,8 @@ Hit first_hit(Ray ray, float enter, float leave) {
 // half-lines ∩ two half-lines. Left boundaries: that of the segment between the two primitives, if
 // they are disjoint on the ray, and that of the half-line behind both.
 Hit first_hit(Ray ray, float enter, float leave) {
-  Literal a = fetch_literal(v_list.x);
-  Literal b = fetch_literal(v_list.x + 1u);
+  BlistTest a = fetch_test(v_list.x);
+  BlistTest b = fetch_test(v_list.x + 1u);
   Segment segment_a = intersect(ray, a.primitive);
   Segment segment_b = intersect(ray, b.primitive);
   bool a_first = segment_a.end < segment_b.end;
@@ -140,7 +140,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
 Segment kept[SHORT_LIST];
 #endif
 
-// Any function: the short-circuit list is evaluated at t, and with it the next t at which one of
+// Any function: the Blist is evaluated at t, and with it the next t at which one of
 // the primitives that decided may change its mind; from boundary to boundary until it holds.
 struct Evaluation {
   bool value;
@@ -159,15 +159,15 @@ Evaluation evaluate(Ray ray, float t) {
   Evaluation result = Evaluation(false, NO_HIT);
   uint i = 0u;
   do {
-    Literal literal = fetch_literal(v_list.x + i);
-    Segment segment = segment_of(ray, i, literal.primitive);
+    BlistTest test = fetch_test(v_list.x + i);
+    Segment segment = segment_of(ray, i, test.primitive);
     bool inside = segment.start <= t && t < segment.end;
     if (inside) {
-      if (segment.end < result.next.t) result.next = end_of(segment, literal);
+      if (segment.end < result.next.t) result.next = end_of(segment, test);
     } else if (t < segment.start && segment.start < result.next.t) {
-      result.next = start_of(segment, literal);
+      result.next = start_of(segment, test);
     }
-    i = inside ? literal.if_inside : literal.if_outside;
+    i = inside ? test.if_inside : test.if_outside;
   } while (i < LIST_FALSE);
   result.value = (i == LIST_TRUE) != u_eye_inside;
   return result;
@@ -190,7 +190,7 @@ bool ends_in(Hit from, float piece_ends, bool covered) {
 Hit first_hit(Ray ray, float enter, float leave) {
 #if PATH == PATH_SHORT_LIST
   for (uint i = 0u; i < v_list.y; ++i) {
-    kept[i] = intersect(ray, fetch_literal(v_list.x + i).primitive);
+    kept[i] = intersect(ray, fetch_test(v_list.x + i).primitive);
   }
 #endif
   // One loop with one evaluation in it: a software driver runs every loop's body at least once.

@@ -10,7 +10,7 @@ const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // as far as a ray goes
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;     // per primitive: colour, colour as a cut face, id
-uniform usamplerBuffer u_literals;     // primitive and complement bit, if_inside, if_outside
+uniform usamplerBuffer u_tests;     // primitive and complement bit, if_inside, if_outside
 
 struct Ray {
   vec3 origin, direction;
@@ -22,7 +22,7 @@ struct Segment {
   int start_face, end_face;  // > 0: the face that the kind's cut has noted; 0: another
 };
 
-struct Literal {
+struct BlistTest {
   uint primitive;
   bool complement;
   uint if_inside, if_outside;
@@ -60,9 +60,9 @@ vec2 box_range(Ray ray, vec3 box_min, vec3 box_max) {
   return vec2(enter, leave);
 }
 
-Literal fetch_literal(uint index) {
-  uvec4 texel = texelFetch(u_literals, int(index));
-  return Literal(texel.x & 0x7FFFFFFFu, (texel.x & 0x80000000u) != 0u, texel.y, texel.z);
+BlistTest fetch_test(uint index) {
+  uvec4 texel = texelFetch(u_tests, int(index));
+  return BlistTest(texel.x & 0x7FFFFFFFu, (texel.x & 0x80000000u) != 0u, texel.y, texel.z);
 }
 
 // The ray in a primitive's canonical space, re-based at `base_t`, where it passes closest to the
@@ -108,7 +108,7 @@ Segment enclosure_segment(CanonicalRay ray);
 // The canonical gradient of the enclosure at a point of its surface, of any length.
 vec3 enclosure_gradient(CanonicalRay ray, vec3 point);
 
-Segment uncut_segment(CanonicalRay ray) {
+Segment fallback_segment(CanonicalRay ray) {
   if (ray.is_none) return NO_SEGMENT;
   return enclosure_segment(ray);
 }
@@ -126,7 +126,7 @@ Segment intersect(Ray ray, uint primitive) {
   // Cut before it becomes relative to the focus, where a small primitive's faces are close together.
   float base_t = canonical.base_t;
   canonical.base_t = 0.0;
-  Segment segment = cut_segment(canonical, uncut_segment(canonical));
+  Segment segment = cut_segment(canonical, fallback_segment(canonical));
   if (!(segment.start < segment.end)) return NO_SEGMENT;
   segment.start += base_t;
   segment.end += base_t;
@@ -135,7 +135,7 @@ Segment intersect(Ray ray, uint primitive) {
 
 #else
 
-Segment intersect(Ray ray, uint primitive) { return uncut_segment(canonical_ray(ray, primitive)); }
+Segment intersect(Ray ray, uint primitive) { return fallback_segment(canonical_ray(ray, primitive)); }
 
 #endif
 

@@ -17,7 +17,7 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
   Hit nearest = NO_HIT;
   float apart = INFINITY;
   for (uint i = 1u; i <= v_list.y; ++i) {
-    Hit later = hit_of(ray, fetch_literal(v_list.x + i));
+    Hit later = hit_of(ray, fetch_test(v_list.x + i));
     float this_apart = abs(later.t - hit.t);
     if (this_apart < apart) {
       apart = this_apart;
@@ -35,18 +35,18 @@ const uint MOST_SHARED = uint(SHORT_LIST);
 const uint MOST_SHARED = uint(LONG_LIST);
 #endif
 
-// What a literal, or all of the list from it on, comes to at the faces that are crossed together:
+// What a test, or all of the list from it on, comes to at the faces that are crossed together:
 // ENDS if it does not hold behind them; HOLDS if it holds before and behind them; else it starts to
-// hold there, and the number says by which literal, in file order of the primitives.
+// hold there, and the number says by which test, in file order of the primitives.
 const uint ENDS = 0u;
 const uint HOLDS = 0xFFFFFFFFu;
 uint starts_by(uint index, uint primitive) { return 1u + primitive * MOST_SHARED + index; }
 uint index_of(uint starting) { return (starting - 1u) % MOST_SHARED; }
 
-// Where the literal starts to hold (where it starts not to, if the eye is inside), or ends.
-Hit boundary(Segment segment, Literal literal, bool starts) {
-  if ((literal.complement == u_eye_inside) == starts) return start_of(segment, literal);
-  return end_of(segment, literal);
+// Where the test starts to hold (where it starts not to, if the eye is inside), or ends.
+Hit boundary(Segment segment, BlistTest test, bool starts) {
+  if ((test.complement == u_eye_inside) == starts) return start_of(segment, test);
+  return end_of(segment, test);
 }
 
 // Whether another face than the hit's own may start the solid there (most often none does), and the
@@ -55,11 +55,11 @@ bool is_shared(Ray ray, Hit hit, out Hit last) {
   bool shared = false;
   last = hit;
   for (uint i = 0u; i < v_list.y; ++i) {
-    Literal literal = fetch_literal(v_list.x + i);
-    Hit start = boundary(segment_of(ray, i, literal.primitive), literal, true);
+    BlistTest test = fetch_test(v_list.x + i);
+    Hit start = boundary(segment_of(ray, i, test.primitive), test, true);
     bool near = too_thin(abs(start.t - hit.t), hit.speed);
-    shared = shared || near && literal.primitive != hit.primitive;
-    if (near && literal.primitive > last.primitive) last = start;
+    shared = shared || near && test.primitive != hit.primitive;
+    if (near && test.primitive > last.primitive) last = start;
   }
   return shared;
 }
@@ -69,17 +69,17 @@ bool together(Ray ray, Hit hit, Hit other) {
   return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
 }
 
-uint across_literal(Ray ray, Hit hit, uint index, Literal literal) {
-  Segment segment = segment_of(ray, index, literal.primitive);
-  bool starts = together(ray, hit, boundary(segment, literal, true));
-  bool ends = together(ray, hit, boundary(segment, literal, false));
-  if (starts && !ends) return starts_by(index, literal.primitive);
+uint across_test(Ray ray, Hit hit, uint index, BlistTest test) {
+  Segment segment = segment_of(ray, index, test.primitive);
+  bool starts = together(ray, hit, boundary(segment, test, true));
+  bool ends = together(ray, hit, boundary(segment, test, false));
+  if (starts && !ends) return starts_by(index, test.primitive);
   if (ends && !starts) return ENDS;
   bool inside = !starts && segment.start <= hit.t && hit.t < segment.end;  // not if only grazed
-  return inside == (literal.complement == u_eye_inside) ? HOLDS : ENDS;
+  return inside == (test.complement == u_eye_inside) ? HOLDS : ENDS;
 }
 
-uint across[MOST_SHARED];  // from a literal on
+uint across[MOST_SHARED];  // from a test on
 
 uint across_target(uint target) {
   if (target < LIST_FALSE) return across[target];
@@ -104,19 +104,19 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
     seen = last;
     return true;
   }
-  // (if_true and the literal) or if_false, from the last literal to the first.
+  // (if_true and the test) or if_false, from the last test to the first.
   uint whole = ENDS;
   for (uint i = v_list.y; i-- > 0u;) {
-    Literal literal = fetch_literal(v_list.x + i);
-    bool is_true_inside = literal.complement == u_eye_inside;
-    uint if_true = across_target(is_true_inside ? literal.if_inside : literal.if_outside);
-    uint if_false = across_target(is_true_inside ? literal.if_outside : literal.if_inside);
-    whole = either(both(across_literal(ray, hit, i, literal), if_true), if_false);
+    BlistTest test = fetch_test(v_list.x + i);
+    bool is_true_inside = test.complement == u_eye_inside;
+    uint if_true = across_target(is_true_inside ? test.if_inside : test.if_outside);
+    uint if_false = across_target(is_true_inside ? test.if_outside : test.if_inside);
+    whole = either(both(across_test(ray, hit, i, test), if_true), if_false);
     across[i] = whole;
   }
   if (whole == ENDS || whole == HOLDS) return true;
-  Literal literal = fetch_literal(v_list.x + index_of(whole));
-  seen = boundary(segment_of(ray, index_of(whole), literal.primitive), literal, true);
+  BlistTest test = fetch_test(v_list.x + index_of(whole));
+  seen = boundary(segment_of(ray, index_of(whole), test.primitive), test, true);
   return true;
 }
 
@@ -124,12 +124,12 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 // Of a pair, each bounds it: the later one, if that does not end there, too.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
-  Literal a = fetch_literal(v_list.x);
-  Literal b = fetch_literal(v_list.x + 1u);
-  Literal literal = a;
-  if (a.primitive == hit.primitive) literal = b;
-  Segment segment = intersect(ray, literal.primitive);
-  Hit other = literal.complement ? end_of(segment, literal) : start_of(segment, literal);
+  BlistTest a = fetch_test(v_list.x);
+  BlistTest b = fetch_test(v_list.x + 1u);
+  BlistTest test = a;
+  if (a.primitive == hit.primitive) test = b;
+  Segment segment = intersect(ray, test.primitive);
+  Hit other = test.complement ? end_of(segment, test) : start_of(segment, test);
   other = with_speed(ray, other);
   seen = hit;
   float speed = max(hit.speed, other.speed);

@@ -2,7 +2,7 @@
 
 layout(location = LOCATION_LOW) in vec3 a_low;    // pixels from the upper left corner; cut, as below
 layout(location = LOCATION_HIGH) in vec3 a_high;  // pixels
-layout(location = LOCATION_LIST) in uvec2 a_list;  // first literal, number of literals
+layout(location = LOCATION_LIST) in uvec2 a_list;  // first test, number of tests
 
 flat out float v_cut_t;  // the solid holds at this t for every ray; +inf: nowhere in particular
 flat out uvec2 v_list;

@@ -16,13 +16,13 @@ class BatchQueue {
  public:
   struct Batch {
     std::vector<csgcore::Leaf> leaves;
-    std::vector<csgcore::Literal> literals;
+    std::vector<csgcore::BlistTest> tests;
   };
 
   void push(const csgcore::LeafBatch& batch) {
     const std::lock_guard lock(mutex_);
-    batches_.push_back({{batch.leaves.begin(), batch.leaves.end()},
-                        {batch.literals.begin(), batch.literals.end()}});
+    batches_.push_back(
+        {{batch.leaves.begin(), batch.leaves.end()}, {batch.tests.begin(), batch.tests.end()}});
     ready_.notify_one();
   }
   void close(std::exception_ptr error) {
@@ -43,10 +43,10 @@ class BatchQueue {
     batches_.pop_front();
     for (; !batches_.empty(); batches_.pop_front()) {
       const Batch& next = batches_.front();
-      const uint64_t base = all.literals.size();
-      all.literals.insert(all.literals.end(), next.literals.begin(), next.literals.end());
+      const uint64_t base = all.tests.size();
+      all.tests.insert(all.tests.end(), next.tests.begin(), next.tests.end());
       for (csgcore::Leaf leaf : next.leaves) {
-        leaf.first_literal += base;
+        leaf.first_test += base;
         all.leaves.push_back(leaf);
       }
     }

@@ -24,10 +24,10 @@
 namespace glrender {
 namespace {
 
+using csgcore::BlistTest;
 using csgcore::Image;
 using csgcore::Leaf;
 using csgcore::LeafBatch;
-using csgcore::Literal;
 using csgcore::SceneEdit;
 using csgcore::Solid;
 using csgcore::Subdivision;
@@ -40,7 +40,7 @@ using csgcore::View;
 /// each carry the rounding of a float t: about 2^-24 of the scene's size, times the few operations
 /// that lead to it. (Measured on coincident faces at several angles: no speckle down to 2^-22, some
 /// at 2^-23.)
-constexpr double kThinnestPiece = 0x1p-21;
+constexpr double kThicknessTolerance = 0x1p-21;
 
 /// Doubtful pixels for each ray of a pixel that any picture may have, at some of its edges: most
 /// that were seen in the examples are 4. Only more of them make a wall.
@@ -50,10 +50,10 @@ constexpr uint32_t kFewDoubtful = 16;
 /// goes.
 constexpr uint32_t kMostUpdates = 256;
 
-double thinnest_piece(const Solid& solid) {
+double thickness_tolerance(const Solid& solid) {
   if (solid.bounds().empty()) return 0;
   const Vec3 size = solid.bounds().size();
-  return kThinnestPiece * std::max({size.x, size.y, size.z});
+  return kThicknessTolerance * std::max({size.x, size.y, size.z});
 }
 
 /// The pass with its rays where sample i of n lies.
@@ -76,14 +76,16 @@ TargetFormat format_of(const View& view, bool measured, bool exact_colors) {
 class Renderer::Impl {
  public:
   explicit Impl(const Solid& solid)
-      : solid_(&solid), buffers_(solid, thinnest_piece(solid)), tolerance_(thinnest_piece(solid)) {}
+      : solid_(&solid),
+        buffers_(solid, thickness_tolerance(solid)),
+        tolerance_(thickness_tolerance(solid)) {}
 
   void load(const Subdivision& subdivision) {
-    PackedLiterals packed = pack_literals(subdivision);
-    buffers_.upload_literals(packed.literals);
+    PackedTests packed = pack_tests(subdivision);
+    buffers_.upload_tests(packed.tests);
     subdivision_ = &subdivision;
-    first_literal_ = std::move(packed.first_literal);
-    literals_ = packed.literals.size();
+    first_test_ = std::move(packed.first_test);
+    tests_ = packed.tests.size();
   }
 
   void update(const Solid& solid, const SceneEdit& edit) {
@@ -100,11 +102,10 @@ class Renderer::Impl {
       load(subdivision);
       return;
     }
-    const PackedLiterals added = pack_literals(subdivision, update.first_new_leaf, literals_);
-    buffers_.add_literals(literals_, added.literals);
-    literals_ += added.literals.size();
-    first_literal_.insert(first_literal_.end(), added.first_literal.begin(),
-                          added.first_literal.end());
+    const PackedTests added = pack_tests(subdivision, update.first_new_leaf, tests_);
+    buffers_.add_tests(tests_, added.tests);
+    tests_ += added.tests.size();
+    first_test_.insert(first_test_.end(), added.first_test.begin(), added.first_test.end());
   }
 
   uint64_t uploaded_bytes() const { return uploaded_before_ + buffers_.uploaded_bytes(); }
@@ -208,7 +209,7 @@ class Renderer::Impl {
   /// Brings what the GPU has of primitives up to date.
   void follow(const Solid& solid, const SceneEdit& edit, bool in_part) {
     solid_ = &solid;
-    tolerance_ = thinnest_piece(solid);
+    tolerance_ = thickness_tolerance(solid);
     if (in_part) {
       buffers_.update(solid, edit, tolerance_);
       ++updates_;
@@ -272,7 +273,7 @@ class Renderer::Impl {
     streams_.clear();
     if (!subdivision_) return;
     InstanceSorter into = sorter(pass);
-    traverse_front_to_back(*subdivision_, first_literal_, pass.frame, into);
+    traverse_front_to_back(*subdivision_, first_test_, pass.frame, into);
   }
 
   /// Brings the cells that the pass draws to the GPU; displaced passes draw the same ones.
@@ -294,7 +295,7 @@ class Renderer::Impl {
     csgcore::TileListOptions options;
     options.boundary = pass.first ? csgcore::Boundary::kBehind : csgcore::Boundary::kFirst;
     options.centers_only = pass.settings.samples <= 1;
-    options.thinnest_piece = pass.tolerance;
+    options.thickness_tolerance = pass.tolerance;
     options.short_list = short_list(!buffers_.cuts().empty(), true);
     options.threads = pass.settings.threads;
     options.longest_list = kLongList;
@@ -305,7 +306,7 @@ class Renderer::Impl {
     streams_.clear();
     if (!pass.frame.visible) return;
     add_tiles(lists_, pass.frame, *solid_, pass.eye_inside, streams_);
-    buffers_.upload_literals(lists_.literals, ListsOf::kTiles);
+    buffers_.upload_tests(lists_.tests, ListsOf::kTiles);
   }
 
   void begin(const Pass& pass, const RenderTarget& target) {
@@ -342,7 +343,7 @@ class Renderer::Impl {
     options.threads = pass.settings.threads;
     options.samples = samples;
     options.boundary = pass.first ? csgcore::Boundary::kBehind : csgcore::Boundary::kFirst;
-    options.thinnest_piece = pass.tolerance;
+    options.thickness_tolerance = pass.tolerance;
     Image exact;
     csgcore::TraceStats trace_stats;
     csgcore::draw(*solid_, pass.frame.view, pass.settings, options, exact, trace_stats);
@@ -418,11 +419,11 @@ class Renderer::Impl {
     streams_.clear();
     if (!pass.frame.visible) return;
     InstanceSorter into = sorter(pass);
-    const std::span<const Literal> literals(batch.literals);
+    const std::span<const BlistTest> tests(batch.tests);
     for (const Leaf& leaf : batch.leaves) {
-      into.add(leaf, literals.subspan(leaf.first_literal, leaf.literal_count), leaf.first_literal);
+      into.add(leaf, tests.subspan(leaf.first_test, leaf.test_count), leaf.first_test);
     }
-    buffers_.upload_literals(literals);
+    buffers_.upload_tests(tests);
     drawer_.upload(streams_);
     drawer_.draw(streams_, pass, buffers_, stats);
   }
@@ -434,11 +435,11 @@ class Renderer::Impl {
   csgcore::TileLists lists_;
   std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
-  std::vector<uint64_t> first_literal_;  // of the subdivision's leaves, in the buffers
-  uint64_t literals_ = 0;                // that the buffers hold
-  std::vector<bool> doubtful_;           // pixels of the last picture, and of that before it
-  uint64_t uploaded_before_ = 0;         // bytes, to buffers that were replaced
-  uint32_t updates_ = 0;                 // since they were
+  std::vector<uint64_t> first_test_;  // of the subdivision's leaves, in the buffers
+  uint64_t tests_ = 0;                // that the buffers hold
+  std::vector<bool> doubtful_;        // pixels of the last picture, and of that before it
+  uint64_t uploaded_before_ = 0;      // bytes, to buffers that were replaced
+  uint32_t updates_ = 0;              // since they were
   double tolerance_;
 };
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "csgcore/blist.hpp"
 #include "csgcore/phong.hpp"
-#include "csgcore/short_circuit_list.hpp"
 
 namespace glrender {
 
@@ -37,7 +37,7 @@ constexpr uint32_t kLongList = 128;
 constexpr uint32_t kSharedFaces = 32;
 
 /// A cell whose function takes more rounds is refused: Mesa's software renderer ends all of a
-/// shader's loops silently after 65,535 rounds of them together, each at least one literal, and a
+/// shader's loops silently after 65,535 rounds of them together, each at least one test, and a
 /// pixel may need two evaluations.
 constexpr uint64_t kMostRounds = 30000;
 /// The same of a tile, for all evaluations that a ray may need.

@@ -15,8 +15,8 @@
 namespace glrender {
 namespace {
 
+using csgcore::BlistTest;
 using csgcore::CanonicalPrimitive;
-using csgcore::Literal;
 
 uint32_t pack_rgba8(const csgcore::Color& color) {
   const float channels[] = {color.r, color.g, color.b, color.a};
@@ -29,7 +29,7 @@ uint32_t pack_rgba8(const csgcore::Color& color) {
 }
 
 using Surface = std::array<uint32_t, 4>;
-using LiteralTexel = std::array<uint32_t, 4>;
+using TestTexel = std::array<uint32_t, 4>;
 constexpr size_t kPrimitiveBytes = kPrimitiveTexels * 4 * sizeof(float);
 
 Surface surface_of(const CanonicalPrimitive& primitive) {
@@ -37,21 +37,21 @@ Surface surface_of(const CanonicalPrimitive& primitive) {
           primitive.id, 0u};
 }
 
-std::vector<LiteralTexel> texels_of(std::span<const Literal> literals) {
-  std::vector<LiteralTexel> texels;
-  texels.reserve(literals.size());
-  for (const Literal& literal : literals) {
-    texels.push_back({literal.primitive | (static_cast<uint32_t>(literal.complement) << 31),
-                      literal.if_inside, literal.if_outside, 0u});
+std::vector<TestTexel> texels_of(std::span<const BlistTest> tests) {
+  std::vector<TestTexel> texels;
+  texels.reserve(tests.size());
+  for (const BlistTest& test : tests) {
+    texels.push_back({test.primitive | (static_cast<uint32_t>(test.complement) << 31),
+                      test.if_inside, test.if_outside, 0u});
   }
   return texels;
 }
 
-std::vector<bool> too_thin(const csgcore::Solid& solid, double thinnest_piece) {
+std::vector<bool> too_thin(const csgcore::Solid& solid, double thickness_tolerance) {
   std::vector<bool> result;
   result.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
-    result.push_back(is_thinner(primitive, thinnest_piece));
+    result.push_back(is_thinner(primitive, thickness_tolerance));
   }
   return result;
 }
@@ -122,17 +122,17 @@ void TextureBuffer::bind(GLuint unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
-SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thinnest_piece)
+SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance)
     : solid_(&solid),
       primitives_(GL_RGBA32F, 4 * sizeof(float), "primitives", kFewerPrimitives),
       surfaces_(GL_RGBA32UI, sizeof(Surface), "primitives", kFewerPrimitives),
-      literals_(GL_RGBA32UI, sizeof(LiteralTexel), "cells",
-                "use a larger --leaf-primitives or --threshold"),
-      tile_literals_(GL_RGBA32UI, sizeof(LiteralTexel), "tiles",
-                     "use a smaller --imgsize, or --technique=cells"),
+      tests_(GL_RGBA32UI, sizeof(TestTexel), "cells",
+             "use a larger --leaf-primitives or --threshold"),
+      tile_tests_(GL_RGBA32UI, sizeof(TestTexel), "tiles",
+                  "use a smaller --imgsize, or --technique=cells"),
       polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), "faces of polyhedra",
                  "use a smaller $fn"),
-      is_too_thin_(too_thin(solid, thinnest_piece)) {
+      is_too_thin_(too_thin(solid, thickness_tolerance)) {
   std::vector<Surface> surfaces;
   surfaces.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
@@ -155,7 +155,7 @@ void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
 }
 
 void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
-                          double thinnest_piece) {
+                          double thickness_tolerance) {
   assert(edit.keeps_indices());
   solid_ = &solid;
   const std::span<const CanonicalPrimitive> primitives = solid.primitives();
@@ -169,7 +169,7 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
   enclosures_ = {};
   for (const CanonicalPrimitive& primitive : primitives) enclosures_.add(primitive.enclosure);
   // The tolerance goes by the size of the whole.
-  std::vector<bool> is_too_thin = too_thin(solid, thinnest_piece);
+  std::vector<bool> is_too_thin = too_thin(solid, thickness_tolerance);
   for (const uint32_t i : edit.added) is_too_thin_[i] = is_too_thin[i];
   if (is_too_thin != is_too_thin_) placed_at_.reset();
   is_too_thin_ = std::move(is_too_thin);
@@ -221,31 +221,30 @@ void SolidBuffers::place(const Frame& frame) {
   placed_at_ = frame.focus;
 }
 
-void SolidBuffers::upload_literals(std::span<const Literal> literals, ListsOf of) {
-  const std::vector<LiteralTexel> texels = texels_of(literals);
-  (of == ListsOf::kTiles ? tile_literals_ : literals_)
-      .upload(texels.data(), texels.size() * sizeof(LiteralTexel));
+void SolidBuffers::upload_tests(std::span<const BlistTest> tests, ListsOf of) {
+  const std::vector<TestTexel> texels = texels_of(tests);
+  (of == ListsOf::kTiles ? tile_tests_ : tests_)
+      .upload(texels.data(), texels.size() * sizeof(TestTexel));
 }
 
-void SolidBuffers::add_literals(uint64_t before, std::span<const Literal> literals) {
-  const std::vector<LiteralTexel> texels = texels_of(literals);
-  literals_.update(before * sizeof(LiteralTexel), texels.data(),
-                   texels.size() * sizeof(LiteralTexel));
+void SolidBuffers::add_tests(uint64_t before, std::span<const BlistTest> tests) {
+  const std::vector<TestTexel> texels = texels_of(tests);
+  tests_.update(before * sizeof(TestTexel), texels.data(), texels.size() * sizeof(TestTexel));
 }
 
 uint64_t SolidBuffers::uploaded_bytes() const {
-  return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + literals_.uploaded_bytes() +
+  return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + tests_.uploaded_bytes() +
          polyhedra_.uploaded_bytes();
 }
 
 void SolidBuffers::bind(GLuint program, ListsOf of) const {
   primitives_.bind(0);
   surfaces_.bind(1);
-  (of == ListsOf::kTiles ? tile_literals_ : literals_).bind(2);
+  (of == ListsOf::kTiles ? tile_tests_ : tests_).bind(2);
   if (has_faces()) polyhedra_.bind(3);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);
-  glUniform1i(glGetUniformLocation(program, "u_literals"), 2);
+  glUniform1i(glGetUniformLocation(program, "u_tests"), 2);
   if (has_faces()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
 }
 

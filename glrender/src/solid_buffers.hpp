@@ -54,19 +54,20 @@ class SolidBuffers {
   /// Texture units 0 up to this one (exclusive) are bind's.
   static constexpr int kTextureUnits = 4;
 
-  /// Primitives thinner than `thinnest_piece`, in world units, are left out.
-  SolidBuffers(const csgcore::Solid& solid, double thinnest_piece);
+  /// Primitives thinner than `thickness_tolerance`, in world units, are left out.
+  SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance);
 
   /// Follows an edit that changed primitives in place: uploads those alone, unless others have
   /// become too thin, or thick enough. `solid` must outlive this from now on.
-  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit, double thinnest_piece);
+  void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
+              double thickness_tolerance);
 
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
   /// Replaces the functions.
-  void upload_literals(std::span<const csgcore::Literal> literals, ListsOf of = ListsOf::kCells);
+  void upload_tests(std::span<const csgcore::BlistTest> tests, ListsOf of = ListsOf::kCells);
   /// Adds to the cells', behind so many.
-  void add_literals(uint64_t before, std::span<const csgcore::Literal> literals);
+  void add_tests(uint64_t before, std::span<const csgcore::BlistTest> tests);
   /// All that was uploaded so far, but for the tiles' functions.
   uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
@@ -88,7 +89,7 @@ class SolidBuffers {
   PolyhedronTexels faces_;
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
       numbered_;  // that faces_ knows by address
-  TextureBuffer primitives_, surfaces_, literals_, tile_literals_, polyhedra_;
+  TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_;
   std::vector<bool> is_too_thin_;  // by primitive
   std::optional<Vec3> placed_at_;
   KindSet enclosures_, cuts_;

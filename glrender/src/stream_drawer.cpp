@@ -124,7 +124,7 @@ void StreamDrawer::point_attributes(size_t offset) const {
   glVertexAttribPointer(kLocationHigh, 3, GL_FLOAT, GL_FALSE, kStride,
                         at(offsetof(Instance, high)));
   glVertexAttribIPointer(kLocationList, 2, GL_UNSIGNED_INT, kStride,
-                         at(offsetof(Instance, first_literal)));
+                         at(offsetof(Instance, first_test)));
 }
 
 }  // namespace glrender

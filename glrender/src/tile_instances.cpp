@@ -7,19 +7,19 @@
 namespace glrender {
 namespace {
 
+using csgcore::BlistTest;
 using csgcore::ListedTile;
-using csgcore::Literal;
 
 /// Every segment is found once, and the function evaluated before and behind each of its ends.
-bool is_too_long(const csgcore::Solid& solid, std::span<const Literal> literals) {
-  const uint64_t evaluations = 2 * literals.size() + 2;
-  return rounds(solid, literals) + evaluations * literals.size() > kMostTileRounds;
+bool is_too_long(const csgcore::Solid& solid, std::span<const BlistTest> tests) {
+  const uint64_t evaluations = 2 * tests.size() + 2;
+  return rounds(solid, tests) + evaluations * tests.size() > kMostTileRounds;
 }
 
-Path path_of(const csgcore::Solid& solid, std::span<const Literal> literals, bool eye_inside) {
-  if (literals.size() == 1 && !eye_inside) return Path::kSingle;
-  if (literals.size() <= short_list(false, true)) return Path::kShortList;
-  if (is_too_long(solid, literals)) refuse_lists();
+Path path_of(const csgcore::Solid& solid, std::span<const BlistTest> tests, bool eye_inside) {
+  if (tests.size() == 1 && !eye_inside) return Path::kSingle;
+  if (tests.size() <= short_list(false, true)) return Path::kShortList;
+  if (is_too_long(solid, tests)) refuse_lists();
   return Path::kLongList;
 }
 
@@ -34,16 +34,16 @@ void refuse_lists() {
 void add_tiles(const csgcore::TileLists& lists, const Frame& frame, const csgcore::Solid& solid,
                bool eye_inside, InstanceStreams& streams) {
   for (const ListedTile& tile : lists.tiles) {
-    const std::span<const Literal> literals =
-        std::span(lists.literals).subspan(tile.first_literal, tile.literal_count);
+    const std::span<const BlistTest> tests =
+        std::span(lists.tests).subspan(tile.first_test, tile.test_count);
     const auto x = static_cast<float>(tile.area.x);
     const auto y = static_cast<float>(tile.area.y);
     const auto cut_t = static_cast<float>(tile.cut_s - frame.eye_distance);
-    streams.front_faces[static_cast<size_t>(path_of(solid, literals, eye_inside))].push_back(
+    streams.front_faces[static_cast<size_t>(path_of(solid, tests, eye_inside))].push_back(
         {{x, y, cut_t},
          {x + static_cast<float>(tile.area.width), y + static_cast<float>(tile.area.height), 0},
-         tile.first_literal,
-         tile.literal_count});
+         tile.first_test,
+         tile.test_count});
   }
 }
 

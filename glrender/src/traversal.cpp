@@ -10,11 +10,11 @@
 
 namespace glrender {
 
+using csgcore::BlistTest;
 using csgcore::Box;
 using csgcore::KdNode;
 using csgcore::Leaf;
 using csgcore::LeafKind;
-using csgcore::Literal;
 
 namespace {
 
@@ -37,10 +37,10 @@ uint64_t InstanceStreams::size() const {
   return sum;
 }
 
-uint64_t rounds(const csgcore::Solid& solid, std::span<const Literal> literals) {
-  uint64_t sum = literals.size();
-  for (const Literal& literal : literals) {
-    sum += face_rounds(solid.primitives()[literal.primitive].polyhedron.get());
+uint64_t rounds(const csgcore::Solid& solid, std::span<const BlistTest> tests) {
+  uint64_t sum = tests.size();
+  for (const BlistTest& test : tests) {
+    sum += face_rounds(solid.primitives()[test.primitive].polyhedron.get());
   }
   return sum;
 }
@@ -59,53 +59,50 @@ bool InstanceSorter::surrounds_eye(const Box& box) const {
   return true;
 }
 
-void InstanceSorter::push(Path path, const Box& box, uint64_t first_literal, uint32_t count) {
+void InstanceSorter::push(Path path, const Box& box, uint64_t first_test, uint32_t count) {
   const glm::vec3 low = frame_.relative(box.min);
   const glm::vec3 high = frame_.relative(box.max);
   auto& streams = surrounds_eye(box) ? streams_.back_faces : streams_.front_faces;
-  streams[static_cast<size_t>(path)].push_back({{low.x, low.y, low.z},
-                                                {high.x, high.y, high.z},
-                                                static_cast<uint32_t>(first_literal),
-                                                count});
+  streams[static_cast<size_t>(path)].push_back(
+      {{low.x, low.y, low.z}, {high.x, high.y, high.z}, static_cast<uint32_t>(first_test), count});
 }
 
-void InstanceSorter::add(const Leaf& leaf, std::span<const Literal> literals,
-                         uint64_t first_literal) {
+void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uint64_t first_test) {
   if (!is_drawn(leaf)) return;
-  if (leaf.literal_count > short_list_ && leaf.kind != LeafKind::kUnion &&
-      rounds(solid_, literals) > kMostRounds) {
-    throw GlError(std::to_string(leaf.literal_count) +
+  if (leaf.test_count > short_list_ && leaf.kind != LeafKind::kUnion &&
+      rounds(solid_, tests) > kMostRounds) {
+    throw GlError(std::to_string(leaf.test_count) +
                   " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
                   "(leave out the repeated ones)");
   }
   if (boxes_) {
     push(Path::kBoxes, leaf.box, 0, 0);
-  } else if (leaf.kind == LeafKind::kUnion && !(eye_inside_ && leaf.literal_count > 1)) {
+  } else if (leaf.kind == LeafKind::kUnion && !(eye_inside_ && leaf.test_count > 1)) {
     // Paper §3.3.3: the depth buffer unites. A primitive is looked for in no more of the cell than
     // its own box; its complement in all of it.
-    for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+    for (uint32_t i = 0; i < leaf.test_count; ++i) {
       Box box = leaf.box;
-      if (!literals[i].complement) {
-        const Box& bounds = solid_.primitives()[literals[i].primitive].bounds;
+      if (!tests[i].complement) {
+        const Box& bounds = solid_.primitives()[tests[i].primitive].bounds;
         box = {glm::max(box.min, bounds.min - overlap_), glm::min(box.max, bounds.max + overlap_)};
         if (box.empty()) continue;
       }
       if (eye_inside_) {
-        push(Path::kList, box, first_literal + i, 1);
+        push(Path::kList, box, first_test + i, 1);
       } else {
         // How many operands behind it may have the same face.
-        const uint32_t later = leaf.literal_count <= kSharedFaces ? leaf.literal_count - 1 - i : 0;
-        push(later > 0 ? Path::kUnion : Path::kSingle, box, first_literal + i, later);
+        const uint32_t later = leaf.test_count <= kSharedFaces ? leaf.test_count - 1 - i : 0;
+        push(later > 0 ? Path::kUnion : Path::kSingle, box, first_test + i, later);
       }
     }
   } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {
-    const int complements = literals[0].complement + literals[1].complement;
+    const int complements = tests[0].complement + tests[1].complement;
     const Path path =
         complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);
-    push(path, leaf.box, first_literal, 2);
+    push(path, leaf.box, first_test, 2);
   } else {
-    const Path path = leaf.literal_count <= short_list_ ? Path::kShortList : Path::kList;
-    push(path, leaf.box, first_literal, leaf.literal_count);
+    const Path path = leaf.test_count <= short_list_ ? Path::kShortList : Path::kList;
+    push(path, leaf.box, first_test, leaf.test_count);
   }
 }
 
@@ -147,23 +144,23 @@ class Frustum {
 
 }  // namespace
 
-PackedLiterals pack_literals(const csgcore::Subdivision& subdivision, size_t first_leaf,
-                             uint64_t packed_before) {
-  PackedLiterals packed;
+PackedTests pack_tests(const csgcore::Subdivision& subdivision, size_t first_leaf,
+                       uint64_t packed_before) {
+  PackedTests packed;
   const std::span<const Leaf> leaves = subdivision.leaves().subspan(first_leaf);
-  packed.first_literal.reserve(leaves.size());
-  if (first_leaf == 0) packed.literals.reserve(subdivision.literals().size());
+  packed.first_test.reserve(leaves.size());
+  if (first_leaf == 0) packed.tests.reserve(subdivision.tests().size());
   for (const Leaf& leaf : leaves) {
-    packed.first_literal.push_back(packed_before + packed.literals.size());
+    packed.first_test.push_back(packed_before + packed.tests.size());
     if (!is_drawn(leaf)) continue;
-    const std::span<const Literal> literals = subdivision.literals_of(leaf);
-    packed.literals.insert(packed.literals.end(), literals.begin(), literals.end());
+    const std::span<const BlistTest> tests = subdivision.tests_of(leaf);
+    packed.tests.insert(packed.tests.end(), tests.begin(), tests.end());
   }
   return packed;
 }
 
 void traverse_front_to_back(const csgcore::Subdivision& subdivision,
-                            std::span<const uint64_t> first_literal, const Frame& frame,
+                            std::span<const uint64_t> first_test, const Frame& frame,
                             InstanceSorter& sorter) {
   if (subdivision.nodes().empty() || !frame.visible) return;
   const Frustum frustum(frame);
@@ -179,7 +176,7 @@ void traverse_front_to_back(const csgcore::Subdivision& subdivision,
     const KdNode& node = subdivision.nodes()[visit.node];
     if (node.axis == KdNode::kLeafAxis) {
       const Leaf& leaf = subdivision.leaves()[node.below];
-      sorter.add(leaf, subdivision.literals_of(leaf), first_literal[node.below]);
+      sorter.add(leaf, subdivision.tests_of(leaf), first_test[node.below]);
       continue;
     }
     const int axis = static_cast<int>(node.axis);

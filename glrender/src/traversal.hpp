@@ -14,8 +14,8 @@ namespace glrender {
 struct Instance {
   float low[3];
   float high[3];
-  uint32_t first_literal;
-  uint32_t literal_count;
+  uint32_t first_test;
+  uint32_t test_count;
 };
 
 /// Instances by path, each in front-to-back order. Cells around the eye are drawn by their back
@@ -28,7 +28,7 @@ struct InstanceStreams {
 };
 
 /// Loop rounds that the shaders take for one evaluation of the function, about.
-uint64_t rounds(const csgcore::Solid& solid, std::span<const csgcore::Literal> literals);
+uint64_t rounds(const csgcore::Solid& solid, std::span<const csgcore::BlistTest> tests);
 
 /// Sorts leaves into streams.
 class InstanceSorter {
@@ -45,13 +45,13 @@ class InstanceSorter {
         boxes_(boxes),
         streams_(streams) {}
 
-  /// `literals` is the leaf's function, whose place on the GPU starts at `first_literal`. Throws
+  /// `tests` is the leaf's function, whose place on the GPU starts at `first_test`. Throws
   /// GlError for a cell of more than kMostRounds.
-  void add(const csgcore::Leaf& leaf, std::span<const csgcore::Literal> literals,
-           uint64_t first_literal);
+  void add(const csgcore::Leaf& leaf, std::span<const csgcore::BlistTest> tests,
+           uint64_t first_test);
 
  private:
-  void push(Path path, const csgcore::Box& box, uint64_t first_literal, uint32_t count);
+  void push(Path path, const csgcore::Box& box, uint64_t first_test, uint32_t count);
   bool surrounds_eye(const csgcore::Box& box) const;
 
   const Frame& frame_;
@@ -63,21 +63,21 @@ class InstanceSorter {
   InstanceStreams& streams_;
 };
 
-/// A subdivision's literals as they go to the GPU: without those of leaves that nothing draws,
+/// A subdivision's tests as they go to the GPU: without those of leaves that nothing draws,
 /// which a subdivision with a threshold has dropped.
-struct PackedLiterals {
-  std::vector<csgcore::Literal> literals;
-  std::vector<uint64_t> first_literal;  // by leaf, where its literals start
+struct PackedTests {
+  std::vector<csgcore::BlistTest> tests;
+  std::vector<uint64_t> first_test;  // by leaf, where its tests start
 };
 
-/// Of the leaves from `first_leaf` on, behind so many literals that are packed already.
-PackedLiterals pack_literals(const csgcore::Subdivision& subdivision, size_t first_leaf = 0,
-                             uint64_t packed_before = 0);
+/// Of the leaves from `first_leaf` on, behind so many tests that are packed already.
+PackedTests pack_tests(const csgcore::Subdivision& subdivision, size_t first_leaf = 0,
+                       uint64_t packed_before = 0);
 
-/// Calls `sorter.add` for every leaf that may be on the screen, nearest first. `first_literal` is
-/// PackedLiterals::first_literal.
+/// Calls `sorter.add` for every leaf that may be on the screen, nearest first. `first_test` is
+/// PackedTests::first_test.
 void traverse_front_to_back(const csgcore::Subdivision& subdivision,
-                            std::span<const uint64_t> first_literal, const Frame& frame,
+                            std::span<const uint64_t> first_test, const Frame& frame,
                             InstanceSorter& sorter);
 
 }  // namespace glrender

@@ -62,8 +62,8 @@ SubdivisionOptions paper(double threshold_px, unsigned threads) {
 }
 
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) {
-  if (leaf.literal_count == 0) return leaf.solid;
-  return csgcore::evaluate(subdivision.literals_of(leaf), [&](uint32_t primitive) {
+  if (leaf.test_count == 0) return leaf.solid;
+  return csgcore::evaluate(subdivision.tests_of(leaf), [&](uint32_t primitive) {
     return csgcore::contains(subdivision.solid().primitives()[primitive], point);
   });
 }
@@ -102,7 +102,7 @@ void run(benchmark::State& state, Model model, uint32_t n, const SubdivisionOpti
     return static_cast<double>(counts.by_kind[static_cast<size_t>(kind)]);
   };
   state.counters["leaves"] = static_cast<double>(counts.leaves());
-  state.counters["literals"] = static_cast<double>(counts.literals);
+  state.counters["tests"] = static_cast<double>(counts.tests);
   state.counters["empty"] = of_kind(LeafKind::kEmpty);
   state.counters["union"] = of_kind(LeafKind::kUnion);
   state.counters["pair"] = of_kind(LeafKind::kPair);

@@ -33,8 +33,8 @@ bool holds(const Scene& scene, const Vec3& point) {
 }
 
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) {
-  if (leaf.literal_count == 0) return leaf.solid;
-  return evaluate(subdivision.literals_of(leaf), [&](uint32_t primitive) {
+  if (leaf.test_count == 0) return leaf.solid;
+  return evaluate(subdivision.tests_of(leaf), [&](uint32_t primitive) {
     return contains(subdivision.solid().primitives()[primitive], point);
   });
 }
@@ -56,29 +56,29 @@ namespace {
 
 void expect_kind(const Subdivision& subdivision, const Leaf& leaf) {
   const SubdivisionOptions& options = subdivision.options();
-  const auto literals = subdivision.literals_of(leaf);
+  const auto tests = subdivision.tests_of(leaf);
   std::set<uint32_t> distinct;
-  for (const Literal& literal : literals) distinct.insert(literal.primitive);
+  for (const BlistTest& test : tests) distinct.insert(test.primitive);
   const bool few = distinct.size() <= options.leaf_primitives;
   if (leaf.kind != LeafKind::kEmpty) {
     EXPECT_FALSE(leaf.solid);
   }
   switch (leaf.kind) {
     case LeafKind::kEmpty:
-      EXPECT_EQ(leaf.literal_count, 0u);
+      EXPECT_EQ(leaf.test_count, 0u);
       break;
     case LeafKind::kUnion:
-      EXPECT_TRUE(is_union(literals));
+      EXPECT_TRUE(is_union(tests));
       EXPECT_TRUE(few || options.stop_at_unions);
       break;
     case LeafKind::kPair:
-      EXPECT_EQ(literals.size(), 2u);
-      EXPECT_FALSE(is_union(literals));
+      EXPECT_EQ(tests.size(), 2u);
+      EXPECT_FALSE(is_union(tests));
       EXPECT_TRUE(few);
       break;
     case LeafKind::kGeneral:
-      EXPECT_NE(literals.size(), 2u);
-      EXPECT_FALSE(is_union(literals));
+      EXPECT_NE(tests.size(), 2u);
+      EXPECT_FALSE(is_union(tests));
       EXPECT_TRUE(few);
       break;
     case LeafKind::kFull:

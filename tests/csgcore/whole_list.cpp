@@ -24,8 +24,8 @@ bool equal(const std::vector<T>& a, const std::vector<T>& b) {
 
 WholeList::WholeList(const Solid& solid, const View& view, Boundary boundary)
     : frame_(frame_rays(view, solid.bounds())) {
-  subject_.thinnest_piece = thinnest_piece(solid.bounds());
-  subject_.boundary = boundary;
+  parameters_.thickness_tolerance = thickness_tolerance(solid.bounds());
+  parameters_.boundary = boundary;
   list_.primitives = solid.primitives().data();
   list_.list = solid.cell_list();
   list_.earliest_t = kAnywhere;
@@ -36,7 +36,7 @@ WholeList::WholeList(const Solid& solid, const View& view, Boundary boundary)
 
 PacketHits WholeList::trace(const RayPacket& rays, LaneMask lanes) {
   PacketHits hits;
-  if (list_.list) trace_packet(frame_, rays, lanes, list_, subject_, workspace_, hits);
+  if (list_.list) trace_packet(frame_, rays, lanes, list_, parameters_, workspace_, hits);
   return hits;
 }
 

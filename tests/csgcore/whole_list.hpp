@@ -23,7 +23,7 @@ class WholeList {
 
  private:
   const FrameRays frame_;
-  TraceSubject subject_;
+  TraceParameters parameters_;
   std::vector<double> nearest_t_;
   TraceList list_;
   PacketWorkspace workspace_;

@@ -17,7 +17,7 @@ using csgcore::Vec3;
 // they are rounded to 2^-25 of its size, and some tens of operations lead from them to the
 // boundary.
 
-/// Along the normal, a share of the model's size: half of GL's own tolerance (kThinnestPiece).
+/// Along the normal, a share of the model's size: half of GL's own tolerance (kThicknessTolerance).
 constexpr double kSurfaceError = 0x1p-22;
 /// Of a number that the picture stores as a float, by itself.
 constexpr double kFloatRounding = 0x1p-24;

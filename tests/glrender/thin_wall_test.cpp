@@ -35,7 +35,7 @@ using gl_test::Way;
 using test_support::scene_of;
 
 /// Of the largest side: renderer.cpp.
-constexpr double kThinnestPiece = 0x1p-21;
+constexpr double kThicknessTolerance = 0x1p-21;
 /// Of pixels whose measured thickness is far off, so many in a picture are left as they are; and
 /// some lie at a silhouette.
 constexpr uint64_t kFewPixels = 16;
@@ -125,7 +125,7 @@ View small_view(Projection projection, double above_deg) {
 /// GL's own tolerance for a solid.
 double tolerance_of(const csgcore::Solid& solid) {
   const Vec3 size = solid.bounds().size();
-  return kThinnestPiece * std::max({size.x, size.y, size.z});
+  return kThicknessTolerance * std::max({size.x, size.y, size.z});
 }
 
 uint64_t hits(const Image& image) {
@@ -189,7 +189,7 @@ TEST(ThinWallChannelsTest, AreTheCpus) {
   for (const double share : {0.97, 1.03}) {
     for (const Way& way : {Way(gl_test::leaves_of(8)), gl_test::by_tiles()}) {
       SCOPED_TRACE(gl_test::name_of(way) + (share > 1 ? ", whole" : ", gone"));
-      const double wall = share * kThinnestPiece;
+      const double wall = share * kThicknessTolerance;
       LoadedScene loaded(scene_of(Op::kDifference, {make_sphere(5), make_sphere(5 - 10 * wall),
                                                     make_frustum(0, 9, 1, 1)}),
                          way);
@@ -198,7 +198,7 @@ TEST(ThinWallChannelsTest, AreTheCpus) {
         const View view = small_view(Projection::kPerspective, 60);
         csgcore::TraceOptions options;
         options.samples = samples;
-        options.thinnest_piece = tolerance_of(loaded.solid);
+        options.thickness_tolerance = tolerance_of(loaded.solid);
         for (const auto boundary : {csgcore::Boundary::kFirst, csgcore::Boundary::kBehind}) {
           const Image gl = boundary == csgcore::Boundary::kFirst
                                ? loaded.draw(view)

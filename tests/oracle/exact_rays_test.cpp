@@ -238,7 +238,7 @@ TEST(ExactRays, WallsOfToleranceAreThereOrNot) {
 TEST(ExactRays, TheOrderOfCrossings1e31ApartDecides) {
   // Two sheets of 0.7 τ each, one on the other, over a gap and a block. Where they overlap by 2⁻¹⁰⁰
   // they are one, thicker than τ, and the lower one is entered near its face and not left there;
-  // where 2⁻¹⁰⁰ is between them, all four faces are one cluster.
+  // where 2⁻¹⁰⁰ is between them, all four faces are one coincidence.
   const double tolerance = ExactScene(scene_of(Op::kUnion, {rod(-1, 1, 1)})).thickness();
   const double seam = 1 - 0.7 * tolerance;
   const auto first = [&](double gap, bool upper_first) {
@@ -256,7 +256,8 @@ TEST(ExactRays, TheOrderOfCrossings1e31ApartDecides) {
 
 TEST(ExactRays, LikePrimitivesThatAreALastBitApart) {
   // A skin of 1.4 τ, and halfway through it 1 − 2, two equal rods of which one stands 2⁻⁶⁰ higher,
-  // or two boxes of one frame. Where 1 does, the gap between them makes one cluster of the skin.
+  // or two boxes of one frame. Where 1 does, the gap between them makes one coincidence of the
+  // skin.
   const Primitive aside = ball(1, {3, 3, -3});
   const double tolerance =
       ExactScene(scene_of(Op::kUnion, {rod(-1e-9, 1e-9, 1), aside})).thickness();

@@ -21,8 +21,8 @@ struct Tolerance {
   double coordinate;  // relative rounding of the picture's coordinates
 };
 
-/// The tracer: positions tell surfaces apart that are a tolerance (thinnest_piece) apart; normals
-/// are there to tell a wrong side or a wrong face.
+/// The tracer: positions tell surfaces apart that are a tolerance (thickness_tolerance) apart;
+/// normals are there to tell a wrong side or a wrong face.
 constexpr Tolerance kDoubleTolerance{oracle::kExactPositionError, oracle::kExactNormalError,
                                      0x1p-52};
 /// GL: as tests/glrender judges it (half a degree).

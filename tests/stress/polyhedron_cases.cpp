@@ -163,7 +163,7 @@ constexpr double kToleranceShares[] = {0.2, 0.7, 0.99, 1.01, 1.3, 2, 7, 50};  //
 /// Plates on a block, and gaps and slits in it, of so many tolerances.
 Scene tolerances() {
   const Part block = brick({-10, -10, -4}, {10, 10, 0}) + cube(1, {0, 0, 3});
-  const double tolerance = csgcore::thinnest_piece(csgcore::reference_box(block.scene()));
+  const double tolerance = csgcore::thickness_tolerance(csgcore::reference_box(block.scene()));
   Part result = block;
   double x = -10;
   for (const double share : kToleranceShares) {

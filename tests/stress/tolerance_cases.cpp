@@ -15,7 +15,7 @@ constexpr std::array<double, 8> kShares{0.2, 0.7, 0.99, 1.01, 1.3, 2, 7, 50};  /
 
 /// The tolerance of models whose box is that of the part, to all the digits that matter.
 double tolerance_of(const Part& part) {
-  return csgcore::thinnest_piece(csgcore::reference_box(part.scene()));
+  return csgcore::thickness_tolerance(csgcore::reference_box(part.scene()));
 }
 
 /// Side by side on a base that gives the model its size: `make` of each share's thickness.
@@ -97,7 +97,7 @@ Part rod_in_a_plate() { return rod(-0.5, 2, 1) + rod(-1, 0, 10); }
 /// The last of the plate before the rod, at so flat an angle that the foot of the rod's wall lies
 /// within the tolerance of the plate, by the plate's normal; but not by the wall's.
 std::vector<Camera> foot_cameras(const Scene& scene, PictureSize size) {
-  const double tolerance = csgcore::thinnest_piece(csgcore::reference_box(scene));
+  const double tolerance = csgcore::thickness_tolerance(csgcore::reference_box(scene));
   std::vector<Camera> cameras;
   for (const double slope : {1e-3, 1e-4, 1e-5}) {
     View view;
@@ -121,7 +121,7 @@ Case hair(double share) {
     return (plate + rod(0, 1, share * tolerance_of(plate))).scene();
   };
   const auto cameras = [](const Scene& scene, PictureSize size) {
-    const double tolerance = csgcore::thinnest_piece(csgcore::reference_box(scene));
+    const double tolerance = csgcore::thickness_tolerance(csgcore::reference_box(scene));
     std::vector<Camera> result;
     for (const double above_deg : {0.0, 20.0, 70.0}) {
       const Box about{Vec3{-tolerance, -tolerance, 0.5 - tolerance},

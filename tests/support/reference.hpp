@@ -6,13 +6,14 @@
 // - Along a pixel's ray every primitive has one segment or none; its ends are crossings. Those at
 //   which the solid's value changes are its boundaries.
 // - Two crossings are together if they lie less than the tolerance apart, measured along the normal
-//   of that of the two which the ray meets more squarely. A cluster is a maximal run of boundaries
-//   each together with the next: the pieces and gaps between them do not exist.
+//   of that of the two which the ray meets more squarely. A coincidence is a maximal run of
+//   boundaries each together with the next: the pieces and gaps between them do not exist.
 // - A perspective view sees what is further away than the tolerance (in s): crossings up to there
 //   have happened at the eye, so that an eye in a face is not torn between its sides by rounding.
-//   The hit is the first cluster after which the value differs from that at the eye (that at −∞ in
-//   orthographic views).
-// - What changed is the primitives with one crossing within the cluster, or together with its first
+//   The hit is the first coincidence after which the value differs from that at the eye (that at −∞
+//   in orthographic views).
+// - What changed is the primitives with one crossing within the coincidence, or together with its
+// first
 //   or its last boundary: faces that coincide, whether or not rounding makes them boundaries. Shown
 //   is a decider, a primitive without whose change the value would not have changed; of several
 //   that of the lowest index. If there is none, since several changes would do without each other,

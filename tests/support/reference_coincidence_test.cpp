@@ -77,11 +77,11 @@ TEST(ReferenceCoincidence, APrimitiveWithinAClusterIsNeverShown) {
   EXPECT_FALSE(middle_hit(scene_of(Op::kUnion, {rod(1, 1 + 1e-10, 5)}), down(9)).hit());
 }
 
-// --- Clusters ---
+// --- Coincidences ---
 
 TEST(ReferenceCoincidence, ClustersAreChainsOfBoundaries) {
   const double t = kReferenceThickness * std::sqrt(12.0);  // of the box [-1, 1]³
-  // Sheets and gaps of 0.6 tolerances over a block: 3 tolerances in all, but one cluster.
+  // Sheets and gaps of 0.6 tolerances over a block: 3 tolerances in all, but one coincidence.
   std::vector<Primitive> sheets{rod(-1, 1, 1)};
   for (const int i : {1, 3}) sheets.push_back(rod(1 + 0.6 * i * t, 1 + 0.6 * (i + 1) * t, 1));
   EXPECT_EQ(middle_hit(scene_of(Op::kUnion, sheets), down(9)).primitive, 0u);

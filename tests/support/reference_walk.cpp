@@ -56,13 +56,13 @@ ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidat
   ReferenceHit result;
   size_t begin = passed_;
   for (size_t first = next_boundary(begin); first < crossings_.size();) {
-    const Cluster cluster = cluster_of(begin, first);
-    if (cluster.turns) {
-      result = describe(shown(cluster));
+    const Coincidence coincidence = cluster_of(begin, first);
+    if (coincidence.turns) {
+      result = describe(shown(coincidence));
       break;
     }
-    begin = cluster.last + 1;
-    first = cluster.end;
+    begin = coincidence.last + 1;
+    first = coincidence.end;
   }
   pass_until(0);
   return result;
@@ -99,16 +99,16 @@ size_t RayWalk::next_boundary(size_t from) {
   return crossings_.size();
 }
 
-RayWalk::Cluster RayWalk::cluster_of(size_t begin, size_t first) {
-  Cluster cluster{begin, first, first, crossings_.size(), true};
+RayWalk::Coincidence RayWalk::cluster_of(size_t begin, size_t first) {
+  Coincidence coincidence{begin, first, first, crossings_.size(), true};
   for (;;) {
-    cluster.end = next_boundary(cluster.last + 1);
-    if (cluster.end == crossings_.size() ||
-        !together(crossings_[cluster.last], crossings_[cluster.end])) {
-      return cluster;
+    coincidence.end = next_boundary(coincidence.last + 1);
+    if (coincidence.end == crossings_.size() ||
+        !together(crossings_[coincidence.last], crossings_[coincidence.end])) {
+      return coincidence;
     }
-    cluster.last = cluster.end;
-    cluster.turns = !cluster.turns;
+    coincidence.last = coincidence.end;
+    coincidence.turns = !coincidence.turns;
   }
 }
 
@@ -136,20 +136,21 @@ bool RayWalk::together(const Crossing& a, const Crossing& b) const {
   return gap * steepness(a) < setup_.thickness && gap * steepness(b) < setup_.thickness;
 }
 
-/// The crossings by which a cluster changes the primitives. The tree is left as it is after all of
-/// them.
-void RayWalk::collect_changes(const Cluster& cluster) {
+/// The crossings by which a coincidence changes the primitives. The tree is left as it is after all
+/// of them.
+void RayWalk::collect_changes(const Coincidence& coincidence) {
   const auto place = [this](size_t i) { return crossings_.begin() + long(i); };
-  changed_.assign(place(cluster.first), place(cluster.last + 1));
+  changed_.assign(place(coincidence.first), place(coincidence.last + 1));
   // No crossing is together with the first or the last one that lies further from it than so.
-  const Crossing &first = crossings_[cluster.first], &last = crossings_[cluster.last];
+  const Crossing &first = crossings_[coincidence.first], &last = crossings_[coincidence.last];
   const Real before = setup_.thickness / steepness(first);
   const Real after = setup_.thickness / steepness(last);
-  for (size_t i = cluster.first; i-- > cluster.begin && first.t - crossings_[i].t < before;) {
+  for (size_t i = coincidence.first;
+       i-- > coincidence.begin && first.t - crossings_[i].t < before;) {
     if (together(first, crossings_[i])) changed_.push_back(crossings_[i]);
   }
-  size_t end = cluster.last + 1;
-  for (size_t i = end; i < cluster.end && crossings_[i].t - last.t < after; ++i) {
+  size_t end = coincidence.last + 1;
+  for (size_t i = end; i < coincidence.end && crossings_[i].t - last.t < after; ++i) {
     if (!together(last, crossings_[i])) continue;
     changed_.push_back(crossings_[i]);
     end = i + 1;
@@ -173,9 +174,9 @@ void RayWalk::drop_what_came_back() {
   changed_.resize(kept);
 }
 
-/// The crossing that is seen of a cluster which turns the value.
-const RayWalk::Crossing& RayWalk::shown(const Cluster& cluster) {
-  collect_changes(cluster);
+/// The crossing that is seen of a coincidence which turns the value.
+const RayWalk::Crossing& RayWalk::shown(const Coincidence& coincidence) {
+  collect_changes(coincidence);
   if (changed_.size() == 1) return changed_.front();
   has_changed_.assign(slots().size(), 0);
   for (const Crossing& crossing : changed_) has_changed_[crossing.slot] = 1;
@@ -183,7 +184,7 @@ const RayWalk::Crossing& RayWalk::shown(const Cluster& cluster) {
   const auto seen =
       std::find_if(changed_.begin(), changed_.end(),
                    [slot](const Crossing& crossing) { return crossing.slot == slot; });
-  return seen != changed_.end() ? *seen : crossings_[cluster.first];
+  return seen != changed_.end() ? *seen : crossings_[coincidence.first];
 }
 
 ReferenceHit RayWalk::describe(const Crossing& crossing) const {

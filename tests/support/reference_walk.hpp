@@ -55,7 +55,7 @@ class RayWalk {
   /// Boundaries of the solid by which its value may turn: crossings [first, last], the first and
   /// the last of which are boundaries themselves. Other boundaries lie before `begin` or not before
   /// `end`.
-  struct Cluster {
+  struct Coincidence {
     size_t begin, first, last, end;
     bool turns;  // the value after it is another than before it
   };
@@ -64,7 +64,7 @@ class RayWalk {
   void pass();
   void pass_until(size_t count);
   size_t next_boundary(size_t from);
-  Cluster cluster_of(size_t begin, size_t first);
+  Coincidence cluster_of(size_t begin, size_t first);
 
   const RayTarget& target(const Crossing& crossing) const;
   bool is_subtracted(const Crossing& crossing) const;
@@ -72,16 +72,16 @@ class RayWalk {
   Real steepness(const Crossing& crossing) const;
   bool together(const Crossing& a, const Crossing& b) const;
 
-  void collect_changes(const Cluster& cluster);
+  void collect_changes(const Coincidence& coincidence);
   void drop_what_came_back();
-  const Crossing& shown(const Cluster& cluster);
+  const Crossing& shown(const Coincidence& coincidence);
   ReferenceHit describe(const Crossing& crossing) const;
 
   const RaySetup& setup_;
   CountingTree tree_;                // that of a point after the first passed_ crossings
   std::vector<Crossing> crossings_;  // of the ray, by t
   size_t passed_ = 0;
-  std::vector<Crossing> changed_;     // by a cluster, in order of the primitives
+  std::vector<Crossing> changed_;     // by a coincidence, in order of the primitives
   std::vector<uint8_t> has_changed_;  // by slot
   const NearRay* ray_ = nullptr;
 };

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "csgcore/blist.hpp"
 #include "csgcore/geometry.hpp"
-#include "csgcore/short_circuit_list.hpp"
 #include "csgcore/view.hpp"
 
 namespace csgcore {
@@ -28,7 +28,7 @@ struct SubdivisionOptions {
   std::optional<View> view;
   SplitRule split = SplitRule::kSurfaceArea;
   /// How many bytes the cells may take: what is left to divide when they are used up is given up
-  /// (LeafKind::kGivenUp). Bounds the time, too. 0: subdivision_budget() of the solid's literals.
+  /// (LeafKind::kGivenUp). Bounds the time, too. 0: subdivision_budget() of the solid's tests.
   uint64_t budget_bytes = 0;
   /// Worker threads; 0: as many as there are. The result does not depend on it.
   unsigned threads = 0;
@@ -50,12 +50,12 @@ enum class LeafKind : uint8_t {
 };
 constexpr size_t kLeafKinds = 8;
 
-/// `literals` of Subdivision [first_literal, first_literal + literal_count) are the cell's
+/// `tests` of Subdivision [first_test, first_test + test_count) are the cell's
 /// function.
 struct Leaf {
   Box box;
-  uint64_t first_literal = 0;
-  uint32_t literal_count = 0;
+  uint64_t first_test = 0;
+  uint32_t test_count = 0;
   LeafKind kind = LeafKind::kEmpty;
   bool solid = false;  // kEmpty: the cell lies within the solid
 };
@@ -70,19 +70,19 @@ struct KdNode {
   uint32_t above = 0;
 };
 
-/// Leaves that one piece of the subdivision has finished, with the literals they index. In the
+/// Leaves that one piece of the subdivision has finished, with the tests they index. In the
 /// places of those that are kReplaced others will come.
 struct LeafBatch {
   std::span<const Leaf> leaves;
-  std::span<const Literal> literals;
+  std::span<const BlistTest> tests;
 };
 
 /// Called with each batch as the subdivision delivers it (paper §2.3, "render the CSG object while
 /// subdividing it"), from any thread, one call at a time; the spans live during the call only.
 using BatchSink = std::function<void(const LeafBatch&)>;
 
-/// The budget of a solid of so many literals, in bytes: 64 MiB and in proportion to them, at most
+/// The budget of a solid of so many tests, in bytes: 64 MiB and in proportion to them, at most
 /// 2 GiB. Ordinary designs need a tenth of it.
-uint64_t subdivision_budget(size_t literals);
+uint64_t subdivision_budget(size_t tests);
 
 }  // namespace csgcore

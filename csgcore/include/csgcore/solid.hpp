@@ -1,16 +1,16 @@
 // A scene made ready for subdivision and ray tracing: primitives in canonical form, and a tree
-// compiled to a short-circuit list.
+// compiled to a Blist.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "csgcore/blist.hpp"
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/extent.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/scene_edit.hpp"
-#include "csgcore/short_circuit_list.hpp"
 
 namespace csgcore {
 
@@ -45,7 +45,7 @@ class Solid {
   std::span<const Extent> extents() const;
   /// The whole tree, as a list that is valid everywhere; without operands that change nothing
   /// (redundant_operands.hpp).
-  const ShortCircuitList& list() const { return list_; }
+  const Blist& list() const { return list_; }
   /// The primitives that only those operands name: what lies within others, and what equals others.
   std::span<const uint32_t> inner() const;
   std::span<const uint32_t> equal() const;
@@ -71,7 +71,7 @@ class Solid {
 
   std::shared_ptr<const CanonicalPrimitives> primitives_;
   std::shared_ptr<const LeanTree> lean_;  // null: all operands count
-  ShortCircuitList list_;
+  Blist list_;
   std::shared_ptr<const CellList> cell_list_;
   std::shared_ptr<const OperandGroups> groups_, outer_groups_;
   Box bounds_;

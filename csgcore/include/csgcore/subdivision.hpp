@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "csgcore/blist.hpp"
 #include "csgcore/kd_tree.hpp"
-#include "csgcore/short_circuit_list.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/tolerance.hpp"
 #include "csgcore/view.hpp"
@@ -16,11 +16,11 @@ namespace csgcore {
 
 /// What Subdivision::update did.
 struct SubdivisionUpdate {
-  /// All was subdivided anew. Otherwise leaves and literals up to these indices are what they were,
+  /// All was subdivided anew. Otherwise leaves and tests up to these indices are what they were,
   /// but for leaves that are kReplaced now, and for the indices of primitives; the rest is new.
   bool is_anew = false;
   size_t first_new_leaf = 0;
-  size_t first_new_literal = 0;
+  size_t first_new_test = 0;
   uint64_t leaves_kept = 0;
   uint64_t leaves_replaced = 0;
   uint64_t leaves_made = 0;
@@ -36,9 +36,9 @@ class Subdivision {
   const SubdivisionOptions& options() const { return options_; }
   std::span<const KdNode> nodes() const { return nodes_; }
   std::span<const Leaf> leaves() const { return leaves_; }
-  std::span<const Literal> literals() const { return literals_; }
-  std::span<const Literal> literals_of(const Leaf& leaf) const {
-    return literals().subspan(leaf.first_literal, leaf.literal_count);
+  std::span<const BlistTest> tests() const { return tests_; }
+  std::span<const BlistTest> tests_of(const Leaf& leaf) const {
+    return tests().subspan(leaf.first_test, leaf.test_count);
   }
   const Box& root_box() const { return root_box_; }
   size_t bytes() const;
@@ -53,7 +53,7 @@ class Subdivision {
   /// Leaves are kept whose cells lie wholly inside or wholly outside of every changed primitive's
   /// old and new form alike; others are subdivided anew, each for itself. Where that is too little
   /// to be worth it all is subdivided anew: where the root box changes, the cells that change hold
-  /// more than a third of the literals, more than half of what is stored has been replaced by and
+  /// more than a third of the tests, more than half of what is stored has been replaced by and
   /// by, the budget does not suffice for what is added, or cells are dropped below a threshold.
   SubdivisionUpdate update(const Solid& solid, const SceneEdit& edit, TreeEdit tree_edit);
 
@@ -71,14 +71,14 @@ class Subdivision {
   double overlap_ = 0;
   std::vector<KdNode> nodes_;
   std::vector<Leaf> leaves_;
-  std::vector<Literal> literals_;
-  uint64_t replaced_literals_ = 0;  // of leaves that update() has replaced
+  std::vector<BlistTest> tests_;
+  uint64_t replaced_tests_ = 0;  // of leaves that update() has replaced
 };
 
 /// Leaf counts by kind.
 struct LeafCensus {
   uint64_t by_kind[kLeafKinds] = {};
-  uint64_t literals = 0;
+  uint64_t tests = 0;
   uint64_t leaves() const;  // all that the tree still has: kReplaced is not counted
 };
 LeafCensus census(const Subdivision& subdivision);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "csgcore/blist.hpp"
 #include "csgcore/hits.hpp"
-#include "csgcore/short_circuit_list.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/view.hpp"
 
@@ -19,7 +19,7 @@ struct TileListOptions {
   bool centers_only = true;
   /// The renderer's own: how much closer to the eye a surface may lie before it counts as that much
   /// beyond it. World units, > 0.
-  double thinnest_piece = 0;
+  double thickness_tolerance = 0;
   /// Tiles of 8 pixels with longer lists are divided once more, to 8×4; those with lists longer
   /// than the second down to 2×2, and if that does not help either, there is no result.
   uint32_t short_list = 32;
@@ -30,10 +30,10 @@ struct TileListOptions {
 
 struct ListedTile {
   PixelArea area;
-  /// Of TileLists::literals, a function that equals the solid's wherever the tile's rays go, up to
+  /// Of TileLists::tests, a function that equals the solid's wherever the tile's rays go, up to
   /// cut_s. Not constant.
-  uint32_t first_literal = 0;
-  uint32_t literal_count = 0;
+  uint32_t first_test = 0;
+  uint32_t test_count = 0;
   /// View's s at which every ray of the tile has met its first boundary: the function is without
   /// what lies behind it. +∞: it is without nothing.
   double cut_s = 0;
@@ -42,7 +42,7 @@ struct ListedTile {
 struct TileLists {
   /// Those with anything to meet, row by row from the top left corner, each from its own.
   std::vector<ListedTile> tiles;
-  std::vector<Literal> literals;
+  std::vector<BlistTest> tests;
 };
 
 /// Replaces `lists`; false, with nothing in them, if one would be longer than the longest.

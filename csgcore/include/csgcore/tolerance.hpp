@@ -7,7 +7,7 @@ namespace csgcore {
 
 /// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
 /// along the normal, in world units (NUMERICS.md, "The definition").
-double thinnest_piece(const Box& solid_bounds);
+double thickness_tolerance(const Box& solid_bounds);
 
 /// How far beyond a cell its function is valid (Subdivision::overlap), for a solid of these bounds.
 double cell_overlap(const Box& solid_bounds);

@@ -1,7 +1,7 @@
 // The CPU ray tracer: exact pictures in double, by SIMD packets of rays (NUMERICS.md says how
 // exact).
 //
-// Two structures tell a ray what it can meet; both hand lists of literals to the same evaluation,
+// Two structures tell a ray what it can meet; both hand lists of tests to the same evaluation,
 // and both make the same picture:
 // - tiles: per frame, the screen is divided like a kd-tree, down to tiles of 8 pixels, and the
 //   solid's list is restricted to each. Nothing is built in world space: the fastest first picture.
@@ -37,9 +37,9 @@ struct TraceOptions {
   /// With more than one sample the pixels beside the area are looked at too, which it may have made
   /// edges of, or no longer edges.
   std::optional<PixelArea> area;
-  /// In place of thinnest_piece() of the solid's bounds: that of a renderer whose pixels are traced
-  /// anew. World units, > 0; no more than 2⁻²⁰ of the size of these bounds.
-  std::optional<double> thinnest_piece;
+  /// In place of thickness_tolerance() of the solid's bounds: that of a renderer whose pixels are
+  /// traced anew. World units, > 0; no more than 2⁻²⁰ of the size of these bounds.
+  std::optional<double> thickness_tolerance;
   /// Find out why primitives were skipped (TraceStats::skipped); costs a little. Of an area that is
   /// not the whole picture, what only others show is counted as cancelled.
   bool count_skipped = false;

@@ -26,8 +26,8 @@ ExactWalk::Shown ExactWalk::see(const SeenRay& ray) {
   collect();
   evaluate();
   Shown shown;
-  if (const std::optional<Cluster> cluster = first_turning_cluster()) {
-    shown = describe(shown_of(*cluster));
+  if (const std::optional<Coincidence> coincidence = first_turning_coincidence()) {
+    shown = describe(shown_of(*coincidence));
   }
   pass_until(0);
   return shown;
@@ -154,7 +154,7 @@ bool ExactWalk::is_behind_eye(const Crossing& crossing) {
   return compare(exact_of(crossing), quotient(exact_eye_t_, 1)) <= 0;
 }
 
-// --- Clusters ---
+// --- Coincidences ---
 
 void ExactWalk::pass_until(size_t count) {
   while (passed_ < count) tree_.flip(primitive_of(crossings_[passed_++]));
@@ -172,24 +172,24 @@ void ExactWalk::evaluate() {
   }
 }
 
-std::optional<ExactWalk::Cluster> ExactWalk::first_turning_cluster() {
+std::optional<ExactWalk::Coincidence> ExactWalk::first_turning_coincidence() {
   const auto next_boundary = [this](size_t from) {
     while (from < crossings_.size() && values_[from + 1] == values_[from]) ++from;
     return from;
   };
-  Cluster cluster{eye_, 0, 0, next_boundary(eye_)};
-  while (cluster.end < crossings_.size()) {
-    cluster.first = cluster.last = cluster.end;
+  Coincidence coincidence{eye_, 0, 0, next_boundary(eye_)};
+  while (coincidence.end < crossings_.size()) {
+    coincidence.first = coincidence.last = coincidence.end;
     for (;;) {
-      cluster.end = next_boundary(cluster.last + 1);
-      if (cluster.end == crossings_.size() ||
-          !together(crossings_[cluster.last], crossings_[cluster.end])) {
+      coincidence.end = next_boundary(coincidence.last + 1);
+      if (coincidence.end == crossings_.size() ||
+          !together(crossings_[coincidence.last], crossings_[coincidence.end])) {
         break;
       }
-      cluster.last = cluster.end;
+      coincidence.last = coincidence.end;
     }
-    if (values_[cluster.last + 1] != values_[eye_]) return cluster;
-    cluster.begin = cluster.last + 1;
+    if (values_[coincidence.last + 1] != values_[eye_]) return coincidence;
+    coincidence.begin = coincidence.last + 1;
   }
   return std::nullopt;
 }
@@ -224,17 +224,17 @@ bool ExactWalk::together(const Crossing& a, const Crossing& b) {
 
 // --- What is shown ---
 
-/// The crossings by which a cluster changes the primitives: its own, and those together with its
-/// first or its last boundary. The tree is left as it is after all of them.
-void ExactWalk::collect_changes(const Cluster& cluster) {
+/// The crossings by which a coincidence changes the primitives: its own, and those together with
+/// its first or its last boundary. The tree is left as it is after all of them.
+void ExactWalk::collect_changes(const Coincidence& coincidence) {
   changed_.clear();
-  for (size_t i = cluster.begin; i < cluster.first; ++i) {
-    if (together(crossings_[i], crossings_[cluster.first])) changed_.push_back(crossings_[i]);
+  for (size_t i = coincidence.begin; i < coincidence.first; ++i) {
+    if (together(crossings_[i], crossings_[coincidence.first])) changed_.push_back(crossings_[i]);
   }
-  size_t end = cluster.last + 1;
-  for (size_t i = cluster.first; i < end; ++i) changed_.push_back(crossings_[i]);
-  for (size_t i = end; i < cluster.end; ++i) {
-    if (!together(crossings_[cluster.last], crossings_[i])) continue;
+  size_t end = coincidence.last + 1;
+  for (size_t i = coincidence.first; i < end; ++i) changed_.push_back(crossings_[i]);
+  for (size_t i = end; i < coincidence.end; ++i) {
+    if (!together(crossings_[coincidence.last], crossings_[i])) continue;
     changed_.push_back(crossings_[i]);
     end = i + 1;
   }
@@ -266,14 +266,14 @@ bool ExactWalk::turns(const Crossing& crossing) const {
   return adds ? tree_.is_added(primitive) : tree_.is_subtracted(primitive);
 }
 
-ExactWalk::Crossing ExactWalk::shown_of(const Cluster& cluster) {
-  collect_changes(cluster);
+ExactWalk::Crossing ExactWalk::shown_of(const Coincidence& coincidence) {
+  collect_changes(coincidence);
   if (changed_.size() == 1) return changed_.front();
   changed_primitives_.clear();
   for (const Crossing& crossing : changed_) changed_primitives_.push_back(primitive_of(crossing));
   const uint32_t shown = tree_.turning_primitive(changed_primitives_);
   const auto at = std::ranges::find(changed_primitives_, shown);
-  if (at == changed_primitives_.end()) return crossings_[cluster.first];
+  if (at == changed_primitives_.end()) return crossings_[coincidence.first];
   return changed_[static_cast<size_t>(at - changed_primitives_.begin())];
 }
 

@@ -53,7 +53,7 @@ class ExactWalk {
   /// Boundaries of the solid of which each is together with the next: crossings [first, last], the
   /// first and the last of which are boundaries themselves. Other boundaries lie before `begin` and
   /// not before `end`.
-  struct Cluster {
+  struct Coincidence {
     size_t begin, first, last, end;
   };
 
@@ -61,7 +61,7 @@ class ExactWalk {
   void collect();
   void add_candidate(uint32_t primitive);
   void evaluate();
-  std::optional<Cluster> first_turning_cluster();
+  std::optional<Coincidence> first_turning_coincidence();
 
   const Interval& t_of(const Crossing& crossing) const {
     return candidates_[crossing.candidate].t[crossing.at_end];
@@ -81,10 +81,10 @@ class ExactWalk {
   Interval steepness(const Crossing& crossing) const;
 
   void pass_until(size_t count);
-  void collect_changes(const Cluster& cluster);
+  void collect_changes(const Coincidence& coincidence);
   void drop_what_came_back();
   bool turns(const Crossing& crossing) const;
-  Crossing shown_of(const Cluster& cluster);
+  Crossing shown_of(const Coincidence& coincidence);
   Shown describe(const Crossing& crossing) const;
   Bounds tight_s(const ExactRoot& u, double base, const Interval& s) const;
 
@@ -107,7 +107,7 @@ class ExactWalk {
   std::vector<Candidate> candidates_;
   std::vector<Crossing> crossings_;  // in order along the ray
   std::vector<uint8_t> values_;      // of the solid, before each crossing and after the last
-  std::vector<Crossing> changed_;    // by a cluster, in order of the primitives
+  std::vector<Crossing> changed_;    // by a coincidence, in order of the primitives
   std::vector<uint32_t> changed_primitives_;
   size_t eye_ = 0;  // crossings behind the eye
 };

@@ -20,7 +20,7 @@ using csgcore::Scene;
 using csgcore::Vec3;
 
 /// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
-constexpr double kThinnestPiece = 1e-9;
+constexpr double kThicknessTolerance = 1e-9;
 
 /// The box relative to a point. RoundingUp must be on.
 Box box_about(const Vec3& point, const Primitive& primitive) {
@@ -98,7 +98,7 @@ PreparedScene::PreparedScene(const Scene& prepared)
   pivot = pivot_of(scene);
   const std::vector<Box> all = boxes_about(pivot, scene);
   size = model_box(scene, all).diagonal();
-  thickness = kThinnestPiece * size;
+  thickness = kThicknessTolerance * size;
   displacement = kExactDisplacement * size + coordinate_rounding(pivot, size);
   unit = size > 0 ? std::ldexp(1.0, -std::ilogb(size)) : 1;
   for (const Primitive& primitive : scene.primitives) {

@@ -7,7 +7,7 @@ namespace csgcore {
 namespace {
 
 /// Thinnest piece over the diagonal of the solid's box: NUMERICS.md says why.
-constexpr double kThinnestPiece = 1e-9;
+constexpr double kThicknessTolerance = 1e-9;
 
 /// Every cell's function is valid this far beyond the cell, as a fraction of the root box's largest
 /// side: 16 times the rounding (2^-24) of a float coordinate in the model's own units, which is how
@@ -18,7 +18,9 @@ constexpr double kCoordinateRounding = 0x1p-50;
 
 }  // namespace
 
-double thinnest_piece(const Box& solid_bounds) { return kThinnestPiece * solid_bounds.diagonal(); }
+double thickness_tolerance(const Box& solid_bounds) {
+  return kThicknessTolerance * solid_bounds.diagonal();
+}
 
 double cell_overlap(const Box& solid_bounds) {
   if (solid_bounds.empty()) return 0;

@@ -7,19 +7,19 @@ namespace {
 
 /// How much a tree will hold.
 struct Size {
-  size_t nodes = 0, leaves = 0, literals = 0;
+  size_t nodes = 0, leaves = 0, tests = 0;
 };
 
 /// As deep as there were rounds.
 void add_size(const Chunk& chunk, Size& size) {
   size.nodes += chunk.nodes.size();
   size.leaves += chunk.leaves.size();
-  size.literals += chunk.literals.size();
+  size.tests += chunk.tests.size();
   if (chunk.resumed.empty()) return;
   size.nodes -= chunk.paused_nodes.size();
   size.leaves -= chunk.paused_nodes.size();
   for (const uint32_t node : chunk.paused_nodes) {
-    size.literals -= chunk.leaves[chunk.nodes[node].below].literal_count;
+    size.tests -= chunk.leaves[chunk.nodes[node].below].test_count;
   }
   for (const Chunk& resumed : chunk.resumed) add_size(resumed, size);
 }
@@ -40,20 +40,19 @@ uint32_t new_slot(Chunk& tree) {
   return static_cast<uint32_t>(tree.nodes.size() - 1);
 }
 
-/// Appends the leaves [first, end), and their literals.
+/// Appends the leaves [first, end), and their tests.
 void append_leaves(const Chunk& chunk, uint32_t first, uint32_t end, Chunk& tree) {
   if (first == end) return;
-  const auto literal_of = [&](uint32_t leaf) {
-    return leaf < chunk.leaves.size() ? chunk.leaves[leaf].first_literal : chunk.literals.size();
+  const auto test_of = [&](uint32_t leaf) {
+    return leaf < chunk.leaves.size() ? chunk.leaves[leaf].first_test : chunk.tests.size();
   };
-  const uint64_t first_literal = literal_of(first);
-  const uint64_t grown = tree.literals.size() - first_literal;  // modulo 2^64, as it may shrink
+  const uint64_t first_test = test_of(first);
+  const uint64_t grown = tree.tests.size() - first_test;  // modulo 2^64, as it may shrink
   const size_t size = tree.leaves.size();
   tree.leaves.insert(tree.leaves.end(), chunk.leaves.begin() + first, chunk.leaves.begin() + end);
-  for (size_t i = size; i < tree.leaves.size(); ++i) tree.leaves[i].first_literal += grown;
-  tree.literals.insert(tree.literals.end(),
-                       chunk.literals.begin() + static_cast<std::ptrdiff_t>(first_literal),
-                       chunk.literals.begin() + static_cast<std::ptrdiff_t>(literal_of(end)));
+  for (size_t i = size; i < tree.leaves.size(); ++i) tree.leaves[i].first_test += grown;
+  tree.tests.insert(tree.tests.end(), chunk.tests.begin() + static_cast<std::ptrdiff_t>(first_test),
+                    chunk.tests.begin() + static_cast<std::ptrdiff_t>(test_of(end)));
 }
 
 /// Writes the subtrees of a chunk, in order, and what was resumed in it. Gives the memory of
@@ -164,7 +163,7 @@ Chunk assemble(std::unique_ptr<Part> part) {
   Chunk tree;
   tree.nodes.reserve(size.nodes);
   tree.leaves.reserve(size.leaves);
-  tree.literals.reserve(size.literals);
+  tree.tests.reserve(size.tests);
   place(*part, new_slot(tree), tree);
   return tree;
 }

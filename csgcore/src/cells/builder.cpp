@@ -34,19 +34,19 @@ constexpr uint32_t kCoincidentDivisions = 14;
 constexpr uint32_t kSuspectDivisions = 4;
 
 /// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
-/// literals for each of the solid's, and this many in any case; a cell whose share is used up is
+/// tests for each of the solid's, and this many in any case; a cell whose share is used up is
 /// not divided further. It bounds memory and time where surfaces lie so close that dividing hardly
 /// separates them (a thousand nested shells). CSn and CCn need 3 to 6 for each at K = 8, and 70 to
 /// 120 by the paper's rule.
-constexpr double kLiteralsPerLiteral = 128;
-constexpr double kLiteralsInAnyCase = 0x1p18;
+constexpr double kTestsPerTest = 128;
+constexpr double kTestsInAnyCase = 0x1p18;
 /// With a pixel threshold, which bounds the number of cells, lists this short go on all the same:
 /// so short are they where surfaces meet in points, whose cells the paper's rule alone ends.
-constexpr uint32_t kFewLiterals = 32;
+constexpr uint32_t kFewTests = 32;
 
 /// Lists longer than this are divided as two tasks. A property of the data alone, so that the
 /// result is the same for every number of threads.
-constexpr uint32_t kTaskLiterals = 256;
+constexpr uint32_t kTaskTests = 256;
 /// So many paused cells, which are small, are resumed by one task.
 constexpr size_t kResumedTogether = 64;
 /// And so many, at least, in parallel.
@@ -59,11 +59,11 @@ constexpr uint64_t kFirstShareAlone = 8;
 /// And as long as they last each cell may take so many times its share.
 constexpr uint64_t kOvercommitment = 256;
 
-bool has_repeats(std::span<const Literal> literals, size_t primitives) {
+bool has_repeats(std::span<const BlistTest> tests, size_t primitives) {
   std::vector<bool> seen(primitives);
-  for (const Literal& literal : literals) {
-    if (seen[literal.primitive]) return true;
-    seen[literal.primitive] = true;
+  for (const BlistTest& test : tests) {
+    if (seen[test.primitive]) return true;
+    seen[test.primitive] = true;
   }
   return false;
 }
@@ -87,7 +87,7 @@ Cell child_of(const Cell& cell, const Split& split, bool above) {
   return child;
 }
 
-/// One half of a divided cell; `count` literals were divided into `halves`, at this cost.
+/// One half of a divided cell; `count` tests were divided into `halves`, at this cost.
 Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
               const CellList (&halves)[2], int64_t cost) {
   Cell child = child_of(cell, split, above);
@@ -111,8 +111,8 @@ Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
 void add_leaf(const Cell& cell, const CellList& list, LeafKind kind, Chunk& chunk) {
   chunk.nodes.push_back({0, KdNode::kLeafAxis, static_cast<uint32_t>(chunk.leaves.size()), 0});
   chunk.leaves.push_back(
-      {cell.box, chunk.literals.size(), list.count(), kind, list.root == CellList::kTrue});
-  append(chunk.literals, list);
+      {cell.box, chunk.tests.size(), list.count(), kind, list.root == CellList::kTrue});
+  append(chunk.tests, list);
 }
 
 void pause(const Cell& cell, const CellList& list, uint64_t needed, Chunk& chunk) {
@@ -133,15 +133,15 @@ void add_start(const Cell& cell, const CellList& list, uint64_t needed, Chunk& s
 
 uint64_t mean_test_cost(const Solid& solid) {
   uint64_t sum = 0;
-  for (const Literal& literal : solid.list().literals) {
-    sum += test_cost(solid.primitives()[literal.primitive]);
+  for (const BlistTest& test : solid.list().tests) {
+    sum += test_cost(solid.primitives()[test.primitive]);
   }
-  const uint64_t count = solid.list().literals.size();
+  const uint64_t count = solid.list().tests.size();
   return (sum + count / 2) / std::max<uint64_t>(count, 1);
 }
 
 double first_allowance(const CellList& list) {
-  return kLiteralsPerLiteral + kLiteralsInAnyCase / std::max(list.count(), 1u);
+  return kTestsPerTest + kTestsInAnyCase / std::max(list.count(), 1u);
 }
 
 /// The part's chunks in the order of their nodes. As deep as parts are.
@@ -162,10 +162,10 @@ Builder::Builder(const Solid& solid, const SubdivisionOptions& options, double o
       options_(options),
       overlap_(overlap),
       sink_(sink),
-      repeats_(has_repeats(solid.list().literals, solid.primitives().size())),
+      repeats_(has_repeats(solid.list().tests, solid.primitives().size())),
       costs_(mean_test_cost(solid)),
       budget_(options.budget_bytes > 0 ? std::min(options.budget_bytes, kLargestBudget)
-                                       : subdivision_budget(solid.list().literals.size())) {}
+                                       : subdivision_budget(solid.list().tests.size())) {}
 
 /// Calls `work`, with as many threads as the options say if in parallel.
 template <typename Work>
@@ -187,14 +187,14 @@ void Builder::run(bool in_parallel, Work&& work) {
 Chunk Builder::build(const Box& root_box) {
   Cell cell{root_box};
   CellList whole, list;
-  assign(whole, solid_.list().literals);
+  assign(whole, solid_.list().tests);
   auto workspace = acquire();
   workspace->restrictor.restrict(whole, inflated(cell.box), list);
   release(std::move(workspace));
   cell.allowance = first_allowance(list);
   const uint64_t left = budget_ - std::min(budget_, leaf_bytes(list.count()));
   // Small scenes don't start the thread pool; one task alone needs no assembling afterwards.
-  const bool small = list.count() <= size_t{kTaskLiterals} * options_.leaf_primitives;
+  const bool small = list.count() <= size_t{kTaskTests} * options_.leaf_primitives;
   cell.credit = left / (small ? kFirstShareAlone : kFirstShare);
   std::unique_ptr<Part> part;
   run(!small, [&] { part = small && !sink_ ? finish_part(cell, list) : build_part(cell, list); });
@@ -204,10 +204,10 @@ Chunk Builder::build(const Box& root_box) {
   return assemble(std::move(part));
 }
 
-void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const Literal> literals,
+void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest> tests,
                     Chunk& starts) {
   CellList whole, list;
-  assign(whole, literals);
+  assign(whole, tests);
   auto workspace = acquire();
   workspace->restrictor.restrict(whole, inflated(leaf.box), list);
   release(std::move(workspace));
@@ -218,7 +218,7 @@ void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const Literal> l
 
 void Builder::start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts) {
   Cell cell{leaf.box, depth};
-  cell.allowance = kLiteralsPerLiteral;
+  cell.allowance = kTestsPerTest;
   // What no division separated is divided again only where that now helps at once: else it would
   // become hundreds of cells, and each of them again with the next edit.
   if (leaf.kind == LeafKind::kFull) cell.stalled = kStalledDivisions - 1;
@@ -259,7 +259,7 @@ bool Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
     for (const Chunk* chunk : chunks) {
       for (size_t i = 0; i < chunk->paused.size(); ++i) {
         needed += static_cast<int64_t>(chunk->paused[i].needed);
-        deal.literals += chunk->paused_leaf(i).literal_count;
+        deal.tests += chunk->paused_leaf(i).test_count;
       }
     }
     if (needed == 0) return true;
@@ -300,9 +300,9 @@ void Builder::resume(const Resumption& resumption, const Deal& deal) {
   for (size_t i = resumption.first; i < resumption.end; ++i) {
     const Paused& paused = owner.paused[i];
     const Leaf& leaf = owner.paused_leaf(i);
-    assign(list, std::span(owner.literals).subspan(leaf.first_literal, leaf.literal_count));
+    assign(list, std::span(owner.tests).subspan(leaf.first_test, leaf.test_count));
     Cell cell = paused.cell;
-    cell.credit = paused.needed + deal.rest * list.count() / deal.literals;
+    cell.credit = paused.needed + deal.rest * list.count() / deal.tests;
     chunk.begin_root();
     divide(cell, list, 0, *workspace, chunk);
   }
@@ -324,11 +324,11 @@ void Builder::give_up(Chunk& chunk) {
 void Builder::deliver(std::span<const Leaf> leaves, const Chunk& chunk) {
   if (!sink_) return;
   const std::lock_guard lock(sink_mutex_);
-  sink_({leaves, chunk.literals});
+  sink_({leaves, chunk.tests});
 }
 
 std::unique_ptr<Part> Builder::build_part(const Cell& cell, const CellList& list) {
-  if (list.count() <= kTaskLiterals) return finish_part(cell, list);
+  if (list.count() <= kTaskTests) return finish_part(cell, list);
   auto workspace = acquire();
   if (cell.credit < costs_.most_division(list.count()) ||
       leaf_kind(cell, list, workspace->distinct) != LeafKind::kEmpty) {
@@ -450,7 +450,7 @@ LeafKind Builder::leaf_kind(const Cell& cell, const CellList& list,
     return LeafKind::kDropped;
   }
   const bool stalled = options_.threshold_px <= 0 && cell.stalled >= kStalledDivisions;
-  const bool few = options_.threshold_px > 0 && list.count() <= kFewLiterals;
+  const bool few = options_.threshold_px > 0 && list.count() <= kFewTests;
   const bool spent = cell.allowance < 1 && !few;
   return stalled || coincident || spent || is_small(cell) ? LeafKind::kFull : LeafKind::kEmpty;
 }

@@ -24,8 +24,8 @@ class Builder {
   Chunk build(const Box& root_box);
 
   /// Adds to `starts` a cell that is to be divided, of a tree that is there: a leaf at this depth
-  /// that was dropped, with its literals;
-  void start(const Leaf& leaf, uint32_t depth, std::span<const Literal> literals, Chunk& starts);
+  /// that was dropped, with its tests;
+  void start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest> tests, Chunk& starts);
   /// or one whose function has become `list`, which is restricted to it.
   void start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts);
   /// Whether the budget, of which `stored_bytes` are used, takes all of them a step further.
@@ -56,7 +56,7 @@ class Builder {
   };
   /// What is dealt out to paused cells: to each what it needs, and its share of the rest.
   struct Deal {
-    uint64_t rest, literals;
+    uint64_t rest, tests;
   };
 
   template <typename Work>

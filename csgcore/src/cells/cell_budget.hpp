@@ -7,11 +7,11 @@
 // frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes). It is spent in rounds:
 //
 // - The root gets a credit. A division is paid for from its cell's credit, and hands the rest on to
-//   the two halves, in proportion to their literals. A cell that cannot pay is paused. The first
+//   the two halves, in proportion to their tests. A cell that cannot pay is paused. The first
 //   round may use up a part of the budget only, and as long as that lasts a cell may take many
 //   times its share: cells of ordinary designs are then hardly ever paused.
 // - When all others are done, what is left of the budget (most subtrees need less than their share)
-//   is dealt out to the paused cells, in proportion to their literals, and they go on: each of them
+//   is dealt out to the paused cells, in proportion to their tests, and they go on: each of them
 //   by a division at least.
 // - Where what is left does not take every paused cell one step further, all of them are given up:
 //   they become leaves with more than K primitives (LeafKind::kGivenUp).
@@ -30,7 +30,7 @@
 
 namespace csgcore {
 
-/// Above all memory; times a number of literals it does not overflow.
+/// Above all memory; times a number of tests it does not overflow.
 constexpr uint64_t kLargestBudget = uint64_t{1} << 40;
 
 /// What it costs to test one primitive against a cell. Time is paid for in bytes, too: it takes
@@ -49,12 +49,12 @@ class CellCosts {
 
   /// What the division of a list may cost at most: both halves keep all of it.
   uint64_t most_division(uint32_t count) const {
-    return kDivision + count * (sizeof(Literal) + test_cost_);
+    return kDivision + count * (sizeof(BlistTest) + test_cost_);
   }
-  /// What it did cost. Negative where more literals went than the cells take.
+  /// What it did cost. Negative where more tests went than the cells take.
   int64_t division(uint32_t count, uint32_t below, uint32_t above) const {
     return static_cast<int64_t>(kDivision + count * test_cost_) +
-           static_cast<int64_t>(sizeof(Literal)) * (int64_t{below} + above - count);
+           static_cast<int64_t>(sizeof(BlistTest)) * (int64_t{below} + above - count);
   }
   /// To test a whole list against some boxes.
   uint64_t probes(uint32_t count, uint32_t boxes) const {
@@ -71,7 +71,7 @@ class CellCosts {
 
 /// Bytes of a tree that is one leaf.
 constexpr uint64_t leaf_bytes(uint32_t count) {
-  return sizeof(KdNode) + sizeof(Leaf) + count * sizeof(Literal);
+  return sizeof(KdNode) + sizeof(Leaf) + count * sizeof(BlistTest);
 }
 
 }  // namespace csgcore

@@ -17,7 +17,7 @@ struct Cell {
   uint32_t stalled = 0;  // divisions since a primitive last left
   uint32_t doubled = 0;  // divisions in a row of which both halves kept every primitive, but for
                          // those that only cut off empty space
-  /// How many literals the leaves below may hold for each of the cell's own. Each division hands
+  /// How many tests the leaves below may hold for each of the cell's own. Each division hands
   /// its cell's share on to the halves, in proportion to what they hold.
   double allowance = 0;
   /// What the subtree may cost in this round (cell_budget.hpp).
@@ -33,17 +33,17 @@ struct Paused {
 
 /// What one task produces: subtrees, one behind the other, each of them in preorder: a node, all
 /// that lies below its plane, all that lies above. Indices are local to the chunk. Leaves and
-/// literals stand in the nodes' order.
+/// tests stand in the nodes' order.
 struct Chunk {
   /// Where a subtree begins.
   struct Root {
     uint32_t node = 0;
     uint32_t leaf = 0;
-    uint64_t literal = 0;
+    uint64_t test = 0;
   };
   std::vector<KdNode> nodes;
   std::vector<Leaf> leaves;
-  std::vector<Literal> literals;
+  std::vector<BlistTest> tests;
   std::vector<Root> roots;
   std::vector<uint32_t> paused_nodes;  // in order
   std::vector<Paused> paused;          // at these nodes; none after they were resumed
@@ -63,7 +63,7 @@ struct Chunk {
   const Leaf& paused_leaf(size_t i) const { return leaves[nodes[paused_nodes[i]].below]; }
 };
 
-/// Of nodes, leaves and literals.
+/// Of nodes, leaves and tests.
 uint64_t bytes_of(const Chunk& chunk);
 
 /// Either a chunk of one subtree, or a division whose two sides are parts of their own.

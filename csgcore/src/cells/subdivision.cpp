@@ -10,18 +10,18 @@ namespace csgcore {
 Subdivision::Subdivision(const Solid& solid, SubdivisionOptions options, const BatchSink& sink)
     : solid_(&solid), options_(std::move(options)) {
   const Box& bounds = solid.bounds();
-  if (bounds.empty() || solid.list().literals.empty()) return;
+  if (bounds.empty() || solid.list().tests.empty()) return;
   overlap_ = cell_overlap(bounds);
   root_box_ = {bounds.min - overlap_, bounds.max + overlap_};
   Chunk all = Builder(solid, options_, overlap_, sink).build(root_box_);
   nodes_ = std::move(all.nodes);
   leaves_ = std::move(all.leaves);
-  literals_ = std::move(all.literals);
+  tests_ = std::move(all.tests);
 }
 
 size_t Subdivision::bytes() const {
   return nodes_.size() * sizeof(KdNode) + leaves_.size() * sizeof(Leaf) +
-         literals_.size() * sizeof(Literal);
+         tests_.size() * sizeof(BlistTest);
 }
 
 bool Subdivision::refine(const View& view) {
@@ -49,7 +49,7 @@ bool Subdivision::refine(const View& view) {
       continue;
     }
     leaf.kind = LeafKind::kReplaced;
-    builder.start(leaf, visit.depth, literals_of(leaf), starts);
+    builder.start(leaf, visit.depth, tests_of(leaf), starts);
     slots.push_back(visit.node);
   }
   if (slots.empty()) return false;
@@ -61,11 +61,11 @@ bool Subdivision::refine(const View& view) {
   Chunk all;
   all.nodes = std::move(nodes_);
   all.leaves = std::move(leaves_);
-  all.literals = std::move(literals_);
+  all.tests = std::move(tests_);
   place(std::move(starts), slots, all);
   nodes_ = std::move(all.nodes);
   leaves_ = std::move(all.leaves);
-  literals_ = std::move(all.literals);
+  tests_ = std::move(all.tests);
   return true;
 }
 
@@ -95,7 +95,7 @@ LeafCensus census(const Subdivision& subdivision) {
   for (const Leaf& leaf : subdivision.leaves()) {
     ++result.by_kind[static_cast<size_t>(leaf.kind)];
     if (leaf.kind != LeafKind::kReplaced && leaf.kind != LeafKind::kEmpty) {
-      result.literals += leaf.literal_count;
+      result.tests += leaf.test_count;
     }
   }
   return result;

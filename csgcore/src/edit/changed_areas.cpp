@@ -72,7 +72,7 @@ class Screen {
     find_screen_extents(extents, indices, frame_, {false}, on_screen);
     std::optional<PixelArea> area = whole_picture(view_);
     for (const Extent& extent : on_screen) {
-      if (fate_on_screen(extent) == ScreenFate::kOffScreen) return std::nullopt;
+      if (cull_reason_on_screen(extent) == ScreenCullReason::kOffScreen) return std::nullopt;
       const Range x = pixels(extent, 0, view_.width_px), y = pixels(extent, 1, view_.height_px);
       const uint32_t left = std::max(area->x, x.first), top = std::max(area->y, y.first);
       const uint32_t right = std::min(area->x + area->width, x.end);
@@ -105,7 +105,7 @@ class Screen {
 /// By index, whether the solid's tree names the primitive.
 std::vector<uint8_t> named(const Solid& solid) {
   std::vector<uint8_t> result(solid.primitives().size());
-  for (const Literal& literal : solid.list().literals) result[literal.primitive] = 1;
+  for (const BlistTest& test : solid.list().tests) result[test.primitive] = 1;
   return result;
 }
 

@@ -10,7 +10,7 @@
 namespace csgcore {
 namespace {
 
-/// To subdivide more than this share of the literals cell by cell takes as long as all at once.
+/// To subdivide more than this share of the tests cell by cell takes as long as all at once.
 constexpr double kMostReplacedAtOnce = 1.0 / 3;
 /// More may be garbage only until all is subdivided anew.
 constexpr double kMostReplaced = 0.5;
@@ -72,8 +72,8 @@ class Updater {
         is_changed_[i] = is_changed_[node.below] | is_changed_[node.above];
         continue;
       }
-      for (const Literal& literal : literals_of(tree_.leaves[node.below])) {
-        if (later_indices[literal.primitive] == SceneEdit::kGone) is_changed_[i] = 1;
+      for (const BlistTest& test : tests_of(tree_.leaves[node.below])) {
+        if (later_indices[test.primitive] == SceneEdit::kGone) is_changed_[i] = 1;
       }
     }
   }
@@ -99,24 +99,24 @@ class Updater {
 
   /// Of the leaves that are to be replaced.
   struct Count {
-    uint64_t leaves = 0, literals = 0;
+    uint64_t leaves = 0, tests = 0;
   };
   Count count() const {
     Count count;
     for (size_t i = 0; i < tree_.nodes.size(); ++i) {
       if (!is_changed_[i] || tree_.nodes[i].axis != KdNode::kLeafAxis) continue;
       ++count.leaves;
-      count.literals += tree_.leaves[tree_.nodes[i].below].literal_count;
+      count.tests += tree_.leaves[tree_.nodes[i].below].test_count;
     }
     return count;
   }
 
-  /// Replaces the marked leaves. `literals` are the whole solid's. Returns whether the budget
+  /// Replaces the marked leaves. `tests` are the whole solid's. Returns whether the budget
   /// sufficed.
-  bool replace_all(const Box& root_box, std::span<const Literal> literals) {
+  bool replace_all(const Box& root_box, std::span<const BlistTest> tests) {
     if (!is_changed_[0]) return true;
     CellList whole, list;
-    assign(whole, literals);
+    assign(whole, tests);
     restrictor_.restrict(whole, inflated(root_box), list);
     const uint64_t stored_bytes = bytes_of(tree_);
     start(0, root_box, 0, list);
@@ -129,8 +129,8 @@ class Updater {
  private:
   Box inflated(const Box& box) const { return {box.min - overlap_, box.max + overlap_}; }
 
-  std::span<const Literal> literals_of(const Leaf& leaf) const {
-    return std::span(tree_.literals).subspan(leaf.first_literal, leaf.literal_count);
+  std::span<const BlistTest> tests_of(const Leaf& leaf) const {
+    return std::span(tree_.tests).subspan(leaf.first_test, leaf.test_count);
   }
 
   /// Starts what replaces the marked leaves at and below the node. As deep as the tree. `list` is
@@ -187,7 +187,7 @@ SubdivisionUpdate Subdivision::update(const Solid& solid, const SceneEdit& edit,
       before.bounds().min == solid.bounds().min && before.bounds().max == solid.bounds().max;
   const double most_changes = std::max(1.0, kMostChanges * edit.primitives_after);
   if (tree_edit == TreeEdit::kAnywhere || !has_same_root || nodes_.empty() ||
-      solid.list().literals.empty() || options_.threshold_px > 0 ||
+      solid.list().tests.empty() || options_.threshold_px > 0 ||
       edit.removed.size() + edit.added.size() > 2 * most_changes) {
     return all_anew();
   }
@@ -195,34 +195,34 @@ SubdivisionUpdate Subdivision::update(const Solid& solid, const SceneEdit& edit,
   Chunk tree;
   tree.nodes = std::move(nodes_);
   tree.leaves = std::move(leaves_);
-  tree.literals = std::move(literals_);
+  tree.tests = std::move(tests_);
   Updater updater(solid, options_, overlap_, tree);
   if (!edit.keeps_indices()) updater.mark_gone(edit.later_indices());
   updater.mark(0, root_box_, changes_of(before, solid, edit));
   const Updater::Count count = updater.count();
-  const double stored = static_cast<double>(tree.literals.size());
-  if (static_cast<double>(count.literals) > kMostReplacedAtOnce * stored ||
-      static_cast<double>(replaced_literals_ + count.literals) > kMostReplaced * stored) {
+  const double stored = static_cast<double>(tree.tests.size());
+  if (static_cast<double>(count.tests) > kMostReplacedAtOnce * stored ||
+      static_cast<double>(replaced_tests_ + count.tests) > kMostReplaced * stored) {
     return all_anew();
   }
 
   SubdivisionUpdate result;
   result.first_new_leaf = tree.leaves.size();
-  result.first_new_literal = tree.literals.size();
+  result.first_new_test = tree.tests.size();
   result.leaves_replaced = count.leaves;
   if (!edit.keeps_indices()) {
     const std::vector<uint32_t> later_indices = edit.later_indices();
-    for (Literal& literal : tree.literals) {
-      const uint32_t later = later_indices[literal.primitive];
-      literal.primitive = (later == SceneEdit::kGone ? 0 : later) & 0x7FFFFFFFu;
+    for (BlistTest& test : tree.tests) {
+      const uint32_t later = later_indices[test.primitive];
+      test.primitive = (later == SceneEdit::kGone ? 0 : later) & 0x7FFFFFFFu;
     }
   }
-  if (!updater.replace_all(root_box_, solid.list().literals)) return all_anew();
+  if (!updater.replace_all(root_box_, solid.list().tests)) return all_anew();
   nodes_ = std::move(tree.nodes);
   leaves_ = std::move(tree.leaves);
-  literals_ = std::move(tree.literals);
+  tests_ = std::move(tree.tests);
   solid_ = &solid;
-  replaced_literals_ += count.literals;
+  replaced_tests_ += count.tests;
   result.leaves_made = leaves_.size() - result.first_new_leaf;
   result.leaves_kept = leaves_of_tree() - result.leaves_made;
   return result;

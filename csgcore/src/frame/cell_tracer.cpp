@@ -179,18 +179,18 @@ class CellTracer::Traversal {
   }
 
   void trace_leaf(const Leaf& leaf, const Workspace::Visit& visit) {
-    if (leaf.literal_count == 0 || leaf.kind == LeafKind::kDropped) {
+    if (leaf.test_count == 0 || leaf.kind == LeafKind::kDropped) {
       if (leaf.solid) eye_inside_ |= visit.lanes & ~known_;
       known_ |= visit.lanes;
       return;
     }
-    assign(workspace_.list, tree_.literals_of(leaf));
+    assign(workspace_.list, tree_.tests_of(leaf));
     // Of few primitives, all are intersected.
-    workspace_.nearest.assign(leaf.literal_count, -std::numeric_limits<double>::max());
+    workspace_.nearest.assign(leaf.test_count, -std::numeric_limits<double>::max());
     const TraceList list{tree_.solid().primitives().data(), &workspace_.list,
                          workspace_.nearest.data(), -std::numeric_limits<double>::max()};
     PacketHits hits;
-    trace_packet_in_range(owner_.frame_, rays_, visit.lanes, visit.range, list, owner_.subject_,
+    trace_packet_in_range(owner_.frame_, rays_, visit.lanes, visit.range, list, owner_.parameters_,
                           known_, eye_inside_, workspace_.packets, hits);
     eye_inside_ |= hits.eye_inside & visit.lanes & ~known_;
     known_ |= visit.lanes;
@@ -200,9 +200,9 @@ class CellTracer::Traversal {
     decided.lanes = hits.hits & ~hits.undecided;
     hits.hits = decided.lanes;
     if (decided.lanes != 0) owner_.sink_.store(decided, rays_, list, hits);
-    if (!owner_.fates_.wanted()) return;
+    if (!owner_.cull_reasons_.wanted()) return;
     for (const uint32_t entry : workspace_.list.primitives()) {
-      owner_.fates_.note(entry & kPrimitiveBits, Fate::kIntersected);
+      owner_.cull_reasons_.note(entry & kPrimitiveBits, CullReason::kIntersected);
     }
   }
 
@@ -219,8 +219,12 @@ class CellTracer::Traversal {
 };
 
 CellTracer::CellTracer(const Subdivision& subdivision, const FrameRays& frame,
-                       const TraceSubject& subject, HitSink& sink, Fates& fates)
-    : subdivision_(subdivision), frame_(frame), subject_(subject), sink_(sink), fates_(fates) {}
+                       const TraceParameters& parameters, HitSink& sink, CullReasons& cull_reasons)
+    : subdivision_(subdivision),
+      frame_(frame),
+      parameters_(parameters),
+      sink_(sink),
+      cull_reasons_(cull_reasons) {}
 
 CellTracer::~CellTracer() = default;
 
@@ -246,7 +250,7 @@ void CellTracer::trace(const PixelArea& area) {
 }
 
 void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
-  if (subject_.stop.stop_requested()) return;
+  if (parameters_.stop.stop_requested()) return;
   LaneMask undecided[kTileBlocks] = {};
   for_each_block(tile, [&](const PacketBlock& block) {
     undecided[(block.y - tile.y) / kPacketHeight_px] = Traversal(*this, block, workspace).trace();
@@ -265,8 +269,8 @@ void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undec
 
 TileTracer& CellTracer::tile_tracer() {
   std::call_once(tile_tracer_made_, [&] {
-    tile_tracer_ =
-        std::make_unique<TileTracer>(subdivision_.solid(), frame_, subject_, TileRules{}, fates_);
+    tile_tracer_ = std::make_unique<TileTracer>(subdivision_.solid(), frame_, parameters_,
+                                                TileRules{}, cull_reasons_);
   });
   return *tile_tracer_;
 }

@@ -13,9 +13,9 @@ namespace csgcore {
 /// One frame.
 class CellTracer {
  public:
-  /// Keeps references to all but the subject.
-  CellTracer(const Subdivision& subdivision, const FrameRays& frame, const TraceSubject& subject,
-             HitSink& sink, Fates& fates);
+  /// Keeps references to all but the parameters.
+  CellTracer(const Subdivision& subdivision, const FrameRays& frame,
+             const TraceParameters& parameters, HitSink& sink, CullReasons& cull_reasons);
   ~CellTracer();
 
   /// The area's pixels, through their centres, in parallel.
@@ -33,9 +33,9 @@ class CellTracer {
 
   const Subdivision& subdivision_;
   const FrameRays& frame_;
-  const TraceSubject subject_;
+  const TraceParameters parameters_;
   HitSink& sink_;
-  Fates& fates_;
+  CullReasons& cull_reasons_;
   mutable std::mutex mutex_;
   TileTracer::Counts counts_;
   std::once_flag tile_tracer_made_;

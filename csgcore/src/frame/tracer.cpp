@@ -29,12 +29,13 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-TraceSubject subject_of(const Solid& solid, const TraceOptions& options) {
-  TraceSubject subject;
-  subject.thinnest_piece = options.thinnest_piece.value_or(thinnest_piece(solid.bounds()));
-  subject.boundary = options.boundary;
-  subject.stop = options.stop;
-  return subject;
+TraceParameters parameters_of(const Solid& solid, const TraceOptions& options) {
+  TraceParameters parameters;
+  parameters.thickness_tolerance =
+      options.thickness_tolerance.value_or(thickness_tolerance(solid.bounds()));
+  parameters.boundary = options.boundary;
+  parameters.stop = options.stop;
+  return parameters;
 }
 
 /// Each pixel through its centre.
@@ -54,33 +55,33 @@ class PixelVisitor final : public TileVisitor {
   HitSink& sink_;
 };
 
-void count_fates(const Solid& solid, const Fates& fates, TraceStats& stats) {
+void count_cull_reasons(const Solid& solid, const CullReasons& cull_reasons, TraceStats& stats) {
   stats.skipped.cancelled = solid.equal().size();
   stats.skipped.inside = solid.inner().size();
   stats.primitives = solid.equal().size() + solid.inner().size();
   std::vector<bool> seen(solid.primitives().size());
-  for (const Literal& literal : solid.list().literals) {
-    if (seen[literal.primitive]) continue;
-    seen[literal.primitive] = true;
+  for (const BlistTest& test : solid.list().tests) {
+    if (seen[test.primitive]) continue;
+    seen[test.primitive] = true;
     ++stats.primitives;
-    switch (static_cast<Fate>(fates.all()[literal.primitive])) {
-      case Fate::kIntersected:
+    switch (static_cast<CullReason>(cull_reasons.all()[test.primitive])) {
+      case CullReason::kIntersected:
         ++stats.intersected;
         break;
-      case Fate::kOffScreen:
+      case CullReason::kOffScreen:
         ++stats.skipped.off_screen;
         break;
-      case Fate::kSubPixel:
+      case CullReason::kSubPixel:
         ++stats.skipped.sub_pixel;
         break;
-      case Fate::kHidden:
+      case CullReason::kHidden:
         ++stats.skipped.hidden;
         break;
-      case Fate::kInside:
+      case CullReason::kInside:
         ++stats.skipped.inside;
         break;
-      case Fate::kUnknown:
-      case Fate::kCancelled:
+      case CullReason::kUnknown:
+      case CullReason::kCancelled:
         ++stats.skipped.cancelled;
         break;
     }
@@ -96,10 +97,10 @@ class Frame {
         stats_(stats),
         area_(options.area.value_or(PixelArea{0, 0, view.width_px, view.height_px})),
         rays_(frame_rays(view, solid.bounds())),
-        subject_(subject_of(solid, options)) {
+        parameters_(parameters_of(solid, options)) {
     stats = {};
     assert(area_.x + area_.width <= view.width_px && area_.y + area_.height <= view.height_px);
-    if (options.count_skipped) fates_.resize(solid.primitives().size());
+    if (options.count_skipped) cull_reasons_.resize(solid.primitives().size());
   }
 
   const FrameRays& rays() const { return rays_; }
@@ -119,13 +120,13 @@ class Frame {
     const PixelArea looked_at = grown(area_, 2, rays_.view);
     const KeptColors kept(image, looked_at == sampled ? PixelArea{} : looked_at);
     trace(subdivision, looked_at, sink);
-    if (!subject_.stop.stop_requested()) sample_edges(sampled, sink, image);
+    if (!parameters_.stop.stop_requested()) sample_edges(sampled, sink, image);
     kept.restore_around(sampled, image);
   }
 
   /// Counts what was skipped, if wanted.
   void finish() {
-    if (fates_.wanted()) count_fates(solid_, fates_, stats_);
+    if (cull_reasons_.wanted()) count_cull_reasons(solid_, cull_reasons_, stats_);
   }
 
  private:
@@ -134,21 +135,21 @@ class Frame {
     with_threads(options_.threads, [&] {
       Stopwatch watch;
       if (subdivision) {
-        CellTracer tracer(*subdivision, rays_, subject_, sink, fates_);
+        CellTracer tracer(*subdivision, rays_, parameters_, sink, cull_reasons_);
         tracer.trace(area);
         add(tracer.counts());
         stats_.tiles = 0;
         // What stands in some cell, and was not met there, lies behind what was.
-        for (const Literal& literal : subdivision->literals()) {
-          fates_.note(literal.primitive, Fate::kHidden);
+        for (const BlistTest& test : subdivision->tests()) {
+          cull_reasons_.note(test.primitive, CullReason::kHidden);
         }
       } else {
-        TileTracer tracer(solid_, rays_, subject_, TileRules{}, fates_);
+        TileTracer tracer(solid_, rays_, parameters_, TileRules{}, cull_reasons_);
         stats_.cull_ms = watch.lap_ms();
         PixelVisitor visitor(rays_, sink);
         tracer.visit(area, visitor);
         add(tracer.counts());
-        if (fates_.wanted()) tracer.note_screen_fates();
+        if (cull_reasons_.wanted()) tracer.note_screen_cull_reasons();
       }
       stats_.trace_ms += watch.lap_ms();
     });
@@ -159,7 +160,8 @@ class Frame {
       Stopwatch watch;
       const EdgeMap edges(image, area);
       stats_.edge_pixels = edges.count();
-      TileTracer tracer(solid_, rays_, subject_, TileRules{.centers_only = false}, fates_);
+      TileTracer tracer(solid_, rays_, parameters_, TileRules{.centers_only = false},
+                        cull_reasons_);
       EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
       tracer.visit(area, visitor);
       add(tracer.counts());
@@ -179,8 +181,8 @@ class Frame {
   TraceStats& stats_;
   const PixelArea area_;
   const FrameRays rays_;
-  const TraceSubject subject_;
-  Fates fates_;
+  const TraceParameters parameters_;
+  CullReasons cull_reasons_;
 };
 
 void draw_frame(const Solid& solid, const Subdivision* subdivision, const View& view,

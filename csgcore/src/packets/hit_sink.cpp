@@ -143,14 +143,14 @@ void ImageSink::store_channels(const PacketBlock& block, const RayPacket& rays,
                                const TraceList& list, const PacketHits& hits) {
   for_each_pixel(block, image_.width_px, [&](uint32_t lane, size_t pixel) {
     const bool hit = (hits.hits >> lane & 1) != 0;
-    const uint32_t literal = hit ? hits.index[lane] : 0;
+    const uint32_t test = hit ? hits.index[lane] : 0;
     image_.z[pixel] = hit ? static_cast<float>(frame_.base_s + hits.t[lane])
                           : std::numeric_limits<float>::infinity();
     image_.normal[pixel] = hit ? glm::vec3(lane_of(hits.normal, lane)) : glm::vec3{0.0f};
     image_.position[pixel] =
         hit ? glm::vec3(position_of(frame_, rays, hits, lane)) : glm::vec3{0.0f};
     image_.id[pixel] =
-        hit ? list.primitives[list.list->primitive[literal] & kPrimitiveBits].id : kNoPrimitive;
+        hit ? list.primitives[list.list->primitive[test] & kPrimitiveBits].id : kNoPrimitive;
   });
 }
 

@@ -17,7 +17,7 @@
 #include <hwy/foreach_target.h>  // includes this file again for every instruction set
 #include <hwy/highway.h>
 
-#include "packets/clusters-inl.hpp"
+#include "packets/coincidences-inl.hpp"
 #include "packets/resolve-inl.hpp"
 #include "packets/walk-inl.hpp"
 #include "primitives/primitive-inl.hpp"
@@ -31,7 +31,7 @@ HWY_INLINE WideV outward_sign(const TraceList& list, uint32_t index) {
   return hn::Set(Wide(), is_complement(list, index) ? -1.0 : 1.0);
 }
 
-/// The literal's normals at its crossings τ = t, outward of the solid.
+/// The test's normals at its crossings τ = t, outward of the solid.
 HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
                                        const TraceList& list, uint32_t index, WideV t,
                                        LaneMask on_cap, int chunk) {
@@ -52,7 +52,7 @@ struct Crossings {
 
 /// Looks for the crossings at which the lanes stand, and keeps in the hits what they show.
 HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& rays,
-                                    const TraceList& trace, const TraceSubject& subject,
+                                    const TraceList& trace, const TraceParameters& parameters,
                                     ListSegments& segments, const Walk& walk, LaneMask lanes,
                                     PacketHits& hits) {
   const Wide d;
@@ -119,7 +119,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     const Lanes3<Wide> direction = load3(d, rays.direction, first_lane(c));
     const WideV facing = hn::Abs(dot(d, result.normal[c], direction));
     const WideV thickness = hn::Mul(gap.chunk[c], facing);
-    together |= bits_of(hn::Le(thickness, hn::Set(d, subject.thinnest_piece)), c);
+    together |= bits_of(hn::Le(thickness, hn::Set(d, parameters.thickness_tolerance)), c);
     if (any_apart) {
       // The cosine at which kApart is the thinnest piece.
       const WideV cosine2 =
@@ -151,7 +151,7 @@ HWY_INLINE Walk walk_from(const double* start, LaneMask lanes) {
 }
 
 HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
-                              const TraceList& list, const TraceSubject& subject,
+                              const TraceList& list, const TraceParameters& parameters,
                               ListSegments& segments, PacketWorkspace& workspace,
                               PacketHits& hits) {
   if (lanes == 0) return;
@@ -159,7 +159,7 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
-    RayResolver resolver(frame, rays, lane, list, subject, workspace);
+    RayResolver resolver(frame, rays, lane, list, parameters, workspace);
     const auto shown = resolver.resolve(hits.t[lane], (hits.eye_inside & bit) != 0);
     if (!shown) continue;
     hits.hits |= bit;
@@ -177,18 +177,18 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
 }
 
 /// The hits of lanes that stand at their first boundary, with which other crossings may coincide,
-/// or which want the one behind it. Lanes whose cluster is plain go on from cluster to cluster
-/// together; the others are left to the resolver, one by one.
+/// or which want the one behind it. Lanes whose coincidence is plain go on from coincidence to
+/// coincidence together; the others are left to the resolver, one by one.
 HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
-                                     const TraceList& list, const TraceSubject& subject,
+                                     const TraceList& list, const TraceParameters& parameters,
                                      const double* leave, Walk walk, ListSegments& segments,
                                      PacketWorkspace& workspace, PacketHits& hits) {
   if (lanes == 0) return;
   workspace.resolved_rays += static_cast<uint64_t>(std::popcount(lanes));
   hits.hits &= ~lanes;
-  ClusterFinder finder(frame, rays, list, subject, segments, workspace);
+  CoincidenceFinder finder(frame, rays, list, parameters, segments, workspace);
   LaneMask unclear = 0;
-  LaneMask shows_next = subject.boundary == Boundary::kFirst ? lanes : 0;
+  LaneMask shows_next = parameters.boundary == Boundary::kFirst ? lanes : 0;
   LaneMask value = hits.eye_inside;
   PacketV from;
   for (int c = 0; c < kChunks; ++c) from.chunk[c] = hn::Set(Wide(), frame.first_t);
@@ -198,15 +198,15 @@ HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& ra
     for (const bool held : {false, true}) {
       const LaneMask group = open & (held ? value : ~value);
       if (group == 0) continue;
-      const Clusters clusters = finder.find(walk, group, held, from);
-      finder.show(clusters.turned & shows_next, hits);
-      unclear |= group & ~clusters.plain;
-      ended |= (group & ~clusters.plain) | (clusters.turned & shows_next);
-      turned |= clusters.turned;
+      const Coincidences coincidences = finder.find(walk, group, held, from);
+      finder.show(coincidences.turned & shows_next, hits);
+      unclear |= group & ~coincidences.plain;
+      ended |= (group & ~coincidences.plain) | (coincidences.turned & shows_next);
+      turned |= coincidences.turned;
       for (int c = 0; c < kChunks; ++c) {
         const WideM mask = mask_of(group, c);
-        from.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], from.chunk[c]);
-        walk.t.chunk[c] = hn::IfThenElse(mask, clusters.end.chunk[c], walk.t.chunk[c]);
+        from.chunk[c] = hn::IfThenElse(mask, coincidences.end.chunk[c], from.chunk[c]);
+        walk.t.chunk[c] = hn::IfThenElse(mask, coincidences.end.chunk[c], walk.t.chunk[c]);
       }
     }
     segments.forget_apart(open);
@@ -215,18 +215,18 @@ HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& ra
     walk.live = open & ~ended;
     open = walk_to_change(list, segments, value, leave, walk);
   }
-  resolve_lanes(frame, rays, unclear, list, subject, segments, workspace, hits);
+  resolve_lanes(frame, rays, unclear, list, parameters, segments, workspace, hits);
 }
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
-                  const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
-                  PacketHits& hits) {
+                  const TraceList& list, const TraceParameters& parameters,
+                  PacketWorkspace& workspace, PacketHits& hits) {
   constexpr double kEndless = std::numeric_limits<double>::max();
   alignas(64) double start[kPacketRays], leave[kPacketRays];
   std::fill_n(start, kPacketRays, frame.first_t);
   std::fill_n(leave, kPacketRays, kEndless);
   workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
-  ListSegments segments(frame, rays, list, subject, workspace);
+  ListSegments segments(frame, rays, list, parameters, workspace);
   Walk walk = walk_from(start, lanes);
   if (list.earliest_t > frame.first_t) {
     const bool value = walk_to_first_crossing(list, segments, walk);
@@ -239,31 +239,33 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   hits.undecided = 0;
   if (arrived == 0) return;
   const LaneMask unclear =
-      subject.boundary == Boundary::kBehind
+      parameters.boundary == Boundary::kBehind
           ? arrived
-          : show_crossings(frame, rays, list, subject, segments, walk, arrived, hits).unclear;
-  resolve_coincidences(frame, rays, unclear, list, subject, leave, walk, segments, workspace, hits);
+          : show_crossings(frame, rays, list, parameters, segments, walk, arrived, hits).unclear;
+  resolve_coincidences(frame, rays, unclear, list, parameters, leave, walk, segments, workspace,
+                       hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
-                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           const TraceParameters& parameters, LaneMask known, LaneMask eye_inside,
                            PacketWorkspace& workspace, PacketHits& hits) {
   const Wide d;
-  ListSegments segments(frame, rays, list, subject, workspace);
+  ListSegments segments(frame, rays, list, parameters, workspace);
   Walk walk = walk_from(range.enter, lanes);
   hits.eye_inside = eye_inside & known;
   if ((lanes & ~known) != 0) hits.eye_inside |= value_of(list, segments, walk) & ~known;
   const LaneMask arrived = walk_to_change(list, segments, hits.eye_inside, range.leave, walk);
   take_hits(walk, arrived, hits);
-  hits.undecided = subject.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
+  hits.undecided = parameters.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
   const LaneMask left = arrived & ~hits.undecided;
   if (left == 0) return;
   const Crossings crossings =
-      show_crossings(frame, rays, list, subject, segments, walk, left, hits);
+      show_crossings(frame, rays, list, parameters, segments, walk, left, hits);
   hits.undecided |= crossings.unclear;
   // What may be together with the hit must lie where the list is valid.
-  const auto thinnest2 = hn::Set(d, subject.thinnest_piece * subject.thinnest_piece);
+  const auto thinnest2 =
+      hn::Set(d, parameters.thickness_tolerance * parameters.thickness_tolerance);
   for (int c = 0; c < kChunks; ++c) {
     const WideV facing = crossings.facing.chunk[c];
     const auto valid2 = hn::Mul(hn::Set(d, range.margin * range.margin),
@@ -284,17 +286,17 @@ CSGCORE_SIMD_EXPORT(trace_packet);
 CSGCORE_SIMD_EXPORT(trace_packet_in_range);
 
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
-                  const TraceList& list, const TraceSubject& subject, PacketWorkspace& workspace,
-                  PacketHits& hits) {
-  CSGCORE_SIMD(trace_packet)(frame, rays, lanes, list, subject, workspace, hits);
+                  const TraceList& list, const TraceParameters& parameters,
+                  PacketWorkspace& workspace, PacketHits& hits) {
+  CSGCORE_SIMD(trace_packet)(frame, rays, lanes, list, parameters, workspace, hits);
 }
 
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
-                           const TraceSubject& subject, LaneMask known, LaneMask eye_inside,
+                           const TraceParameters& parameters, LaneMask known, LaneMask eye_inside,
                            PacketWorkspace& workspace, PacketHits& hits) {
   CSGCORE_SIMD(trace_packet_in_range)
-  (frame, rays, lanes, range, list, subject, known, eye_inside, workspace, hits);
+  (frame, rays, lanes, range, list, parameters, known, eye_inside, workspace, hits);
 }
 
 }  // namespace csgcore

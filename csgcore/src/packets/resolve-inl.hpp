@@ -24,20 +24,21 @@ using Event = PacketWorkspace::Event;
 
 /// Crossings at which the solid's value changes are its boundaries. Two crossings are together if
 /// they lie less than the tolerance apart, measured along the normal of that of the two which the
-/// ray meets more squarely. A cluster is a maximal run of boundaries each together with the next.
+/// ray meets more squarely. A coincidence is a maximal run of boundaries each together with the
+/// next.
 class RayResolver {
   static constexpr uint32_t kNone = 0xFFFFFFFFu;
 
  public:
   /// All of the list's segments are computed for the lane.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
-              const TraceList& trace, const TraceSubject& subject, PacketWorkspace& workspace)
+              const TraceList& trace, const TraceParameters& parameters, PacketWorkspace& workspace)
       : frame_(frame),
         rays_(load_rays(Single(), packet, lane)),
         length_(std::sqrt(1.0 / packet.inverse_length2[lane])),
         lane_(lane),
         trace_(trace),
-        subject_(subject),
+        parameters_(parameters),
         events_(workspace.events),
         changed_(workspace.changed),
         inside_(workspace.inside),
@@ -60,17 +61,17 @@ class RayResolver {
     const auto at_t = std::lower_bound(events_.begin(), events_.end(), t,
                                        [](const Event& event, double at) { return event.t < at; });
     pass_until(static_cast<size_t>(at_t - events_.begin()));
-    int turns_left = subject_.boundary == Boundary::kBehind ? 2 : 1;
+    int turns_left = parameters_.boundary == Boundary::kBehind ? 2 : 1;
     size_t begin = 0;
     for (size_t first = next_boundary(value); first < events_.size();) {
-      const Cluster cluster = cluster_of(begin, first, value);
-      if (cluster.turns && --turns_left == 0) {
-        const Event event = shown_of(cluster, value);
+      const Coincidence coincidence = coincidence_of(begin, first, value);
+      if (coincidence.turns && --turns_left == 0) {
+        const Event event = shown_of(coincidence, value);
         return Shown{event, is_on_cap(event)};
       }
-      if (cluster.turns) value = !value;
-      begin = cluster.last + 1;
-      first = cluster.end;
+      if (coincidence.turns) value = !value;
+      begin = coincidence.last + 1;
+      first = coincidence.end;
     }
     return std::nullopt;
   }
@@ -78,7 +79,7 @@ class RayResolver {
  private:
   /// Boundaries [first, last] of which each is together with the next. The boundaries next to them
   /// lie before `begin` and not before `end`.
-  struct Cluster {
+  struct Coincidence {
     size_t begin, first, last, end;
     bool turns;  // the value after it is not that before it
   };
@@ -89,7 +90,7 @@ class RayResolver {
   }
 
   /// What was crossed up to the eye is behind it. A primitive that stands in the list more than
-  /// once is crossed once, by the first of its literals.
+  /// once is crossed once, by the first of its tests.
   void collect() {
     find_repeats();
     events_.clear();
@@ -108,7 +109,7 @@ class RayResolver {
     passed_ = 0;
   }
 
-  /// For each literal the next one of the same primitive.
+  /// For each test the next one of the same primitive.
   void find_repeats() {
     const uint32_t count = list().count();
     repeats_.assign(count, kNone);
@@ -153,16 +154,17 @@ class RayResolver {
     return events_.size();
   }
 
-  /// `first` was passed, and changed the value from what it is before the cluster.
-  Cluster cluster_of(size_t begin, size_t first, bool value) {
-    Cluster cluster{begin, first, first, events_.size(), true};
+  /// `first` was passed, and changed the value from what it is before the coincidence.
+  Coincidence coincidence_of(size_t begin, size_t first, bool value) {
+    Coincidence coincidence{begin, first, first, events_.size(), true};
     for (;;) {
-      cluster.end = next_boundary(value == !cluster.turns);
-      if (cluster.end == events_.size() || !together(events_[cluster.last], events_[cluster.end])) {
-        return cluster;
+      coincidence.end = next_boundary(value == !coincidence.turns);
+      if (coincidence.end == events_.size() ||
+          !together(events_[coincidence.last], events_[coincidence.end])) {
+        return coincidence;
       }
-      cluster.last = cluster.end;
-      cluster.turns = !cluster.turns;
+      coincidence.last = coincidence.end;
+      coincidence.turns = !coincidence.turns;
     }
   }
 
@@ -182,25 +184,26 @@ class RayResolver {
 
   bool together(const Event& a, const Event& b) const {
     const double gap = std::abs(b.t - a.t);
-    if (gap * length_ < subject_.thinnest_piece) return true;  // |n·d| ≤ |d|
-    return gap * std::max(facing(a), facing(b)) < subject_.thinnest_piece;
+    if (gap * length_ < parameters_.thickness_tolerance) return true;  // |n·d| ≤ |d|
+    return gap * std::max(facing(a), facing(b)) < parameters_.thickness_tolerance;
   }
 
-  /// The crossings by which a cluster changes the primitives: its own, and those together with its
-  /// first or last boundary, which rounding alone may have kept from being boundaries. In order of
-  /// the primitives; `inside_` is left as it is after all of them.
-  void collect_changes(const Cluster& cluster) {
+  /// The crossings by which a coincidence changes the primitives: its own, and those together with
+  /// its first or last boundary, which rounding alone may have kept from being boundaries. In order
+  /// of the primitives; `inside_` is left as it is after all of them.
+  void collect_changes(const Coincidence& coincidence) {
     const auto place = [&](size_t i) { return events_.begin() + static_cast<long>(i); };
-    changed_.assign(place(cluster.first), place(cluster.last + 1));
-    const Event& first = events_[cluster.first];
-    const double before = subject_.thinnest_piece / facing(first);
-    for (size_t i = cluster.first; i-- > cluster.begin && first.t - events_[i].t < before;) {
+    changed_.assign(place(coincidence.first), place(coincidence.last + 1));
+    const Event& first = events_[coincidence.first];
+    const double before = parameters_.thickness_tolerance / facing(first);
+    for (size_t i = coincidence.first;
+         i-- > coincidence.begin && first.t - events_[i].t < before;) {
       if (together(first, events_[i])) changed_.push_back(events_[i]);
     }
-    const Event& last = events_[cluster.last];
-    const double after = subject_.thinnest_piece / facing(last);
-    size_t end = cluster.last + 1;
-    for (size_t i = end; i < cluster.end && events_[i].t - last.t < after; ++i) {
+    const Event& last = events_[coincidence.last];
+    const double after = parameters_.thickness_tolerance / facing(last);
+    size_t end = coincidence.last + 1;
+    for (size_t i = end; i < coincidence.end && events_[i].t - last.t < after; ++i) {
       if (!together(last, events_[i])) continue;
       changed_.push_back(events_[i]);
       end = i + 1;
@@ -226,13 +229,13 @@ class RayResolver {
     changed_.resize(kept);
   }
 
-  /// Whether the literal becomes true by the crossing, or, if `value`, false.
+  /// Whether the test becomes true by the crossing, or, if `value`, false.
   bool turns(const Event& event, bool value) const {
     const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
     return (event.at_end == complement) != value;
   }
 
-  /// Of a primitive that is both added and subtracted, the literal by which it turns the value.
+  /// Of a primitive that is both added and subtracted, the test by which it turns the value.
   Event as_turning(Event event, bool value) const {
     const Event first = event;
     for (; event.index != kNone; event.index = repeats_[event.index]) {
@@ -241,8 +244,8 @@ class RayResolver {
     return first;
   }
 
-  /// The primitive by which the cluster turns the value (turning, in list_expression.hpp), or what
-  /// tells that none does.
+  /// The primitive by which the coincidence turns the value (turning, in list_expression.hpp), or
+  /// what tells that none does.
   int32_t turning_primitive(bool value) {
     using Step = ListExpression::Step;
     has_changed_.assign(list().count(), 0);
@@ -253,7 +256,7 @@ class RayResolver {
     operands_.clear();
     uint32_t index = 0;
     for (const Step step : expression_.steps()) {
-      if (step == Step::kLiteral) {
+      if (step == Step::kTest) {
         const uint32_t entry = list().primitive[index];
         const bool is_negated = ((entry & CellList::kComplementBit) != 0) != value;
         const bool behind = (inside_[index] != 0) != is_negated;
@@ -271,9 +274,9 @@ class RayResolver {
     return operands_.size() == 1 ? operands_.back() : turning::kFails;
   }
 
-  /// The crossing that is seen of a cluster which turns the value from `value`.
-  Event shown_of(const Cluster& cluster, bool value) {
-    collect_changes(cluster);
+  /// The crossing that is seen of a coincidence which turns the value from `value`.
+  Event shown_of(const Coincidence& coincidence, bool value) {
+    collect_changes(coincidence);
     const int32_t primitive = turning_primitive(value);
     if (turning::is_turned(primitive)) {
       for (const Event& event : changed_) {
@@ -282,7 +285,7 @@ class RayResolver {
         }
       }
     }
-    return as_turning(events_[cluster.first], value);
+    return as_turning(events_[coincidence.first], value);
   }
 
   const FrameRays& frame_;
@@ -290,9 +293,9 @@ class RayResolver {
   const double length_;
   const uint32_t lane_;
   const TraceList& trace_;
-  const TraceSubject& subject_;
+  const TraceParameters& parameters_;
   std::vector<Event>& events_;   // by τ
-  std::vector<Event>& changed_;  // by a cluster
+  std::vector<Event>& changed_;  // by a coincidence
   std::vector<uint8_t>& inside_;
   std::vector<uint32_t>& repeats_;
   std::vector<uint32_t>& order_;

@@ -47,7 +47,7 @@ HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& fram
   }
 }
 
-/// Lanes of `lanes` that show the same literal as the lowest of them.
+/// Lanes of `lanes` that show the same test as the lowest of them.
 HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
   const uint32_t index = hits.index[std::countr_zero(lanes)];
   LaneMask same = 0;

@@ -14,7 +14,7 @@
 
 namespace csgcore {
 
-/// What is to be traced: a list, and what is known about its literals.
+/// What is to be traced: a list, and what is known about its tests.
 struct TraceList {
   const CanonicalPrimitive* primitives = nullptr;
   const CellList* list = nullptr;
@@ -26,8 +26,8 @@ struct TraceList {
 };
 
 /// What the solid is, beyond its list.
-struct TraceSubject {
-  double thinnest_piece = 0;
+struct TraceParameters {
+  double thickness_tolerance = 0;
   Boundary boundary = Boundary::kFirst;
   std::stop_token stop{};
 };
@@ -41,13 +41,13 @@ struct alignas(64) PacketStates {
 struct PacketWorkspace {
   // By index in the list:
   std::vector<PacketSegments> segments;
-  std::vector<LaneMask> computed;     // lanes whose segments are known
-  std::vector<LaneMask> reached;      // TraceList::reached
-  std::vector<LaneMask> apart;        // lanes that stand away from it
-  std::vector<LaneMask> standing;     // of an evaluation, by a literal's number
-  std::vector<uint8_t> was_computed;  // for any packet of the list; empty: nobody wants to know
-  uint64_t rays = 0;                  // traced along their whole length
-  uint64_t intersections = 0;         // of rays with primitives
+  std::vector<LaneMask> computed;         // lanes whose segments are known
+  std::vector<LaneMask> reached;          // TraceList::reached
+  std::vector<LaneMask> apart;            // lanes that stand away from it
+  std::vector<LaneMask> program_counter;  // of an evaluation, by a test's number
+  std::vector<uint8_t> was_computed;      // for any packet of the list; empty: nobody wants to know
+  uint64_t rays = 0;                      // traced along their whole length
+  uint64_t intersections = 0;             // of rays with primitives
   uint64_t resolved_rays = 0;
 
   // What coincident crossings are told with:
@@ -76,7 +76,7 @@ struct alignas(64) PacketHits {
   LaneMask eye_inside = 0;  // of all lanes that were traced: the solid holds at the eye
   alignas(64) double t[kPacketRays];
   double normal[3][kPacketRays];  // unit, outward of the solid
-  uint32_t index[kPacketRays];    // of the literal in the list
+  uint32_t index[kPacketRays];    // of the test in the list
 };
 
 inline bool is_complement(const TraceList& list, uint32_t index) {

@@ -32,19 +32,19 @@ HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
 class ListSegments {
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
-               const TraceSubject& subject, PacketWorkspace& workspace)
+               const TraceParameters& parameters, PacketWorkspace& workspace)
       : frame_(frame),
         rays_(rays),
         list_(list),
-        apart_(kApart * subject.thinnest_piece),
+        apart_(kApart * parameters.thickness_tolerance),
         workspace_(workspace) {
     const uint32_t count = list.list->count();
-    if (workspace.standing.size() < count + CellList::kFirst) {
+    if (workspace.program_counter.size() < count + CellList::kFirst) {
       workspace.segments.resize(count);
       workspace.computed.resize(count);
       workspace.reached.resize(count);
       workspace.apart.resize(count);
-      workspace.standing.resize(count + CellList::kFirst, 0);
+      workspace.program_counter.resize(count + CellList::kFirst, 0);
     }
     entries_ = list.list->primitive.data();
     segments_ = workspace.segments.data();
@@ -66,7 +66,7 @@ class ListSegments {
     }
     all_must_hold_ &= list.list->root == next;
   }
-  /// Whether the list holds where all of its literals do: each makes it false, or hands on to the
+  /// Whether the list holds where all of its tests do: each makes it false, or hands on to the
   /// next one.
   HWY_INLINE bool all_must_hold() const { return all_must_hold_; }
   /// The lanes that may meet the primitive: the others are outside of it all along.
@@ -122,9 +122,9 @@ class ListSegments {
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
     return list_.primitives[entries_[index] & kPrimitiveBits];
   }
-  /// By a literal's number, or a constant: the lanes whose evaluation stands there. Between
-  /// evaluations, none stand at literals.
-  HWY_INLINE LaneMask* standing() { return workspace_.standing.data(); }
+  /// By a test's number, or a constant: the lanes whose evaluation stands there. Between
+  /// evaluations, none stand at tests.
+  HWY_INLINE LaneMask* program_counter() { return workspace_.program_counter.data(); }
 
  private:
   static HWY_INLINE void clear(PacketSegments& segments) {
@@ -194,10 +194,10 @@ HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const Pac
   }
 }
 
-/// Short-circuit evaluation of all lanes at once: those that stand at the literal whose turn it is
-/// are tested and jump. Only literals that decide are visited; what no lane can have reached at its
+/// Short-circuit evaluation of all lanes at once: those that stand at the test whose turn it is
+/// are tested and jump. Only tests that decide are visited; what no lane can have reached at its
 /// t is not intersected. `before`: the lanes' value up to here; how far another one lasts is not
-/// found. A literal one of whose jumps ends with the value before cannot change that by jumping, so
+/// found. A test one of whose jumps ends with the value before cannot change that by jumping, so
 /// that nobody needs to know where.
 HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const Walk& walk,
                          LaneMask before, Evaluation& result) {
@@ -205,9 +205,9 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   const CellList& list = *trace.list;
   const uint32_t* const if_inside = list.if_inside.data();
   const uint32_t* const if_outside = list.if_outside.data();
-  LaneMask* const standing = segments.standing();
-  standing[CellList::kFalse] = standing[CellList::kTrue] = 0;
-  standing[list.root] = walk.live;
+  LaneMask* const program_counter = segments.program_counter();
+  program_counter[CellList::kFalse] = program_counter[CellList::kTrue] = 0;
+  program_counter[list.root] = walk.live;
   const LaneMask other[] = {before, ~before};  // whose value before is not false, true
   const auto changing = [&](uint32_t number) {
     return number < CellList::kFirst ? other[number] : kAllLanes;
@@ -215,12 +215,12 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   for (int c = 0; c < kChunks; ++c) result.next_t.chunk[c] = hn::Set(d, kInfinity);
   const double furthest_t = furthest_of(walk.t, walk.live);
   for (uint32_t index = list.count(); index-- > 0;) {
-    const LaneMask standing_here = standing[index + CellList::kFirst];
-    if (standing_here == 0) continue;
-    standing[index + CellList::kFirst] = 0;
-    LaneMask& outer = standing[if_outside[index]];
-    LaneMask active = standing_here & segments.reached(index);
-    outer |= standing_here & ~active;
+    const LaneMask program_counter_here = program_counter[index + CellList::kFirst];
+    if (program_counter_here == 0) continue;
+    program_counter[index + CellList::kFirst] = 0;
+    LaneMask& outer = program_counter[if_outside[index]];
+    LaneMask active = program_counter_here & segments.reached(index);
+    outer |= program_counter_here & ~active;
     if (active == 0) continue;
     const LaneMask may_enter = active & changing(if_inside[index]);
     WideV ahead[kChunks];
@@ -255,10 +255,10 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
       inside |= bits_of(is_inside, c);
     }
     if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
-    standing[if_inside[index]] |= active & inside;
+    program_counter[if_inside[index]] |= active & inside;
     outer |= active & ~inside;
   }
-  result.value = standing[CellList::kTrue];
+  result.value = program_counter[CellList::kTrue];
 }
 
 /// Moves lanes that are outside of all primitives to the first crossing that may change the list's
@@ -323,8 +323,8 @@ HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* l
   return arrived;
 }
 
-/// Of a list that holds where all of its literals do, walks all lanes of `walk.live`, whose value
-/// is false, until it is true, no further than `leave`; returns the lanes that got there. A literal
+/// Of a list that holds where all of its tests do, walks all lanes of `walk.live`, whose value
+/// is false, until it is true, no further than `leave`; returns the lanes that got there. A test
 /// that fails is passed over at once: to where it holds again. The least t that none moves any
 /// further is the first where all hold (the fixed point of an intersection).
 HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
@@ -332,7 +332,7 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
   const CellList& list = *trace.list;
   const uint32_t* const if_inside = list.if_inside.data();
   double furthest_t = furthest_of(walk.t, walk.live);
-  LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some literal
+  LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some test
   uint32_t last_moved = 0;         // by it, moved last
   bool is_first_round = true;
   const auto end = [&](LaneMask lanes) {

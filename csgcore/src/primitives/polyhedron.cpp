@@ -24,8 +24,8 @@ constexpr double kMargin = 1e-9;
 constexpr size_t kFewEntries = 8;
 
 /// Lists the points `items` (indices) as a hierarchy in preorder: `open(items)` before the points
-/// of a branch, `close(entry)` after them with what `open` gave, `add(i)` for each point. Clusters
-/// are halved across their longest side.
+/// of a branch, `close(entry)` after them with what `open` gave, `add(i)` for each point.
+/// Coincidences are halved across their longest side.
 template <typename Open, typename Close, typename Add>
 void list_clusters(std::span<const Vec3> points, std::span<uint32_t> items, bool is_whole,
                    const Open& open, const Close& close, const Add& add) {

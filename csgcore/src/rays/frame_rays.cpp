@@ -25,7 +25,7 @@ FrameRays frame_rays(const View& view, const Box& solid_bounds) {
   frame.base_s = rounded_to_26_bits(glm::dot(middle - view.eye, view.forward));
   frame.pivot = view.eye + frame.base_s * view.forward;
   frame.first_t = view.projection == Projection::kPerspective
-                      ? thinnest_piece(solid_bounds) - frame.base_s
+                      ? thickness_tolerance(solid_bounds) - frame.base_s
                       : -std::numeric_limits<double>::max();
   for (uint32_t x = 0; x < view.width_px + FrameRays::kBeyond_px; ++x)
     frame.u_of_column.push_back(frame.u(x));

@@ -28,7 +28,7 @@ HWY_INLINE LaneMask lanes_in(uint32_t columns, uint32_t rows) {
 }
 
 /// The pixels of two blocks, one below the other from (x, y) on, that no line has beyond it.
-HWY_INLINE uint64_t pixels_between(const ScreenOutline& outline, float x, float y) {
+HWY_INLINE uint64_t pixels_between(const ScreenSlab& slab, float x, float y) {
   static_assert(kPacketWidth_px == 8);
   const hn::CappedTag<float, kPacketWidth_px> d;
   uint64_t beyond = 0;
@@ -36,8 +36,8 @@ HWY_INLINE uint64_t pixels_between(const ScreenOutline& outline, float x, float 
     const auto along = hn::Iota(d, static_cast<float>(column));
     // How far beyond a line the row's pixels are.
     const auto first_row = [&](int line) {
-      const float first = outline.x[line] * x + outline.y[line] * y - outline.limit[line];
-      return hn::Add(hn::Set(d, first), hn::Mul(hn::Set(d, outline.x[line]), along));
+      const float first = slab.x[line] * x + slab.y[line] * y - slab.limit[line];
+      return hn::Add(hn::Set(d, first), hn::Mul(hn::Set(d, slab.x[line]), along));
     };
     auto past0 = first_row(0);
     auto past1 = first_row(1);
@@ -46,14 +46,14 @@ HWY_INLINE uint64_t pixels_between(const ScreenOutline& outline, float x, float 
       uint8_t bytes[8] = {};
       hn::StoreMaskBits(d, is_beyond, bytes);
       beyond |= uint64_t{bytes[0]} << (kPacketWidth_px * row + column);
-      past0 = hn::Add(past0, hn::Set(d, outline.y[0]));
-      past1 = hn::Add(past1, hn::Set(d, outline.y[1]));
+      past0 = hn::Add(past0, hn::Set(d, slab.y[0]));
+      past1 = hn::Add(past1, hn::Set(d, slab.y[1]));
     }
   }
   return ~beyond;
 }
 
-void find_reached(const Extent* screen, const ScreenOutline* outlines,
+void find_reached(const Extent* screen, const ScreenSlab* slabs,
                   std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
                   LaneMask* below) {
   static_assert(kPacketWidth_px == 2 * kPacketHeight_px);
@@ -79,7 +79,7 @@ void find_reached(const Extent* screen, const ScreenOutline* outlines,
     above[i] = lanes_in(inside[0], inside[1]);
     below[i] = lanes_in(inside[0], inside[1] >> kPacketHeight_px);
     if (extent.inside2 >= 0 || (above[i] | below[i]) == 0) continue;
-    const uint64_t between = pixels_between(outlines[primitives[i] & kPrimitiveBits],
+    const uint64_t between = pixels_between(slabs[primitives[i] & kPrimitiveBits],
                                             static_cast<float>(x), static_cast<float>(y));
     above[i] &= static_cast<LaneMask>(between);
     below[i] &= static_cast<LaneMask>(between >> kPacketRays);
@@ -95,10 +95,10 @@ namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(find_reached);
 
-void find_reached(const Extent* screen, const ScreenOutline* outlines,
+void find_reached(const Extent* screen, const ScreenSlab* slabs,
                   std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
                   LaneMask* below) {
-  CSGCORE_SIMD(find_reached)(screen, outlines, primitives, x, y, above, below);
+  CSGCORE_SIMD(find_reached)(screen, slabs, primitives, x, y, above, below);
 }
 
 }  // namespace csgcore

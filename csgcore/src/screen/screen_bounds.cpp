@@ -15,13 +15,13 @@ namespace {
 constexpr size_t kBoundedAtOnce = 4096;
 
 /// Of what is smaller on the screen, its box tells enough.
-constexpr double kOutlinelessHalf_px = 4;
+constexpr double kSlablessHalf_px = 4;
 
 /// As many as have bits in a word.
 constexpr uint32_t kMembersAtOnce = 64;
 
 bool meets(const Extent& screen, const Box& cell) {
-  return fate_on_screen(screen) == ScreenFate::kVisible && overlaps(screen, cell);
+  return cull_reason_on_screen(screen) == ScreenCullReason::kVisible && overlaps(screen, cell);
 }
 
 void prefetch(const void* object, size_t bytes) {
@@ -40,8 +40,8 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
       frame_(frame),
       options_{centers_only},
       screen_(std::make_unique_for_overwrite<Extent[]>(groups.count())),
-      outlines_(std::make_unique_for_overwrite<ScreenOutline[]>(primitives.size())),
-      corners_(std::make_unique_for_overwrite<ScreenCorners[]>(primitives.size())),
+      slabs_(std::make_unique_for_overwrite<ScreenSlab[]>(primitives.size())),
+      corners_(std::make_unique_for_overwrite<ScreenKDop[]>(primitives.size())),
       states_(std::make_unique<std::atomic<uint8_t>[]>(groups.count() - groups.first_group())),
       bounded_(std::make_unique<std::atomic<uint8_t>[]>(groups.count())),
       rectangles_(std::make_unique_for_overwrite<float[]>(groups.row_size())) {
@@ -113,7 +113,7 @@ OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint6
   for (uint64_t left = open; left != 0; left &= left - 1) {
     const uint32_t primitive = primitives[std::countr_zero(left)] & kPrimitiveBits;
     const bool is_cornered = screen_[primitive].inside2 == kCornered;
-    if (misses(outlines_[primitive], cell) || (is_cornered && misses(corners_[primitive], cell))) {
+    if (misses(slabs_[primitive], cell) || (is_cornered && misses(corners_[primitive], cell))) {
       outside |= left & -left;
     }
   }
@@ -152,29 +152,30 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
   for (const uint32_t i : indices) {
     if (!groups_.is_group(i)) continue;
-    if (fate_on_screen(screen_[i]) == ScreenFate::kVisible) narrow_to_members(i);
+    if (cull_reason_on_screen(screen_[i]) == ScreenCullReason::kVisible) narrow_to_members(i);
   }
-  const auto needs_outline = [&](uint32_t i) {
+  const auto needs_slab = [&](uint32_t i) {
     const Extent& extent = screen_[i];
-    if (groups_.is_group(i) || fate_on_screen(extent) != ScreenFate::kVisible) return false;
+    if (groups_.is_group(i) || cull_reason_on_screen(extent) != ScreenCullReason::kVisible)
+      return false;
     const auto [least, most] = std::minmax(extent.half[0], extent.half[1]);
-    return extent.inside2 < 0 ? most >= kOutlinelessHalf_px : least >= kCorneredHalf_px;
+    return extent.inside2 < 0 ? most >= kSlablessHalf_px : least >= kCorneredHalf_px;
   };
-  uint32_t outlined[kMembersAtOnce];
+  uint32_t with_slabs[kMembersAtOnce];
   uint32_t count = 0;
   const auto flush = [&] {
-    find_outlines(primitives_.data(), {outlined, count}, frame_, options_, screen_.get(),
-                  outlines_.get(), corners_.get());
+    find_slabs(primitives_.data(), {with_slabs, count}, frame_, options_, screen_.get(),
+               slabs_.get(), corners_.get());
     count = 0;
   };
   for (const uint32_t i : indices) {
-    if (!needs_outline(i)) {
+    if (!needs_slab(i)) {
       screen_[i].inside2 = 0;
       continue;
     }
     prefetch(&primitives_[i], sizeof(CanonicalPrimitive));
-    prefetch(&outlines_[i], sizeof(ScreenOutline));
-    outlined[count++] = i;
+    prefetch(&slabs_[i], sizeof(ScreenSlab));
+    with_slabs[count++] = i;
     if (count == kMembersAtOnce) flush();
   }
   flush();

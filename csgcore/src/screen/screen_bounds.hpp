@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "screen/screen_outline.hpp"
+#include "screen/screen_slab.hpp"
 #include "solid/operand_groups.hpp"
 #include "solid/restriction.hpp"
 
@@ -24,7 +24,7 @@ class ScreenBounds final : public OpenClassifier {
   std::span<const Extent> extents() const { return {screen_.get(), groups_.count()}; }
 
   /// Of those whose inside2 < 0.
-  const ScreenOutline* outlines() const { return outlines_.get(); }
+  const ScreenSlab* slabs() const { return slabs_.get(); }
 
   /// Bounds all that the group holds. From any thread, again and again.
   void open_wholly(uint32_t group);
@@ -49,8 +49,8 @@ class ScreenBounds final : public OpenClassifier {
   const FrameRays& frame_;
   const ScreenOptions options_;
   std::unique_ptr<Extent[]> screen_;
-  std::unique_ptr<ScreenOutline[]> outlines_;        // of whose inside2 < 0
-  std::unique_ptr<ScreenCorners[]> corners_;         // of those that are large
+  std::unique_ptr<ScreenSlab[]> slabs_;              // of whose inside2 < 0
+  std::unique_ptr<ScreenKDop[]> corners_;            // of those that are large
   std::unique_ptr<std::atomic<uint8_t>[]> states_;   // of the groups
   std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // by index: whether screen_ holds it
   /// Of the members of groups that are seen: what tiles tell them apart by. Of one group low x of

@@ -8,14 +8,14 @@
 #include "csgcore/extent.hpp"
 #include "rays/frame_rays.hpp"
 #include "solid/extent_tests.hpp"
-#include "solid/member_rows.hpp"
+#include "solid/soa_bounds.hpp"
 
 namespace csgcore {
 
 /// Screen space: x and y in pixels as pixel_ray counts them (whole numbers are pixels' centres), z
 /// is τ. Bounds are conservative: no ray meets the primitive outside of its box.
-/// A primitive that no ray can meet is outside every cell: see fate_on_screen.
-/// inside2 < 0 marks what a closer look may find outside of a tile, and how (screen_outline.hpp).
+/// A primitive that no ray can meet is outside every cell: see cull_reason_on_screen.
+/// inside2 < 0 marks what a closer look may find outside of a tile, and how (screen_slab.hpp).
 struct ScreenOptions {
   /// Rays go through pixels' centres only: what lies between them is seen by none.
   bool centers_only = true;
@@ -38,15 +38,16 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
                           const FrameRays& frame, const ScreenOptions& options,
                           float* const (&rows)[4]);
 
-/// Sets x and y, and what tells the fate, to a rectangle.
+/// Sets x and y, and what tells the cull_reason, to a rectangle.
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
 /// The same to what of it the extent holds already.
 void narrow(const Rectangle& to, const View& view, Extent& screen);
 
-enum class ScreenFate : uint8_t { kVisible, kOffScreen, kSubPixel };
-inline ScreenFate fate_on_screen(const Extent& screen) {
-  if (screen.half[0] == -std::numeric_limits<double>::infinity()) return ScreenFate::kOffScreen;
-  return screen.outside2 < 0 ? ScreenFate::kSubPixel : ScreenFate::kVisible;
+enum class ScreenCullReason : uint8_t { kVisible, kOffScreen, kSubPixel };
+inline ScreenCullReason cull_reason_on_screen(const Extent& screen) {
+  if (screen.half[0] == -std::numeric_limits<double>::infinity())
+    return ScreenCullReason::kOffScreen;
+  return screen.outside2 < 0 ? ScreenCullReason::kSubPixel : ScreenCullReason::kVisible;
 }
 
 /// Whether its rectangle meets an area of the screen, whose z does not count.

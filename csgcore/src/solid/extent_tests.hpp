@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "csgcore/extent.hpp"
-#include "solid/member_rows.hpp"
+#include "solid/soa_bounds.hpp"
 #include "tree/cell_list.hpp"
 
 namespace csgcore {

@@ -56,7 +56,7 @@ enum class Part : uint8_t {
 };
 
 /// Of an operand, or of a group.
-enum class Standing : uint8_t {
+enum class ProgramCounter : uint8_t {
   kSeen,       // of all that is known; of a group, so are its members
   kSampled,    // of a group: so are its first and its last member, the others were not asked
   kMixed,      // of a group: its members have their own
@@ -64,8 +64,9 @@ enum class Standing : uint8_t {
   kCancelled,  // the solid does not depend on it
 };
 
-bool is_hidden(Standing standing) {
-  return standing == Standing::kSealed || standing == Standing::kCancelled;
+bool is_hidden(ProgramCounter program_counter) {
+  return program_counter == ProgramCounter::kSealed ||
+         program_counter == ProgramCounter::kCancelled;
 }
 
 /// And the margin about it.
@@ -78,12 +79,12 @@ Box box_of(const Extent& extent, double margin) {
 class Judge {
  public:
   Judge(const OperandGroups& groups, std::span<const CanonicalPrimitive> primitives, double margin,
-        std::span<const Part> parts, std::span<Standing> standings)
+        std::span<const Part> parts, std::span<ProgramCounter> program_counters)
       : groups_(groups),
         primitives_(primitives),
         margin_(margin),
         parts_(parts),
-        standings_(standings),
+        program_counters_(program_counters),
         classifier_(primitives),
         restrictor_(groups.extents(), classifier_) {}
   Judge(const Judge&) = delete;
@@ -110,26 +111,27 @@ class Judge {
   /// `around` equals the whole list in a cell that holds the operand, in which role_ stands for it.
   void judge(uint32_t operand, const CellList& around, size_t depth, Effort effort) {
     const CellList& list = restricted(around, operand, depth);
-    Standing standing = standing_by(list);
-    if (effort == Effort::kShapes && standing == Standing::kSeen && has_primitives(list) &&
-        !groups_.is_group(operand)) {
-      standing = standing_by(narrowed(list, operand));
+    ProgramCounter program_counter = standing_by(list);
+    if (effort == Effort::kShapes && program_counter == ProgramCounter::kSeen &&
+        has_primitives(list) && !groups_.is_group(operand)) {
+      program_counter = standing_by(narrowed(list, operand));
     }
-    const bool may_go = parts_[operand] == Part::kOperand ||
-                        (parts_[operand] == Part::kWall && standing == Standing::kCancelled);
-    if (is_hidden(standing) && may_go) {
-      standings_[operand] = standing;
+    const bool may_go =
+        parts_[operand] == Part::kOperand ||
+        (parts_[operand] == Part::kWall && program_counter == ProgramCounter::kCancelled);
+    if (is_hidden(program_counter) && may_go) {
+      program_counters_[operand] = program_counter;
     } else if (groups_.is_union(operand) && depth < kDeepest &&
-               (is_hidden(standing) || has_primitives(list))) {
+               (is_hidden(program_counter) || has_primitives(list))) {
       judge_members(operand, list, depth + 1);
     }
   }
 
   /// Of who is where the list equals the whole.
-  Standing standing_by(const CellList& list) {
-    return !depends_on_role(list) ? Standing::kCancelled
-           : holds_by_walls(list) ? Standing::kSealed
-                                  : Standing::kSeen;
+  ProgramCounter standing_by(const CellList& list) {
+    return !depends_on_role(list) ? ProgramCounter::kCancelled
+           : holds_by_walls(list) ? ProgramCounter::kSealed
+                                  : ProgramCounter::kSeen;
   }
 
   /// From the operand's box to the operand, a primitive, and the margin around it.
@@ -156,9 +158,9 @@ class Judge {
     const uint32_t sample[] = {members.front(), members.back()};
     if (!groups_.is_group(members.front() & kPrimitiveBits) &&
         !judge_all(sample, list, depth, Effort::kBoxes)) {
-      standings_[group] = Standing::kSampled;
+      program_counters_[group] = ProgramCounter::kSampled;
     } else if (judge_all(members, list, depth, Effort::kShapes)) {
-      standings_[group] = Standing::kMixed;
+      program_counters_[group] = ProgramCounter::kMixed;
     }
   }
 
@@ -169,7 +171,7 @@ class Judge {
     for (const uint32_t entry : members) {
       const uint32_t member = entry & kPrimitiveBits;
       if (parts_[member] != Part::kRepeated) judge(member, list, depth, effort);
-      is_any_hidden |= standings_[member] != Standing::kSeen;
+      is_any_hidden |= program_counters_[member] != ProgramCounter::kSeen;
     }
     return is_any_hidden;
   }
@@ -177,10 +179,11 @@ class Judge {
   void judge_rest_of(uint32_t operand) {
     if (!groups_.is_union(operand)) return;
     const std::span<const uint32_t> members = groups_.members(operand).primitive;
-    if (standings_[operand] == Standing::kSampled) {
+    if (program_counters_[operand] == ProgramCounter::kSampled) {
       const CellList& list = restricted(groups_.list(), operand, 0);
-      if (judge_all(members, list, 1, Effort::kShapes)) standings_[operand] = Standing::kMixed;
-    } else if (standings_[operand] == Standing::kMixed) {
+      if (judge_all(members, list, 1, Effort::kShapes))
+        program_counters_[operand] = ProgramCounter::kMixed;
+    } else if (program_counters_[operand] == ProgramCounter::kMixed) {
       for (const uint32_t entry : members) judge_rest_of(entry & kPrimitiveBits);
     }
   }
@@ -225,7 +228,7 @@ class Judge {
   const std::span<const CanonicalPrimitive> primitives_;
   const double margin_;
   const std::span<const Part> parts_;
-  const std::span<Standing> standings_;
+  const std::span<ProgramCounter> program_counters_;
   WorldClassifier classifier_;
   Restrictor restrictor_;
   uint32_t role_ = 0;
@@ -242,7 +245,7 @@ class HiddenSearch {
       : groups_(groups),
         primitives_(primitives),
         margin_(margin),
-        standings_(groups.count()),
+        program_counters_(groups.count()),
         parts_(groups.count(), Part::kRepeated),
         holds_sealed_(groups.count()) {
     find_parts();
@@ -252,7 +255,7 @@ class HiddenSearch {
 
   HiddenOperands find() {
     tbb::enumerable_thread_specific<Judge> judges(
-        [this] { return Judge(groups_, primitives_, margin_, parts_, standings_); });
+        [this] { return Judge(groups_, primitives_, margin_, parts_, program_counters_); });
     const auto for_all = [&](auto&& act) {
       tbb::parallel_for(size_t{0}, outermost_count_,
                         [&](size_t i) { act(judges.local(), outermost_[i]); });
@@ -305,24 +308,26 @@ class HiddenSearch {
     return std::span(outermost_).first(outermost_count_);
   }
 
-  /// Hands the standings of hidden groups on to what they hold; of unions only, or of all.
-  std::vector<Standing> spread(bool of_all) const {
-    std::vector<Standing> standings = standings_;
+  /// Hands the program_counters of hidden groups on to what they hold; of unions only, or of all.
+  std::vector<ProgramCounter> spread(bool of_all) const {
+    std::vector<ProgramCounter> program_counters = program_counters_;
     for (uint32_t group = groups_.count(); group-- > groups_.first_group();) {
-      if (!is_hidden(standings[group]) || !(of_all || groups_.is_union(group))) continue;
+      if (!is_hidden(program_counters[group]) || !(of_all || groups_.is_union(group))) continue;
       for (const uint32_t entry : groups_.members(group).primitive) {
-        standings[entry & kPrimitiveBits] = standings[group];
+        program_counters[entry & kPrimitiveBits] = program_counters[group];
       }
     }
-    return standings;
+    return program_counters;
   }
 
   HiddenOperands gather() const {
-    const std::vector<Standing> standings = spread(true);
+    const std::vector<ProgramCounter> program_counters = spread(true);
     HiddenOperands hidden;
     for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
-      if (standings[primitive] == Standing::kSealed) hidden.inside.push_back(primitive);
-      if (standings[primitive] == Standing::kCancelled) hidden.cancelled.push_back(primitive);
+      if (program_counters[primitive] == ProgramCounter::kSealed)
+        hidden.inside.push_back(primitive);
+      if (program_counters[primitive] == ProgramCounter::kCancelled)
+        hidden.cancelled.push_back(primitive);
     }
     return hidden;
   }
@@ -330,13 +335,13 @@ class HiddenSearch {
   /// Until nothing that is seen reaches into what is sealed. From here on a group that is no union
   /// is one operand, and of the others only their members count.
   void unseal() {
-    standings_ = spread(false);
+    program_counters_ = spread(false);
     for (uint32_t index = 0; index < groups_.count(); ++index) {
       if (!groups_.is_union(index)) {
-        holds_sealed_[index] = standings_[index] == Standing::kSealed;
+        holds_sealed_[index] = program_counters_[index] == ProgramCounter::kSealed;
         continue;
       }
-      standings_[index] = Standing::kMixed;  // its own was handed on
+      program_counters_[index] = ProgramCounter::kMixed;  // its own was handed on
       holds_sealed_[index] = std::ranges::any_of(
           groups_.members(index).primitive,
           [this](uint32_t entry) { return holds_sealed_[entry & kPrimitiveBits] != 0; });
@@ -347,12 +352,13 @@ class HiddenSearch {
       const uint32_t operand = seen.back();
       seen.pop_back();
       for (const uint32_t other : sealed_near(operand)) {
-        standings_[other] = Standing::kSeen;
+        program_counters_[other] = ProgramCounter::kSeen;
         holds_sealed_[other] = 0;
         seen.push_back(other);
       }
     }
-    if (steps_left_ == 0) std::ranges::replace(standings_, Standing::kSealed, Standing::kSeen);
+    if (steps_left_ == 0)
+      std::ranges::replace(program_counters_, ProgramCounter::kSealed, ProgramCounter::kSeen);
   }
 
   /// Operands that are seen and may reach into what is sealed.
@@ -363,7 +369,7 @@ class HiddenSearch {
       const uint32_t operand = pending.back();
       pending.pop_back();
       if (!groups_.is_union(operand)) {
-        const bool is_seen = standings_[operand] == Standing::kSeen;
+        const bool is_seen = program_counters_[operand] == ProgramCounter::kSeen;
         if (is_seen && parts_[operand] != Part::kWall) seen.push_back(operand);
       } else if (holds_sealed_[operand] || !sealed_near(operand).empty()) {
         for (const uint32_t entry : groups_.members(operand).primitive) {
@@ -427,7 +433,7 @@ class HiddenSearch {
   const std::span<const CanonicalPrimitive> primitives_;
   const double margin_;
   // By index, of primitives and groups:
-  std::vector<Standing> standings_;
+  std::vector<ProgramCounter> program_counters_;
   std::vector<Part> parts_;
   std::vector<uint8_t> holds_sealed_;  // is sealed, or is a union of which some member does
   std::vector<uint32_t> outermost_;    // of the whole list; and the vectors' padding

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "csgcore/short_circuit_list.hpp"
+#include "csgcore/blist.hpp"
 #include "solid/extent_tests.hpp"
 #include "tree/subtree_boxes.hpp"
 
@@ -134,8 +134,7 @@ class OperandGroups::Builder {
         operands_.push_back({end, end + 1, boxes[i]});
       }
     }
-    if (!output_.empty())
-      assign(groups_.list_, compile(std::span<const CsgToken>(output_)).literals);
+    if (!output_.empty()) assign(groups_.list_, compile(std::span<const CsgToken>(output_)).tests);
     find_common();
     groups_.balls_.resize(groups_.row_size());
     for (uint32_t group = groups_.first_group_; group < groups_.count(); ++group) {
@@ -258,8 +257,8 @@ class OperandGroups::Builder {
 
   /// Of the union in group_tokens_.
   uint32_t make_group(const Box& box) {
-    const ShortCircuitList list = compile(std::span<const CsgToken>(group_tokens_));
-    assign(list_, list.literals);
+    const Blist list = compile(std::span<const CsgToken>(group_tokens_));
+    assign(list_, list.tests);
     const uint32_t count = list_.count();
     const auto append = [count](std::vector<uint32_t>& to, const std::vector<uint32_t>& from) {
       to.insert(to.end(), from.begin(), from.begin() + count);

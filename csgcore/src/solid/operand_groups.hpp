@@ -8,7 +8,7 @@
 
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/extent.hpp"
-#include "solid/member_rows.hpp"
+#include "solid/soa_bounds.hpp"
 #include "tree/cell_list.hpp"
 
 namespace csgcore {
@@ -29,7 +29,7 @@ struct HiddenOperands {
 
 /// The operands of a large union, and what a difference takes away if that is much, stand in groups
 /// of some that are alike in size and near each other: a group is a union of operands, or of
-/// smaller groups. In a list it is a literal like a primitive's, of an index beyond the
+/// smaller groups. In a list it is a test like a primitive's, of an index beyond the
 /// primitives'. Its extent is a box outside of which none of its operands matters; of nothing is it
 /// known to lie inside.
 ///
@@ -62,7 +62,7 @@ class OperandGroups {
   /// How many primitives and groups there are.
   uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
 
-  /// A group's own list as in a CellList, its numbers counted from its own literals, of which the
+  /// A group's own list as in a CellList, its numbers counted from its own tests, of which the
   /// last of the arrays is where evaluation starts.
   struct Members {
     std::span<const uint32_t> primitive;  // or group; with kComplementBit

@@ -103,12 +103,12 @@ constexpr double kApartInside = 4;
 class InnerOperands {
  public:
   InnerOperands(std::span<const CsgToken> tokens, std::span<const CanonicalPrimitive> primitives,
-                std::span<const Extent> extents, double thinnest_piece)
+                std::span<const Extent> extents, double thickness_tolerance)
       : tokens_(tokens),
         primitives_(primitives),
         extents_(extents),
-        in_surface_(kCoplanar * thinnest_piece),
-        inside_(-kApartInside * thinnest_piece),
+        in_surface_(kCoplanar * thickness_tolerance),
+        inside_(-kApartInside * thickness_tolerance),
         is_inner_(tokens.size()) {}
 
   /// By token; empty if there are none. `grounds` gets those that hold others, and the others.
@@ -332,10 +332,10 @@ class Merger {
 std::optional<LeanTree> leave_out_redundant(const CsgTree& tree,
                                             std::span<const CanonicalPrimitive> primitives,
                                             std::span<const Extent> extents,
-                                            double thinnest_piece) {
+                                            double thickness_tolerance) {
   LeanTree lean;
   std::vector<uint8_t> inner =
-      InnerOperands(tree.tokens(), primitives, extents, thinnest_piece).find(lean.grounds);
+      InnerOperands(tree.tokens(), primitives, extents, thickness_tolerance).find(lean.grounds);
   std::vector<Class> classes = classes_of(primitives);
   std::vector<uint8_t> is_shared(classes.size());
   for (uint32_t i = 0; i < classes.size(); ++i) {

@@ -30,9 +30,10 @@ struct LeanTree {
 ///   largest: and later ones only if they touch its surface nowhere.
 /// Of coincident faces the last in file order shows (NUMERICS.md), so that colours and ids need not
 /// agree. None if there is nothing to leave out. `extents`: of the primitives, index for index;
-/// `thinnest_piece`: the tolerance, in world units. Takes time proportional to the tree.
+/// `thickness_tolerance`: the tolerance, in world units. Takes time proportional to the tree.
 std::optional<LeanTree> leave_out_redundant(const CsgTree& tree,
                                             std::span<const CanonicalPrimitive> primitives,
-                                            std::span<const Extent> extents, double thinnest_piece);
+                                            std::span<const Extent> extents,
+                                            double thickness_tolerance);
 
 }  // namespace csgcore

@@ -7,16 +7,16 @@ namespace csgcore {
 
 namespace {
 
-/// So many literals are tested at once.
+/// So many tests are tested at once.
 constexpr uint32_t kBlock = 64;
 
-/// One side's pass over the list, bottom up: a decided literal is replaced by what follows it, and
-/// so is one whose two continuations have become the same. Every literal is written and only the
-/// kept ones advance the output: what happens to a literal is close to random, and a mispredicted
+/// One side's pass over the list, bottom up: a decided test is replaced by what follows it, and
+/// so is one whose two continuations have become the same. Every test is written and only the
+/// kept ones advance the output: what happens to a test is close to random, and a mispredicted
 /// branch costs more than all of this.
 class Pass {
  public:
-  /// `most`: how many literals the result may get.
+  /// `most`: how many tests the result may get.
   Pass(const CellList& list, uint32_t most, CellList& result, std::vector<uint32_t>& map) {
     result.reserve(most);
     if (map.size() <= list.root) map.resize(size_t{list.root} + 1);
@@ -31,13 +31,13 @@ class Pass {
   /// What stands for a number of the list that was passed.
   uint32_t& at(uint32_t number) { return map_[number]; }
 
-  /// Literal `number` of the list.
+  /// BlistTest `number` of the list.
   void step(uint32_t number, uint32_t primitive, uint32_t if_inside, uint32_t if_outside,
             bool outside, bool inside) {
     map_[number] = put(primitive, map_[if_inside], map_[if_outside], outside, inside);
   }
 
-  /// A literal that goes on to `inner` or `outer` of the result; what stands for it there.
+  /// A test that goes on to `inner` or `outer` of the result; what stands for it there.
   uint32_t put(uint32_t primitive, uint32_t inner, uint32_t outer, bool outside, bool inside) {
     primitive_[kept_] = primitive;
     if_inside_[kept_] = inner;
@@ -212,7 +212,7 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
   }
 }
 
-/// Whether some jump leads to each literal but the root.
+/// Whether some jump leads to each test but the root.
 bool Restrictor::all_have_jumps(const CellList& list) {
   reached_.assign(list.root + 1, 0);
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -223,8 +223,8 @@ bool Restrictor::all_have_jumps(const CellList& list) {
          reached_.end() - 1;
 }
 
-/// Where an operand has been decided, its later literals may have lost every jump to them. If each
-/// literal but the root has one, then all are reached, since the way back along such jumps ends at
+/// Where an operand has been decided, its later tests may have lost every jump to them. If each
+/// test but the root has one, then all are reached, since the way back along such jumps ends at
 /// the root only.
 void Restrictor::drop_unreached(CellList& list) {
   if (list.is_constant() || all_have_jumps(list)) return;

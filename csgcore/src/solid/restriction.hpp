@@ -53,7 +53,7 @@ class Restrictor {
       : extents_(extents), open_(open) {}
 
   /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
-  /// literal that the half decides, none whose two continuations agree, none that evaluation cannot
+  /// test that the half decides, none whose two continuations agree, none that evaluation cannot
   /// reach. `list` is not constant, is neither of the two, and comes from a restriction to the
   /// whole cell.
   void restrict(const CellList& list, const Halves& halves, CellList& below, CellList& above);
@@ -62,7 +62,7 @@ class Restrictor {
   /// Whether that would leave the list as it is. `list` is irreducible.
   bool decides_none(const CellList& list, const Box& cell) const;
 
-  /// What a caller knows of a literal.
+  /// What a caller knows of a test.
   enum class Decision : uint8_t { kOpen, kOutside, kInside };
   /// The same for decisions that the caller has made: `decisions[i]` is that of the list's index i.
   void restrict(const CellList& list, std::span<const Decision> decisions, CellList& result);

@@ -27,7 +27,7 @@ CellList list_without(const CsgTree& tree, const std::vector<uint32_t>& gone, si
   CellList result;
   if (tree.empty()) return result;
   CellList whole;
-  assign(whole, compile(tree).literals);
+  assign(whole, compile(tree).tests);
   std::vector<uint8_t> is_gone(primitives);
   for (const uint32_t primitive : gone) is_gone[primitive] = 1;
   using Decision = Restrictor::Decision;

@@ -87,12 +87,12 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
     return;
   }
   Extents extents = extents_of(*primitives_);
-  if (auto lean = leave_out_redundant(tree, *primitives_, extents, thinnest_piece(bounds_))) {
+  if (auto lean = leave_out_redundant(tree, *primitives_, extents, thickness_tolerance(bounds_))) {
     lean_ = std::make_shared<const LeanTree>(*std::move(lean));
   }
   list_ = compile(used_of(tree));
   auto list = std::make_shared<CellList>();
-  assign(*list, list_.literals);
+  assign(*list, list_.tests);
   cell_list_ = std::move(list);
   make_groups(used_of(tree), std::move(extents));
   find_outer_groups(used_of(tree));
@@ -153,8 +153,8 @@ std::span<const Extent> Solid::extents() const {
 }
 
 bool Solid::contains(const Vec3& point) const {
-  if (list_.literals.empty()) return list_.constant;
-  return evaluate(std::span<const Literal>(list_.literals), [&](uint32_t primitive) {
+  if (list_.tests.empty()) return list_.constant;
+  return evaluate(std::span<const BlistTest>(list_.tests), [&](uint32_t primitive) {
     return csgcore::contains((*primitives_)[primitive], point);
   });
 }

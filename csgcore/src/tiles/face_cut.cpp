@@ -1,4 +1,4 @@
-// TileSimplifier::cut_by_face: what a plane face hides that all rays of a tile enter by. Parts that
+// TileCuller::cut_by_face: what a plane face hides that all rays of a tile enter by. Parts that
 // share planes, and plates behind each other that are thinner than a tile's depths, are not told
 // apart by depths; here they are told by their place against the face's plane.
 #include <algorithm>
@@ -39,8 +39,8 @@ double latest_of(const double (&t)[kPacketRays]) { return *std::max_element(t, t
 
 }  // namespace
 
-/// The primitives that are enough for the value by their literal, and cover the tile.
-void TileSimplifier::find_face_candidates(const CellList& list, const Box& tile, size_t most) {
+/// The primitives that are enough for the value by their test, and cover the tile.
+void TileCuller::find_face_candidates(const CellList& list, const Box& tile, size_t most) {
   face_candidates_.clear();
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i];  // no group, and no complement
@@ -69,7 +69,7 @@ void TileSimplifier::find_face_candidates(const CellList& list, const Box& tile,
 
 /// The plane by which all four rays enter the primitive, if there is one, squarely enough, and
 /// enough of the primitive behind it.
-std::optional<TileSimplifier::FacePlane> TileSimplifier::entered_plane(
+std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
     const RayPacket& rays, uint32_t primitive, const PacketSegments& segments) const {
   alignas(64) double normals[3][kPacketRays];
   find_entry_normals(frame_, rays, primitives_[primitive], segments, normals);
@@ -83,14 +83,14 @@ std::optional<TileSimplifier::FacePlane> TileSimplifier::entered_plane(
     const double speed = -glm::dot(normal, direction);  // along the normal, per τ
     const double length = segments.end[lane] - segments.start[lane];
     if (!(speed >= kLeastCosine * glm::length(direction))) return std::nullopt;
-    if (!(speed * length >= kLeastThickness * thinnest_piece_)) return std::nullopt;
+    if (!(speed * length >= kLeastThickness * thickness_tolerance_)) return std::nullopt;
   }
   const Vec3 point = lane_of(rays.origin, 0) + segments.start[0] * lane_of(rays.direction, 0);
   return FacePlane{normal, glm::dot(normal, point)};
 }
 
 /// Whether the primitive or group reaches no further than that along the plane's normal.
-bool TileSimplifier::lies_behind(uint32_t index, const FacePlane& plane, double limit) const {
+bool TileCuller::lies_behind(uint32_t index, const FacePlane& plane, double limit) const {
   const Extent& e = groups_.extents()[index];
   const Vec3 center{e.center[0], e.center[1], e.center[2]};
   const double height = glm::dot(plane.normal, center - frame_.pivot) - plane.offset;
@@ -103,16 +103,16 @@ bool TileSimplifier::lies_behind(uint32_t index, const FacePlane& plane, double 
   return glm::dot(plane.normal, furthest) - plane.offset <= limit;
 }
 
-/// Whether the value is true wherever the literal's primitive holds.
-bool TileSimplifier::is_enough(const CellList& list, uint32_t index, Restrictor& restrictor) {
+/// Whether the value is true wherever the test's primitive holds.
+bool TileCuller::is_enough(const CellList& list, uint32_t index, Restrictor& restrictor) {
   decisions_.assign(list.count(), Decision::kOpen);
   decisions_[index] = Decision::kInside;
   restrictor.restrict(list, decisions_, probe_);
   return probe_.root == CellList::kTrue;
 }
 
-bool TileSimplifier::cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
-                                 CellList& result) {
+bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                             CellList& result) {
   if (last_value_ != true) return false;
   const Box box = box_of(tile, centers_only_);
   const double pixels = static_cast<double>(tile.width) * tile.height;
@@ -134,7 +134,7 @@ bool TileSimplifier::cut_by_face(const Tile& tile, const CellList& list, Restric
   // plane is met at depths that differ by rounding.
   const auto nearest = std::ranges::min_element(face_candidates_, {}, &FaceCandidate::entry_t);
   if (std::isinf(nearest->entry_t)) return false;
-  const double together_t = nearest->entry_t + kCoplanar * thinnest_piece_;
+  const double together_t = nearest->entry_t + kCoplanar * thickness_tolerance_;
   FaceCandidate chosen = *nearest;
   for (const FaceCandidate& candidate : face_candidates_) {
     if (candidate.entry_t <= together_t && candidate.primitive > chosen.primitive) {
@@ -144,8 +144,8 @@ bool TileSimplifier::cut_by_face(const Tile& tile, const CellList& list, Restric
   intersect_four(frame_, rays, primitives_[chosen.primitive], segments);
   const std::optional<FacePlane> plane = entered_plane(rays, chosen.primitive, segments);
   if (!plane || !is_enough(list, chosen.index, restrictor)) return false;
-  const double in_plane = kCoplanar * thinnest_piece_;
-  const double behind = -kLeastDistance * thinnest_piece_;
+  const double in_plane = kCoplanar * thickness_tolerance_;
+  const double behind = -kLeastDistance * thickness_tolerance_;
   dropped_.assign(list.count(), Decision::kOpen);
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -155,7 +155,7 @@ bool TileSimplifier::cut_by_face(const Tile& tile, const CellList& list, Restric
     const double limit = index < chosen.primitive ? in_plane : behind;
     if (!lies_behind(index, *plane, limit)) continue;
     dropped_[i] = Decision::kOutside;
-    note(index, Fate::kHidden);
+    note(index, CullReason::kHidden);
     drops = true;
   }
   if (!drops) return false;

@@ -54,8 +54,8 @@ PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box) {
   return corners;
 }
 
-TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellList& list,
-                                                 Restrictor& restrictor, CellList& result) {
+TileCuller::Outcome TileCuller::cull(const Tile& tile, const CellList& list, Restrictor& restrictor,
+                                     CellList& result) {
   if (!find_covers(tile, list)) return Outcome::kNothing;
   dropped_.assign(list.count(), Decision::kOpen);
   marked_.clear();
@@ -79,13 +79,13 @@ TileSimplifier::Outcome TileSimplifier::simplify(const Tile& tile, const CellLis
   return cuts ? Outcome::kCut : Outcome::kSimplified;
 }
 
-double TileSimplifier::slack_of(const Cover& cover) {
+double TileCuller::slack_of(const Cover& cover) {
   return kCoverSlack *
          (std::abs(cover.from_t) + std::abs(cover.to_t) + (cover.to_t - cover.from_t));
 }
 
 /// The longest first.
-bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
+bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
   const Box box = box_of(tile, centers_only_);
   covers_.clear();
   has_groups_ = is_partly_covered_ = false;
@@ -131,7 +131,7 @@ bool TileSimplifier::find_covers(const Tile& tile, const CellList& list) {
 }
 
 /// What is certain of each primitive between two depths.
-void TileSimplifier::decide_within(const CellList& list, double from_t, double to_t) {
+void TileCuller::decide_within(const CellList& list, double from_t, double to_t) {
   decisions_.resize(list.count());
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
@@ -146,8 +146,7 @@ void TileSimplifier::decide_within(const CellList& list, double from_t, double t
   }
 }
 
-void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restrictor,
-                                     const Cover& cover) {
+void TileCuller::drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover) {
   decide_within(list, cover.from_t, cover.to_t);
   const auto count = static_cast<long>(list.count());
   indices_.primitive.resize(list.count());
@@ -158,7 +157,8 @@ void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restricto
   restrictor.restrict(indices_, decisions_, probe_);
   decides_.assign(list.count(), 0);
   for (const uint32_t index : probe_.primitives()) decides_[index] = 1;
-  const Fate fate = probe_.root == CellList::kTrue ? Fate::kInside : Fate::kCancelled;
+  const CullReason cull_reason =
+      probe_.root == CellList::kTrue ? CullReason::kInside : CullReason::kCancelled;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     if (dropped_[i] == Decision::kOutside || decides_[i] ||
@@ -166,11 +166,11 @@ void TileSimplifier::drop_undecisive(const CellList& list, Restrictor& restricto
       continue;
     }
     dropped_[i] = Decision::kOutside;
-    note(primitive, fate);
+    note(primitive, cull_reason);
   }
 }
 
-bool TileSimplifier::covers_at(uint32_t primitive, double from_t, double to_t) const {
+bool TileCuller::covers_at(uint32_t primitive, double from_t, double to_t) const {
   return std::any_of(covers_.begin(), covers_.end(), [&](const Cover& c) {
     return c.primitive == primitive && c.from_t <= from_t && to_t <= c.to_t;
   });
@@ -179,7 +179,7 @@ bool TileSimplifier::covers_at(uint32_t primitive, double from_t, double to_t) c
 /// A depth within the stretch at which none of the list is open, the first of as many parts of
 /// equal length as are looked at. If groups alone stand in the way of one, there may be one once
 /// those are opened, of the part where they are the fewest.
-std::optional<double> TileSimplifier::free_depth(const CellList& list, double from_t, double to_t) {
+std::optional<double> TileCuller::free_depth(const CellList& list, double from_t, double to_t) {
   const double scale = kDepthParts / (to_t - from_t);
   struct Parts {
     size_t first, last;
@@ -221,36 +221,36 @@ std::optional<double> TileSimplifier::free_depth(const CellList& list, double fr
 }
 
 /// Whether all rays end before the depth, of those that the covers hold there.
-bool TileSimplifier::all_end_before(const CellList& list, Restrictor& restrictor, double depth) {
+bool TileCuller::all_end_before(const CellList& list, Restrictor& restrictor, double depth) {
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
   return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
 }
 
 /// Drops what is behind the depth; false if that is nothing.
-bool TileSimplifier::drop_behind(const CellList& list, double depth, const Cover& cover) {
+bool TileCuller::drop_behind(const CellList& list, double depth, const Cover& cover) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
     if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
     dropped_[i] = Decision::kOutside;
     const bool is_inside = lies_within(extent, cover.from_t, cover.to_t);
-    note(list.primitive[i] & kPrimitiveBits, is_inside ? Fate::kInside : Fate::kHidden);
+    note(list.primitive[i] & kPrimitiveBits, is_inside ? CullReason::kInside : CullReason::kHidden);
     drops = true;
   }
   return drops;
 }
 
 /// Of a group, all that it holds and the screen shows.
-void TileSimplifier::note(uint32_t index, Fate fate) {
-  if (!fates_.wanted()) return;
+void TileCuller::note(uint32_t index, CullReason cull_reason) {
+  if (!cull_reasons_.wanted()) return;
   noted_.assign(1, index);
   while (!noted_.empty()) {
     const uint32_t next = noted_.back() & kPrimitiveBits;
     noted_.pop_back();
-    if (fate_on_screen(screen_[next]) != ScreenFate::kVisible) continue;
+    if (cull_reason_on_screen(screen_[next]) != ScreenCullReason::kVisible) continue;
     if (!groups_.is_group(next)) {
-      fates_.note(next, fate);
+      cull_reasons_.note(next, cull_reason);
       continue;
     }
     bounds_.open_wholly(next);

@@ -31,7 +31,7 @@ inline Box box_of(const Tile& tile, bool centers_only) {
 PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box);
 
 /// Why a primitive was never intersected; the largest that any tile saw counts.
-enum class Fate : uint8_t {
+enum class CullReason : uint8_t {
   kUnknown,
   kOffScreen,
   kSubPixel,
@@ -41,22 +41,22 @@ enum class Fate : uint8_t {
   kIntersected
 };
 /// One entry for each primitive; written by all threads. Empty if nobody wants to know.
-class Fates {
+class CullReasons {
  public:
-  void resize(size_t primitives) { fates_ = std::vector<uint8_t>(primitives); }
-  bool wanted() const { return !fates_.empty(); }
-  void note(uint32_t primitive, Fate fate) {
+  void resize(size_t primitives) { cull_reasons_ = std::vector<uint8_t>(primitives); }
+  bool wanted() const { return !cull_reasons_.empty(); }
+  void note(uint32_t primitive, CullReason cull_reason) {
     if (!wanted()) return;
-    std::atomic_ref<uint8_t> entry(fates_[primitive]);
-    const uint8_t value = static_cast<uint8_t>(fate);
+    std::atomic_ref<uint8_t> entry(cull_reasons_[primitive]);
+    const uint8_t value = static_cast<uint8_t>(cull_reason);
     uint8_t old = entry.load(std::memory_order_relaxed);
     while (old < value && !entry.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
     }
   }
-  std::span<const uint8_t> all() const { return fates_; }
+  std::span<const uint8_t> all() const { return cull_reasons_; }
 
  private:
-  std::vector<uint8_t> fates_;
+  std::vector<uint8_t> cull_reasons_;
 };
 
 /// Drops, from the list of a tile, primitives that decide nothing there although its rays may meet
@@ -66,14 +66,14 @@ class Fates {
 ///   the stretch are cancelled, or lie inside the solid;
 /// - where the solid then holds, all that lies behind is hidden.
 /// By convexity the four rays through the tile's corners tell the stretch of a primitive.
-class TileSimplifier {
+class TileCuller {
  public:
   /// `last_value`: a ray ends once the solid has that value; none: rays go on.
   /// `cover_share`: a stretch counts if it is longer than this share of its primitive's depth.
-  TileSimplifier(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
-                 ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
-                 std::optional<bool> last_value, double cover_share, double thinnest_piece,
-                 Fates& fates)
+  TileCuller(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
+             ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
+             std::optional<bool> last_value, double cover_share, double thickness_tolerance,
+             CullReasons& cull_reasons)
       : primitives_(primitives),
         groups_(groups),
         bounds_(bounds),
@@ -82,8 +82,8 @@ class TileSimplifier {
         centers_only_(centers_only),
         last_value_(last_value),
         cover_share_(cover_share),
-        thinnest_piece_(thinnest_piece),
-        fates_(fates) {}
+        thickness_tolerance_(thickness_tolerance),
+        cull_reasons_(cull_reasons) {}
 
   enum class Outcome : uint8_t {
     kNothing,     // there are none
@@ -91,8 +91,7 @@ class TileSimplifier {
     kCut,         // so it is, and what is hidden was dropped: every ray of the tile ends before it
     kOpenGroups,  // marked() tells of groups that have to be opened first
   };
-  Outcome simplify(const Tile& tile, const CellList& list, Restrictor& restrictor,
-                   CellList& result);
+  Outcome cull(const Tile& tile, const CellList& list, Restrictor& restrictor, CellList& result);
   /// If all rays of the tile enter one primitive by one plane face, and have ended where they do:
   /// `result` is without what lies behind that plane, or touches it from behind and comes earlier
   /// in the file. False: there is no such primitive, or nothing behind it. cut_t() is the furthest
@@ -135,7 +134,7 @@ class TileSimplifier {
   bool drop_behind(const CellList& list, double depth, const Cover& cover);
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
-  void note(uint32_t index, Fate fate);
+  void note(uint32_t index, CullReason cull_reason);
 
   std::span<const CanonicalPrimitive> primitives_;
   const OperandGroups& groups_;
@@ -145,17 +144,17 @@ class TileSimplifier {
   bool centers_only_;
   std::optional<bool> last_value_;
   double cover_share_;
-  double thinnest_piece_;
-  Fates& fates_;
+  double thickness_tolerance_;
+  CullReasons& cull_reasons_;
 
   using Decision = Restrictor::Decision;
   std::vector<Cover> covers_;
-  // Of the list that is simplified:
+  // Of the list that is culled:
   bool has_groups_ = false;
   bool is_partly_covered_ = false;
   double cut_t_ = 0;
   std::vector<Decision> decisions_;  // while a question is asked
-  std::vector<Decision> dropped_;    // kOutside: the literal decides nothing
+  std::vector<Decision> dropped_;    // kOutside: the test decides nothing
   std::vector<uint8_t> marked_;
   CellList indices_;  // the list, with its indices for primitives
   CellList probe_;

@@ -20,7 +20,7 @@ constexpr double kCoverShare = 1.0 / 64;
 /// What one thread has collected.
 struct Part {
   std::vector<ListedTile> tiles;
-  std::vector<Literal> literals;
+  std::vector<BlistTest> tests;
 };
 
 class ListVisitor final : public TileVisitor {
@@ -38,8 +38,8 @@ class ListVisitor final : public TileVisitor {
       return;
     }
     Part& part = parts_.local();
-    const auto first = static_cast<uint32_t>(part.literals.size());
-    append(part.literals, met.list);
+    const auto first = static_cast<uint32_t>(part.tests.size());
+    append(part.tests, met.list);
     part.tiles.push_back({tile, first, met.list.count(), base_s_ + met.cut_t});
   }
 
@@ -49,22 +49,22 @@ class ListVisitor final : public TileVisitor {
       const ListedTile* tile;
     };
     std::vector<Entry> entries;
-    size_t literals = 0;
+    size_t tests = 0;
     for (const Part& part : parts_) {
       for (const ListedTile& tile : part.tiles) entries.push_back({&part, &tile});
-      literals += part.literals.size();
+      tests += part.tests.size();
     }
     // Which thread took which tile is chance.
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
       return std::tie(a.tile->area.y, a.tile->area.x) < std::tie(b.tile->area.y, b.tile->area.x);
     });
     lists.tiles.reserve(entries.size());
-    lists.literals.reserve(literals);
+    lists.tests.reserve(tests);
     for (const Entry& entry : entries) {
       ListedTile tile = *entry.tile;
-      const auto from = entry.part->literals.begin() + tile.first_literal;
-      tile.first_literal = static_cast<uint32_t>(lists.literals.size());
-      lists.literals.insert(lists.literals.end(), from, from + tile.literal_count);
+      const auto from = entry.part->tests.begin() + tile.first_test;
+      tile.first_test = static_cast<uint32_t>(lists.tests.size());
+      lists.tests.insert(lists.tests.end(), from, from + tile.test_count);
       lists.tiles.push_back(tile);
     }
   }
@@ -81,22 +81,22 @@ class ListVisitor final : public TileVisitor {
 bool list_tiles(const Solid& solid, const View& view, const TileListOptions& options,
                 TileLists& lists) {
   lists.tiles.clear();
-  lists.literals.clear();
+  lists.tests.clear();
   std::stop_source stop;
   with_threads(options.threads, [&] {
     const FrameRays rays = frame_rays(view, solid.bounds());
-    TraceSubject subject;
-    subject.thinnest_piece = options.thinnest_piece;
-    subject.boundary = options.boundary;
-    subject.stop = stop.get_token();
+    TraceParameters parameters;
+    parameters.thickness_tolerance = options.thickness_tolerance;
+    parameters.boundary = options.boundary;
+    parameters.stop = stop.get_token();
     TileRules rules;
     rules.centers_only = options.centers_only;
     rules.tile_list = options.short_list;
     rules.packet_list = options.longest_list;
     rules.cover_share = kCoverShare;
     rules.cuts_by_faces = false;
-    Fates fates;
-    TileTracer tracer(solid, rays, subject, rules, fates);
+    CullReasons cull_reasons;
+    TileTracer tracer(solid, rays, parameters, rules, cull_reasons);
     ListVisitor visitor(rays.base_s, options.longest_list, stop);
     tracer.visit({0, 0, view.width_px, view.height_px}, visitor);
     if (!stop.stop_requested()) visitor.collect(lists);

@@ -19,7 +19,7 @@ constexpr uint32_t kLeastSide_px = 2;
 /// Larger tiles are divided by two tasks.
 constexpr uint32_t kTaskPixels = 64 * 64;
 
-/// Lists longer than the first are simplified (TileSimplifier) at some sizes of tile, since it
+/// Lists longer than the first are culled (TileCuller) at some sizes of tile, since it
 /// takes several passes over the list; lists longer than the second at every size.
 constexpr uint32_t kLongList = 24;
 constexpr uint32_t kVeryLongList = 4096;
@@ -30,7 +30,7 @@ constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 constexpr double kOpenShare = 1.0;
 constexpr double kOpenShareBehind = 4.0;
 
-/// Tiles of so many pixels a side are cut by faces, and lists of so many literals.
+/// Tiles of so many pixels a side are cut by faces, and lists of so many tests.
 constexpr uint32_t kFaceCutSide_px = 128;
 constexpr uint32_t kLeastFaceCut = 4;
 
@@ -38,7 +38,7 @@ constexpr uint32_t kLeastFaceCut = 4;
 constexpr uint32_t kLongCutList = 256;
 
 /// `is_new`: groups are in the list, or were until just now.
-bool is_simplified(const Tile& tile, const CellList& list, bool is_new, bool is_cut) {
+bool is_culled(const Tile& tile, const CellList& list, bool is_new, bool is_cut) {
   if (list.count() <= (is_cut ? kLongCutList : kLongList) && !is_new) return false;
   const uint32_t pixels = tile.width * tile.height;
   // A division halves a tile, so that about one on the way down is of each size.
@@ -71,8 +71,8 @@ void TileList::assign(std::span<const CanonicalPrimitive> primitives, const Scre
     nearest_[i] = nearest_t(extent);
     earliest = std::min(earliest, nearest_[i]);
   }
-  find_reached(screen.data(), bounds.outlines(), list.primitives(), tile.x, tile.y,
-               reached_[0].data(), reached_[1].data());
+  find_reached(screen.data(), bounds.slabs(), list.primitives(), tile.x, tile.y, reached_[0].data(),
+               reached_[1].data());
   trace_ = {primitives.data(), &list, nearest_.data(), earliest, nullptr};
 }
 
@@ -88,7 +88,7 @@ TraceList TileList::trace_list(const PacketBlock& block) const {
 struct TileTracer::Level {
   CellList halves[2];
   CellList in_front;
-  CellList simplified;
+  CellList culled;
   CellList opened[2];
 };
 
@@ -96,20 +96,20 @@ struct TileTracer::Level {
 struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
       : restrictor(owner.bounds_.extents(), owner.bounds_),
-        simplifier(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
-                   owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
-                   owner.subject_.thinnest_piece, owner.fates_) {}
+        culler(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
+               owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
+               owner.parameters_.thickness_tolerance, owner.cull_reasons_) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
   }
 
   Restrictor restrictor;
-  TileSimplifier simplifier;
+  TileCuller culler;
   PacketWorkspace packets;
   std::vector<std::unique_ptr<Level>> levels;
-  TileList list, uncut_list;
-  CellList uncut, uncut_opened[2];
+  TileList list, fallback_list;
+  CellList fallback, fallback_expanded[2];
   std::vector<uint8_t> marked;  // groups, by index in a list
   uint64_t tiles = 0;
 };
@@ -150,12 +150,12 @@ bool has_groups(const OperandGroups& groups, const CellList& list) {
 
 /// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
 std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
-                                    const FrameRays& frame, const TraceSubject& subject) {
+                                    const FrameRays& frame, const TraceParameters& parameters) {
   if (groups.list().is_constant()) return std::nullopt;
   if (frame.view.projection == Projection::kOrthographic) return true;
   // Rays start up to a few tolerances from the eye: further in the picture's corners.
   constexpr double kEyeTolerances = 64;
-  const Vec3 reach{kEyeTolerances * subject.thinnest_piece};
+  const Vec3 reach{kEyeTolerances * parameters.thickness_tolerance};
   const Box& bounds = solid.bounds();
   for (int axis = 0; axis < 3; ++axis) {
     const double eye = frame.view.eye[axis];
@@ -182,26 +182,29 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
 }  // namespace
 
 TileTracer::Seen TileTracer::find_seen(const Solid& solid, const FrameRays& frame,
-                                       const TraceSubject& subject) {
+                                       const TraceParameters& parameters) {
   const OperandGroups& outer = solid.outer_groups();
-  if (subject.boundary == Boundary::kBehind) return {solid.groups(), std::nullopt};
-  const std::optional<bool> last_value = find_last_value(solid, outer, frame, subject);
+  if (parameters.boundary == Boundary::kBehind) return {solid.groups(), std::nullopt};
+  const std::optional<bool> last_value = find_last_value(solid, outer, frame, parameters);
   if (&outer == &solid.groups() || last_value == true) return {outer, last_value};
-  return {solid.groups(), find_last_value(solid, solid.groups(), frame, subject)};
+  return {solid.groups(), find_last_value(solid, solid.groups(), frame, parameters)};
 }
 
-TileTracer::TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-                       const TileRules& rules, Fates& fates)
-    : TileTracer(solid, find_seen(solid, frame, subject), frame, subject, rules, fates) {}
+TileTracer::TileTracer(const Solid& solid, const FrameRays& frame,
+                       const TraceParameters& parameters, const TileRules& rules,
+                       CullReasons& cull_reasons)
+    : TileTracer(solid, find_seen(solid, frame, parameters), frame, parameters, rules,
+                 cull_reasons) {}
 
 TileTracer::TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
-                       const TraceSubject& subject, const TileRules& rules, Fates& fates)
+                       const TraceParameters& parameters, const TileRules& rules,
+                       CullReasons& cull_reasons)
     : solid_(solid),
       groups_(seen.groups),
       frame_(frame),
-      subject_(subject),
+      parameters_(parameters),
       rules_(rules),
-      fates_(fates),
+      cull_reasons_(cull_reasons),
       last_value_(seen.last_value),
       bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
 
@@ -225,7 +228,7 @@ void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
 /// Recursion halves the tile each time.
 void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t level,
                         Workspace& workspace, TileVisitor& visitor) {
-  if (subject_.stop.stop_requested() || !visitor.wants(tile)) return;
+  if (parameters_.stop.stop_requested() || !visitor.wants(tile)) return;
   const CellList* list = &given;
   Level& own = workspace.level(level);
   const uint32_t side = std::max(tile.width, tile.height);
@@ -234,27 +237,27 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
     return side <= kLeastSide_px || (is_packet && list->count() <= rules_.packet_list) ||
            (side <= kTileSide_px && list->count() <= rules_.tile_list);
   };
-  const auto simplify_list = [&](bool is_new) {
+  const auto cull_list = [&](bool is_new) {
     bool cuts = false;
-    list = simplify(tile, list, is_new, cut.uncut != nullptr, own, workspace, cuts);
+    list = cull(tile, list, is_new, cut.fallback != nullptr, own, workspace, cuts);
     if (!cuts) return;
-    if (!cut.uncut) cut.uncut = &given;
-    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+    if (!cut.fallback) cut.fallback = &given;
+    cut.t = std::min(cut.t, workspace.culler.cut_t());
   };
   if (rules_.cuts_by_faces && side <= kFaceCutSide_px && list->count() >= kLeastFaceCut &&
-      workspace.simplifier.cut_by_face(tile, *list, workspace.restrictor, own.in_front)) {
-    if (!cut.uncut) cut.uncut = &given;
-    cut.t = std::min(cut.t, workspace.simplifier.cut_t());
+      workspace.culler.cut_by_face(tile, *list, workspace.restrictor, own.in_front)) {
+    if (!cut.fallback) cut.fallback = &given;
+    cut.t = std::min(cut.t, workspace.culler.cut_t());
     list = &own.in_front;
   }
   // Groups that are left of a list that was cut are mostly seen.
-  simplify_list(!cut.uncut && has_groups(groups_, *list));
+  cull_list(!cut.fallback && has_groups(groups_, *list));
   const CellList* const closed = list;
-  const bool is_behind = !cut.uncut && workspace.simplifier.is_partly_covered();
+  const bool is_behind = !cut.fallback && workspace.culler.is_partly_covered();
   const double share = is_short() ? 0.0 : is_behind ? kOpenShareBehind : kOpenShare;
   list = open_large_groups(tile, list, share, own.opened, workspace);
-  if (list != closed) simplify_list(!cut.uncut);
-  if (list->is_constant() && !cut.uncut) {
+  if (list != closed) cull_list(!cut.fallback);
+  if (list->is_constant() && !cut.fallback) {
     visitor.visit_empty(tile);
     return;
   }
@@ -299,19 +302,19 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
 
 /// The list without what decides nothing in the tile, if it is time to look for that. `cuts` is set
 /// where what is hidden was dropped.
-const CellList* TileTracer::simplify(const Tile& tile, const CellList* list, bool is_new,
-                                     bool is_cut, Level& level, Workspace& workspace, bool& cuts) {
-  while (is_simplified(tile, *list, is_new, is_cut)) {
-    switch (workspace.simplifier.simplify(tile, *list, workspace.restrictor, level.simplified)) {
-      case TileSimplifier::Outcome::kNothing:
+const CellList* TileTracer::cull(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
+                                 Level& level, Workspace& workspace, bool& cuts) {
+  while (is_culled(tile, *list, is_new, is_cut)) {
+    switch (workspace.culler.cull(tile, *list, workspace.restrictor, level.culled)) {
+      case TileCuller::Outcome::kNothing:
         return list;
-      case TileSimplifier::Outcome::kCut:
+      case TileCuller::Outcome::kCut:
         cuts = true;
-        return &level.simplified;
-      case TileSimplifier::Outcome::kSimplified:
-        return &level.simplified;
-      case TileSimplifier::Outcome::kOpenGroups:
-        list = &open_groups(tile, *list, workspace.simplifier.marked(), level.opened, workspace);
+        return &level.culled;
+      case TileCuller::Outcome::kSimplified:
+        return &level.culled;
+      case TileCuller::Outcome::kOpenGroups:
+        list = &open_groups(tile, *list, workspace.culler.marked(), level.opened, workspace);
     }
   }
   return list;
@@ -358,9 +361,9 @@ class TileTracer::LeafRays final : public TileRays {
 
   Met met() override {
     const CellList& list = *workspace_.list.trace_list().list;
-    if (!cut_.uncut || !list.is_constant()) return {list, cut_.t};
-    assign_uncut();
-    return {*workspace_.uncut_list.trace_list().list, Cut{}.t};
+    if (!cut_.fallback || !list.is_constant()) return {list, cut_.t};
+    assign_fallback();
+    return {*workspace_.fallback_list.trace_list().list, Cut{}.t};
   }
 
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) override {
@@ -385,51 +388,52 @@ class TileTracer::LeafRays final : public TileRays {
   const TraceList& trace(const RayPacket& rays, LaneMask lanes, const TraceList& list,
                          PacketHits& hits) {
     const uint64_t resolved = workspace_.packets.resolved_rays;
-    trace_packet(owner_.frame_, rays, lanes, list, owner_.subject_, workspace_.packets, hits);
+    trace_packet(owner_.frame_, rays, lanes, list, owner_.parameters_, workspace_.packets, hits);
     // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
     // beyond a piece too thin to exist, what lies behind counts.
     // Such pieces are the resolver's alone: other rays show where the solid's value changes first.
     const bool is_certain =
         (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
-    if (!cut_.uncut || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
+    if (!cut_.fallback || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
       return workspace_.list.trace_list();
     }
     workspace_.packets.was_computed.clear();
-    if (!has_uncut_) assign_uncut();
-    const TraceList& uncut = workspace_.uncut_list.trace_list();
-    if (uncut.list->is_constant()) return workspace_.list.trace_list();
-    trace_packet(owner_.frame_, rays, lanes, uncut, owner_.subject_, workspace_.packets, hits);
-    return uncut;
+    if (!has_fallback_) assign_fallback();
+    const TraceList& fallback = workspace_.fallback_list.trace_list();
+    if (fallback.list->is_constant()) return workspace_.list.trace_list();
+    trace_packet(owner_.frame_, rays, lanes, fallback, owner_.parameters_, workspace_.packets,
+                 hits);
+    return fallback;
   }
 
-  void assign_uncut() {
-    has_uncut_ = true;
-    CellList& restricted = workspace_.uncut;
-    workspace_.restrictor.restrict(*cut_.uncut, owner_.box_of(tile_), restricted);
+  void assign_fallback() {
+    has_fallback_ = true;
+    CellList& restricted = workspace_.fallback;
+    workspace_.restrictor.restrict(*cut_.fallback, owner_.box_of(tile_), restricted);
     const CellList* list =
-        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.uncut_opened, workspace_);
-    workspace_.uncut_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
+        owner_.open_large_groups(tile_, &restricted, 0.0, workspace_.fallback_expanded, workspace_);
+    workspace_.fallback_list.assign(owner_.solid_.primitives(), owner_.bounds_, tile_, *list);
   }
 
   TileTracer& owner_;
   const Tile& tile_;
   const Cut cut_;
-  bool has_uncut_ = false;
+  bool has_fallback_ = false;
   Workspace& workspace_;
 };
 
 void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const Cut& cut,
                             Workspace& workspace, TileVisitor& visitor) {
   ++workspace.tiles;
-  workspace.packets.was_computed.assign(fates_.wanted() ? list.count() : 0, 0);
+  workspace.packets.was_computed.assign(cull_reasons_.wanted() ? list.count() : 0, 0);
   LeafRays rays(*this, tile, list, cut, workspace);
   visitor.visit(tile, rays);
-  if (!fates_.wanted()) return;
+  if (!cull_reasons_.wanted()) return;
   const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const bool intersected = was_computed.empty() || was_computed[i];
-    fates_.note(list.primitive[i] & kPrimitiveBits,
-                intersected ? Fate::kIntersected : Fate::kHidden);
+    cull_reasons_.note(list.primitive[i] & kPrimitiveBits,
+                       intersected ? CullReason::kIntersected : CullReason::kHidden);
   }
 }
 
@@ -444,15 +448,17 @@ TileTracer::Counts TileTracer::counts() const {
   return sum;
 }
 
-void TileTracer::note_screen_fates() {
+void TileTracer::note_screen_cull_reasons() {
   for (const uint32_t primitive : groups_.hidden().inside) {
-    fates_.note(primitive, Fate::kInside);
+    cull_reasons_.note(primitive, CullReason::kInside);
   }
   bounds_.bound_all();
   for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
-    const ScreenFate fate = fate_on_screen(bounds_.extents()[primitive]);
-    if (fate == ScreenFate::kOffScreen) fates_.note(primitive, Fate::kOffScreen);
-    if (fate == ScreenFate::kSubPixel) fates_.note(primitive, Fate::kSubPixel);
+    const ScreenCullReason cull_reason = cull_reason_on_screen(bounds_.extents()[primitive]);
+    if (cull_reason == ScreenCullReason::kOffScreen)
+      cull_reasons_.note(primitive, CullReason::kOffScreen);
+    if (cull_reason == ScreenCullReason::kSubPixel)
+      cull_reasons_.note(primitive, CullReason::kSubPixel);
   }
 }
 

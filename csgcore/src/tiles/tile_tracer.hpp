@@ -99,17 +99,17 @@ class TileTracer {
     uint64_t resolved_rays = 0;
   };
 
-  /// Keeps references to solid, frame and fates.
-  TileTracer(const Solid& solid, const FrameRays& frame, const TraceSubject& subject,
-             const TileRules& rules, Fates& fates);
+  /// Keeps references to solid, frame and cull_reasons.
+  TileTracer(const Solid& solid, const FrameRays& frame, const TraceParameters& parameters,
+             const TileRules& rules, CullReasons& cull_reasons);
   ~TileTracer();
 
   /// All tiles of `area`, in parallel if that is more than a few.
   void visit(const Tile& area, TileVisitor& visitor);
 
   Counts counts() const;
-  /// Adds to the fates what is known of the primitives' places on the screen.
-  void note_screen_fates();
+  /// Adds to the cull_reasons what is known of the primitives' places on the screen.
+  void note_screen_cull_reasons();
 
  private:
   struct Level;
@@ -119,7 +119,7 @@ class TileTracer {
 
   /// What a list has lost of what is hidden.
   struct Cut {
-    const CellList* uncut = nullptr;  // the list before; null: it is whole
+    const CellList* fallback = nullptr;  // the list before; null: it is whole
     /// All rays end before this depth: TileRays::Met::cut_t, unless cut by a face.
     double t = std::numeric_limits<double>::infinity();
   };
@@ -127,19 +127,20 @@ class TileTracer {
   /// What rays can get to.
   struct Seen {
     const OperandGroups& groups;
-    std::optional<bool> last_value;  // as TileSimplifier's
+    std::optional<bool> last_value;  // as TileCuller's
   };
-  static Seen find_seen(const Solid& solid, const FrameRays& frame, const TraceSubject& subject);
+  static Seen find_seen(const Solid& solid, const FrameRays& frame,
+                        const TraceParameters& parameters);
 
   TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
-             const TraceSubject& subject, const TileRules& rules, Fates& fates);
+             const TraceParameters& parameters, const TileRules& rules, CullReasons& cull_reasons);
 
   void divide(const Tile& tile, const CellList& list, Cut cut, size_t level, Workspace& workspace,
               TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const Cut& cut, Workspace& workspace,
                   TileVisitor& visitor);
-  const CellList* simplify(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
-                           Level& level, Workspace& workspace, bool& cuts);
+  const CellList* cull(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
+                       Level& level, Workspace& workspace, bool& cuts);
   const CellList& open_groups(const Tile& tile, const CellList& list,
                               std::span<const uint8_t> marked, CellList (&buffers)[2],
                               Workspace& workspace);
@@ -150,9 +151,9 @@ class TileTracer {
   const Solid& solid_;
   const OperandGroups& groups_;
   const FrameRays& frame_;
-  const TraceSubject subject_;
+  const TraceParameters parameters_;
   const TileRules rules_;
-  Fates& fates_;
+  CullReasons& cull_reasons_;
   const std::optional<bool> last_value_;
   ScreenBounds bounds_;
   mutable std::mutex mutex_;

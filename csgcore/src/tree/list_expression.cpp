@@ -35,7 +35,7 @@ void ListExpression::parse(const CellList& list) {
   steps_.clear();
   blocks_.clear();
   for (uint32_t i = 0; i < count; ++i) {
-    steps_.push_back(Step::kLiteral);
+    steps_.push_back(Step::kTest);
     const bool complement = (list.primitive[i] & CellList::kComplementBit) != 0;
     Block block{i + CellList::kFirst, list.if_inside[i], list.if_outside[i], 1, 1};
     if (complement) std::swap(block.if_true, block.if_false);

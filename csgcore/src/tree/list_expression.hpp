@@ -1,4 +1,4 @@
-// A list as the expression that it was compiled from: which operations its literals are operands
+// A list as the expression that it was compiled from: which operations its tests are operands
 // of.
 #pragma once
 
@@ -12,34 +12,34 @@
 namespace csgcore {
 
 /// The steps that evaluate an expression on a stack. A subtraction is an intersection with a
-/// complement, which its literals are.
+/// complement, which its tests are.
 class ListExpression {
  public:
   enum class Step : uint8_t {
-    kLiteral,       // pushes the next literal, by its index in the CellList from 0 on
+    kTest,          // pushes the next test, by its index in the CellList from 0 on
     kIntersection,  // makes one operand of the last two
     kUnion,
   };
 
   /// Reads a list that a tree was compiled to, or that restriction has left of one. A block of
-  /// literals that follow each other is an operand of the next one if its literals lead to the
+  /// tests that follow each other is an operand of the next one if its tests lead to the
   /// start of that one and else where that one leads, and no others lead to its start.
   void parse(const CellList& list);
 
   std::span<const Step> steps() const { return steps_; }
 
  private:
-  /// Literals that stand side by side, and together have two continuations.
+  /// Tests that stand side by side, and together have two continuations.
   struct Block {
     uint32_t entry;                    // number of the first
     uint32_t if_true, if_false;        // numbers
-    uint32_t true_jumps, false_jumps;  // how many of the literals lead there
+    uint32_t true_jumps, false_jumps;  // how many of the tests lead there
   };
   bool combine(Block& block, const Block& next);
 
   std::vector<Step> steps_;
   std::vector<Block> blocks_;    // not yet operands, the last of which comes first in the list
-  std::vector<uint32_t> jumps_;  // by number: how many literals lead there
+  std::vector<uint32_t> jumps_;  // by number: how many tests lead there
 };
 
 /// What becomes of an operand at crossings that coincide (NUMERICS.md, "The definition"): a number,

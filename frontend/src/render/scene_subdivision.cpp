@@ -112,7 +112,7 @@ void count_cells(const Subdivision& subdivision, RenderStats& stats) {
   stats.leaves_full = of(LeafKind::kFull);
   stats.leaves_dropped = of(LeafKind::kDropped);
   stats.leaves_given_up = of(LeafKind::kGivenUp);
-  stats.leaf_primitives = leaves.literals;
+  stats.leaf_primitives = leaves.tests;
   stats.bytes = subdivision.bytes();
 }
 

@@ -39,8 +39,8 @@ std::shared_ptr<const csgcore::CanonicalPrimitives> layer_primitives(
 
 LayerOpacity::LayerOpacity(const csgcore::Solid& solid, LayerKind kind)
     : layer_(color_of(kind).a / 255.0f) {
-  for (const csgcore::Literal& literal : solid.list().literals) {
-    const csgcore::CanonicalPrimitive& primitive = solid.primitives()[literal.primitive];
+  for (const csgcore::BlistTest& test : solid.list().tests) {
+    const csgcore::CanonicalPrimitive& primitive = solid.primitives()[test.primitive];
     if (primitive.color) own_[primitive.id] = primitive.color->a;
   }
 }

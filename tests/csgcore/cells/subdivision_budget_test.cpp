@@ -151,12 +151,10 @@ bool same_cells(const Subdivision& a, const Subdivision& b) {
          std::equal(a.leaves().begin(), a.leaves().end(), b.leaves().begin(), b.leaves().end(),
                     [](const Leaf& x, const Leaf& y) {
                       return x.box.min == y.box.min && x.box.max == y.box.max &&
-                             x.first_literal == y.first_literal &&
-                             x.literal_count == y.literal_count && x.kind == y.kind &&
-                             x.solid == y.solid;
+                             x.first_test == y.first_test && x.test_count == y.test_count &&
+                             x.kind == y.kind && x.solid == y.solid;
                     }) &&
-         std::equal(a.literals().begin(), a.literals().end(), b.literals().begin(),
-                    b.literals().end());
+         std::equal(a.tests().begin(), a.tests().end(), b.tests().begin(), b.tests().end());
 }
 
 class SubdivisionBudget : public testing::TestWithParam<std::tuple<Family, uint32_t, double>> {};
@@ -260,7 +258,7 @@ TEST(SubdivisionBudget, DeliversWhatIsGivenUp) {
     for (const Leaf& leaf : batch.leaves) {
       delivered += leaf.kind != LeafKind::kReplaced;
       delivered_given_up += leaf.kind == LeafKind::kGivenUp;
-      ASSERT_LE(leaf.first_literal + leaf.literal_count, batch.literals.size());
+      ASSERT_LE(leaf.first_test + leaf.test_count, batch.tests.size());
     }
   });
   EXPECT_EQ(delivered, subdivision.leaves().size());

@@ -23,7 +23,7 @@ struct Limit {
   Scene (*make)();
   uint32_t leaf_primitives;
   size_t most_leaves;
-  size_t most_literals;
+  size_t most_tests;
 };
 
 Scene coincident_spheres() {
@@ -146,9 +146,9 @@ TEST_P(SubdivisionLimits, EndsAndKeepsItsMeaning) {
   checks::expect_correct(subdivision, scene, 1);
   EXPECT_GE(subdivision.leaves().size(), 1u);
   EXPECT_LE(subdivision.leaves().size(), limit.most_leaves);
-  EXPECT_LE(subdivision.literals().size(), limit.most_literals);
+  EXPECT_LE(subdivision.tests().size(), limit.most_tests);
   RecordProperty("leaves", static_cast<int>(subdivision.leaves().size()));
-  RecordProperty("literals", static_cast<int>(subdivision.literals().size()));
+  RecordProperty("tests", static_cast<int>(subdivision.tests().size()));
 }
 
 const Limit kLimits[] = {

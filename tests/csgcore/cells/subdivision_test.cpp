@@ -98,7 +98,7 @@ TEST(Subdivision, WhatIsWithinTheOverlapCounts) {
     ASSERT_NE(leaf, nullptr);
     ASSERT_EQ(leaf->box.max.x, 0);
     bool found = false;
-    for (const Literal& literal : subdivision.literals_of(*leaf)) found |= literal.primitive == 2;
+    for (const BlistTest& test : subdivision.tests_of(*leaf)) found |= test.primitive == 2;
     EXPECT_EQ(found, within);
   }
 }
@@ -132,7 +132,7 @@ TEST(Subdivision, PaperRuleStopsAtUnionsOfAnyNumber) {
   const Subdivision paper(solid, options);
   ASSERT_EQ(paper.leaves().size(), 1u);
   EXPECT_EQ(paper.leaves()[0].kind, LeafKind::kUnion);
-  EXPECT_EQ(paper.leaves()[0].literal_count, 20u);
+  EXPECT_EQ(paper.leaves()[0].test_count, 20u);
   options.stop_at_unions = false;
   EXPECT_GT(Subdivision(solid, options).leaves().size(), 20u);
 }
@@ -155,7 +155,7 @@ TEST(Subdivision, SurfaceAreaRuleNeedsFewerCells) {
     const Solid solid = solid_of(scene);
     const Subdivision cyclic(solid, options_of(8, SplitRule::kCyclic));
     const Subdivision area(solid, options_of(8));
-    EXPECT_LT(census(area).literals, census(cyclic).literals);
+    EXPECT_LT(census(area).tests, census(cyclic).tests);
   }
 }
 
@@ -166,7 +166,7 @@ std::vector<T> copy_of(std::span<const T> items) {
 
 auto tuple_of(const Leaf& leaf) {
   return std::make_tuple(leaf.box.min.x, leaf.box.min.y, leaf.box.min.z, leaf.box.max.x,
-                         leaf.box.max.y, leaf.box.max.z, leaf.first_literal, leaf.literal_count,
+                         leaf.box.max.y, leaf.box.max.z, leaf.first_test, leaf.test_count,
                          leaf.kind, leaf.solid);
 }
 
@@ -181,7 +181,7 @@ void expect_same(const Subdivision& a, const Subdivision& b) {
   for (size_t i = 0; i < a.leaves().size(); ++i) {
     ASSERT_EQ(tuple_of(a.leaves()[i]), tuple_of(b.leaves()[i]));
   }
-  ASSERT_EQ(copy_of(a.literals()), copy_of(b.literals()));
+  ASSERT_EQ(copy_of(a.tests()), copy_of(b.tests()));
 }
 
 TEST(Subdivision, IsTheSameForEveryNumberOfThreads) {
@@ -213,22 +213,22 @@ TEST(Subdivision, BatchesDeliverItsLeaves) {
     for (const unsigned threads : {1u, 8u}) {
       SubdivisionOptions options = options_of(8);
       options.threads = threads;
-      std::vector<std::pair<decltype(tuple_of(Leaf{})), std::vector<Literal>>> delivered, kept;
-      const auto add = [](auto& list, Leaf leaf, std::span<const Literal> literals) {
-        const auto own = literals.subspan(leaf.first_literal, leaf.literal_count);
-        leaf.first_literal = 0;
+      std::vector<std::pair<decltype(tuple_of(Leaf{})), std::vector<BlistTest>>> delivered, kept;
+      const auto add = [](auto& list, Leaf leaf, std::span<const BlistTest> tests) {
+        const auto own = tests.subspan(leaf.first_test, leaf.test_count);
+        leaf.first_test = 0;
         list.emplace_back(tuple_of(leaf), copy_of(own));
       };
       int batches = 0;
       std::atomic<int> inside = 0;
       const Subdivision subdivision(solid, options, [&](const LeafBatch& batch) {
         EXPECT_EQ(inside.fetch_add(1), 0) << "two calls at a time";
-        for (const Leaf& leaf : batch.leaves) add(delivered, leaf, batch.literals);
+        for (const Leaf& leaf : batch.leaves) add(delivered, leaf, batch.tests);
         ++batches;
         std::this_thread::sleep_for(std::chrono::microseconds(200));  // a second call would show
         inside.fetch_sub(1);
       });
-      for (const Leaf& leaf : subdivision.leaves()) add(kept, leaf, subdivision.literals());
+      for (const Leaf& leaf : subdivision.leaves()) add(kept, leaf, subdivision.tests());
       const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
       std::sort(delivered.begin(), delivered.end(), before);
       std::sort(kept.begin(), kept.end(), before);
@@ -279,7 +279,7 @@ TEST(Subdivision, RefineFollowsTheView) {
   options.view = previous;
   const Subdivision fresh(solid, options);
   EXPECT_EQ(census(fresh).leaves(), census(subdivision).leaves());
-  EXPECT_EQ(census(fresh).literals, census(subdivision).literals);
+  EXPECT_EQ(census(fresh).tests, census(subdivision).tests);
   // All nodes are part of the tree.
   std::vector<int> seen(subdivision.nodes().size());
   for (const KdNode& node : subdivision.nodes()) {

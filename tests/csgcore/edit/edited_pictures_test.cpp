@@ -96,7 +96,7 @@ void expect_same_pictures(const Made& before, const Made& after, const SceneEdit
   ASSERT_EQ(after.solid.bounds().max, anew.solid.bounds().max);
   // A primitive that has moved into another one is left out only when the solid is made anew.
   if (std::ranges::equal(after.solid.inner(), anew.solid.inner())) {
-    ASSERT_EQ(after.solid.list().literals, anew.solid.list().literals);
+    ASSERT_EQ(after.solid.list().tests, anew.solid.list().tests);
   }
   ASSERT_EQ(after.solid.extents().size(), anew.solid.extents().size());
   for (const auto& [name, view] : checks::trace_views(anew.solid.bounds(), 61, 45)) {

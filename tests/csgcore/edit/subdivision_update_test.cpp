@@ -20,7 +20,7 @@ using checks::same_bits;
 
 auto tuple_of(const Leaf& leaf) {
   return std::make_tuple(leaf.box.min.x, leaf.box.min.y, leaf.box.min.z, leaf.box.max.x,
-                         leaf.box.max.y, leaf.box.max.z, leaf.first_literal, leaf.literal_count,
+                         leaf.box.max.y, leaf.box.max.z, leaf.first_test, leaf.test_count,
                          leaf.kind, leaf.solid);
 }
 
@@ -34,7 +34,7 @@ void expect_kept(const Subdivision& before, const Subdivision& after,
   }
   const std::vector<uint32_t> later = edit.later_indices();
   ASSERT_EQ(update.first_new_leaf, before.leaves().size());
-  ASSERT_EQ(update.first_new_literal, before.literals().size());
+  ASSERT_EQ(update.first_new_test, before.tests().size());
   ASSERT_EQ(after.leaves().size(), update.first_new_leaf + update.leaves_made);
   uint64_t replaced = 0;
   for (size_t i = 0; i < before.leaves().size(); ++i) {
@@ -44,18 +44,18 @@ void expect_kept(const Subdivision& before, const Subdivision& after,
       continue;
     }
     ASSERT_EQ(tuple_of(was), tuple_of(is));
-    for (uint32_t k = 0; k < is.literal_count; ++k) {
-      Literal literal = before.literals_of(was)[k];
+    for (uint32_t k = 0; k < is.test_count; ++k) {
+      BlistTest test = before.tests_of(was)[k];
       // One that was changed in place keeps its index.
-      ASSERT_TRUE(edit.keeps_indices() || later[literal.primitive] != SceneEdit::kGone);
-      if (!edit.keeps_indices()) literal.primitive = later[literal.primitive] & 0x7FFFFFFFu;
-      ASSERT_EQ(literal, after.literals_of(is)[k]);
+      ASSERT_TRUE(edit.keeps_indices() || later[test.primitive] != SceneEdit::kGone);
+      if (!edit.keeps_indices()) test.primitive = later[test.primitive] & 0x7FFFFFFFu;
+      ASSERT_EQ(test, after.tests_of(is)[k]);
     }
   }
   EXPECT_EQ(replaced, update.leaves_replaced);
   EXPECT_EQ(update.leaves_kept + update.leaves_made, census(after).leaves());
   for (const Leaf& leaf : after.leaves().subspan(update.first_new_leaf)) {
-    ASSERT_GE(leaf.first_literal, update.first_new_literal);
+    ASSERT_GE(leaf.first_test, update.first_new_test);
   }
 }
 
@@ -157,7 +157,7 @@ TEST(SubdivisionUpdate, OnePrimitiveTouchesFewLeaves) {
   Scene scene = test_support::cylinder_minus_spheres(1000);
   auto before = std::make_unique<Made>(scene);
   Subdivision subdivision(before->solid, {});
-  const uint64_t stored = subdivision.literals().size();
+  const uint64_t stored = subdivision.tests().size();
   const uint64_t leaves = census(subdivision).leaves();
   std::mt19937 random(2);
   int anew = 0;
@@ -170,7 +170,7 @@ TEST(SubdivisionUpdate, OnePrimitiveTouchesFewLeaves) {
     before = std::move(after);
     anew += update.is_anew;
     ASSERT_TRUE(update.is_anew || update.leaves_replaced < leaves / 10);
-    ASSERT_LT(subdivision.literals().size(), 3 * stored);
+    ASSERT_LT(subdivision.tests().size(), 3 * stored);
     ASSERT_LT(census(subdivision).leaves(), 2 * leaves);
   }
   EXPECT_GT(anew, 0);
@@ -254,8 +254,8 @@ TEST(SubdivisionUpdate, WhatComesWithinTheOverlapCounts) {
   ASSERT_EQ(below->box.max.x, 0);
   const auto names_it = [&] {
     bool found = false;
-    for (const Literal& literal : subdivision.literals_of(*subdivision.find({-1e-9, 0, 0}))) {
-      found |= literal.primitive == 2;
+    for (const BlistTest& test : subdivision.tests_of(*subdivision.find({-1e-9, 0, 0}))) {
+      found |= test.primitive == 2;
     }
     return found;
   };
@@ -283,13 +283,13 @@ TEST(SubdivisionUpdate, NoCellNamesWhatIsGone) {
     const Subdivision earlier(before.solid, options);
     for (const Leaf& leaf : earlier.leaves()) {
       const Box cell{leaf.box.min - earlier.overlap(), leaf.box.max + earlier.overlap()};
-      for (const Literal& literal : earlier.literals_of(leaf)) {
-        if (classify((*before.primitives)[literal.primitive], cell) == Classification::kCrosses) {
+      for (const BlistTest& test : earlier.tests_of(leaf)) {
+        if (classify((*before.primitives)[test.primitive], cell) == Classification::kCrosses) {
           continue;
         }
         ++found;
         Scene less = scene;
-        less.primitives.erase(less.primitives.begin() + literal.primitive);
+        less.primitives.erase(less.primitives.begin() + test.primitive);
         less.model = tree_of(static_cast<uint32_t>(less.primitives.size()));
         const SceneEdit edit = compare(scene, less);
         ASSERT_EQ(edit.model, TreeEdit::kWithin);

@@ -111,7 +111,7 @@ TEST_P(BoundariesOf, AreWhereTheTreesValueChanges) {
     const Hits hits[] = {checks::trace_by_tiles(solid, view),
                          checks::trace_by_tiles(solid, view, behind)};
     const bool is_perspective = view.projection == Projection::kPerspective;
-    const Real from_s = is_perspective ? Real(thinnest_piece(solid.bounds())) : -kInfinity;
+    const Real from_s = is_perspective ? Real(thickness_tolerance(solid.bounds())) : -kInfinity;
     for (uint32_t pixel = 0; pixel < hits[0].s.size(); ++pixel) {
       const Ray ray = pixel_ray(view, pixel % view.width_px, pixel / view.width_px);
       const LongRay line{LongVec3(ray.origin), LongVec3(ray.direction)};

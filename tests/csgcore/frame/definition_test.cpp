@@ -186,7 +186,7 @@ TEST(Definition, AGapNarrowerThanTheToleranceDoesNotExist) {
 }
 
 /// A cut whose own wall is too thin to exist leaves the face behind it.
-TEST(Definition, OfAClusterWhatHasChangedIsShown) {
+TEST(Definition, OfACoincidenceWhatHasChangedIsShown) {
   EXPECT_TRUE(shows(
       look_at({kCorners[0], kCorners[1], slab(0, 0.5 * kThinnest), slab(-3, 0)}, "(+ 0 1 2 3)", {}),
       3u, 0, kUp));

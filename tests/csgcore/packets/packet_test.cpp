@@ -14,7 +14,7 @@
 #include "primitives/intersect.hpp"
 #include "rays/make_rays.hpp"
 #include "screen/reached.hpp"
-#include "screen/screen_outline.hpp"
+#include "screen/screen_slab.hpp"
 #include "simd_levels.hpp"
 #include "special_rays.hpp"
 #include "support/full_run.hpp"
@@ -122,7 +122,7 @@ TEST(FrameRays, PutThePivotAtTheModelsDepth) {
     ASSERT_LE(glm::length(frame.pivot - (view.eye + frame.base_s * view.forward)), rounding);
     // Nothing is seen before the tolerance beyond the eye.
     const bool is_perspective = view.projection == Projection::kPerspective;
-    const double nearest = thinnest_piece(bounds) - frame.base_s;
+    const double nearest = thickness_tolerance(bounds) - frame.base_s;
     ASSERT_EQ(frame.first_t, is_perspective ? nearest : -std::numeric_limits<double>::max());
   }
 }
@@ -347,9 +347,9 @@ struct SingleList {
   TraceList trace;
 
   SingleList(const CanonicalPrimitive& primitive, bool complement) {
-    const Literal literal{0, complement, complement ? kListFalse : kListTrue,
-                          complement ? kListTrue : kListFalse};
-    assign(cells, std::span(&literal, 1));
+    const BlistTest test{0, complement, complement ? kListFalse : kListTrue,
+                         complement ? kListTrue : kListFalse};
+    assign(cells, std::span(&test, 1));
     trace.primitives = &primitive;
     trace.list = &cells;
     trace.nearest_t = &nearest_t;
@@ -376,7 +376,7 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
     const SingleList list(target.canonical, false);
     PacketWorkspace workspace;
     PacketHits hits;
-    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceSubject{},
+    trace_packet(from_infinity(target.frame), packet, kAllLanes, list.trace, TraceParameters{},
                  workspace, hits);
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
       const bool crosses = segments.start[lane] < segments.end[lane];
@@ -399,9 +399,9 @@ PocketTrace trace_beside_a_pocket(double aside, LaneMask may_reach = kAllLanes) 
   const CanonicalPrimitive primitives[] = {
       canonicalize(make_frustum(-1, 1, 10, 10)),
       canonicalize(make_frustum(0, 5, 1, 1, {Mat3{1.0}, {0, 1 + aside, 0}}))};
-  const Literal literals[] = {{0, 0, 1, kListFalse}, {1, 1, kListFalse, kListTrue}};
+  const BlistTest tests[] = {{0, 0, 1, kListFalse}, {1, 1, kListFalse, kListTrue}};
   CellList cells;
-  assign(cells, literals);
+  assign(cells, tests);
   View view;
   view.projection = Projection::kOrthographic;
   view.eye = {0, 0, 20};
@@ -419,13 +419,13 @@ PocketTrace trace_beside_a_pocket(double aside, LaneMask may_reach = kAllLanes) 
   list.list = &cells;
   list.nearest_t = nearest_t;
   list.earliest_t = -20;
-  const LaneMask reached[] = {may_reach, kAllLanes};  // the last literal comes first
+  const LaneMask reached[] = {may_reach, kAllLanes};  // the last test comes first
   list.reached = reached;
-  TraceSubject subject;
-  subject.thinnest_piece = 1e-9;
+  TraceParameters parameters;
+  parameters.thickness_tolerance = 1e-9;
   PacketWorkspace workspace;
   PacketHits hits;
-  trace_packet(frame, rays, kAllLanes, list, subject, workspace, hits);
+  trace_packet(frame, rays, kAllLanes, list, parameters, workspace, hits);
   EXPECT_EQ(hits.hits, kAllLanes);
   PocketTrace trace{workspace.intersections, {}};
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
@@ -462,13 +462,13 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
   std::mt19937 random(12);
   const uint32_t x = 40, y = 24;
   std::vector<Extent> extents;
-  std::vector<ScreenOutline> outlines;
+  std::vector<ScreenSlab> slabs;
   std::vector<uint32_t> primitives;
   const auto add = [&](double low_x, double high_x, double low_y, double high_y) {
     const double half[] = {0.5 * (high_x - low_x), 0.5 * (high_y - low_y), 0};
     extents.push_back(
         {{low_x + half[0], low_y + half[1], 0}, {half[0], half[1], half[2]}, kInfinity, 0});
-    outlines.push_back({});
+    slabs.push_back({});
     primitives.push_back(static_cast<uint32_t>(primitives.size()) | CellList::kComplementBit);
   };
   add(-1e6, 1e6, -1e6, 1e6);
@@ -486,9 +486,9 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
     for (const int line : {0, 1}) {
       const double angle = uniform(random, 0, 7), at = uniform(random, -3, 8);
       const double along[] = {std::cos(angle), std::sin(angle)};
-      outlines.back().x[line] = static_cast<float>(along[0]);
-      outlines.back().y[line] = static_cast<float>(along[1]);
-      outlines.back().limit[line] =
+      slabs.back().x[line] = static_cast<float>(along[0]);
+      slabs.back().y[line] = static_cast<float>(along[1]);
+      slabs.back().limit[line] =
           i % 8 == 1 && line == 0
               ? std::numeric_limits<float>::infinity()
               : static_cast<float>(along[0] * (x + 4) + along[1] * (y + 4) + at);
@@ -498,9 +498,9 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
   const auto beyond = [&](size_t i, double pixel_x, double pixel_y) {
     double furthest = -kInfinity;
     for (const int line : {0, 1}) {
-      const ScreenOutline& outline = outlines[i];
-      furthest = std::max(
-          furthest, outline.x[line] * pixel_x + outline.y[line] * pixel_y - outline.limit[line]);
+      const ScreenSlab& slab = slabs[i];
+      furthest =
+          std::max(furthest, slab.x[line] * pixel_x + slab.y[line] * pixel_y - slab.limit[line]);
     }
     return extents[i].inside2 < 0 ? furthest : -kInfinity;
   };
@@ -512,7 +512,7 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
     SCOPED_TRACE(checks::name_of(level));
     std::vector<LaneMask> blocks[2];
     for (auto& block : blocks) block.resize(primitives.size());
-    find_reached(extents.data(), outlines.data(), primitives, x, y, blocks[0].data(),
+    find_reached(extents.data(), slabs.data(), primitives, x, y, blocks[0].data(),
                  blocks[1].data());
     for (size_t i = 0; i < extents.size(); ++i) {
       for (uint32_t lane = 0; lane < 2 * kPacketRays; ++lane) {
@@ -569,7 +569,7 @@ Bytes bytes_of_all() {
       bytes.add(segments.end, kPacketRays);
       PacketWorkspace workspace;
       PacketHits hits;
-      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceSubject{}, workspace,
+      trace_packet(from_infinity(own), *packet, kAllLanes, list.trace, TraceParameters{}, workspace,
                    hits);
       bytes.add(&hits.hits, 1);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {

@@ -13,7 +13,7 @@
 #include "primitives/intersect.hpp"
 #include "rays/make_rays.hpp"
 #include "rays/packet_blocks.hpp"
-#include "screen/screen_outline.hpp"
+#include "screen/screen_slab.hpp"
 #include "simd_levels.hpp"
 #include "solid/extent_tests.hpp"
 #include "support/models.hpp"
@@ -31,8 +31,8 @@ struct Screen {
   FrameRays frame;
   std::vector<CanonicalPrimitive> primitives;
   Extents extents;
-  std::vector<ScreenOutline> outlines;  // of those whose inside2 < 0, on the screen
-  std::vector<ScreenCorners> corners;   // of those that are large there
+  std::vector<ScreenSlab> slabs;    // of those whose inside2 < 0, on the screen
+  std::vector<ScreenKDop> corners;  // of those that are large there
 
   Screen(const std::vector<Primitive>& scene, const FrameRays& rays, bool centers_only)
       : frame(rays) {
@@ -42,7 +42,7 @@ struct Screen {
       world.push_back(extent_of(primitives.back()));
     }
     extents.resize(world.size());
-    outlines.resize(world.size());
+    slabs.resize(world.size());
     corners.resize(world.size());
     const ScreenOptions options{centers_only};
     std::vector<uint32_t> indices(world.size());
@@ -50,24 +50,24 @@ struct Screen {
     find_screen_extents(world.data(), indices, frame, options, extents.data());
     std::erase_if(indices, [&](uint32_t i) {
       const double half = std::min(extents[i].half[0], extents[i].half[1]);
-      return !is_outlined(i) && !(half >= kCorneredHalf_px);
+      return !has_slab(i) && !(half >= kCorneredHalf_px);
     });
-    find_outlines(primitives.data(), indices, frame, options, extents.data(), outlines.data(),
-                  corners.data());
+    find_slabs(primitives.data(), indices, frame, options, extents.data(), slabs.data(),
+               corners.data());
   }
 
   /// Of what fills its box badly.
-  bool is_outlined(size_t i) const {
-    return extents[i].inside2 < 0 && fate_on_screen(extents[i]) == ScreenFate::kVisible;
+  bool has_slab(size_t i) const {
+    return extents[i].inside2 < 0 &&
+           cull_reason_on_screen(extents[i]) == ScreenCullReason::kVisible;
   }
 
-  bool is_cornered(size_t i) const { return is_outlined(i) && extents[i].inside2 == kCornered; }
+  bool is_cornered(size_t i) const { return has_slab(i) && extents[i].inside2 == kCornered; }
 
   bool is_beyond_line(size_t i, const glm::dvec2& point_px) const {
     const Vec3 at{point_px, 0};
     const Box box{at, at};
-    return (is_outlined(i) && misses(outlines[i], box)) ||
-           (is_cornered(i) && misses(corners[i], box));
+    return (has_slab(i) && misses(slabs[i], box)) || (is_cornered(i) && misses(corners[i], box));
   }
 
   /// The rays of so many points of the picture, at most kPacketRays.
@@ -170,14 +170,14 @@ TEST_P(ScreenExtents, HoldWhatRaysMeet) {
     const Screen screen(primitives, rays_of(view), centers_only);
     for (size_t i = 0; i < primitives.size(); ++i) {
       const Extent& extent = screen.extents[i];
-      unseen += fate_on_screen(extent) != ScreenFate::kVisible;
+      unseen += cull_reason_on_screen(extent) != ScreenCullReason::kVisible;
       const auto points = points_at(screen, primitives[i], random, centers_only);
       PacketSegments segments;
       intersect(screen.frame, screen.rays_through(points), screen.primitives[i], segments);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
         if (!is_seen(screen.frame, segments, lane)) continue;
         ++seen;
-        ASSERT_EQ(fate_on_screen(extent), ScreenFate::kVisible);
+        ASSERT_EQ(cull_reason_on_screen(extent), ScreenCullReason::kVisible);
         ASSERT_LE(std::abs(points[lane].x - extent.center[0]), extent.half[0]);
         ASSERT_LE(std::abs(points[lane].y - extent.center[1]), extent.half[1]);
         ASSERT_FALSE(screen.is_beyond_line(i, points[lane]));
@@ -206,26 +206,26 @@ TEST(ScreenExtents, AreTight) {
     for (size_t i = 0; i < primitives.size(); ++i) {
       const Extent& extent = screen.extents[i];
       const bool is_perspective = view.projection == Projection::kPerspective;
-      if (fate_on_screen(extent) != ScreenFate::kVisible) continue;
+      if (cull_reason_on_screen(extent) != ScreenCullReason::kVisible) continue;
       if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
       // What encloses it is shown in its place.
       const Polyhedron* polyhedron = primitives[i].polyhedron.get();
       if (polyhedron && polyhedron->vertices().size() > 64) continue;
       glm::dvec2 low(1e9), high(-1e9);
       double beyond[2] = {-1e9, -1e9};  // how far the furthest is beyond the lines
-      double least[ScreenCorners::kCount], most[ScreenCorners::kCount];
+      double least[ScreenKDop::kCount], most[ScreenKDop::kCount];
       std::fill(std::begin(least), std::end(least), 1e9);
       std::fill(std::begin(most), std::end(most), -1e9);
-      const ScreenOutline& outline = screen.outlines[i];
+      const ScreenSlab& slab = screen.slabs[i];
       for (int point = 0; point < 3000; ++point) {
         const glm::dvec2 at = screen.project(checks::surface_point(primitives[i], random));
         low = glm::min(low, at);
         high = glm::max(high, at);
         for (const int line : {0, 1}) {
-          const double past = outline.x[line] * at.x + outline.y[line] * at.y - outline.limit[line];
+          const double past = slab.x[line] * at.x + slab.y[line] * at.y - slab.limit[line];
           beyond[line] = std::max(beyond[line], past);
         }
-        for (int corner = 0; corner < ScreenCorners::kCount; ++corner) {
+        for (int corner = 0; corner < ScreenKDop::kCount; ++corner) {
           const auto [x, y] = kCornerDirections[corner];
           least[corner] = std::min(least[corner], x * at.x + y * at.y);
           most[corner] = std::max(most[corner], x * at.x + y * at.y);
@@ -237,16 +237,16 @@ TEST(ScreenExtents, AreTight) {
         ASSERT_NEAR(extent.center[axis] + extent.half[axis], high[axis], slack);
       }
       ++tight;
-      for (int corner = 0; screen.is_cornered(i) && corner < ScreenCorners::kCount; ++corner) {
+      for (int corner = 0; screen.is_cornered(i) && corner < ScreenKDop::kCount; ++corner) {
         const double slack = 0.06 * glm::length(high - low);
         ASSERT_NEAR(screen.corners[i].low[corner], least[corner], slack);
         ASSERT_NEAR(screen.corners[i].high[corner], most[corner], slack);
         ++tight_corners;
       }
       const bool shows_wall = primitives[i].shape == Shape::kFrustum;
-      if (!screen.is_outlined(i) || (!shows_wall && !polyhedron)) continue;
+      if (!screen.has_slab(i) || (!shows_wall && !polyhedron)) continue;
       for (const int line : {0, 1}) {
-        if (outline.limit[line] == std::numeric_limits<float>::infinity()) continue;
+        if (slab.limit[line] == std::numeric_limits<float>::infinity()) continue;
         ASSERT_NEAR(beyond[line], 0, 0.03 * glm::length(high - low));
         ++tight_lines;
       }
@@ -286,7 +286,7 @@ bool any_seen(const Screen& screen, const RayPacket& rays, size_t primitive) {
   return result;
 }
 
-TEST(ScreenOutlines, MissOnlyTilesWhoseRaysMissThem) {
+TEST(ScreenSlabs, MissOnlyTilesWhoseRaysMissThem) {
   std::mt19937 random(3);
   uint64_t missed = 0, missed_by_corners = 0;
   for (View& view : random_views(random)) {
@@ -300,7 +300,7 @@ TEST(ScreenOutlines, MissOnlyTilesWhoseRaysMissThem) {
       const Box tile{{x, y, 0}, {x + side, y + uniform(random, 0.5, 1) * side, 0}};
       const RayPacket rays = screen.rays_through(points_in(tile, random));
       for (uint32_t i = 0; i < 64; ++i) {
-        const bool by_lines = screen.is_outlined(i) && misses(screen.outlines[i], tile);
+        const bool by_lines = screen.has_slab(i) && misses(screen.slabs[i], tile);
         const bool by_corners = screen.is_cornered(i) && misses(screen.corners[i], tile);
         if (!by_lines && !by_corners) continue;
         ++missed;
@@ -314,7 +314,7 @@ TEST(ScreenOutlines, MissOnlyTilesWhoseRaysMissThem) {
 }
 
 /// The screen's functions have no other test of their instruction sets.
-TEST(ScreenOutlines, EveryInstructionSetAgrees) {
+TEST(ScreenSlabs, EveryInstructionSetAgrees) {
   std::mt19937 random(5);
   const std::vector<View> views = random_views(random);
   const std::vector<Primitive> primitives = random_primitives(random, 203);
@@ -329,14 +329,14 @@ TEST(ScreenOutlines, EveryInstructionSetAgrees) {
                             expected.extents.size() * sizeof(Extent)),
                 0);
       for (size_t i = 0; i < primitives.size(); ++i) {
-        if (!screen.is_outlined(i)) continue;
+        if (!screen.has_slab(i)) continue;
         for (const int line : {0, 1}) {
-          EXPECT_EQ(screen.outlines[i].x[line], expected.outlines[i].x[line]);
-          EXPECT_EQ(screen.outlines[i].y[line], expected.outlines[i].y[line]);
-          EXPECT_EQ(screen.outlines[i].limit[line], expected.outlines[i].limit[line]);
+          EXPECT_EQ(screen.slabs[i].x[line], expected.slabs[i].x[line]);
+          EXPECT_EQ(screen.slabs[i].y[line], expected.slabs[i].y[line]);
+          EXPECT_EQ(screen.slabs[i].limit[line], expected.slabs[i].limit[line]);
         }
         if (!screen.is_cornered(i)) continue;
-        EXPECT_EQ(std::memcmp(&screen.corners[i], &expected.corners[i], sizeof(ScreenCorners)), 0);
+        EXPECT_EQ(std::memcmp(&screen.corners[i], &expected.corners[i], sizeof(ScreenKDop)), 0);
       }
     });
   }

@@ -92,10 +92,10 @@ bool value_at(const Solid& solid, const Vec3& point) {
     }
     return number == CellList::kTrue;
   };
-  std::vector<Literal> literals;
-  append(literals, groups.list());
-  if (literals.empty()) return groups.list().root == CellList::kTrue;
-  return evaluate(std::span<const Literal>(literals), inside);
+  std::vector<BlistTest> tests;
+  append(tests, groups.list());
+  if (tests.empty()) return groups.list().root == CellList::kTrue;
+  return evaluate(std::span<const BlistTest>(tests), inside);
 }
 
 class GroupsOf : public testing::TestWithParam<uint32_t> {
@@ -139,13 +139,13 @@ TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
       std::swap(list, closed);
       restrictor.open(closed, groups_, marked, {cell}, list);
     }
-    std::vector<Literal> literals;
-    append(literals, list);
+    std::vector<BlistTest> tests;
+    append(tests, list);
     for (int i = 0; i < 30; ++i) {
       const Vec3 point = checks::random_point(random, cell);
       const auto inside = [&](uint32_t p) { return contains(solid_.primitives()[p], point); };
-      const bool value = literals.empty() ? list.root == CellList::kTrue
-                                          : evaluate(std::span<const Literal>(literals), inside);
+      const bool value = tests.empty() ? list.root == CellList::kTrue
+                                       : evaluate(std::span<const BlistTest>(tests), inside);
       ASSERT_EQ(value, solid_.contains(point));
     }
   }
@@ -203,7 +203,7 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       find_screen_extents(groups_.extents().data(), indices, frame, {false}, screen.data());
       for (uint32_t i = 0; i < count; ++i) {
         const Extent& exact = screen[indices[i]];
-        if (fate_on_screen(exact) != ScreenFate::kVisible) continue;
+        if (cull_reason_on_screen(exact) != ScreenCullReason::kVisible) continue;
         ++visible;
         EXPECT_LE(all.low_x, rows[0][i]);
         EXPECT_GE(all.high_x, rows[1][i]);
@@ -248,16 +248,16 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
       const Extent& box = boxes[group];
       bounds.open_wholly(group);
       const std::span<const uint32_t> members = groups_.members(group).primitive;
-      if (fate_on_screen(box) != ScreenFate::kVisible) continue;
+      if (cull_reason_on_screen(box) != ScreenCullReason::kVisible) continue;
       add_groups(members);
-      if (fate_on_screen(extent) == ScreenFate::kVisible) {
+      if (cull_reason_on_screen(extent) == ScreenCullReason::kVisible) {
         const bool is_on_screen = box.half[0] < 0.5 * view.width_px;
         area += is_on_screen ? extent.half[0] * extent.half[1] : 0;
         box_area += is_on_screen ? box.half[0] * box.half[1] : 0;
       }
       for (const uint32_t entry : members) {
         const Extent& member = bounds.extents()[entry & kPrimitiveBits];
-        if (fate_on_screen(member) != ScreenFate::kVisible) continue;
+        if (cull_reason_on_screen(member) != ScreenCullReason::kVisible) continue;
         // What the group's box and the picture leave of it counts.
         double low[2], high[2];
         for (const int axis : {0, 1}) {
@@ -268,7 +268,7 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
               {member.center[axis] + member.half[axis], box.center[axis] + box.half[axis], last});
         }
         if (low[0] > high[0] || low[1] > high[1]) continue;
-        ASSERT_EQ(fate_on_screen(extent), ScreenFate::kVisible);
+        ASSERT_EQ(cull_reason_on_screen(extent), ScreenCullReason::kVisible);
         for (const int axis : {0, 1}) {
           EXPECT_LE(extent.center[axis] - extent.half[axis], low[axis]);
           EXPECT_GE(extent.center[axis] + extent.half[axis], high[axis]);
@@ -316,11 +316,11 @@ TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
     find_screen_extents(extents.data(), indices, frame, {true}, screen.data());
     uint32_t nowhere = 0, between = 0;
     for (uint32_t i = 0; i < kCount; ++i) {
-      const ScreenFate fate = fate_on_screen(screen[i]);
+      const ScreenCullReason cull_reason = cull_reason_on_screen(screen[i]);
       const bool is_nowhere = rows[0][i] > rows[1][i];
       nowhere += is_nowhere;
-      between += fate == ScreenFate::kSubPixel;
-      ASSERT_FALSE(is_nowhere && fate == ScreenFate::kVisible);
+      between += cull_reason == ScreenCullReason::kSubPixel;
+      ASSERT_FALSE(is_nowhere && cull_reason == ScreenCullReason::kVisible);
     }
     EXPECT_GE(nowhere, between / 4);
   }
@@ -456,7 +456,7 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
   EXPECT_EQ(less.groups().list().root, CellList::kFalse);
 }
 
-TEST(OperandGroups, ManyOperandsAreFewLiterals) {
+TEST(OperandGroups, ManyOperandsAreFewTests) {
   const Scene scene = test_support::cylinder_minus_spheres(10000);
   const Solid solid(canonical_primitives(scene), scene.model);
   EXPECT_LE(solid.groups().list().count(), 70u);

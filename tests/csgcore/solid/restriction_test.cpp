@@ -8,33 +8,33 @@
 namespace csgcore {
 namespace {
 
-std::vector<Literal> literals_of(const CellList& list) {
-  std::vector<Literal> literals;
-  append(literals, list);
-  return literals;
+std::vector<BlistTest> tests_of(const CellList& list) {
+  std::vector<BlistTest> tests;
+  append(tests, list);
+  return tests;
 }
 
 bool value_at(const Solid& solid, const CellList& list, const Vec3& point) {
   if (list.is_constant()) return list.root == CellList::kTrue;
-  return evaluate(std::span<const Literal>(literals_of(list)), [&](uint32_t primitive) {
+  return evaluate(std::span<const BlistTest>(tests_of(list)), [&](uint32_t primitive) {
     return contains(solid.primitives()[primitive], point);
   });
 }
 
 /// Nothing in it is decided, pointless, or out of reach.
 void expect_irreducible(const Solid& solid, const CellList& list, const Box& cell, bool all_cross) {
-  const std::vector<Literal> literals = literals_of(list);
-  std::vector<bool> reached(literals.size());
-  if (!literals.empty()) reached[0] = true;
-  for (size_t i = 0; i < literals.size(); ++i) {
+  const std::vector<BlistTest> tests = tests_of(list);
+  std::vector<bool> reached(tests.size());
+  if (!tests.empty()) reached[0] = true;
+  for (size_t i = 0; i < tests.size(); ++i) {
     ASSERT_TRUE(reached[i]);
-    ASSERT_NE(literals[i].if_inside, literals[i].if_outside);
-    for (const uint32_t target : {literals[i].if_inside, literals[i].if_outside}) {
+    ASSERT_NE(tests[i].if_inside, tests[i].if_outside);
+    for (const uint32_t target : {tests[i].if_inside, tests[i].if_outside}) {
       ASSERT_GT(target, i);
       if (target < kListFalse) reached.at(target) = true;
     }
     if (!all_cross) continue;
-    ASSERT_EQ(classify(solid.primitives()[literals[i].primitive], cell), Classification::kCrosses);
+    ASSERT_EQ(classify(solid.primitives()[tests[i].primitive], cell), Classification::kCrosses);
   }
 }
 
@@ -49,11 +49,11 @@ class RestrictionOf : public testing::TestWithParam<uint32_t> {};
 TEST_P(RestrictionOf, RandomTreeEqualsTheListWithinTheCell) {
   const Scene scene = test_support::random_tree_of_all_kinds(GetParam(), GetParam());
   const Solid solid(canonical_primitives(scene), scene.model);
-  if (solid.list().literals.empty()) GTEST_SKIP() << "an empty tree";
+  if (solid.list().tests.empty()) GTEST_SKIP() << "an empty tree";
   const WorldClassifier classifier(solid.primitives());
   Restrictor restrictor(solid.extents(), classifier);
   CellList whole, in_cell, below, above;
-  assign(whole, solid.list().literals);
+  assign(whole, solid.list().tests);
   std::mt19937 random(1);
   for (int round = 0; round < 150; ++round) {
     const Box cell = random_cell(random, {Vec3(-8.0), Vec3(8.0)});
@@ -87,13 +87,13 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RestrictionOf,
 
 TEST(CellList, KeepsAListBothWays) {
   const Scene scene = test_support::random_tree(50, 4);
-  const ShortCircuitList list = compile(scene.model);
+  const Blist list = compile(scene.model);
   CellList cell_list;
-  assign(cell_list, list.literals);
-  EXPECT_EQ(literals_of(cell_list), list.literals);
-  EXPECT_EQ(is_union(cell_list), is_union(list.literals));
+  assign(cell_list, list.tests);
+  EXPECT_EQ(tests_of(cell_list), list.tests);
+  EXPECT_EQ(is_union(cell_list), is_union(list.tests));
   assign(cell_list,
-         compile(checks::scene_of(Op::kUnion, {make_sphere(1), make_sphere(2)}).model).literals);
+         compile(checks::scene_of(Op::kUnion, {make_sphere(1), make_sphere(2)}).model).tests);
   EXPECT_TRUE(is_union(cell_list));
   EXPECT_EQ(cell_list.count(), 2u);
 }
@@ -116,7 +116,7 @@ TEST(Restriction, DropsWhatAnOperandMadeIrrelevant) {
   const WorldClassifier classifier(solid.primitives());
   Restrictor restrictor(solid.extents(), classifier);
   CellList whole, list;
-  assign(whole, solid.list().literals);
+  assign(whole, solid.list().tests);
   ASSERT_EQ(whole.count(), 8u);
   // Both parts' cutting spheres cross the cell, but only the second part's body does.
   restrictor.restrict(whole, {{9, -30, -2}, {12, 30, 2}}, list);

@@ -1,5 +1,5 @@
 // Parts that share planes, and plates behind each other: what a face hides is left out of tiles
-// (TileSimplifier::cut_by_face), and nothing of the picture changes.
+// (TileCuller::cut_by_face), and nothing of the picture changes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -22,14 +22,14 @@ constexpr int kDepths = 40;
 
 TileListOptions options_of(const Solid& solid) {
   TileListOptions options;
-  options.thinnest_piece = 1e-6 * solid.bounds().diagonal();
+  options.thickness_tolerance = 1e-6 * solid.bounds().diagonal();
   return options;
 }
 
 bool holds(const TileLists& lists, const ListedTile& tile, const Solid& solid, const Vec3& point) {
-  const auto literals = std::span(lists.literals).subspan(tile.first_literal, tile.literal_count);
+  const auto tests = std::span(lists.tests).subspan(tile.first_test, tile.test_count);
   return evaluate(
-      literals, [&](uint32_t primitive) { return contains(solid.primitives()[primitive], point); });
+      tests, [&](uint32_t primitive) { return contains(solid.primitives()[primitive], point); });
 }
 
 /// The depths between which the ray is looked at.
@@ -50,7 +50,7 @@ void expect_the_solid(const Solid& solid, const View& view, const TileLists& lis
                       const std::array<double, 2>& offset, Found& found) {
   std::vector<const ListedTile*> tile_of(size_t{kWidth_px} * kHeight_px);
   for (const ListedTile& tile : lists.tiles) {
-    ASSERT_GT(tile.literal_count, 0u);
+    ASSERT_GT(tile.test_count, 0u);
     found.cut_tiles += std::isfinite(tile.cut_s);
     for (uint32_t y = tile.area.y; y < tile.area.y + tile.area.height; ++y) {
       for (uint32_t x = tile.area.x; x < tile.area.x + tile.area.width; ++x) {
@@ -143,11 +143,11 @@ TEST_P(TileListsTest, DoNotDependOnThreads) {
     options.threads = threads;
     TileLists many;
     ASSERT_TRUE(list_tiles(solid, views.front().view, options, many));
-    EXPECT_TRUE(one.literals == many.literals);
+    EXPECT_TRUE(one.tests == many.tests);
     ASSERT_EQ(one.tiles.size(), many.tiles.size());
     for (size_t i = 0; i < one.tiles.size(); ++i) {
       EXPECT_TRUE(one.tiles[i].area == many.tiles[i].area);
-      EXPECT_EQ(one.tiles[i].first_literal, many.tiles[i].first_literal);
+      EXPECT_EQ(one.tiles[i].first_test, many.tiles[i].first_test);
       EXPECT_EQ(one.tiles[i].cut_s, many.tiles[i].cut_s);
     }
   }
@@ -163,7 +163,7 @@ TEST(TileLists, LongOnesAreOfSmallTiles) {
   TileLists lists;
   ASSERT_TRUE(list_tiles(solid, view, options, lists));
   for (const ListedTile& tile : lists.tiles) {
-    longest = std::max(longest, tile.literal_count);
+    longest = std::max(longest, tile.test_count);
     EXPECT_GE(tile.area.width * tile.area.height, 32u);
   }
   options.longest_list = longest * 3 / 4;
@@ -171,8 +171,8 @@ TEST(TileLists, LongOnesAreOfSmallTiles) {
   ASSERT_TRUE(list_tiles(solid, view, options, lists));
   uint64_t small = 0;
   for (const ListedTile& tile : lists.tiles) {
-    EXPECT_LE(tile.literal_count, options.longest_list);
-    if (tile.literal_count > options.short_list) {
+    EXPECT_LE(tile.test_count, options.longest_list);
+    if (tile.test_count > options.short_list) {
       EXPECT_LE(tile.area.width * tile.area.height, 32u);
     }
     small += tile.area.width * tile.area.height < 32;
@@ -191,7 +191,7 @@ TEST(TileLists, ListsThatNoDivisionMakesShortEnoughAreRefused) {
   TileLists lists;
   EXPECT_FALSE(list_tiles(solid, view, options, lists));
   EXPECT_TRUE(lists.tiles.empty());
-  EXPECT_TRUE(lists.literals.empty());
+  EXPECT_TRUE(lists.tests.empty());
 }
 
 TEST(TileLists, OfNothingAreNone) {
@@ -199,7 +199,7 @@ TEST(TileLists, OfNothingAreNone) {
       Op::kIntersection, {make_sphere(1), make_sphere(1, checks::moved({5, 0, 0}))});
   const Solid solid(canonical_primitives(nothing), nothing.model);
   TileListOptions options;
-  options.thinnest_piece = 1e-6;
+  options.thickness_tolerance = 1e-6;
   TileLists lists;
   EXPECT_TRUE(list_tiles(solid, View{}, options, lists));
   EXPECT_TRUE(lists.tiles.empty());

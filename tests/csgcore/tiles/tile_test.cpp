@@ -27,31 +27,31 @@ class Simplifying {
         whole_(solid_, view),
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
         restrictor_(bounds_.extents(), bounds_),
-        simplifier_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
-                    0.0, thinnest_piece(solid_.bounds()), fates_) {
+        culler_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
+                0.0, thickness_tolerance(solid_.bounds()), cull_reasons_) {
     bounds_.bound_all();
   }
 
   struct Outcome {
-    uint32_t before = 0, after = 0;  // literals
+    uint32_t before = 0, after = 0;  // tests
     uint64_t hits = 0;
   };
   /// Fails if rays through the tile's pixels see different things by the two lists.
   Outcome expect_same_hits(const Tile& tile, Boundary boundary) {
-    CellList list, simplified;
+    CellList list, culled;
     Outcome outcome;
     if (!restrict_to(tile, list)) return outcome;
     outcome.before = list.count();
-    const auto simplicity = simplifier_.simplify(tile, list, restrictor_, simplified);
-    if (simplicity == TileSimplifier::Outcome::kNothing) return outcome;
-    const bool cuts = simplicity == TileSimplifier::Outcome::kCut;
-    outcome.after = simplified.count();
+    const auto simplicity = culler_.cull(tile, list, restrictor_, culled);
+    if (simplicity == TileCuller::Outcome::kNothing) return outcome;
+    const bool cuts = simplicity == TileCuller::Outcome::kCut;
+    outcome.after = culled.count();
     EXPECT_LT(outcome.after, outcome.before);
     for_each_block(tile, [&](const PacketBlock& block) {
       RayPacket rays;
       make_block_rays(whole_.frame(), block, rays);
       const PacketHits by_all = trace(list, rays, block.lanes, boundary);
-      const PacketHits by_few = trace(simplified, rays, block.lanes, boundary);
+      const PacketHits by_few = trace(culled, rays, block.lanes, boundary);
       // What lies behind a cut counts only where nothing before it does.
       const LaneMask lanes = cuts ? by_few.hits : block.lanes;
       EXPECT_EQ(by_all.hits & lanes, by_few.hits & lanes);
@@ -59,7 +59,7 @@ class Simplifying {
         if (!(by_few.hits >> lane & 1)) continue;
         ++outcome.hits;
         EXPECT_EQ(by_few.t[lane], by_all.t[lane]);
-        EXPECT_EQ(simplified.primitive[by_few.index[lane]], list.primitive[by_all.index[lane]]);
+        EXPECT_EQ(culled.primitive[by_few.index[lane]], list.primitive[by_all.index[lane]]);
       }
     });
     return outcome;
@@ -79,8 +79,8 @@ class Simplifying {
     TraceList trace_list = whole_.list();
     trace_list.list = &list;
     trace_list.nearest_t = nearest.data();
-    const TraceSubject subject{thinnest_piece(solid_.bounds()), boundary};
-    trace_packet(whole_.frame(), rays, lanes, trace_list, subject, workspace_, hits);
+    const TraceParameters parameters{thickness_tolerance(solid_.bounds()), boundary};
+    trace_packet(whole_.frame(), rays, lanes, trace_list, parameters, workspace_, hits);
     return hits;
   }
 
@@ -88,14 +88,14 @@ class Simplifying {
   checks::WholeList whole_;
   ScreenBounds bounds_;
   Restrictor restrictor_;
-  Fates fates_;
-  TileSimplifier simplifier_;
+  CullReasons cull_reasons_;
+  TileCuller culler_;
   PacketWorkspace workspace_;
 };
 
-class Simplifier : public testing::TestWithParam<Boundary> {};
+class Culler : public testing::TestWithParam<Boundary> {};
 
-TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
+TEST_P(Culler, DropsOnlyWhatItsRaysDoNotSee) {
   const Boundary boundary = GetParam();
   // Where rays go on, nothing is hidden behind what they meet first.
   const auto last_value =
@@ -108,10 +108,10 @@ TEST_P(Simplifier, DropsOnlyWhatItsRaysDoNotSee) {
     for (const auto& [name, view] : checks::trace_views(bounds, kSide_px, kSide_px)) {
       if (name == "FromWithin") continue;
       SCOPED_TRACE(name);
-      Simplifying simplifying(scene, view, last_value);
+      Simplifying culling(scene, view, last_value);
       for (uint32_t y = 0; y < kSide_px; y += kTile_px) {
         for (uint32_t x = 0; x < kSide_px; x += kTile_px) {
-          const auto outcome = simplifying.expect_same_hits({x, y, kTile_px, kTile_px}, boundary);
+          const auto outcome = culling.expect_same_hits({x, y, kTile_px, kTile_px}, boundary);
           if (outcome.hits > 0) dropped += outcome.before - outcome.after;
           hits += outcome.hits;
         }
@@ -188,7 +188,7 @@ TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
   EXPECT_GT(behind, 1000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiles, Simplifier, testing::Values(Boundary::kFirst, Boundary::kBehind),
+INSTANTIATE_TEST_SUITE_P(Tiles, Culler, testing::Values(Boundary::kFirst, Boundary::kBehind),
                          [](const auto& boundary) {
                            return boundary.param == Boundary::kFirst ? "First" : "Behind";
                          });

@@ -1,11 +1,11 @@
-// The tree's normal form, and its compilation to a short-circuit list.
+// The tree's normal form, and its compilation to a Blist.
 #include "csgcore/csg_tree.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "checks.hpp"
-#include "csgcore/short_circuit_list.hpp"
+#include "csgcore/blist.hpp"
 #include "support/evaluate_tree.hpp"
 
 namespace csgcore {
@@ -213,46 +213,46 @@ TEST(CsgTree, SubtractedPrimitivesHoldNowhere) {
   }
 }
 
-TEST(ShortCircuitList, CompiledTreesKeepTheirMeaning) {
+TEST(Blist, CompiledTreesKeepTheirMeaning) {
   std::mt19937 random(2);
   for (int round = 0; round < 3000; ++round) {
     const CsgTree tree = build(random_calls(random));
-    const ShortCircuitList list = compile(tree);
+    const Blist list = compile(tree);
     if (tree.empty()) {
-      EXPECT_TRUE(list.literals.empty());
+      EXPECT_TRUE(list.tests.empty());
       EXPECT_FALSE(list.constant);
       continue;
     }
-    for (uint32_t i = 0; i < list.literals.size(); ++i) {
-      const Literal& literal = list.literals[i];
-      ASSERT_GT(literal.if_inside, i);
-      ASSERT_GT(literal.if_outside, i);
-      for (const uint32_t target : {literal.if_inside, literal.if_outside}) {
-        ASSERT_TRUE(target >= kListFalse || target < list.literals.size());
+    for (uint32_t i = 0; i < list.tests.size(); ++i) {
+      const BlistTest& test = list.tests[i];
+      ASSERT_GT(test.if_inside, i);
+      ASSERT_GT(test.if_outside, i);
+      for (const uint32_t target : {test.if_inside, test.if_outside}) {
+        ASSERT_TRUE(target >= kListFalse || target < list.tests.size());
       }
     }
     for (int i = 0; i < 30; ++i) {
       const uint32_t truth = static_cast<uint32_t>(random());
       const auto inside = [&](uint32_t p) { return ((truth >> p) & 1) != 0; };
-      ASSERT_EQ(evaluate(std::span<const Literal>(list.literals), inside),
+      ASSERT_EQ(evaluate(std::span<const BlistTest>(list.tests), inside),
                 evaluate_tree(tree.tokens(), inside));
     }
   }
 }
 
-TEST(ShortCircuitList, ComplementsAreWhatIsTakenAway) {
-  const ShortCircuitList list = compile(build("d0d12)u34))"));  // 0 − (1 − 2) − 3 − 4
+TEST(Blist, ComplementsAreWhatIsTakenAway) {
+  const Blist list = compile(build("d0d12)u34))"));  // 0 − (1 − 2) − 3 − 4
   std::vector<int> complements;
-  for (const Literal& literal : list.literals) complements.push_back(literal.complement);
+  for (const BlistTest& test : list.tests) complements.push_back(test.complement);
   EXPECT_THAT(complements, testing::ElementsAre(0, 1, 0, 1, 1));
 }
 
-TEST(ShortCircuitList, KnowsUnions) {
-  EXPECT_TRUE(is_union(compile(build("0")).literals));
-  EXPECT_TRUE(is_union(compile(build("012")).literals));
-  EXPECT_FALSE(is_union(compile(build("i01)")).literals));
-  EXPECT_FALSE(is_union(compile(build("d01)")).literals));
-  EXPECT_FALSE(is_union(compile(build("0i12)")).literals));
+TEST(Blist, KnowsUnions) {
+  EXPECT_TRUE(is_union(compile(build("0")).tests));
+  EXPECT_TRUE(is_union(compile(build("012")).tests));
+  EXPECT_FALSE(is_union(compile(build("i01)")).tests));
+  EXPECT_FALSE(is_union(compile(build("d01)")).tests));
+  EXPECT_FALSE(is_union(compile(build("0i12)")).tests));
 }
 
 TEST(CsgTree, AMillionLevelsDeep) {
@@ -269,14 +269,14 @@ TEST(CsgTree, AMillionLevelsDeep) {
   }
   const CsgTree tree = builder.finish();
   EXPECT_GT(tree.tokens().size(), size_t{kLevels});
-  const ShortCircuitList list = compile(tree);
-  EXPECT_EQ(list.literals.size(), kLevels + kLevels / 2 + 1);
+  const Blist list = compile(tree);
+  EXPECT_EQ(list.tests.size(), kLevels + kLevels / 2 + 1);
   std::mt19937 random(3);
   for (int i = 0; i < 5; ++i) {
     std::vector<bool> truth(2 * kLevels + 1);
     for (size_t p = 0; p < truth.size(); ++p) truth[p] = random() % 1000 < (p % 2 == 0 ? 999 : 1);
     const auto inside = [&](uint32_t p) { return static_cast<bool>(truth[p]); };
-    EXPECT_EQ(evaluate(std::span<const Literal>(list.literals), inside),
+    EXPECT_EQ(evaluate(std::span<const BlistTest>(list.tests), inside),
               evaluate_tree(tree.tokens(), inside));
   }
 }

@@ -14,16 +14,16 @@ namespace {
 
 using Step = ListExpression::Step;
 
-/// Evaluates it by the states of its literals; or its complement, by those of their complements.
-int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_of_literal,
+/// Evaluates it by the states of its tests; or its complement, by those of their complements.
+int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_of_test,
                         bool complement = false) {
   ListExpression expression;
   expression.parse(list);
   std::vector<int32_t> stack;
   size_t index = 0;
   for (const Step step : expression.steps()) {
-    if (step == Step::kLiteral) {
-      stack.push_back(state_of_literal[index++]);
+    if (step == Step::kTest) {
+      stack.push_back(state_of_test[index++]);
       continue;
     }
     const int32_t last = stack.back();
@@ -69,7 +69,7 @@ RandomList random_list(std::mt19937& random, uint32_t seed) {
                                            : Restrictor::Decision::kOpen);
   }
   CellList whole;
-  assign(whole, compile(scene.model).literals);
+  assign(whole, compile(scene.model).tests);
   std::vector<Restrictor::Decision> decisions(whole.count());
   for (uint32_t i = 0; i < whole.count(); ++i) {
     decisions[i] = result.decisions[whole.primitive[i] & kPrimitiveBits];
@@ -81,11 +81,11 @@ RandomList random_list(std::mt19937& random, uint32_t seed) {
 
 TEST(ListExpression, HoldsWhereTheListDoes) {
   std::mt19937 random(1);
-  uint32_t literals = 0;
+  uint32_t tests = 0;
   for (uint32_t seed = 1; seed <= 500; ++seed) {
     const CellList list = random_list(random, seed).list;
     if (list.is_constant()) continue;
-    literals = std::max(literals, list.count());
+    tests = std::max(tests, list.count());
     for (int round = 0; round < 10; ++round) {
       std::vector<uint8_t> inside(list.count());
       std::vector<int32_t> states(list.count());
@@ -96,7 +96,7 @@ TEST(ListExpression, HoldsWhereTheListDoes) {
       EXPECT_EQ(evaluate_states(list, states) == turning::kHolds, holds(list, inside));
     }
   }
-  EXPECT_GT(literals, 15u);
+  EXPECT_GT(tests, 15u);
 }
 
 /// The definition (NUMERICS.md): a tree's value before and behind some changes of primitives, and

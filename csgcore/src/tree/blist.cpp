@@ -1,4 +1,4 @@
-#include "csgcore/short_circuit_list.hpp"
+#include "csgcore/blist.hpp"
 
 namespace csgcore {
 namespace {
@@ -38,11 +38,11 @@ Continuation continuation_of(const Pending& pending) {
 
 }  // namespace
 
-ShortCircuitList compile(std::span<const CsgToken> tokens) {
-  ShortCircuitList list;
+Blist compile(std::span<const CsgToken> tokens) {
+  Blist list;
   uint32_t position = 0;
   for (const CsgToken& token : tokens) position += token.is_primitive;
-  list.literals.resize(position);
+  list.tests.resize(position);
 
   // Backwards from the root: every jump leads to what is compiled already.
   std::vector<Pending> stack;
@@ -54,11 +54,11 @@ ShortCircuitList compile(std::span<const CsgToken> tokens) {
       stack.push_back({token.op, to.complement, token.value, to.if_true, to.if_false, 0, true});
       continue;
     }
-    Literal& literal = list.literals[--position];
-    literal.primitive = token.value & 0x7FFFFFFFu;
-    literal.complement = to.complement;
-    literal.if_inside = to.if_true;
-    literal.if_outside = to.if_false;
+    BlistTest& test = list.tests[--position];
+    test.primitive = token.value & 0x7FFFFFFFu;
+    test.complement = to.complement;
+    test.if_inside = to.if_true;
+    test.if_outside = to.if_false;
     while (!stack.empty()) {
       Pending& parent = stack.back();
       parent.next = position;
@@ -70,9 +70,9 @@ ShortCircuitList compile(std::span<const CsgToken> tokens) {
   return list;
 }
 
-bool is_union(std::span<const Literal> literals) {
-  for (size_t i = 0; i + 1 < literals.size(); ++i) {
-    if (literals[i].if_true() != kListTrue) return false;
+bool is_union(std::span<const BlistTest> tests) {
+  for (size_t i = 0; i + 1 < tests.size(); ++i) {
+    if (tests[i].if_true() != kListTrue) return false;
   }
   return true;
 }

@@ -33,7 +33,7 @@ constexpr uint32_t kListFalse = 0xFFFFFFFEu;
 
 /// One test. Targets are positions in the list, always greater than the test's own, or kListTrue or
 /// kListFalse.
-struct Literal {
+struct BlistTest {
   uint32_t primitive : 31;
   /// The primitive's complement bounds the solid: its surface is a cut face and its outward normal
   /// points into the primitive (paper §3.2, step 4).
@@ -43,32 +43,32 @@ struct Literal {
 
   uint32_t if_true() const { return complement ? if_outside : if_inside; }
   uint32_t if_false() const { return complement ? if_inside : if_outside; }
-  bool operator==(const Literal&) const = default;
+  bool operator==(const BlistTest&) const = default;
 };
 
-/// A list with no literals is constant: `constant` tells whether it holds everywhere or nowhere.
-struct ShortCircuitList {
-  std::vector<Literal> literals;
+/// A list with no tests is constant: `constant` tells whether it holds everywhere or nowhere.
+struct Blist {
+  std::vector<BlistTest> tests;
   bool constant = false;
 };
 
 /// Compiles a tree in postfix order, normal form or not, in time proportional to its tokens and
 /// without recursion. The empty tree is the constant false.
-ShortCircuitList compile(std::span<const CsgToken> tokens);
-inline ShortCircuitList compile(const CsgTree& tree) { return compile(tree.tokens()); }
+Blist compile(std::span<const CsgToken> tokens);
+inline Blist compile(const CsgTree& tree) { return compile(tree.tokens()); }
 
 /// Evaluates a non-empty list; `inside(primitive)` answers for each primitive that decides.
 template <typename Inside>
-bool evaluate(std::span<const Literal> literals, Inside&& inside) {
+bool evaluate(std::span<const BlistTest> tests, Inside&& inside) {
   uint32_t i = 0;
   do {
-    const Literal& literal = literals[i];
-    i = inside(static_cast<uint32_t>(literal.primitive)) ? literal.if_inside : literal.if_outside;
+    const BlistTest& test = tests[i];
+    i = inside(static_cast<uint32_t>(test.primitive)) ? test.if_inside : test.if_outside;
   } while (i < kListFalse);
   return i == kListTrue;
 }
 
-/// True if the list is a union of its literals: the paper's case 2 (§2.2). A single literal is one.
-bool is_union(std::span<const Literal> literals);
+/// True if the list is a union of its tests: the paper's case 2 (§2.2). A single test is one.
+bool is_union(std::span<const BlistTest> tests);
 
 }  // namespace csgcore

@@ -1,6 +1,6 @@
 // Compiled once per instruction set by Highway. Multiplications and additions are never fused, so
 // that every instruction set gives the same bits.
-#include "screen/screen_outline.hpp"
+#include "screen/screen_slab.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -16,14 +16,14 @@
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "screen/screen_outline.cpp"
+#define HWY_TARGET_INCLUDE "screen/screen_slab.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for every instruction set
 #include <hwy/highway.h>
 
 #include "rays/lanes-inl.hpp"
 
-#ifndef CSGCORE_SCREEN_OUTLINE_COMMON
-#define CSGCORE_SCREEN_OUTLINE_COMMON
+#ifndef CSGCORE_SCREEN_SLAB_COMMON
+#define CSGCORE_SCREEN_SLAB_COMMON
 namespace csgcore {
 namespace {
 
@@ -45,7 +45,7 @@ constexpr double kFurthestLine_px = 1e9;
 constexpr double kLongestDirection = 3;
 
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-constexpr ScreenOutline kNoOutline = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
+constexpr ScreenSlab kNoSlab = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
 
 /// The picture's plane.
 struct Picture {
@@ -63,17 +63,17 @@ struct Picture {
         largest_u(0.5 * of.width_px / px_per_unit),
         largest_v(of.half_height) {}
 
-  /// Sets a line, of an outline that has none as yet: beyond it is where x·p.x + y·p.y > limit.
-  void set_line(double x, double y, double limit, int line, ScreenOutline& outline) const {
+  /// Sets a line, of an slab that has none as yet: beyond it is where x·p.x + y·p.y > limit.
+  void set_line(double x, double y, double limit, int line, ScreenSlab& slab) const {
     const double coordinates_px = middle_px[0] + middle_px[1] + 1 + std::abs(limit);
     if (!(coordinates_px < kFurthestLine_px)) return;  // nor is nan
-    outline.x[line] = static_cast<float>(x);
-    outline.y[line] = static_cast<float>(y);
-    outline.limit[line] = static_cast<float>(limit + kLineSlack * coordinates_px);
+    slab.x[line] = static_cast<float>(x);
+    slab.y[line] = static_cast<float>(y);
+    slab.limit[line] = static_cast<float>(limit + kLineSlack * coordinates_px);
   }
 
   /// Of d·p, d being the i-th of kCornerDirections.
-  void set_corner(double low, double high, int i, ScreenCorners& corners) const {
+  void set_corner(double low, double high, int i, ScreenKDop& corners) const {
     const double coordinates_px =
         kLongestDirection * (middle_px[0] + middle_px[1] + 1) + std::abs(low) + std::abs(high);
     const bool is_near = coordinates_px < kFurthestLine_px;
@@ -332,8 +332,8 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
 struct Found {
   std::span<const uint32_t> indices;
   Extent* screen;
-  ScreenOutline* outlines;
-  ScreenCorners* corners;
+  ScreenSlab* slabs;
+  ScreenKDop* corners;
 };
 
 HWY_INLINE void narrow_to(const QuadricLimits& limits, const Picture& picture,
@@ -380,11 +380,11 @@ HWY_INLINE void set_lines(const QuadricLines& lines, const Picture& picture, con
     hn::Store(hn::Add(of_middle, from_middle), d, limit[line]);
   }
   for (size_t lane = 0; lane < found.indices.size(); ++lane) {
-    ScreenOutline& outline = found.outlines[found.indices[lane]];
-    outline = kNoOutline;
+    ScreenSlab& slab = found.slabs[found.indices[lane]];
+    slab = kNoSlab;
     if ((known >> lane & 1) == 0) continue;
     for (const int line : {0, 1}) {
-      picture.set_line(x[line][lane], y[line][lane], limit[line][lane], line, outline);
+      picture.set_line(x[line][lane], y[line][lane], limit[line][lane], line, slab);
     }
   }
 }
@@ -401,7 +401,7 @@ HWY_INLINE void set_corners(const QuadricLimits& limits, const Picture& picture,
     large |= LaneMask{1} << lane;
   }
   if (large == 0) return;
-  for (int i = 0; i < ScreenCorners::kCount; ++i) {
+  for (int i = 0; i < ScreenKDop::kCount; ++i) {
     const auto [x, y] = kCornerDirections[i];
     WideM are_known = all_lanes();
     const Limits exact = limits.along(x, -y, are_known);
@@ -421,9 +421,9 @@ HWY_INLINE void set_corners(const QuadricLimits& limits, const Picture& picture,
   }
 }
 
-void find_quadrics_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
-                            const Picture& picture, const ScreenOptions& options, Extent* screen,
-                            ScreenOutline* outlines, ScreenCorners* corners) {
+void find_quadrics_slabs(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
+                         const Picture& picture, const ScreenOptions& options, Extent* screen,
+                         ScreenSlab* slabs, ScreenKDop* corners) {
   Columns columns;
   for (; !indices.empty(); indices = indices.subspan(std::min(indices.size(), kLanes))) {
     const std::span<const uint32_t> some = indices.first(std::min(indices.size(), kLanes));
@@ -432,7 +432,7 @@ void find_quadrics_outlines(const CanonicalPrimitive* primitives, std::span<cons
       columns.set(lane, primitives[index], screen[index]);
     }
     const QuadricLimits limits(columns, picture);
-    const Found found{some, screen, outlines, corners};
+    const Found found{some, screen, slabs, corners};
     narrow_to(limits, picture, options, found);
     set_lines(find_lines(columns, picture), picture, found);
     set_corners(limits, picture, found);
@@ -446,7 +446,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace csgcore {
 
-CSGCORE_SIMD_EXPORT(find_quadrics_outlines);
+CSGCORE_SIMD_EXPORT(find_quadrics_slabs);
 
 namespace {
 
@@ -459,7 +459,7 @@ constexpr size_t kQuadricsAtOnce = 64;
 /// Lines along the polyhedron's longest extent on the screen, or nearly so: from the vertex that is
 /// furthest from the first to that which is furthest from it.
 void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
-                     const Picture& picture, ScreenOutline& outline) {
+                     const Picture& picture, ScreenSlab& slab) {
   const auto furthest_from = [&](const glm::dvec2& from) {
     return *std::ranges::max_element(points_px, {}, [&](const glm::dvec2& point) {
       const glm::dvec2 apart = point - from;
@@ -473,14 +473,14 @@ void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
     const glm::dvec2 normal = line == 0 ? across : -across;
     double limit = -std::numeric_limits<double>::infinity();
     for (const glm::dvec2& point : points_px) limit = std::max(limit, glm::dot(normal, point));
-    picture.set_line(normal.x, normal.y, limit + 2 * margin_px, line, outline);
+    picture.set_line(normal.x, normal.y, limit + 2 * margin_px, line, slab);
   }
 }
 
 /// By the polyhedron's vertices.
-void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& picture,
-                           const ScreenOptions& options, Extent& screen, ScreenOutline& outline,
-                           ScreenCorners& corners) {
+void find_vertices_slab(const CanonicalPrimitive& primitive, const Picture& picture,
+                        const ScreenOptions& options, Extent& screen, ScreenSlab& slab,
+                        ScreenKDop& corners) {
   const View& view = picture.view;
   const Mat3& map = primitive.canonical_to_world;
   const Polyhedron::Canonical& canonical = primitive.polyhedron->canonical();
@@ -490,7 +490,7 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
       kPlaneSlack * glm::dot(glm::abs(from_eye) + glm::abs(view.eye) + glm::abs(map[0]) +
                                  glm::abs(map[1]) + glm::abs(map[2]),
                              ones);
-  outline = kNoOutline;
+  slab = kNoSlab;
   glm::dvec2 points[kFewVertices] = {};
   size_t count = 0;
   double margin = 0;  // of u and v
@@ -513,12 +513,12 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
-  set_lines_along(points_px, margin_px, picture, outline);
+  set_lines_along(points_px, margin_px, picture, slab);
   narrow({low.x - margin_px, high.x + margin_px, low.y - margin_px, high.y + margin_px}, picture,
          options, screen);
   if (!is_large(screen)) return;
   screen.inside2 = kCornered;
-  for (int i = 0; i < ScreenCorners::kCount; ++i) {
+  for (int i = 0; i < ScreenKDop::kCount; ++i) {
     const double x = kCornerDirections[i][0];
     const double y = kCornerDirections[i][1];
     const auto along = [x, y](const glm::dvec2& point) { return x * point.x + y * point.y; };
@@ -530,21 +530,21 @@ void find_vertices_outline(const CanonicalPrimitive& primitive, const Picture& p
 
 }  // namespace
 
-void find_outlines(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
-                   const FrameRays& frame, const ScreenOptions& options, Extent* screen,
-                   ScreenOutline* outlines, ScreenCorners* corners) {
+void find_slabs(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
+                const FrameRays& frame, const ScreenOptions& options, Extent* screen,
+                ScreenSlab* slabs, ScreenKDop* corners) {
   const Picture picture(frame.view);
   uint32_t quadrics[kQuadricsAtOnce];
   size_t count = 0;
   const auto flush = [&] {
-    CSGCORE_SIMD(find_quadrics_outlines)
-    (primitives, {quadrics, count}, picture, options, screen, outlines, corners);
+    CSGCORE_SIMD(find_quadrics_slabs)
+    (primitives, {quadrics, count}, picture, options, screen, slabs, corners);
     count = 0;
   };
   for (const uint32_t i : indices) {
     const Polyhedron* const polyhedron = primitives[i].polyhedron.get();
     if (polyhedron && polyhedron->vertices().size() <= kFewVertices) {
-      find_vertices_outline(primitives[i], picture, options, screen[i], outlines[i], corners[i]);
+      find_vertices_slab(primitives[i], picture, options, screen[i], slabs[i], corners[i]);
       continue;
     }
     quadrics[count++] = i;

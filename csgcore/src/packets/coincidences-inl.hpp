@@ -16,28 +16,29 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// A cluster is told here if this many times the tolerance lies between its crossings and all
+/// A coincidence is told here if this many times the tolerance lies between its crossings and all
 /// others; and none of its faces is met at an angle at which a primitive kApart away might be
 /// together with it, so many times over. The rest is the RayResolver's: rays that pass within some
 /// tolerances of an edge, or along a face.
 constexpr double kPlain = 2.0;
 
-/// The clusters at which lanes stand.
-struct Clusters {
-  LaneMask plain = 0;   // lanes whose cluster is told
+/// The coincidences at which lanes stand.
+struct Coincidences {
+  LaneMask plain = 0;   // lanes whose coincidence is told
   LaneMask turned = 0;  // of these, the lanes whose value behind it is another one than before
   PacketV end;          // its last crossing
 };
 
-/// Finds clusters, of one packet and list.
-class ClusterFinder {
+/// Finds coincidences, of one packet and list.
+class CoincidenceFinder {
  public:
-  ClusterFinder(const FrameRays& frame, const RayPacket& rays, const TraceList& trace,
-                const TraceSubject& subject, ListSegments& segments, PacketWorkspace& workspace)
+  CoincidenceFinder(const FrameRays& frame, const RayPacket& rays, const TraceList& trace,
+                    const TraceParameters& parameters, ListSegments& segments,
+                    PacketWorkspace& workspace)
       : frame_(frame),
         rays_(rays),
         trace_(trace),
-        subject_(subject),
+        parameters_(parameters),
         segments_(segments),
         expression_(workspace.expression),
         states_(workspace.states) {
@@ -45,13 +46,15 @@ class ClusterFinder {
     expression_.parse(*trace.list);
     for (int c = 0; c < kChunks; ++c) {
       const WideV inverse_length2 = hn::Load(d, rays.inverse_length2 + first_lane(c));
-      near_.chunk[c] = hn::Mul(hn::Set(d, subject.thinnest_piece), hn::Sqrt(inverse_length2));
+      near_.chunk[c] =
+          hn::Mul(hn::Set(d, parameters.thickness_tolerance), hn::Sqrt(inverse_length2));
     }
   }
 
-  /// Finds the clusters of lanes that stand at a boundary, up to which their value is `value`;
+  /// Finds the coincidences of lanes that stand at a boundary, up to which their value is `value`;
   /// crossings up to `from` are behind them.
-  HWY_NOINLINE Clusters find(const Walk& walk, LaneMask lanes, bool value, const PacketV& from) {
+  HWY_NOINLINE Coincidences find(const Walk& walk, LaneMask lanes, bool value,
+                                 const PacketV& from) {
     const Wide d;
     lanes_ = lanes;
     value_ = value;
@@ -66,7 +69,7 @@ class ClusterFinder {
     size_t depth = 0;
     uint32_t index = 0;
     for (const ListExpression::Step step : expression_.steps()) {
-      if (step == ListExpression::Step::kLiteral) {
+      if (step == ListExpression::Step::kTest) {
         if (states_.size() <= depth) states_.resize(2 * depth + 1);
         write_state(index++, states_[depth++]);
       } else {
@@ -75,14 +78,14 @@ class ClusterFinder {
         combine(is_union, states_[depth], states_[depth - 1]);
       }
     }
-    Clusters clusters;
-    clusters.plain = depth == 1 ? plain_lanes() : 0;
-    clusters.turned = clusters.plain & turned_lanes();
-    clusters.end = end_;
-    return clusters;
+    Coincidences coincidences;
+    coincidences.plain = depth == 1 ? plain_lanes() : 0;
+    coincidences.turned = coincidences.plain & turned_lanes();
+    coincidences.end = end_;
+    return coincidences;
   }
 
-  /// Keeps in the hits what those lanes show whose cluster turned: the last find's.
+  /// Keeps in the hits what those lanes show whose coincidence turned: the last find's.
   HWY_NOINLINE void show(LaneMask lanes, PacketHits& hits) {
     const int32_t* const shown = states_[0].lane;
     for (LaneMask left = lanes; left != 0;) {
@@ -107,7 +110,7 @@ class ClusterFinder {
       const uint32_t entry = trace_.list->primitive[index];
       if ((entry & kPrimitiveBits) != primitive) continue;
       const bool complement = (entry & CellList::kComplementBit) != 0;
-      // If a primitive stands in the list both ways, one of its literals turns so.
+      // If a primitive stands in the list both ways, one of its tests turns so.
       const bool at_end = complement != value_;
       const PacketSegments& segment = segments_.compute(index, lanes);
       const double* const own = at_end ? segment.end : segment.start;
@@ -166,7 +169,7 @@ class ClusterFinder {
     return asked & ~apart;
   }
 
-  /// What becomes of the literal (of its negation, where the solid ends) in the cluster.
+  /// What becomes of the test (of its negation, where the solid ends) in the coincidence.
   HWY_INLINE void write_state(uint32_t index, PacketStates& states) {
     const Wide d;
     const uint32_t entry = trace_.list->primitive[index];
@@ -212,7 +215,8 @@ class ClusterFinder {
     }
   }
 
-  /// How far from the cluster the nearest of all other crossings is; and where the cluster ends.
+  /// How far from the coincidence the nearest of all other crossings is; and where the coincidence
+  /// ends.
   HWY_INLINE void keep_gap(WideM is_near, WideV crossing, int c) {
     WideV& gap = gap_.chunk[c];
     const WideV other = hn::Abs(hn::Sub(crossing, t_.chunk[c]));
@@ -221,7 +225,7 @@ class ClusterFinder {
     end = hn::IfThenElse(is_near, hn::Max(end, crossing), end);
   }
 
-  /// The least |n·d| of the cluster's crossings: thickness per τ.
+  /// The least |n·d| of the coincidence's crossings: thickness per τ.
   HWY_INLINE void keep_facing(uint32_t index, LaneMask lanes, LaneMask on_cap, const PacketV& t) {
     if (lanes == 0) return;
     Lanes3<Wide> normals[kChunks];
@@ -256,14 +260,14 @@ class ClusterFinder {
     }
   }
 
-  /// Whether nothing beside the cluster can be together with it.
+  /// Whether nothing beside the coincidence can be together with it.
   LaneMask plain_lanes() const {
     const Wide d;
     LaneMask plain = 0;
     for (int c = 0; c < kChunks; ++c) {
       const WideV facing = facing_.chunk[c];
       const WideV thickness = hn::Mul(hn::Sub(gap_.chunk[c], near_.chunk[c]), facing);
-      WideM is_plain = hn::Ge(thickness, hn::Set(d, kPlain * subject_.thinnest_piece));
+      WideM is_plain = hn::Ge(thickness, hn::Set(d, kPlain * parameters_.thickness_tolerance));
       if (any_apart_) {
         const WideV cosine2 =
             hn::Mul(hn::Mul(facing, facing), hn::Load(d, rays_.inverse_length2 + first_lane(c)));
@@ -286,7 +290,7 @@ class ClusterFinder {
   const FrameRays& frame_;
   const RayPacket& rays_;
   const TraceList& trace_;
-  const TraceSubject& subject_;
+  const TraceParameters& parameters_;
   ListSegments& segments_;
   ListExpression& expression_;
   std::vector<PacketStates>& states_;
