@@ -86,8 +86,7 @@ class Run {
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
-    design.scene.background = {};
-    design.scene.highlight = {};
+    design.scene.layers.clear();
     const frontend::Camera camera = frontend::choose_camera(options_.camera, design.view_box);
     if (frontend::sees_nothing(camera, options_.camera.projection)) {
       throw frontend::Error("", {}, "from the camera's distance nothing is seen",

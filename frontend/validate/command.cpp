@@ -68,8 +68,7 @@ class Run {
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
-    design.scene.background = {};
-    design.scene.highlight = {};
+    design.scene.layers.clear();
     return std::move(design.scene);
   }
 

@@ -33,8 +33,9 @@ csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane, 
   cut.id = kSectionId;
   const auto index = static_cast<uint32_t>(result.primitives.size());
   result.primitives.push_back(std::move(cut));
-  for (csgcore::CsgTree* tree : {&result.model, &result.background, &result.highlight}) {
-    *tree = csgcore::subtract(*tree, index);
+  result.model = csgcore::subtract(result.model, index);
+  for (csgcore::Layer& layer : result.layers) {
+    layer.solid = csgcore::subtract(layer.solid, index);
   }
   return result;
 }

@@ -9,7 +9,7 @@ const float INFINITY = uintBitsToFloat(0x7F800000u);
 const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // as far as a ray goes
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
-uniform usamplerBuffer u_surfaces;     // per primitive: colour, colour as a cut face, id
+uniform usamplerBuffer u_surfaces;     // per primitive: colour, flags, id
 uniform usamplerBuffer u_tests;     // primitive and complement bit, if_inside, if_outside
 
 struct Ray {

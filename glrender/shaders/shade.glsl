@@ -1,16 +1,18 @@
 // Colour of a hit (paper §3.2, step 9).
 
 uniform vec3 u_front, u_back;      // of what has no colour of its own
+uniform vec4 u_from_within;        // of faces that are seen from within, where a is 1
 uniform vec3 u_light_position;     // SHADING_PHONG
 
-vec3 unpack_rgb8(uint packed_color) {
-  return vec3((uvec3(packed_color) >> uvec3(0u, 8u, 16u)) & 255u) / 255.0;
-}
-
-vec3 base_color(uint primitive, bool complement) {
+// `complement`: the operations take the primitive away here.
+vec3 base_color(uint primitive, bool complement, bool eye_inside) {
   uvec4 surface = texelFetch(u_surfaces, int(primitive));
-  if (surface.y == 0u) return complement ? u_back : u_front;
-  return unpack_rgb8(surface.x);
+  uint flags = surface.y >> SURFACE_FLAGS_SHIFT;
+  uint cut_faces = flags >> CUT_FACES_SHIFT;
+  bool is_cut = cut_faces == uint(CUT_FACES_BY_TREE) ? complement : cut_faces == uint(CUT_FACES_ALWAYS);
+  vec3 scheme = is_cut && !eye_inside ? u_back : u_front;
+  vec3 own = vec3(uvec3(surface.x, surface.x >> 16u, surface.y) & 65535u) * (BRIGHTEST_COLOR / 65535.0);
+  return mix(scheme, own, notEqual(flags & uvec3(1u, 2u, 4u), uvec3(0u)));
 }
 
 // `normal` points out of the solid.

@@ -42,7 +42,9 @@ void main() {
   // Paper §3.2, step 4: a complement's normal is turned round.
   vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
   if (seen.complement) normal = -normal;
-  vec3 color = base_color(seen.primitive, seen.complement && !u_eye_inside);
+  vec3 color = u_eye_inside && u_from_within.a != 0.0
+                   ? u_from_within.rgb
+                   : base_color(seen.primitive, seen.complement, u_eye_inside);
   o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? 0.0 : 1.0);
 #if MEASURED
   o_measured = vec4(normal, seen.t);

@@ -7,6 +7,7 @@
 
 #include "csgcore/blist.hpp"
 #include "csgcore/phong.hpp"
+#include "csgcore/primitive.hpp"
 
 namespace glrender {
 
@@ -53,6 +54,13 @@ constexpr unsigned kLocationList = 2;
 constexpr int kPrimitiveTexels = 4;
 constexpr float kShapeNone = -1;  // of what is too thin to exist
 
+/// Texels of surfaces: red and green; blue with flags beside it; the id. Channels are fixed-point
+/// numbers of 16 bits, from 0 to a colour that OpenSCAD's light shows as white in any direction.
+constexpr float kBrightestColor = 8;
+constexpr uint32_t kSurfaceFlagsShift =
+    16;                                 // of the flags: three bits, one for each channel that is
+constexpr uint32_t kCutFacesShift = 3;  // the primitive's own; then csgcore::CutFaces
+
 struct ShaderConstant {
   std::string_view name;
   double value;
@@ -74,6 +82,11 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"LOCATION_LIST", kLocationList, true},
     ShaderConstant{"PRIMITIVE_TEXELS", kPrimitiveTexels, true},
     ShaderConstant{"SHAPE_NONE", kShapeNone, false},
+    ShaderConstant{"BRIGHTEST_COLOR", kBrightestColor, false},
+    ShaderConstant{"SURFACE_FLAGS_SHIFT", kSurfaceFlagsShift, true},
+    ShaderConstant{"CUT_FACES_SHIFT", kCutFacesShift, true},
+    ShaderConstant{"CUT_FACES_BY_TREE", double(csgcore::CutFaces::kByTree), true},
+    ShaderConstant{"CUT_FACES_ALWAYS", double(csgcore::CutFaces::kAlways), true},
     ShaderConstant{"SHADING_OPENSCAD", 0, true},
     ShaderConstant{"SHADING_PHONG", 1, true},
     ShaderConstant{"PHONG_AMBIENT", csgcore::kPhongAmbient, false},

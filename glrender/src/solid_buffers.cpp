@@ -18,23 +18,24 @@ namespace {
 using csgcore::BlistTest;
 using csgcore::CanonicalPrimitive;
 
-uint32_t pack_rgba8(const csgcore::Color& color) {
-  const float channels[] = {color.r, color.g, color.b, color.a};
-  uint32_t packed = 0;
-  for (int i = 0; i < 4; ++i) {
-    const float clamped = std::fmin(std::fmax(channels[i], 0.0f), 1.0f);
-    packed |= static_cast<uint32_t>(std::lround(clamped * 255.0f)) << (8 * i);
-  }
-  return packed;
+/// 16 bits of a channel from 0 to kBrightestColor.
+uint32_t fixed_point(float channel) {
+  const float share = std::fmin(std::fmax(channel / kBrightestColor, 0.0f), 1.0f);
+  return static_cast<uint32_t>(std::lround(share * 65535.0f));
 }
 
 using Surface = std::array<uint32_t, 4>;
 using TestTexel = std::array<uint32_t, 4>;
 constexpr size_t kPrimitiveBytes = kPrimitiveTexels * 4 * sizeof(float);
 
+/// Red and green; blue, which channels are the primitive's own, and its cut faces; id.
 Surface surface_of(const CanonicalPrimitive& primitive) {
-  return {primitive.color ? pack_rgba8(*primitive.color) : 0u, primitive.color ? 1u : 0u,
-          primitive.id, 0u};
+  const csgcore::Color color = primitive.color.value_or(csgcore::Color{-1, -1, -1, 1});
+  uint32_t flags = static_cast<uint32_t>(primitive.cut_faces) << kCutFacesShift;
+  const float channels[] = {color.r, color.g, color.b};
+  for (uint32_t i = 0; i < 3; ++i) flags |= static_cast<uint32_t>(channels[i] >= 0) << i;
+  return {fixed_point(color.r) | fixed_point(color.g) << 16,
+          fixed_point(color.b) | flags << kSurfaceFlagsShift, primitive.id, 0u};
 }
 
 std::vector<TestTexel> texels_of(std::span<const BlistTest> tests) {

@@ -105,6 +105,9 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
   };
   set3("u_front", pass.settings.front);
   set3("u_back", pass.settings.back);
+  const glm::vec3 within = pass.settings.from_within.value_or(glm::vec3(0.0f));
+  glUniform4f(glGetUniformLocation(program, "u_from_within"), within.r, within.g, within.b,
+              pass.settings.from_within ? 1.0f : 0.0f);
   set3("u_edge", pass.settings.edge);
   set3("u_light_position", pass.frame.relative(pass.light_world));
   glUniform1f(glGetUniformLocation(program, "u_tolerance"), static_cast<float>(pass.tolerance));

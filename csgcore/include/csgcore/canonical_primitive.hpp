@@ -35,6 +35,7 @@ struct alignas(64) CanonicalPrimitive {
   double inversion_error = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // of a polyhedron, else null
   std::optional<Color> color;
+  CutFaces cut_faces = CutFaces::kByTree;
   uint32_t id = 0;
 };
 

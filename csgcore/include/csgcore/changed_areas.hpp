@@ -25,6 +25,9 @@ std::vector<PixelArea> changed_areas(const Solid& before, const Solid& after, co
                                      TreeEdit tree_edit, const View& view,
                                      const FrameSettings& settings);
 
+/// The pixels through any point of which a ray may meet the solid.
+PixelArea area_of(const Solid& solid, const View& view);
+
 /// Number of pixels.
 uint64_t count_pixels(const std::vector<PixelArea>& areas);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,11 +33,15 @@ class CsgTree {
  private:
   friend class CsgTreeBuilder;
   friend CsgTree subtract(const CsgTree& tree, uint32_t primitive);
+  friend CsgTree renamed(const CsgTree& tree, const std::function<uint32_t(uint32_t)>& name);
   std::vector<CsgToken> tokens_;
 };
 
 /// The tree minus one more primitive: a section plane, for one. Nothing minus something is empty.
 CsgTree subtract(const CsgTree& tree, uint32_t primitive);
+
+/// The tree with each primitive named as `name` says, which is asked in the tree's order.
+CsgTree renamed(const CsgTree& tree, const std::function<uint32_t(uint32_t primitive)>& name);
 
 /// Builds a tree from the outside in, without recursion:
 ///   builder.open(Op::kDifference); builder.primitive(0); builder.primitive(1); builder.close();

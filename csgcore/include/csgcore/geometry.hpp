@@ -25,6 +25,9 @@ struct Box {
   void merge(const Vec3& point);
 };
 
+/// The points that lie in both. An empty result is the default-constructed box.
+Box intersection(const Box& a, const Box& b);
+
 /// x ↦ linear·x + translation.
 struct Affine {
   Mat3 linear{1.0};

@@ -13,10 +13,19 @@ namespace csgcore {
 
 class Polyhedron;
 
-/// Linear RGBA as the file gives it, each in [0, 1].
+/// RGBA as the file gives it. A channel above 1 makes a surface brighter than white would; a
+/// negative r, g or b stands for that channel of the scheme's colour. The alpha is in [0, 1].
 struct Color {
   float r, g, b, a;
   bool operator==(const Color&) const = default;
+};
+
+/// When the surface of a primitive is a cut face, which has the scheme's back colour where the
+/// primitive has no colour of its own.
+enum class CutFaces : uint8_t {
+  kByTree,  // where the operations take the primitive away: the tree shows its complement
+  kNever,
+  kAlways,
 };
 
 /// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.
@@ -29,6 +38,7 @@ struct Primitive {
   std::shared_ptr<const Polyhedron> polyhedron;  // a polyhedron's local solid, else null
   Affine local_to_world;                         // nonsingular; a mirror (det < 0) is fine
   std::optional<Color> color;  // none: the scheme's front colour, or its back colour on cut faces
+  CutFaces cut_faces = CutFaces::kByTree;
   /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
   uint32_t id = 0;
 };

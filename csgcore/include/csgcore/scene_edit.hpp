@@ -33,9 +33,8 @@ struct SceneEdit {
   std::vector<uint32_t> added;      // indices into the later scene, ascending
   std::vector<uint32_t> recolored;  // kept primitives; indices into the later scene, ascending
   bool has_other_ids = false;       // of kept primitives
+  bool has_other_layers = false;    // the picture is composed of other layers
   TreeEdit model = TreeEdit::kAnywhere;
-  TreeEdit background = TreeEdit::kAnywhere;
-  TreeEdit highlight = TreeEdit::kAnywhere;
 
   /// All that is kept has its index: primitives were changed in place, or not at all.
   bool keeps_indices() const { return removed == added; }

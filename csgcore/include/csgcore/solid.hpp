@@ -35,8 +35,8 @@ class Solid {
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
 
   /// A tree of the scene after an edit, from that before. What holds is shared; drawn, it is bit
-  /// for bit as if made anew. `tree_edit` is the tree's own, SceneEdit::model, background or
-  /// highlight.
+  /// for bit as if made anew. `tree_edit` is the tree's own: SceneEdit::model of the
+  /// model.
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
         const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit);
 

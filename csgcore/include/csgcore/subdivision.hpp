@@ -49,7 +49,7 @@ class Subdivision {
   bool refine(const View& view);
 
   /// Follows an edit: `solid` is of the scene after it, that of this subdivision of the same tree
-  /// before; both must live. `tree_edit` is that tree's (SceneEdit::model, background, highlight).
+  /// before; both must live. `tree_edit` is that tree's (SceneEdit::model).
   /// Leaves are kept whose cells lie wholly inside or wholly outside of every changed primitive's
   /// old and new form alike; others are subdivided anew, each for itself. Where that is too little
   /// to be worth it all is subdivided anew: where the root box changes, the cells that change hold

@@ -19,6 +19,11 @@ void Box::merge(const Vec3& point) {
   max = glm::max(max, point);
 }
 
+Box intersection(const Box& a, const Box& b) {
+  const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
+  return box.empty() ? Box{} : box;
+}
+
 double Affine::determinant() const { return glm::determinant(linear); }
 
 bool Affine::finite() const {

@@ -63,15 +63,41 @@ class Screen {
 
   /// The pixels through any point of which a ray may meet the primitive within the solid's bounds.
   std::optional<PixelArea> area_of(const CanonicalPrimitive& primitive) const {
-    CanonicalPrimitive box;
-    box.bounds = intersection(primitive.bounds, bounds_);
-    if (box.bounds.empty()) return std::nullopt;
+    const Box box = intersection(primitive.bounds, bounds_);
+    if (box.empty()) return std::nullopt;
     const Extent extents[] = {extent_of(primitive), extent_of(box)};
+    return area_of(extents);
+  }
+
+  /// The same of all that lies within the bounds.
+  std::optional<PixelArea> area_of_bounds() const {
+    if (bounds_.empty()) return std::nullopt;
+    const Extent extents[] = {extent_of(bounds_)};
+    return area_of(extents);
+  }
+
+ private:
+  struct Range {
+    uint32_t first, end;
+  };
+
+  static Extent extent_of(const CanonicalPrimitive& primitive) {
+    return csgcore::extent_of(primitive);
+  }
+  static Extent extent_of(const Box& box) {
+    CanonicalPrimitive of_box;
+    of_box.bounds = box;
+    return csgcore::extent_of(of_box);
+  }
+
+  /// Of what lies within all of at most two extents.
+  std::optional<PixelArea> area_of(std::span<const Extent> extents) const {
     const uint32_t indices[] = {0, 1};
     Extent on_screen[2];
-    find_screen_extents(extents, indices, frame_, {false}, on_screen);
+    const size_t count = extents.size();
+    find_screen_extents(extents.data(), {indices, count}, frame_, {false}, on_screen);
     std::optional<PixelArea> area = whole_picture(view_);
-    for (const Extent& extent : on_screen) {
+    for (const Extent& extent : std::span<const Extent>(on_screen, count)) {
       if (cull_reason_on_screen(extent) == ScreenCullReason::kOffScreen) return std::nullopt;
       const Range x = pixels(extent, 0, view_.width_px), y = pixels(extent, 1, view_.height_px);
       const uint32_t left = std::max(area->x, x.first), top = std::max(area->y, y.first);
@@ -83,10 +109,6 @@ class Screen {
     return area;
   }
 
- private:
-  struct Range {
-    uint32_t first, end;
-  };
   /// Those that the extent reaches any point of.
   static Range pixels(const Extent& extent, int axis, uint32_t size_px) {
     const double low = std::ceil(extent.center[axis] - extent.half[axis] - 0.5);
@@ -139,6 +161,10 @@ std::vector<PixelArea> changed_areas(const Solid& before, const Solid& after, co
   }
   merge(areas);
   return areas;
+}
+
+PixelArea area_of(const Solid& solid, const View& view) {
+  return Screen(view, solid.bounds()).area_of_bounds().value_or(PixelArea{});
 }
 
 uint64_t count_pixels(const std::vector<PixelArea>& areas) {

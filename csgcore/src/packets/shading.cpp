@@ -57,12 +57,23 @@ HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
   return same & lanes;
 }
 
+HWY_INLINE bool is_cut_face(const CanonicalPrimitive& primitive, const TraceList& list,
+                            uint32_t index) {
+  if (primitive.cut_faces == CutFaces::kByTree) return is_complement(list, index);
+  return primitive.cut_faces == CutFaces::kAlways;
+}
+
 HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list, uint32_t index,
                            bool eye_inside) {
-  const std::optional<Color>& own =
-      list.primitives[list.list->primitive[index] & kPrimitiveBits].color;
-  if (own) return 255.0 * Vec3{own->r, own->g, own->b};
-  return is_complement(list, index) && !eye_inside ? settings.back : settings.front;
+  if (eye_inside && settings.from_within) return *settings.from_within;
+  const CanonicalPrimitive& primitive =
+      list.primitives[list.list->primitive[index] & kPrimitiveBits];
+  const Vec3& scheme =
+      is_cut_face(primitive, list, index) && !eye_inside ? settings.back : settings.front;
+  if (!primitive.color) return scheme;
+  const Color& own = *primitive.color;
+  return {own.r < 0 ? scheme.r : 255.0 * own.r, own.g < 0 ? scheme.g : 255.0 * own.g,
+          own.b < 0 ? scheme.b : 255.0 * own.b};
 }
 
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
@@ -152,6 +163,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
   shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
   shade.front = 255.0 * Vec3(settings.front);
   shade.back = 255.0 * Vec3(settings.back);
+  if (settings.from_within) shade.from_within = 255.0 * Vec3(*settings.from_within);
   return shade;
 }
 

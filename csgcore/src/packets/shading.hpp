@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "csgcore/frame_settings.hpp"
 #include "csgcore/phong.hpp"
@@ -17,6 +18,7 @@ struct ShadeSettings {
   Vec3 light_world{0.0};  // kOpenScad: shade = 0.2 + |n · light_world|
   PhongLight phong;
   glm::dvec3 front{1.0}, back{1.0};  // 0…255
+  std::optional<glm::dvec3> from_within;
 };
 ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
                              const Box& solid_bounds);

@@ -126,6 +126,7 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
   result.canonical_error =
       (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);
   result.color = primitive.color;
+  result.cut_faces = primitive.cut_faces;
   result.id = primitive.id;
   return result;
 }

@@ -17,9 +17,16 @@ bool same_tokens(const CsgTree& a, const CsgTree& b) {
                     });
 }
 
+bool same_layers(const Scene& a, const Scene& b) {
+  return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+                    [](const Layer& x, const Layer& y) {
+                      return x.kind == y.kind && x.shows_behind == y.shows_behind &&
+                             same_tokens(x.solid, y.solid);
+                    });
+}
+
 bool all_same_tokens(const Scene& a, const Scene& b) {
-  return same_tokens(a.model, b.model) && same_tokens(a.background, b.background) &&
-         same_tokens(a.highlight, b.highlight);
+  return same_tokens(a.model, b.model) && same_layers(a, b);
 }
 
 /// What is left of a tree where none of the primitives is that `gone` has.
@@ -96,9 +103,7 @@ bool same_shape(const Primitive& a, const Primitive& b) {
 }
 
 bool SceneEdit::surfaces_only() const {
-  const auto is_same = [](TreeEdit tree) { return tree == TreeEdit::kSame; };
-  return removed.empty() && added.empty() && is_same(model) && is_same(background) &&
-         is_same(highlight);
+  return removed.empty() && added.empty() && model == TreeEdit::kSame && !has_other_layers;
 }
 
 bool SceneEdit::nothing() const { return surfaces_only() && recolored.empty() && !has_other_ids; }
@@ -129,12 +134,13 @@ SceneEdit compare(const Scene& before, const Scene& after) {
     if (later_indices[i] == SceneEdit::kGone) continue;
     const Primitive& was = before.primitives[i];
     const Primitive& is = after.primitives[later_indices[i]];
-    if (was.color != is.color) edit.recolored.push_back(later_indices[i]);
+    if (was.color != is.color || was.cut_faces != is.cut_faces)
+      edit.recolored.push_back(later_indices[i]);
     edit.has_other_ids |= was.id != is.id;
   }
   edit.model = compare_trees(before.model, after.model, edit, later_indices);
-  edit.background = compare_trees(before.background, after.background, edit, later_indices);
-  edit.highlight = compare_trees(before.highlight, after.highlight, edit, later_indices);
+  const bool has_layers = !before.layers.empty() || !after.layers.empty();
+  edit.has_other_layers = has_layers && !(edit.keeps_indices() && same_layers(before, after));
   return edit;
 }
 

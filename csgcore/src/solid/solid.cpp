@@ -73,7 +73,10 @@ std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& sce
   for_each_part(edit.added.size(), [&](size_t i) {
     (*result)[edit.added[i]] = canonicalize(scene.primitives[edit.added[i]]);
   });
-  for (const uint32_t i : edit.recolored) (*result)[i].color = scene.primitives[i].color;
+  for (const uint32_t i : edit.recolored) {
+    (*result)[i].color = scene.primitives[i].color;
+    (*result)[i].cut_faces = scene.primitives[i].cut_faces;
+  }
   for (size_t i = 0; edit.has_other_ids && i < result->size(); ++i) {
     (*result)[i].id = scene.primitives[i].id;
   }

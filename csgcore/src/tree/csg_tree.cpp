@@ -21,6 +21,14 @@ CsgTree subtract(const CsgTree& tree, uint32_t primitive) {
   return result;
 }
 
+CsgTree renamed(const CsgTree& tree, const std::function<uint32_t(uint32_t)>& name) {
+  CsgTree result = tree;
+  for (CsgToken& token : result.tokens_) {
+    if (token.is_primitive) token.value = name(token.value);
+  }
+  return result;
+}
+
 void CsgTreeBuilder::open(Op op) {
   frames_.push_back({op, static_cast<uint32_t>(tokens_.size()), 0, false, false});
 }

@@ -1,7 +1,6 @@
 // How far the parts of a CSG tree reach.
 #pragma once
 
-#include <glm/common.hpp>
 #include <span>
 #include <vector>
 
@@ -10,11 +9,6 @@
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {
-
-inline Box intersection(const Box& a, const Box& b) {
-  const Box box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
-  return box.empty() ? Box{} : box;
-}
 
 inline Box box_of(const Extent& extent) {
   const Vec3 center{extent.center[0], extent.center[1], extent.center[2]};

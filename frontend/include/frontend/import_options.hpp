@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "csgcore/primitive.hpp"
+
 namespace frontend {
 
 /// Which round primitives become the polyhedra that OpenSCAD makes of them (frontend/OPENSCAD.md,
@@ -14,15 +16,29 @@ enum class Facets : uint8_t {
   kAll,
 };
 
+/// Which of OpenSCAD's pictures the design is imported for.
+enum class PictureKind : uint8_t {
+  kPreview,
+  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and `%`
+  /// parts are left out.
+  kRendered,
+  /// --preview=throwntogether: every leaf whole, and no operation.
+  kThrownTogether,
+};
+
+/// The colour that the thrown-together picture gives to faces that are seen from within.
+constexpr csgcore::Color kSeenFromWithin{1, 0, 1, 1};
+
 struct ImportOptions {
   Facets facets = Facets::kFew;
   /// Of kFew. People who choose no more than 8 fragments mean the polygon.
   double few_fragments = 8;
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
-  /// As OpenSCAD's --render: the solid alone. No color() counts, `#` parts are like others, and `%`
-  /// parts are left out.
-  bool rendered = false;
+  PictureKind picture = PictureKind::kPreview;
+  /// Find the boxes of leaves that hold differences or intersections, which takes looking at them;
+  /// otherwise the view box may be too large there.
+  bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
   bool keeps_places = false;
 };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 
 #include "csgcore/frame_settings.hpp"
@@ -37,6 +38,8 @@ struct ColorScheme {
 struct RenderSettings {
   ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
                      {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00}};
+  /// Of faces that are seen from within the solid; none: they are coloured as from outside.
+  std::optional<Rgb> from_within;
   Shading shading = Shading::kOpenScad;
   Show show = Show::kSurface;
   RendererKind renderer = RendererKind::kAuto;

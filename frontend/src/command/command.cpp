@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <glm/common.hpp>
 #include <optional>
 
 #include "base/elapsed.hpp"
@@ -23,7 +22,6 @@
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
-#include "picture/seen_box.hpp"
 
 namespace frontend {
 namespace {
@@ -105,28 +103,11 @@ class Run {
   void draw_frame(std::vector<PendingOutput>& outputs) {
     if (frame_ == 0 || is_exported_) {
       design_ = import();
-      if (options_.import.rendered && sees_all(options_.camera)) look_at_rendered();
     }
     const Camera camera = choose_camera(options_.camera, design_.view_box);
     const csgcore::View view = make_view(camera, options_.camera);
     Image image = draw(design_.scene, view, sees_nothing(camera, view.projection));
     encode(image, view, camera, outputs);
-  }
-
-  /// OpenSCAD's --viewall takes the box of what is there after the operations, with --render; that
-  /// of the operands otherwise. The view box holds both where it is that of facets.
-  void look_at_rendered() {
-    RenderSettings settings;
-    settings.renderer = RendererKind::kCpu;
-    settings.threads = options_.render.threads;
-    settings.measured_channels = true;
-    const csgcore::Box seen = seen_box(design_.view_box, [&](const csgcore::View& view) {
-      RenderStats stats;
-      return render(design_.scene, view, settings, stats);
-    });
-    if (seen.empty()) return;
-    design_.view_box = {glm::max(design_.view_box.min, seen.min),
-                        glm::min(design_.view_box.max, seen.max)};
   }
 
   /// The output's file for a frame.
@@ -184,6 +165,7 @@ class Run {
   DesignFile read() {
     DesignFileOptions reading;
     reading.import = options_.import;
+    reading.import.measures_leaves = sees_all(options_.camera);
     reading.openscad_arguments = options_.openscad_arguments;
     if (options_.frames > 0) {
       reading.openscad_arguments.insert(reading.openscad_arguments.end(),
@@ -245,9 +227,7 @@ class Run {
     };
     const Clock::time_point start = Clock::now();
     Image image;
-    const bool is_empty =
-        scene.model.empty() && scene.background.empty() && scene.highlight.empty();
-    if (is_empty || sees_nothing) {
+    if ((scene.model.empty() && scene.layers.empty()) || sees_nothing) {
       // Nothing to draw needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";

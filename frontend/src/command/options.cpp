@@ -113,6 +113,18 @@ void read_render(const Arguments& arguments, RenderSettings& render) {
   render.technique = read_technique(arguments, render);
 }
 
+void read_picture_kind(const Arguments& arguments, Options& options) {
+  if (arguments.has("preview")) {
+    if (arguments.text("preview") != "throwntogether") return;
+    options.import.picture = PictureKind::kThrownTogether;
+    const auto byte = [](float channel) { return static_cast<uint8_t>(255 * channel); };
+    options.render.from_within =
+        Rgb{byte(kSeenFromWithin.r), byte(kSeenFromWithin.g), byte(kSeenFromWithin.b)};
+  } else if (arguments.has("render")) {
+    options.import.picture = PictureKind::kRendered;
+  }
+}
+
 /// OpenSCAD says that it ignores a view it does not know, and goes on.
 void read_view(const Arguments& arguments, Options& options) {
   if (!arguments.has("view")) return;
@@ -215,7 +227,8 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
     }
   }
   if (arguments.has("preview")) {
-    if (const std::string& how = arguments.text("preview"); !how.empty()) {
+    const std::string& how = arguments.text("preview");
+    if (!how.empty() && how != "throwntogether") {
       options.warnings.push_back("--preview=" + how + " is drawn as --preview");
     }
     if (arguments.has("render")) {
@@ -265,7 +278,7 @@ Options parse_options(const std::vector<std::string>& words) {
   options.quiet = arguments.has("quiet");
   options.info = arguments.has("info");
   options.has_image_size = arguments.has("imgsize");
-  options.import.rendered = arguments.has("render") && !arguments.has("preview");
+  read_picture_kind(arguments, options);
   read_image_size(arguments, options.camera);
   read_camera(arguments, options.camera);
   read_facets(arguments, options.import);

@@ -6,8 +6,8 @@
 
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
+#include "lower/faceted_box.hpp"
 #include "lower/import_arguments.hpp"
-#include "lower/import_view_box.hpp"
 #include "lower/node_roles.hpp"
 
 namespace frontend {
@@ -51,6 +51,9 @@ constexpr std::string_view kBecauseTooLarge =
 constexpr std::string_view kBecauseTooSmall =
     "it is too small: scale the design to between 1e-90 and 1e90 across";
 
+/// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
+bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
+
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
 
@@ -78,7 +81,7 @@ Fit fit_of(const Primitive& primitive) {
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
     : tree_(tree), options_(options) {
-  contexts_.push_back({0, 0, std::nullopt, false});
+  contexts_.push_back({0, 0, std::nullopt, false, false});
 }
 
 void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
@@ -134,6 +137,7 @@ void Collector::select(uint32_t root) {
   fragments.clear();
   frames = {};
   problems.clear();
+  compound_leaves.clear();
   any_modifiers = false;
   contexts_.resize(1);
   skipped_.reset();
@@ -150,6 +154,7 @@ bool Collector::visit(uint32_t index, uint32_t id) {
     case Role::kOperation:
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
+      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index);
       return true;
     case Role::kUnsupportedOperation:
       leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
@@ -181,17 +186,28 @@ void Collector::enter_matrix(uint32_t node) {
 
 void Collector::enter_color(uint32_t node) {
   const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
-  if (!color || options_.rendered) return;
-  if (contexts_.back().color) return;  // the outermost valid one wins
+  if (!color || options_.picture == PictureKind::kRendered || contexts_.back().in_leaf) return;
+  // The outermost one wins that has all of its channels.
+  if (contexts_.back().color && is_whole(*contexts_.back().color)) return;
   Context context = contexts_.back();
   context.node = node;
   context.color = color;
   contexts_.push_back(context);
 }
 
+void Collector::enter_leaf(uint32_t node) {
+  if (contexts_.back().in_leaf) return;
+  Context context = contexts_.back();
+  context.node = node;
+  context.in_leaf = true;
+  compound_leaves.push_back({node, context.frame});
+  contexts_.push_back(context);
+}
+
 /// The node as a primitive under the matrices around it, without colour and id. False: it is the
 /// empty set, or left out.
-bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets) {
+bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets,
+                           bool& is_inside_out) {
   const SyntaxNode& node = tree_.nodes[index];
   const Affine& to_world = frames[contexts_.back().frame].to_world;
   if (node.kind == NodeKind::kCube) {
@@ -201,7 +217,10 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
   if (node.kind == NodeKind::kPolyhedron) {
     const PolyhedronArguments arguments = read_polyhedron(tree_, node, problems);
     const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
-    if (convexity == Convexity::kConvex) return true;
+    if (convexity == Convexity::kConvex) {
+      is_inside_out = options_.picture == PictureKind::kThrownTogether && faces_inwards(arguments);
+      return true;
+    }
     const bool is_left_out = convexity != Convexity::kNothing && !contexts_.back().flattened;
     if (is_left_out) {
       leave_out(index, convexity == Convexity::kTooLarge ? kBecauseManyFaces : kBecauseNotConvex);
@@ -221,7 +240,8 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
   Primitive primitive;
   csgcore::FacetSettings facets;
-  if (!read_solid(index, primitive, facets) || context.flattened) return;
+  bool is_inside_out = false;
+  if (!read_solid(index, primitive, facets, is_inside_out) || context.flattened) return;
   switch (fit_of(primitive)) {
     case Fit::kFits:
       break;
@@ -232,7 +252,7 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
     case Fit::kFlat:
       return;
   }
-  primitive.color = context.color;
+  primitive.color = is_inside_out ? kSeenFromWithin : context.color;
   primitive.id = id;
   primitive_of[index] = static_cast<uint32_t>(primitives.size());
   boxes.push_back(faceted_box(primitive, facets));

@@ -15,8 +15,8 @@
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/import_polyhedra.hpp"
-#include "lower/marks.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/resolved_modifiers.hpp"
 
 namespace frontend {
 
@@ -44,6 +44,12 @@ class Collector final : public NodeSink {
   uint32_t primitive_nodes = 0;
   std::vector<PrimitivePlace> places;  // by primitive node, where the options want them
   bool any_modifiers = false;          // of the nodes that are drawn
+  /// The compound leaves (leaves.hpp) that are drawn, in file order, each with its frame.
+  struct CompoundLeaf {
+    uint32_t node;
+    uint32_t frame;
+  };
+  std::vector<CompoundLeaf> compound_leaves;
   // After finish():
   NodeRange selected;
   std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
@@ -55,6 +61,7 @@ class Collector final : public NodeSink {
     uint32_t frame;  // coordinates
     std::optional<csgcore::Color> color;
     bool flattened;  // a matrix with inf or nan on the way: nothing is left
+    bool in_leaf;    // a compound one, whose nodes have no colours of their own
   };
   struct LeftOut {
     uint32_t node;
@@ -70,8 +77,10 @@ class Collector final : public NodeSink {
   void leave_out(uint32_t node, std::string_view why, bool unless_empty = false);
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
+  void enter_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
-  bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
+  bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
+                  bool& is_inside_out);
   /// What OpenSCAD draws with these settings is drawn in facets, if it has any.
   bool keeps_facets(const csgcore::FacetSettings& facets) const;
 

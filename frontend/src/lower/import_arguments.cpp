@@ -198,12 +198,22 @@ bool is_finite(const Vec3& v) {
 }
 
 /// −1 or any other negative channel marks an invalid colour; nan compares false, so it is one too.
-std::optional<csgcore::Color> checked_color(const std::array<double, 4>& channels) {
+/// A channel far beyond what any light shows as white.
+constexpr double kBrightestChannel = 1000;
+
+/// Channels that are negative, or no numbers, are the scheme's; none of them is the colour's: no
+/// colour.
+std::optional<csgcore::Color> color_of_channels(const std::array<double, 4>& channels) {
   std::array<float, 4> result;
-  for (size_t i = 0; i < 4; ++i) {
-    if (!(channels[i] >= 0)) return std::nullopt;
-    result[i] = static_cast<float>(std::min(channels[i], 1.0));
+  bool has_own = false;
+  for (size_t i = 0; i < 3; ++i) {
+    const bool is_own = channels[i] >= 0;
+    result[i] = is_own ? static_cast<float>(std::min(channels[i], kBrightestChannel)) : -1.0f;
+    has_own = has_own || is_own;
   }
+  const bool has_alpha = channels[3] >= 0 && channels[3] < 1;
+  result[3] = has_alpha ? static_cast<float>(channels[3]) : 1.0f;
+  if (!has_own && !has_alpha) return std::nullopt;
   return csgcore::Color{result[0], result[1], result[2], result[3]};
 }
 
@@ -379,7 +389,7 @@ std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNod
   } else if (alpha != nullptr) {
     note_wrong_type(problems, node, "alpha", *alpha, "a number from 0 to 1");
   }
-  return checked_color(channels);
+  return color_of_channels(channels);
 }
 
 }  // namespace frontend

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace frontend {
@@ -39,6 +40,21 @@ std::vector<double> numbers_of(const Mesh& mesh) {
 }
 
 }  // namespace
+
+bool faces_inwards(const PolyhedronArguments& arguments) {
+  const Mesh mesh = csgcore::polyhedron_mesh(arguments.points, arguments.faces);
+  double volume = 0;  // six times; positive where the faces run counter-clockwise
+  for (const std::vector<uint32_t>& face : mesh.faces) {
+    for (size_t i = 2; i < face.size(); ++i) {
+      // From a vertex of the solid, so that no large offset cancels.
+      const Vec3& apex = mesh.vertices.front();
+      volume +=
+          glm::dot(mesh.vertices[face[0]] - apex,
+                   glm::cross(mesh.vertices[face[i - 1]] - apex, mesh.vertices[face[i]] - apex));
+    }
+  }
+  return volume < 0;
+}
 
 Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_world) {
   const Vec3 size = box.size();
@@ -77,6 +93,7 @@ bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
   // Only where sizes near the ends of double's range meet: not to be drawn in either form.
   if (!csgcore::is_valid(faceted)) return true;
   faceted.color = primitive.color;
+  faceted.cut_faces = primitive.cut_faces;
   faceted.id = primitive.id;
   primitive = std::move(faceted);
   return true;

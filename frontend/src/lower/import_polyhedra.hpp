@@ -28,6 +28,10 @@ constexpr uint64_t kMostConvexitySteps = 1 << 28;
 /// What has become of a polyhedron node.
 enum class Convexity : uint8_t { kConvex, kNothing /* the empty set */, kNot, kTooLarge };
 
+/// Whether the faces run the other way round than OpenSCAD wants them, clockwise seen from outside:
+/// the volume that they enclose is negative.
+bool faces_inwards(const PolyhedronArguments& arguments);
+
 class PolyhedronPool {
  public:
   /// Has no polyhedron if the box is empty, flat or infinite.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -10,9 +11,12 @@
 #include "frontend/stop.hpp"
 #include "heal/healing.hpp"
 #include "lower/collector.hpp"
-#include "lower/import_view_box.hpp"
-#include "lower/marks.hpp"
+#include "lower/composition.hpp"
+#include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/products.hpp"
+#include "lower/resolved_modifiers.hpp"
+#include "lower/seen_box.hpp"
 
 namespace frontend {
 namespace {
@@ -30,74 +34,154 @@ Op operation_of(NodeKind kind) {
   return Op::kUnion;
 }
 
-/// Writes parts of the file as CSG trees.
+/// Writes parts of the file as trees over leaves.
 class Emitter {
  public:
-  Emitter(const SyntaxTree& tree, const std::vector<uint32_t>& primitive_of, const Marks& marks)
-      : tree_(tree), primitive_of_(primitive_of), marks_(marks) {}
+  Emitter(const SyntaxTree& tree, const Collector& collected, const ResolvedModifiers& modifiers,
+          Leaves& leaves)
+      : tree_(tree), collected_(collected), modifiers_(modifiers), leaves_(leaves) {}
 
-  CsgTree model(NodeRange selected) {
-    emit(selected, kNone, marks_.keeps_highlighted);
-    return builder_.finish();
-  }
-
-  CsgTree parts(std::span<const uint32_t> roots) {
-    for (const uint32_t root : roots) {
-      emit({root, tree_.nodes[root].subtree_end}, root, true);
-    }
-    return builder_.finish();
+  Design design() {
+    Design design;
+    design.model = emit(collected_.selected, kNone, modifiers_.keeps_highlighted);
+    design.background = parts(modifiers_.background);
+    design.highlight = parts(modifiers_.highlight);
+    design.highlighted_leaves = std::move(highlighted_leaves_);
+    std::sort(design.highlighted_leaves.begin(), design.highlighted_leaves.end());
+    return design;
   }
 
  private:
   struct OpenNode {
     uint32_t end;
+    uint32_t compound_leaf;  // the node as it is named among the collector's; kNone: it is none
     bool keeps_highlighted;  // it is not a union, or all its operands are highlighted
-    bool in_render;          // where `#` parts are operands like others
+    bool is_highlighted;     // it has `#`, or a node around it has
   };
 
-  /// The nodes of the range as operands of a union. `root` is taken whatever its modifiers say.
-  void emit(NodeRange range, uint32_t root, bool keeps_highlighted) {
-    std::vector<OpenNode>& open = open_;
-    open.assign(1, {kNone, keeps_highlighted, false});
-    for (uint32_t i = range.begin; i < range.end;) {
-      const SyntaxNode& node = tree_.nodes[i];
-      while (open.back().end <= i) {
-        builder_.close();
-        open.pop_back();
-      }
-      if (i != root && !is_operand(i, open.back())) {
-        i = node.subtree_end;
-      } else if (primitive_of_[i] != kNone) {
-        builder_.primitive(primitive_of_[i]);
-        i = node.subtree_end;
-      } else if (role_of(node.kind) != Role::kOperation || node.subtree_end == i + 1) {
-        builder_.empty();
-        i = node.subtree_end;
-      } else {
-        const Op op = operation_of(node.kind);
-        builder_.open(op);
-        open.push_back(
-            {node.subtree_end,
-             op != Op::kUnion || (!marks_.nodes.empty() && marks_.nodes[i].keeps_highlighted),
-             open.back().in_render || node.kind == NodeKind::kRender});
-        ++i;
-      }
+  std::vector<LeafTree> parts(std::span<const uint32_t> roots) {
+    std::vector<LeafTree> trees;
+    for (const uint32_t root : roots) {
+      LeafTree tree = emit({root, tree_.nodes[root].subtree_end}, root, true);
+      if (!tree.empty()) trees.push_back(std::move(tree));
     }
-    for (size_t k = 1; k < open.size(); ++k) builder_.close();
+    return trees;
   }
 
-  bool is_operand(uint32_t node, const OpenNode& parent) const {
-    if (marks_.nodes.empty()) return true;
-    const Mark& mark = marks_.nodes[node];
-    if (mark.presence != Presence::kSolid && mark.presence != Presence::kEmpty) return false;
-    return !mark.highlighted || parent.keeps_highlighted || parent.in_render;
+  /// The nodes of the range as operands of a union. `root` is taken whatever its modifiers say.
+  LeafTree emit(NodeRange range, uint32_t root, bool keeps_highlighted) {
+    open_.assign(1, {kNone, kNone, keeps_highlighted, false});
+    for (uint32_t i = range.begin; i < range.end;) {
+      const SyntaxNode& node = tree_.nodes[i];
+      close_until(i);
+      if (i != root && !is_operand(i)) {
+        i = node.subtree_end;
+      } else if (collected_.primitive_of[i] != kNone) {
+        add_primitive(i);
+        i = node.subtree_end;
+      } else if (role_of(node.kind) != Role::kOperation || node.subtree_end == i + 1) {
+        builder().empty();
+        i = node.subtree_end;
+      } else {
+        i = enter(i);
+      }
+    }
+    close_until(kNone);
+    return builder_.finish();
+  }
+
+  void close_until(uint32_t position) {
+    while (open_.size() > 1 && open_.back().end <= position) {
+      const OpenNode done = open_.back();
+      open_.pop_back();
+      if (done.compound_leaf != kNone) {
+        finish_leaf(done);
+      } else {
+        builder().close();
+      }
+    }
+  }
+
+  /// Opens the node, and returns the one to look at next.
+  uint32_t enter(uint32_t index) {
+    const SyntaxNode& node = tree_.nodes[index];
+    const bool is_highlighted = open_.back().is_highlighted || (node.modifiers & kHighlight) != 0;
+    const uint32_t compound = in_leaf_ ? kNone : compound_leaf_at(index);
+    if (compound != kNone && leaf_of_compound_.contains(compound)) {
+      add_leaf(leaf_of_compound_[compound], is_highlighted);
+      return node.subtree_end;
+    }
+    const Op op = operation_of(node.kind);
+    const bool keeps_highlighted = op != Op::kUnion || (!modifiers_.nodes.empty() &&
+                                                        modifiers_.nodes[index].keeps_highlighted);
+    if (compound == kNone) {
+      builder().open(op);
+    } else {
+      in_leaf_ = true;
+    }
+    open_.push_back({node.subtree_end, compound, keeps_highlighted, is_highlighted});
+    return index + 1;
+  }
+
+  void finish_leaf(const OpenNode& node) {
+    in_leaf_ = false;
+    csgcore::CsgTree solid = leaf_builder_.finish();
+    if (solid.empty()) {
+      builder_.empty();
+      return;
+    }
+    // One primitive is a leaf by itself.
+    const uint32_t leaf =
+        solid.tokens().size() == 1
+            ? solid.tokens().front().value
+            : leaves_.add(std::move(solid), collected_.compound_leaves[node.compound_leaf].frame);
+    leaf_of_compound_[node.compound_leaf] = leaf;
+    add_leaf(leaf, node.is_highlighted);
+  }
+
+  void add_primitive(uint32_t node) {
+    const uint32_t primitive = collected_.primitive_of[node];
+    if (in_leaf_) {
+      leaf_builder_.primitive(primitive);
+      return;
+    }
+    add_leaf(primitive,
+             open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
+  }
+
+  void add_leaf(uint32_t leaf, bool is_highlighted) {
+    builder_.primitive(leaf);
+    if (is_highlighted) highlighted_leaves_.push_back(leaf);
+  }
+
+  CsgTreeBuilder& builder() { return in_leaf_ ? leaf_builder_ : builder_; }
+
+  /// The node's place among the compound leaves, or kNone.
+  uint32_t compound_leaf_at(uint32_t node) const {
+    const auto& all = collected_.compound_leaves;
+    const auto found = std::lower_bound(
+        all.begin(), all.end(), node,
+        [](const Collector::CompoundLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
+    if (found == all.end() || found->node != node) return kNone;
+    return static_cast<uint32_t>(found - all.begin());
+  }
+
+  bool is_operand(uint32_t node) const {
+    if (modifiers_.nodes.empty()) return true;
+    const ResolvedNode& state = modifiers_.nodes[node];
+    if (state.presence != Presence::kSolid && state.presence != Presence::kEmpty) return false;
+    return !state.highlighted || open_.back().keeps_highlighted || in_leaf_;
   }
 
   const SyntaxTree& tree_;
-  const std::vector<uint32_t>& primitive_of_;
-  const Marks& marks_;
-  CsgTreeBuilder builder_;
+  const Collector& collected_;
+  const ResolvedModifiers& modifiers_;
+  Leaves& leaves_;
+  CsgTreeBuilder builder_, leaf_builder_;
+  bool in_leaf_ = false;
   std::vector<OpenNode> open_;
+  std::unordered_map<uint32_t, uint32_t> leaf_of_compound_;
+  std::vector<uint32_t> highlighted_leaves_;
 };
 
 /// Healing is done by then: it knows axes and caps of what is round.
@@ -119,27 +203,58 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
                    "give a smaller $fn"));
 }
 
-Marks marks_of(const SyntaxTree& tree, const Collector& collected) {
+ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collected,
+                               PictureKind picture) {
   if (!collected.any_modifiers && collected.left_out.empty()) return {};
-  std::vector<Presence> leaves(tree.nodes.size(), Presence::kEmpty);
+  std::vector<LeafState> leaves(tree.nodes.size());
   for (size_t i = 0; i < leaves.size(); ++i) {
-    if (collected.primitive_of[i] != kNone) leaves[i] = Presence::kSolid;
+    const uint32_t primitive = collected.primitive_of[i];
+    if (primitive != kNone) leaves[i] = {Presence::kSolid, collected.boxes[primitive]};
   }
-  for (const uint32_t node : collected.left_out) leaves[node] = Presence::kLeftOut;
-  return find_marks(tree, collected.selected, leaves);
-}
-
-/// Nothing is overlaid: `#` parts become operands like others.
-void keep_solid_alone(Marks& marks) {
-  for (Mark& mark : marks.nodes) mark.highlighted = false;
-  marks.background.clear();
-  marks.highlight.clear();
+  for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
+  ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
+  if (picture != PictureKind::kRendered) return modifiers;
+  // Nothing is overlaid: `#` parts are operands like others.
+  for (ResolvedNode& node : modifiers.nodes) node.highlighted = false;
+  modifiers.background.clear();
+  modifiers.highlight.clear();
+  return modifiers;
 }
 
 Box union_of(std::span<const Box> boxes) {
   Box result;
   for (const Box& box : boxes) result.merge(box);
   return result;
+}
+
+/// The union of the boxes of the leaves in a tree over primitives that are not subtracted there.
+Box box_of_operands(const csgcore::CsgTree& solid, std::span<const Box> boxes) {
+  Design design;
+  design.model = solid;
+  return view_box(design, boxes);
+}
+
+/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of
+/// it. `facets` is the box of its operands as OpenSCAD's facets, which what is round may exceed
+/// here.
+Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore::CsgTree& solid,
+                  const csgcore::Affine& frame_to_world, const Box& facets) {
+  const Box seen = seen_box(primitives, solid, frame_to_world);
+  return seen.empty() ? facets : csgcore::intersection(seen, facets);
+}
+
+/// Adds the boxes of the compound leaves to those of the primitives.
+void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, bool measures_leaves,
+                           std::vector<Box>& boxes) {
+  for (uint32_t leaf = static_cast<uint32_t>(boxes.size()); leaf < leaves.size(); ++leaf) {
+    const csgcore::CsgTree& solid = leaves.solid(leaf);
+    Box box = box_of_operands(solid, boxes);
+    if (measures_leaves) {
+      const csgcore::Affine& frame_to_world = collected.frames[leaves.frame(leaf)].to_world;
+      box = box_of_result(collected.primitives, solid, frame_to_world, box);
+    }
+    boxes.push_back(box);
+  }
 }
 
 /// What comes after the last node was taken. Frees what the collector holds as soon as it can: of a
@@ -152,23 +267,30 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
 
-  const std::vector<Box>& boxes = collected.boxes;
-  merge_features(collected.primitives, collected.frame_of, collected.frames, union_of(boxes));
-  collected.frames = {};
+  merge_features(collected.primitives, collected.frame_of, collected.frames,
+                 union_of(collected.boxes));
   collected.frame_of = {};
+  if (collected.compound_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);
   facet(tree, collected, design.warnings);
   throw_if_stopped(stop);
-  Marks marks = marks_of(tree, collected);
-  if (options.rendered) keep_solid_alone(marks);
-  Emitter emitter(tree, collected.primitive_of, marks);
-  design.scene.model = emitter.model(collected.selected);
-  design.scene.background = emitter.parts(marks.background);
-  design.scene.highlight = emitter.parts(marks.highlight);
+  Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
+  const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
+  const Design trees = Emitter(tree, collected, modifiers, leaves).design();
+  std::vector<Box> boxes = std::move(collected.boxes);
+  add_boxes_of_compound(collected, leaves, options.measures_leaves, boxes);
+  design.view_box = view_box(trees, boxes);
+  if (options.picture == PictureKind::kRendered && options.measures_leaves) {
+    design.view_box = box_of_result(collected.primitives, trees.model, {}, design.view_box);
+  }
+  throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);
-  for (const CsgTree* part :
-       {&design.scene.model, &design.scene.background, &design.scene.highlight}) {
-    design.view_box.merge(view_box(*part, boxes));
+  if (!compose(trees, leaves, boxes, options.picture, design.scene)) {
+    design.warnings.push_back(make_warning(tree.file_name, {},
+                                           "the translucent parts make more than " +
+                                               std::to_string(kMostProducts) +
+                                               " products: some show their nearest surfaces alone",
+                                           "give color() an alpha within fewer operations"));
   }
   return design;
 }

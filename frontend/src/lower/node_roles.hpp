@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "frontend/import_options.hpp"
 #include "frontend/syntax_tree.hpp"
 
 namespace frontend {
@@ -43,6 +44,12 @@ inline Role role_of(NodeKind kind) {
       break;
   }
   return Role::kUnsupportedOperation;
+}
+
+/// A node that OpenSCAD's preview evaluates as a whole, to one leaf (leaves.hpp). Its final render
+/// has no leaves.
+inline bool is_compound_leaf(NodeKind kind, PictureKind picture) {
+  return kind == NodeKind::kRender && picture != PictureKind::kRendered;
 }
 
 /// A node that has a place among Primitive::id.

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/elapsed.hpp"
+#include "csgcore/changed_areas.hpp"
 #include "csgcore/tracer.hpp"
 #include "render/cells_picture.hpp"
 #include "render/scene_subdivision.hpp"
@@ -64,10 +65,17 @@ class CpuRenderer final : public SolidRenderer {
     });
   }
 
-  Sides draw_sides(const Solid& solid, const FrameSettings& frame,
-                   const PictureRequest& request) override {
-    if (!uses_cells(request.settings)) return trace_sides(solid, frame, request);
-    return trace_sides(subdivisions_.of(solid, request).subdivision, frame, request);
+  void draw_sides(const Solid& solid, const FrameSettings& frame, const PictureRequest& request,
+                  bool shows_behind, Sides& sides) override {
+    note_renderer(request);
+    sides.area = csgcore::area_of(solid, request.view);
+    if (sides.area.empty()) return;
+    if (uses_cells(request.settings)) {
+      const Subdivision& subdivision = subdivisions_.of(solid, request).subdivision;
+      trace_sides(subdivision, frame, request, shows_behind, sides);
+    } else {
+      trace_sides(solid, frame, request, shows_behind, sides);
+    }
   }
 
   void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
@@ -127,18 +135,17 @@ class CpuRenderer final : public SolidRenderer {
   }
 
   template <typename Traced>
-  static Sides trace_sides(const Traced& traced, const FrameSettings& frame,
-                           const PictureRequest& request) {
+  static void trace_sides(const Traced& traced, const FrameSettings& frame,
+                          const PictureRequest& request, bool shows_behind, Sides& sides) {
     const auto trace_side = [&](Boundary boundary, Image& side) {
+      csgcore::TraceOptions options = trace_options(request.settings, boundary);
+      options.area = sides.area;
       TraceStats frame_stats;
-      csgcore::draw(traced, request.view, frame, trace_options(request.settings, boundary), side,
-                    frame_stats);
+      csgcore::draw(traced, request.view, frame, options, side, frame_stats);
       add(frame_stats, request.stats);
     };
-    Sides sides;
     trace_side(Boundary::kFirst, sides.front);
-    trace_side(Boundary::kBehind, sides.behind);
-    return sides;
+    if (shows_behind) trace_side(Boundary::kBehind, sides.behind);
   }
 
   SceneSubdivisions subdivisions_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
+#include "csgcore/changed_areas.hpp"
 #include "glrender/renderer.hpp"
 #include "render/renderer_choice.hpp"
 #include "render/scene_subdivision.hpp"
@@ -45,19 +46,23 @@ class GlRenderer final : public SolidRenderer {
     });
   }
 
-  Sides draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
-                   const PictureRequest& request) override {
-    return translate_errors([&] {
-      return with_technique(request, [&](glrender::Technique technique) {
+  void draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
+                  const PictureRequest& request, bool shows_behind, Sides& sides) override {
+    translate_errors([&] {
+      request.stats.renderer = "gl: " + context_.renderer_name();
+      sides.area = csgcore::area_of(solid, request.view);
+      if (sides.area.empty()) return;
+      sides = with_technique(request, [&](glrender::Technique technique) {
         glrender::Renderer& renderer = load(solid, request, technique);
         const glrender::FrameSettings gl_frame = frame_settings(frame, request.settings, technique);
-        Sides sides;
-        sides.front = count(
+        Sides drawn{sides.area, {}, {}};
+        drawn.front = count(
             [&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
-        sides.behind =
+        if (!shows_behind) return drawn;
+        drawn.behind =
             count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
                   request);
-        return sides;
+        return drawn;
       });
     });
   }

@@ -1,5 +1,6 @@
 #include "render/prepared_scene.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "csgcore/changed_areas.hpp"
@@ -24,15 +25,13 @@ PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene,
 }
 
 void PreparedScene::add_layers() {
-  add_layer(scene_->background, LayerKind::kBackground);
-  add_layer(scene_->highlight, LayerKind::kHighlight);
-  if (layers_.empty()) return;
+  if (scene_->layers.empty()) return;
   scene_box_ = model_.bounds();
-  for (const auto& layer : layers_) scene_box_.merge(layer->solid.bounds());
-}
-
-void PreparedScene::add_layer(const csgcore::CsgTree& tree, LayerKind kind) {
-  if (!tree.empty()) layers_.push_back(std::make_unique<Layer>(primitives_, tree, kind));
+  for (const csgcore::Layer& layer : scene_->layers) {
+    layers_.push_back(std::make_unique<const PreparedLayer>(*primitives_, layer));
+    model_is_layered_ = model_is_layered_ || layers_.back()->is_of_model();
+    scene_box_.merge(layers_.back()->solid().bounds());
+  }
 }
 
 csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& settings) const {
@@ -40,23 +39,45 @@ csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& setti
   frame.background = color_of(settings.scheme.background);
   frame.front = color_of(settings.scheme.front);
   frame.back = color_of(settings.scheme.back);
+  if (settings.from_within) frame.from_within = color_of(*settings.from_within);
   frame.shading = settings.shading;
   frame.measured_channels = settings.measured_channels || !layers_.empty();
   frame.scene_box = scene_box_;
   return frame;
 }
 
+/// What layers are drawn over. Its measured channels are always the model's.
+Image PreparedScene::draw_base(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                               const PictureRequest& request) const {
+  const bool wants_model = !model_is_layered_ || request.settings.measured_channels ||
+                           request.settings.show == Show::kCells;
+  if (wants_model) return renderer.draw_model(model_, frame, request);
+  Image image;
+  image.width_px = request.view.width_px;
+  image.height_px = request.view.height_px;
+  image.rgb.resize(size_t{image.width_px} * image.height_px);
+  return image;
+}
+
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
-  csgcore::FrameSettings frame = frame_settings(request.settings);
-  Image image = renderer.draw_model(model_, frame, request);
+  const csgcore::FrameSettings frame = frame_settings(request.settings);
+  Image image = draw_base(renderer, frame, request);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
-  if (request.settings.show == Show::kCells) return image;
+  if (layers_.empty() || request.settings.show == Show::kCells) return image;
+  std::vector<float> depth = image.z;
+  if (model_is_layered_) {
+    const Rgb& background = request.settings.scheme.background;
+    image.rgb.assign(image.rgb.size(), {background.r, background.g, background.b});
+    depth.assign(image.rgb.size(), std::numeric_limits<float>::infinity());
+  }
+  Compositor compositor(image, std::move(depth), scene_box_.diagonal());
+  SolidRenderer::Sides sides;
   for (const auto& layer : layers_) {
-    frame.front = frame.back = layer_color(layer->kind);
-    const SolidRenderer::Sides sides = renderer.draw_sides(layer->solid, frame, request);
-    // As in OpenSCAD: of a translucent body the back faces first.
-    blend_layer(sides.behind, layer->opacity, scene_box_.diagonal(), image);
-    blend_layer(sides.front, layer->opacity, scene_box_.diagonal(), image);
+    if (request.settings.stop.stop_requested()) break;
+    renderer.draw_sides(layer->solid(), layer->frame(frame), request, layer->shows_behind(), sides);
+    if (sides.area.empty()) continue;
+    if (layer->shows_behind()) compositor.add(*layer, sides.behind, sides.area);
+    compositor.add(*layer, sides.front, sides.area);
   }
   return image;
 }

@@ -7,8 +7,8 @@
 #include "csgcore/scene.hpp"
 #include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
+#include "render/layers.hpp"
 #include "render/solid_renderer.hpp"
-#include "render/translucent_layer.hpp"
 
 namespace frontend {
 
@@ -19,7 +19,7 @@ class PreparedScene {
   PreparedScene(std::shared_ptr<const csgcore::Scene> scene, const PreparedScene& earlier,
                 const csgcore::SceneEdit& edit);
 
-  /// The model, and over it the translucent `%` and `#` parts.
+  /// The scene's layers, over the model where none of them is a part of it.
   csgcore::Image draw(SolidRenderer& renderer, const PictureRequest& request) const;
   /// The same where `image` is the earlier scene's picture by the same request: only what the edit
   /// has changed is drawn, if the renderer can do that.
@@ -30,24 +30,18 @@ class PreparedScene {
   const csgcore::Solid& model() const { return model_; }
 
  private:
-  struct Layer {
-    Layer(const std::shared_ptr<const csgcore::CanonicalPrimitives>& primitives,
-          const csgcore::CsgTree& tree, LayerKind layer_kind)
-        : kind(layer_kind), solid(layer_primitives(primitives, kind), tree), opacity(solid, kind) {}
-    LayerKind kind;
-    csgcore::Solid solid;
-    LayerOpacity opacity;
-  };
-
   void add_layers();
-  void add_layer(const csgcore::CsgTree& tree, LayerKind kind);
   csgcore::FrameSettings frame_settings(const RenderSettings& settings) const;
+  csgcore::Image draw_base(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                           const PictureRequest& request) const;
 
   std::shared_ptr<const csgcore::Scene> scene_;
   std::shared_ptr<const csgcore::CanonicalPrimitives> primitives_;
   csgcore::Solid model_;
-  std::vector<std::unique_ptr<Layer>> layers_;  // from the first that is drawn
-  csgcore::Box scene_box_;                      // of all; empty without layers
+  // From the first that is drawn. Renderers know solids by their addresses.
+  std::vector<std::unique_ptr<const PreparedLayer>> layers_;
+  bool model_is_layered_ = false;
+  csgcore::Box scene_box_;  // of all; empty without layers
 };
 
 }  // namespace frontend

@@ -67,7 +67,7 @@ constexpr double kExactDisplacement = 1e-12;
 constexpr double kExactPositionError = 1e-9;
 constexpr double kExactNormalError = 1e-5;
 
-/// A scene's model (neither its background nor its highlight), prepared for rays. The scene must
+/// A scene's model (not its layers), prepared for rays. The scene must
 /// outlive it.
 class ExactScene {
  public:

@@ -1,4 +1,4 @@
-#include "lower/marks.hpp"
+#include "lower/resolved_modifiers.hpp"
 
 #include <algorithm>
 
@@ -15,26 +15,39 @@ struct Open {
   NodeKind kind;
   uint32_t end;
   bool any_background = false, any_left_out = false, any_empty = false, any_solid = false;
+  csgcore::Box box{};  // of the result: an intersection of boxes that are disjoint is empty
   bool all_highlighted = true;  // of the solid operands
   bool has_first = false;       // of a difference: what the rest is cut from
-  Mark first{};
+  ResolvedNode first{};
 };
 
-void add_operand(Open& open, const Mark& mark) {
-  if (mark.presence == Presence::kAbsent) return;
-  if (mark.presence == Presence::kBackground) {
+void add_box(Open& open, const csgcore::Box& box) {
+  if (!open.any_solid) {
+    open.box = box;
+  } else if (open.kind != NodeKind::kIntersection) {
+    if (open.kind != NodeKind::kDifference) open.box.merge(box);
+  } else {
+    open.box = csgcore::intersection(open.box, box);
+    open.any_empty = open.any_empty || open.box.empty();
+  }
+}
+
+void add_operand(Open& open, const ResolvedNode& node_state, const csgcore::Box& box) {
+  if (node_state.presence == Presence::kAbsent) return;
+  if (node_state.presence == Presence::kBackground) {
     open.any_background = true;
     return;
   }
   if (!open.has_first) {
     open.has_first = true;
-    open.first = mark;
+    open.first = node_state;
   }
-  open.any_left_out = open.any_left_out || mark.presence == Presence::kLeftOut;
-  open.any_empty = open.any_empty || mark.presence == Presence::kEmpty;
-  if (mark.presence == Presence::kSolid) {
+  open.any_left_out = open.any_left_out || node_state.presence == Presence::kLeftOut;
+  open.any_empty = open.any_empty || node_state.presence == Presence::kEmpty;
+  if (node_state.presence == Presence::kSolid) {
+    add_box(open, box);
     open.any_solid = true;
-    open.all_highlighted = open.all_highlighted && mark.highlighted;
+    open.all_highlighted = open.all_highlighted && node_state.highlighted;
   }
 }
 
@@ -50,52 +63,53 @@ Presence presence_of(const Open& open) {
 }
 
 /// The node as an operand, before its own modifiers count.
-Mark close(const Open& open) {
-  Mark mark;
-  mark.presence = presence_of(open);
-  if (mark.presence == Presence::kSolid && open.kind != NodeKind::kRender) {
-    mark.keeps_highlighted = open.kind == NodeKind::kDifference
-                                 ? open.first.highlighted
-                                 : open.all_highlighted && open.any_solid;
-    mark.highlighted = mark.keeps_highlighted;
+ResolvedNode close(const Open& open) {
+  ResolvedNode node_state;
+  node_state.presence = presence_of(open);
+  if (node_state.presence == Presence::kSolid && open.kind != NodeKind::kRender) {
+    node_state.keeps_highlighted = open.kind == NodeKind::kDifference
+                                       ? open.first.highlighted
+                                       : open.all_highlighted && open.any_solid;
+    node_state.highlighted = node_state.keeps_highlighted;
   }
-  return mark;
+  return node_state;
 }
 
-void apply_modifiers(Mark& mark, uint8_t modifiers) {
-  if ((modifiers & kHighlight) != 0) mark.highlighted = mark.presence == Presence::kSolid;
-  if ((modifiers & kBackground) != 0 && mark.presence != Presence::kLeftOut) {
-    mark.presence = Presence::kBackground;
+void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
+  if ((modifiers & kHighlight) != 0)
+    node_state.highlighted = node_state.presence == Presence::kSolid;
+  if ((modifiers & kBackground) != 0 && node_state.presence != Presence::kLeftOut) {
+    node_state.presence = Presence::kBackground;
   }
 }
 
 /// Walks the nodes and closes each after its last descendant.
-class MarkFinder {
+class ModifierResolver {
  public:
-  MarkFinder(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves)
+  ModifierResolver(const SyntaxTree& tree, NodeRange selected, std::span<const LeafState> leaves)
       : tree_(tree), selected_(selected), leaves_(leaves) {}
 
-  Marks find() {
-    marks_.nodes.resize(tree_.nodes.size(), Mark{Presence::kAbsent, false, false});
+  ResolvedModifiers find() {
+    resolved_.nodes.resize(tree_.nodes.size(), ResolvedNode{Presence::kAbsent, false, false});
     open_.push_back({0, NodeKind::kGroup, selected_.end});  // the top level is a union
     for (uint32_t i = selected_.begin; i < selected_.end;) {
       const SyntaxNode& node = tree_.nodes[i];
       close_until(i);
       if ((node.modifiers & kDisable) != 0) {
         i = node.subtree_end;
-      } else if (node.subtree_end > i + 1 && leaves_[i] != Presence::kLeftOut) {
+      } else if (node.subtree_end > i + 1 && leaves_[i].presence != Presence::kLeftOut) {
         open_.push_back({i, node.kind, node.subtree_end});
         ++i;
       } else {
-        finish(i, {leaves_[i], false, false});
+        finish(i, {leaves_[i].presence, false, false}, leaves_[i].box);
         i = node.subtree_end;
       }
     }
     close_until(selected_.end);
     const Open& top = open_.back();
-    marks_.keeps_highlighted = top.any_solid && top.all_highlighted;
+    resolved_.keeps_highlighted = top.any_solid && top.all_highlighted;
     collect_roots();
-    return std::move(marks_);
+    return std::move(resolved_);
   }
 
  private:
@@ -103,14 +117,14 @@ class MarkFinder {
     while (open_.size() > 1 && open_.back().end <= position) {
       const Open done = open_.back();
       open_.pop_back();
-      finish(done.node, close(done));
+      finish(done.node, close(done), done.box);
     }
   }
 
-  void finish(uint32_t node, Mark mark) {
-    apply_modifiers(mark, tree_.nodes[node].modifiers);
-    marks_.nodes[node] = mark;
-    add_operand(open_.back(), mark);
+  void finish(uint32_t node, ResolvedNode node_state, const csgcore::Box& box) {
+    apply_modifiers(node_state, tree_.nodes[node].modifiers);
+    resolved_.nodes[node] = node_state;
+    add_operand(open_.back(), node_state, box);
   }
 
   /// The parts to be overlaid: each highlighted node that its parent does not carry on.
@@ -126,44 +140,45 @@ class MarkFinder {
     std::vector<uint32_t> highlight_ends;
     for (uint32_t i = selected_.begin; i < selected_.end;) {
       const SyntaxNode& node = tree_.nodes[i];
-      const Mark& mark = marks_.nodes[i];
+      const ResolvedNode& node_state = resolved_.nodes[i];
       while (parents.size() > 1 && parents.back().end <= i) parents.pop_back();
       while (!highlight_ends.empty() && highlight_ends.back() <= i) highlight_ends.pop_back();
-      if (mark.presence == Presence::kAbsent || mark.presence == Presence::kLeftOut) {
+      if (node_state.presence == Presence::kAbsent || node_state.presence == Presence::kLeftOut) {
         i = node.subtree_end;
         continue;
       }
       Parent& parent = parents.back();
       const bool own_background =
-          (node.modifiers & kBackground) != 0 && mark.presence == Presence::kBackground;
-      const bool is_operand = mark.presence != Presence::kBackground;
+          (node.modifiers & kBackground) != 0 && node_state.presence == Presence::kBackground;
+      const bool is_operand = node_state.presence != Presence::kBackground;
       const bool is_first = is_operand && !parent.has_first;
       parent.has_first = parent.has_first || is_operand;
       const bool carried_on = !own_background && parent.keeps_highlighted &&
                               (parent.kind != NodeKind::kDifference || is_first);
       const bool in_render = parent.kind == NodeKind::kRender;
-      if (own_background && !in_render) marks_.background.push_back(i);
-      if (mark.highlighted && !carried_on && !in_render &&
+      if (own_background && !in_render) resolved_.background.push_back(i);
+      if (node_state.highlighted && !carried_on && !in_render &&
           highlight_ends.size() < kMostNestedHighlights) {
-        marks_.highlight.push_back(i);
+        resolved_.highlight.push_back(i);
         highlight_ends.push_back(node.subtree_end);
       }
-      parents.push_back({node.subtree_end, node.kind, mark.keeps_highlighted, false});
+      parents.push_back({node.subtree_end, node.kind, node_state.keeps_highlighted, false});
       ++i;
     }
   }
 
   const SyntaxTree& tree_;
   NodeRange selected_;
-  std::span<const Presence> leaves_;
-  Marks marks_;
+  std::span<const LeafState> leaves_;
+  ResolvedModifiers resolved_;
   std::vector<Open> open_;
 };
 
 }  // namespace
 
-Marks find_marks(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves) {
-  return MarkFinder(tree, selected, leaves).find();
+ResolvedModifiers resolve_modifiers(const SyntaxTree& tree, NodeRange selected,
+                                    std::span<const LeafState> leaves) {
+  return ModifierResolver(tree, selected, leaves).find();
 }
 
 }  // namespace frontend

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "csgcore/geometry.hpp"
 #include "frontend/syntax_tree.hpp"
 
 namespace frontend {
@@ -20,7 +21,7 @@ enum class Presence : uint8_t {
 };
 
 /// One node's part in the picture.
-struct Mark {
+struct ResolvedNode {
   Presence presence = Presence::kSolid;
   /// The node's solid is overlaid: it has `#`, or consists of such parts only.
   bool highlighted = false;
@@ -29,11 +30,11 @@ struct Mark {
 };
 
 /// A file's nodes as operands. Empty `nodes`: there is nothing special, all are solid or empty.
-struct Marks {
-  std::vector<Mark> nodes;
+struct ResolvedModifiers {
+  std::vector<ResolvedNode> nodes;
   std::vector<uint32_t> background;  // roots of the `%` parts, in file order
   std::vector<uint32_t> highlight;   // roots of the `#` parts, in file order
-  bool keeps_highlighted = false;    // as in Mark, for the file's top level
+  bool keeps_highlighted = false;    // as in ResolvedNode, for the file's top level
 };
 
 /// The nodes that `!` leaves: the subtree of the first one that is not inside `*`, or all.
@@ -42,8 +43,15 @@ struct NodeRange {
   uint32_t end = 0;
 };
 
-/// `leaves` says for each node without children, and for each that cannot be drawn (whose children
-/// are then not looked at), what it is: kSolid, kEmpty or kLeftOut.
-Marks find_marks(const SyntaxTree& tree, NodeRange selected, std::span<const Presence> leaves);
+/// A node without children, or one that is taken as a whole.
+struct LeafState {
+  Presence presence = Presence::kEmpty;  // kSolid, kEmpty or kLeftOut
+  csgcore::Box box;                      // world space, of a solid one
+};
+
+/// `leaves` has the state of each node without children, and of each that cannot be drawn, whose
+/// children are then not looked at.
+ResolvedModifiers resolve_modifiers(const SyntaxTree& tree, NodeRange selected,
+                                    std::span<const LeafState> leaves);
 
 }  // namespace frontend

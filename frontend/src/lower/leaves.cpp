@@ -1,22 +1,17 @@
-#include "lower/import_view_box.hpp"
+#include "lower/leaves.hpp"
 
-#include <glm/common.hpp>
+#include <algorithm>
 #include <limits>
-#include <vector>
-
-#include "base/primitive_traits.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Box;
 using csgcore::CsgToken;
+using csgcore::CsgTree;
+using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 using csgcore::Vec3;
-
-Box intersection(const Box& a, const Box& b) {
-  return {glm::max(a.min, b.min), glm::min(a.max, b.max)};
-}
 
 /// The boxes of all subtrees, in the tokens' order.
 std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const Box> boxes) {
@@ -32,7 +27,9 @@ std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const
       for (size_t k = first + 1; k < operands.size(); ++k) {
         const Box& operand = result[operands[k]];
         if (token.op == Op::kUnion) result[i].merge(operand);
-        if (token.op == Op::kIntersection) result[i] = intersection(result[i], operand);
+        if (token.op == Op::kIntersection) {
+          result[i] = csgcore::intersection(result[i], operand);
+        }
       }
       operands.resize(first);
     }
@@ -44,50 +41,67 @@ std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, std::span<const
 /// An operation on the way from the root to a leaf.
 struct OpenOperation {
   Op op;
-  bool negative;
+  bool is_subtracted;
   uint32_t operands_left;  // the last operand comes first
   Box context;             // where the operands can be seen
 };
 
 }  // namespace
 
-Box faceted_box(const csgcore::Primitive& primitive, const csgcore::FacetSettings& settings) {
-  const Box local = traits_of(primitive.shape).faceted_box(primitive, settings);
-  const csgcore::Affine& map = primitive.local_to_world;
-  const Vec3 half = 0.5 * local.size();
-  const Vec3 reach = glm::abs(map.linear[0]) * half.x + glm::abs(map.linear[1]) * half.y +
-                     glm::abs(map.linear[2]) * half.z;
-  const Vec3 center = map.point(local.center());
-  return {center - reach, center + reach};
+uint32_t Leaves::add(CsgTree solid, uint32_t frame) {
+  compound_.push_back({std::move(solid), frame});
+  return primitive_count_ + static_cast<uint32_t>(compound_.size()) - 1;
 }
 
-Box view_box(const csgcore::CsgTree& tree, std::span<const Box> boxes) {
+uint32_t Leaves::first_primitive(uint32_t leaf) const {
+  return is_compound(leaf) ? solid(leaf).tokens().front().value : leaf;
+}
+
+CsgTree Leaves::expanded(const LeafTree& tree) const {
+  if (!has_compound()) return tree;
+  const auto add_primitive = [](CsgTreeBuilder& builder, uint32_t index) {
+    builder.primitive(index);
+  };
+  CsgTreeBuilder builder;
+  rebuild(tree.tokens(), builder, [&](CsgTreeBuilder& to, uint32_t leaf) {
+    if (is_compound(leaf)) {
+      rebuild(solid(leaf).tokens(), to, add_primitive);
+    } else {
+      to.primitive(leaf);
+    }
+  });
+  return builder.finish();
+}
+
+std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const Box> boxes) {
   const std::span<const CsgToken> tokens = tree.tokens();
   const std::vector<Box> subtree = subtree_boxes(tokens, boxes);
   const Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                        Vec3(std::numeric_limits<double>::infinity())};
-  Box result;
+  std::vector<LeafUse> uses;
   std::vector<OpenOperation> open;
   for (size_t i = tokens.size(); i-- > 0;) {
-    bool negative = false;
+    bool is_subtracted = false;
     Box context = everywhere;
     if (!open.empty()) {
       const OpenOperation& parent = open.back();
-      const bool subtracted = parent.op == Op::kDifference && parent.operands_left > 1;
-      negative = parent.negative != subtracted;
+      const bool is_later = parent.op == Op::kDifference && parent.operands_left > 1;
+      is_subtracted = parent.is_subtracted != is_later;
       context = parent.context;
     }
     if (!tokens[i].is_primitive) {
       // A negated intersection is a union of complements: its operands do not bound one another.
-      const bool bounds = !negative && tokens[i].op != Op::kUnion;
-      open.push_back({tokens[i].op, negative, tokens[i].value,
-                      bounds ? intersection(context, subtree[i]) : context});
+      const bool bounds = !is_subtracted && tokens[i].op != Op::kUnion;
+      open.push_back({tokens[i].op, is_subtracted, tokens[i].value,
+                      bounds ? csgcore::intersection(context, subtree[i]) : context});
       continue;
     }
-    if (!negative && !intersection(subtree[i], context).empty()) result.merge(subtree[i]);
+    const bool meets_others = !csgcore::intersection(subtree[i], context).empty();
+    uses.push_back({tokens[i].value, is_subtracted, meets_others});
     while (!open.empty() && --open.back().operands_left == 0) open.pop_back();
   }
-  return result;
+  std::reverse(uses.begin(), uses.end());
+  return uses;
 }
 
 }  // namespace frontend

@@ -1,0 +1,174 @@
+#include "lower/composition.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "lower/products.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Box;
+using csgcore::CutFaces;
+using csgcore::Layer;
+using csgcore::Scene;
+
+class Composer {
+ public:
+  Composer(const Leaves& leaves, std::span<const Box> boxes, Scene& scene)
+      : leaves_(leaves), boxes_(boxes), scene_(scene) {}
+
+  /// OpenSCAD's preview and its final render.
+  void compose_preview(const Design& design) {
+    scene_.model = leaves_.expanded(design.model);
+    if (has_translucent(design.model)) add_products(design.model, Layer::Kind::kModel);
+    for (const LeafTree& part : design.background) add_products(part, Layer::Kind::kBackground);
+    for (const LeafTree& part : design.highlight) add_products(part, Layer::Kind::kHighlight);
+    if (!leaves_.has_compound()) return;
+    set_cut_faces(design.model);
+    for (const LeafTree& part : design.background) set_cut_faces(part);
+    for (const LeafTree& part : design.highlight) set_cut_faces(part);
+  }
+
+  /// Every leaf of a product whole. Opaque leaves that follow one another are drawn at once.
+  void compose_thrown_together(const Design& design) {
+    std::vector<uint32_t> all, opaque;
+    std::vector<Layer> layers;
+    const auto end_opaque = [&] {
+      if (opaque.empty()) return;
+      layers.push_back({Layer::Kind::kModel, false, leaves_.expanded(union_of(opaque))});
+      opaque.clear();
+    };
+    bool has_translucent = false;
+    for (const LeafUse& use : leaves_of_products(design.model)) {
+      set_cut_faces(use);
+      all.push_back(use.leaf);
+      const bool is_highlighted = design.is_highlighted(use.leaf);
+      const Layer::Kind kind = is_highlighted ? Layer::Kind::kHighlight : Layer::Kind::kModel;
+      if (is_opaque_leaf(use.leaf, kind)) {
+        opaque.push_back(use.leaf);
+        continue;
+      }
+      has_translucent = true;
+      end_opaque();
+      layers.push_back({kind, false, leaves_.expanded(union_of({&use.leaf, 1}))});
+    }
+    end_opaque();
+    scene_.model = leaves_.expanded(union_of(all));
+    if (has_translucent) scene_.layers = std::move(layers);
+    for (const LeafTree& part : design.background) {
+      add_leaves(design, part, Layer::Kind::kBackground);
+    }
+    for (const LeafTree& part : design.highlight) {
+      add_leaves(design, part, Layer::Kind::kHighlight);
+    }
+  }
+
+  bool has_all_layers() const { return has_all_layers_; }
+
+ private:
+  bool is_opaque_leaf(uint32_t leaf, Layer::Kind kind) const {
+    if (kind == Layer::Kind::kHighlight) return false;
+    const std::optional<csgcore::Color>& color =
+        scene_.primitives[leaves_.first_primitive(leaf)].color;
+    return color ? color->a == 1 : kind == Layer::Kind::kModel;
+  }
+
+  bool has_translucent(const LeafTree& tree) const {
+    const auto tokens = tree.tokens();
+    return std::any_of(tokens.begin(), tokens.end(), [&](const csgcore::CsgToken& token) {
+      return token.is_primitive && !is_opaque_leaf(token.value, Layer::Kind::kModel);
+    });
+  }
+
+  void add_products(const LeafTree& tree, Layer::Kind kind) {
+    Products products =
+        products_of(tree, boxes_, [&](uint32_t leaf) { return !is_opaque_leaf(leaf, kind); });
+    has_all_layers_ = has_all_layers_ && !products.are_too_many;
+    for (const Product& product : products.list) {
+      scene_.layers.push_back(
+          {kind, product.is_leaf && !product.is_opaque, leaves_.expanded(product.solid)});
+    }
+  }
+
+  /// A face's colour follows its leaf's sign, whatever the leaf is made of.
+  void set_cut_faces(const LeafTree& tree) {
+    for (const LeafUse& use : uses_of_leaves(tree, boxes_)) {
+      if (leaves_.is_compound(use.leaf)) set_cut_faces(use);
+    }
+  }
+
+  void set_cut_faces(const LeafUse& use) {
+    const auto set = [&](uint32_t primitive) {
+      scene_.primitives[primitive].cut_faces =
+          use.is_subtracted ? CutFaces::kAlways : CutFaces::kNever;
+    };
+    if (!leaves_.is_compound(use.leaf)) return set(use.leaf);
+    for (const csgcore::CsgToken& token : leaves_.solid(use.leaf).tokens()) {
+      if (token.is_primitive) set(token.value);
+    }
+  }
+
+  /// The leaves of the tree's products, each once.
+  std::vector<LeafUse> leaves_of_products(const LeafTree& tree) const {
+    std::vector<LeafUse> result;
+    std::unordered_set<uint32_t> taken;
+    for (const Product& product : products_of(tree, boxes_, [](uint32_t) { return true; }).list) {
+      for (const LeafUse& use : uses_of_leaves(product.solid, boxes_)) {
+        if (use.meets_others && taken.insert(use.leaf).second) result.push_back(use);
+      }
+    }
+    return result;
+  }
+
+  void add_leaves(const Design& design, const LeafTree& part, Layer::Kind kind) {
+    for (const LeafUse& use : leaves_of_products(part)) {
+      const Layer::Kind own = design.is_highlighted(use.leaf) ? Layer::Kind::kHighlight : kind;
+      scene_.layers.push_back({own, false, leaves_.expanded(union_of({&use.leaf, 1}))});
+    }
+  }
+
+  static LeafTree union_of(std::span<const uint32_t> leaves) {
+    csgcore::CsgTreeBuilder builder;
+    for (const uint32_t leaf : leaves) builder.primitive(leaf);
+    return builder.finish();
+  }
+
+  const Leaves& leaves_;
+  std::span<const Box> boxes_;
+  Scene& scene_;
+  bool has_all_layers_ = true;
+};
+
+}  // namespace
+
+bool Design::is_highlighted(uint32_t leaf) const {
+  return std::binary_search(highlighted_leaves.begin(), highlighted_leaves.end(), leaf);
+}
+
+bool compose(const Design& design, const Leaves& leaves, std::span<const Box> boxes,
+             PictureKind picture, Scene& scene) {
+  Composer composer(leaves, boxes, scene);
+  if (picture == PictureKind::kThrownTogether) {
+    composer.compose_thrown_together(design);
+  } else {
+    composer.compose_preview(design);
+  }
+  return composer.has_all_layers();
+}
+
+Box view_box(const Design& design, std::span<const Box> boxes) {
+  Box result;
+  const auto add = [&](const LeafTree& tree) {
+    for (const LeafUse& use : uses_of_leaves(tree, boxes)) {
+      if (!use.is_subtracted && use.meets_others) result.merge(boxes[use.leaf]);
+    }
+  };
+  add(design.model);
+  for (const LeafTree& part : design.background) add(part);
+  for (const LeafTree& part : design.highlight) add(part);
+  return result;
+}
+
+}  // namespace frontend

@@ -1,0 +1,33 @@
+// From a design's trees over leaves to what the picture is composed of: the model, its layers, and
+// the box that --viewall looks at.
+#pragma once
+
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+#include "csgcore/scene.hpp"
+#include "frontend/import_options.hpp"
+#include "lower/leaves.hpp"
+
+namespace frontend {
+
+/// A design's trees over its leaves.
+struct Design {
+  LeafTree model;
+  std::vector<LeafTree> background;          // one for each `%` part, in file order
+  std::vector<LeafTree> highlight;           // one for each `#` part, in file order
+  std::vector<uint32_t> highlighted_leaves;  // that are parts of `#` nodes, ascending
+
+  bool is_highlighted(uint32_t leaf) const;
+};
+
+/// Sets the scene's trees, and the cut faces of its primitives, which are there already. `boxes`
+/// holds the boxes of all leaves. Returns whether all translucent parts have the layers that
+/// OpenSCAD gives them: a design with too many has fewer (products.hpp).
+bool compose(const Design& design, const Leaves& leaves, std::span<const csgcore::Box> boxes,
+             PictureKind picture, csgcore::Scene& scene);
+
+/// The box that OpenSCAD's --viewall looks at (frontend/OPENSCAD.md, "Camera").
+csgcore::Box view_box(const Design& design, std::span<const csgcore::Box> boxes);
+
+}  // namespace frontend

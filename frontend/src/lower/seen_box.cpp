@@ -1,0 +1,120 @@
+#include "lower/seen_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "csgcore/hits.hpp"
+#include "csgcore/solid.hpp"
+#include "csgcore/tracer.hpp"
+#include "csgcore/view.hpp"
+#include "lower/faceted_box.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::Hits;
+using csgcore::Mat3;
+using csgcore::Primitive;
+using csgcore::Solid;
+using csgcore::Vec3;
+using csgcore::View;
+
+constexpr uint32_t kOverview_px = 256;  // a side of the first look
+constexpr uint32_t kCloseUp_px = 32;    // of those at the pixel that comes out farthest
+constexpr double kCloseUpReach = 1.5;   // pixels around that one's centre: its neighbours, too
+constexpr int kCloseUps = 3;            // each nearer by 32 / 3
+
+/// Looks at the solid from outside along an axis, the nearest point of it being its farthest that
+/// way.
+View outside_view(const Box& around, int axis, double sign) {
+  View view;
+  view.projection = csgcore::Projection::kOrthographic;
+  view.forward = view.right = view.up = Vec3(0.0);
+  view.forward[axis] = -sign;
+  view.right[(axis + 1) % 3] = sign;
+  view.up[(axis + 2) % 3] = 1;
+  const Vec3 half = 0.5 * around.size();
+  // With some room, and more than nothing where the box is flat.
+  const double reach = 1.01 * std::max({half.x, half.y, half.z});
+  view.eye = around.center() - reach * view.forward;
+  view.half_height = reach;
+  view.width_px = view.height_px = kOverview_px;
+  return view;
+}
+
+/// The pixel whose hit is nearest the eye.
+std::optional<std::size_t> nearest_pixel(const Hits& hits) {
+  const auto nearest = std::min_element(hits.s.begin(), hits.s.end());
+  if (nearest == hits.s.end() || !std::isfinite(*nearest)) return std::nullopt;
+  return static_cast<std::size_t>(nearest - hits.s.begin());
+}
+
+/// The solid's farthest coordinate that way.
+std::optional<double> farthest(const Solid& solid, int axis, double sign) {
+  View view = outside_view(solid.bounds(), axis, sign);
+  std::optional<double> result;
+  for (int look = 0; look <= kCloseUps; ++look) {
+    Hits hits;
+    csgcore::TraceStats stats;
+    csgcore::trace(solid, view, {}, hits, stats);
+    const std::optional<std::size_t> pixel = nearest_pixel(hits);
+    if (!pixel) break;
+    const double found = view.eye[axis] - sign * hits.s[*pixel];
+    result = !result || sign * found > sign * *result ? found : *result;
+    const double x = static_cast<double>(*pixel % view.width_px);
+    const double y = static_cast<double>(*pixel / view.width_px);
+    view.eye = csgcore::pixel_ray(view, x, y).origin;
+    view.half_height *= 2 * kCloseUpReach / view.height_px;
+    view.width_px = view.height_px = kCloseUp_px;
+  }
+  return result;
+}
+
+Box tight_box(const Solid& solid) {
+  Box box;
+  if (solid.bounds().empty()) return box;
+  Vec3 least, most;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::optional<double> low = farthest(solid, axis, -1);
+    const std::optional<double> high = farthest(solid, axis, 1);
+    if (!low || !high) return box;
+    least[axis] = *low;
+    most[axis] = *high;
+  }
+  box.merge(least);
+  box.merge(most);
+  return box;
+}
+
+}  // namespace
+
+Box seen_box(std::span<const Primitive> primitives, const csgcore::CsgTree& solid,
+             const Affine& frame_to_world) {
+  csgcore::Scene scene;
+  std::unordered_map<uint32_t, uint32_t> new_indices;
+  scene.model = csgcore::renamed(solid, [&](uint32_t index) {
+    const auto next = static_cast<uint32_t>(scene.primitives.size());
+    const auto [entry, is_new] = new_indices.try_emplace(index, next);
+    if (is_new) scene.primitives.push_back(primitives[index]);
+    return entry->second;
+  });
+  if (scene.model.empty()) return {};
+  Affine to_frame;
+  to_frame.linear = csgcore::inverse(frame_to_world.linear);
+  to_frame.translation = -(to_frame.linear * frame_to_world.translation);
+  for (Primitive& primitive : scene.primitives) {
+    primitive.local_to_world = csgcore::compose(to_frame, primitive.local_to_world);
+    if (!csgcore::is_valid(primitive)) return {};  // beyond what doubles hold
+  }
+  const Solid in_frame(csgcore::canonical_primitives(scene), scene.model);
+  const Box box = tight_box(in_frame);
+  return box.empty() ? box : mapped(frame_to_world, box);
+}
+
+}  // namespace frontend
