@@ -1,4 +1,4 @@
-// What a design means: primitives and the trees over them. The input of everything in csgcore.
+// The meaning of a design: primitives and the trees over them. All of csgcore works on scenes.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace csgcore {
 
-/// All trees index into `primitives`, each of which is valid. Data only.
+/// The trees hold indices into `primitives`, each of which is valid (is_valid).
 struct Scene {
   std::vector<Primitive> primitives;
   CsgTree model;       // the solid
-  CsgTree background;  // the union of the `%` parts: drawn apart, translucent
-  CsgTree highlight;   // the union of the `#` parts: overlaid, translucent
+  CsgTree background;  // the union of the `%` parts, drawn separately and translucent
+  CsgTree highlight;   // the union of the `#` parts, drawn over the picture and translucent
 };
 
 }  // namespace csgcore
