@@ -1,4 +1,4 @@
-// What a subdivision may cost, and how cells share it.
+// The budget of a subdivision, and how cells share it.
 //
 // No rule of the paper bounds the number of cells where surfaces meet along curves or coincide over
 // faces: however small a cell at a shared rim is, it holds all the primitives that share the rim.
@@ -30,11 +30,12 @@
 
 namespace csgcore {
 
-/// Above all memory; times a number of tests it does not overflow.
+/// More than any memory, and small enough that its product with a number of tests does not
+/// overflow.
 constexpr uint64_t kLargestBudget = uint64_t{1} << 40;
 
-/// What it costs to test one primitive against a cell. Time is paid for in bytes, too: it takes
-/// about as long as to make so many bytes of leaves.
+/// Returns the cost of testing one primitive against a cell. Time counts in bytes, too: the test
+/// takes about as long as making so many bytes of leaves.
 inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
   if (!primitive.polyhedron) return 1;
   constexpr uint64_t kFewFaces = 8, kFacesPerByte = 4;
@@ -42,21 +43,23 @@ inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
   return 4 + (std::max(faces, kFewFaces) - kFewFaces) / kFacesPerByte;
 }
 
-/// Costs in bytes. Of a solid's primitives, the mean is taken.
+/// Costs in bytes. `test_cost` is the mean over the solid's primitives.
 class CellCosts {
  public:
   explicit CellCosts(uint64_t test_cost) : test_cost_(test_cost) {}
 
-  /// What the division of a list may cost at most: both halves keep all of it.
+  /// Returns the highest cost of dividing a list of `count` tests: that for two halves which keep
+  /// all of them.
   uint64_t most_division(uint32_t count) const {
     return kDivision + count * (sizeof(BlistTest) + test_cost_);
   }
-  /// What it did cost. Negative where more tests went than the cells take.
+  /// Returns the actual cost of a division. It is negative if the tests that were dropped took more
+  /// bytes than the new cells.
   int64_t division(uint32_t count, uint32_t below, uint32_t above) const {
     return static_cast<int64_t>(kDivision + count * test_cost_) +
            static_cast<int64_t>(sizeof(BlistTest)) * (int64_t{below} + above - count);
   }
-  /// To test a whole list against some boxes.
+  /// Returns the cost of testing a list of `count` tests against some boxes.
   uint64_t probes(uint32_t count, uint32_t boxes) const {
     return boxes * (kProbe + count * test_cost_);
   }
@@ -69,7 +72,7 @@ class CellCosts {
   uint64_t test_cost_;
 };
 
-/// Bytes of a tree that is one leaf.
+/// The bytes of a tree that is one leaf with `count` tests.
 constexpr uint64_t leaf_bytes(uint32_t count) {
   return sizeof(KdNode) + sizeof(Leaf) + count * sizeof(BlistTest);
 }

@@ -1,5 +1,5 @@
 // Compiled once per instruction set by Highway. Multiplications and additions are never fused, and
-// what one lane gets does not depend on the others: every instruction set gives the same bits.
+// the result of a lane does not depend on other lanes: every instruction set gives the same bits.
 #include "primitives/intersect.hpp"
 
 #include "base/simd.hpp"

@@ -53,7 +53,7 @@ void CsgTreeBuilder::close() {
   assert(!frames_.empty());
   const Frame frame = frames_.back();
   frames_.pop_back();
-  // An operand of something that is empty already contributes nothing.
+  // An operand of an operation that is already empty contributes nothing.
   if (!frames_.empty() && frames_.back().is_empty) tokens_.resize(frame.first_token);
   if (frame.operand_count == 0 || tokens_.size() == frame.first_token) {
     add_operand(Operand::kEmpty);
