@@ -56,7 +56,7 @@ class Solid {
   /// list() with its operands in a BVH (operand_groups.hpp).
   const OperandGroups& groups() const { return *groups_; }
   /// The same without operands that rays from outside never reach (hidden_operands.hpp). Its solid
-  /// holds all of the whole solid; it is the same to rays that start outside of it and end where
+  /// contains the whole solid, and looks the same to rays that start outside of it and end where
   /// they enter it.
   const OperandGroups& outer_groups() const { return *outer_groups_; }
   /// A box around the solid, computed along the tree: for a union it is the union of the operands'

@@ -106,8 +106,7 @@ class ExactWalk {
   NearPlanes near_planes_;
   std::vector<Candidate> candidates_;
   std::vector<Crossing> crossings_;  // in order along the ray
-  std::vector<uint8_t> values_;      // the solid's values before each crossing, and after the last
-                                     // one
+  std::vector<uint8_t> values_;      // the solid's, before each crossing and after the last
   std::vector<Crossing> changed_;    // see collect_changes()
   std::vector<uint32_t> changed_primitives_;
   size_t eye_ = 0;  // the number of crossings behind the eye

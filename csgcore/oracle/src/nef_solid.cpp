@@ -95,8 +95,7 @@ class NefSolid::Impl {
         PlaneKey key = key_of(world_plane(half_space, polyhedra[polyhedron].local_to_world));
         name(key, polyhedron);
         for (Rational& coefficient : key) coefficient = -coefficient;
-        name(key, polyhedron);  // the solid may lie on the outer side if the polyhedron is
-                                // subtracted
+        name(key, polyhedron);  // the solid may lie outside, if this was subtracted
       }
     }
   }

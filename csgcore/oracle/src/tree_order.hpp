@@ -29,9 +29,7 @@ inline std::vector<size_t> first_tokens(std::span<const csgcore::CsgToken> token
 template <class Visitor>
 void visit_outside_in(std::span<const csgcore::CsgToken> tokens, Visitor& visitor) {
   const std::vector<size_t> firsts = first_tokens(tokens);
-  std::vector<std::vector<csgcore::Op>> opened(tokens.size());  // by token, the operations that
-                                                                // open before it, the outermost
-                                                                // first
+  std::vector<std::vector<csgcore::Op>> opened(tokens.size());  // by token, outermost first
   for (size_t i = tokens.size(); i-- > 0;) {
     if (!tokens[i].is_primitive) opened[firsts[i]].push_back(tokens[i].op);
   }

@@ -47,8 +47,7 @@ HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& 
 struct Crossings {
   Lanes3<Wide> normal[kChunks];
   PacketV facing;    // n·d|, the thickness per unit of t
-  LaneMask unclear;  // lanes without a crossing at their t, or whose crossing may coincide with
-                     // others
+  LaneMask unclear;  // lanes without a crossing at t, or whose crossing may coincide
 };
 
 /// Finds the crossings at the lanes' t, and stores their index, normal and on_cap in `hits`.

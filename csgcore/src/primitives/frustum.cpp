@@ -24,8 +24,7 @@ bool axis_meets(const CanonicalPrimitive& primitive, const Box& cell) {
   double low = -1.0;
   double high = 1.0;
   for (int i = 0; i < 3; ++i) {
-    const double inverse = 1.0 / axis[i];  // may make ±inf bounds, or NaN, which std::min and max
-                                           // ignore
+    const double inverse = 1.0 / axis[i];  // makes ±inf bounds, or NaN, which min and max ignore
     const double a = (cell.min[i] - primitive.center[i]) * inverse;
     const double b = (cell.max[i] - primitive.center[i]) * inverse;
     low = std::max(low, std::min(a, b));

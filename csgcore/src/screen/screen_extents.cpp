@@ -161,8 +161,7 @@ HWY_INLINE void Projector::project(const Extent* world, const uint32_t* indices,
   }
   const Range x = to_pixels(ranges[0], 1, middle_px[0]);
   const Range y = to_pixels(ranges[1], -1, middle_px[1]);
-  const WideV far_off = hn::Set(d, 1e6);  // beyond every picture, and small enough that its halves
-                                          // are exact
+  const WideV far_off = hn::Set(d, 1e6);  // beyond every picture; its halves are exact
   alignas(64) double low_x[8], high_x[8], low_y[8], high_y[8], t[8], t_reach[8], inside2[8],
       gone[8];
   const auto clamp = [&](WideV v, WideV otherwise) {

@@ -290,8 +290,7 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
   const WideV level = is_perspective ? hn::Add(mid, tilt) : tilt;
   const WideV across2 = hn::Add(hn::Mul(held.x, held.x), hn::Mul(held.y, held.y));
   const WideV tangent2 = hn::Sub(across2, hn::Mul(level, level));
-  const WideV distance = hn::Sub(hn::Sqrt(across2), level);  // lower bound of the eye's distance
-                                                             // from the wall
+  const WideV distance = hn::Sub(hn::Sqrt(across2), level);  // of the eye from the wall, at least
   const auto is_far = hn::Gt(distance, hn::Mul(hn::Set(d, kNearest), sum_of_sizes(held)));
   lines.are_known = hn::And(hn::Gt(tangent2, hn::Zero(d)), is_far);
   // The rounding of the map into canonical space, and of the computation there: for a point next to

@@ -65,8 +65,7 @@ HWY_INLINE uint64_t bits_of(Mask mask) { return bits_of(Doubles(), mask); }
 
 /// The contribution of the interval [min, max] of one axis to the tests.
 struct AxisTest {
-  Vector near2, far2;  // squared distances from the centre to the interval's nearest and furthest
-                       // point
+  Vector near2, far2;  // squared distances from the centre to the interval's near and far points
   Mask apart;          // the extent's box is disjoint from it
 };
 

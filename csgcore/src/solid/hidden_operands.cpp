@@ -15,7 +15,6 @@
 // within the border, and unchanged elsewhere. (A subtracted operand that contains the whole reach
 // of a sealed one counts there with the value it has. If it is sealed itself, f is true there
 // without it, too.)
-//
 #include "solid/hidden_operands.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -442,8 +441,7 @@ class HiddenSearch {
   // By index, of primitives and groups:
   std::vector<ProgramCounter> program_counters_;
   std::vector<Part> parts_;
-  std::vector<uint8_t> holds_sealed_;  // whether it is sealed, or is a union with a member that
-                                       // holds a sealed operand
+  std::vector<uint8_t> holds_sealed_;  // sealed, or a union of which a member holds one
   std::vector<uint32_t> outermost_;    // named by the whole list; then the vectors' padding
   size_t outermost_count_ = 0;
   size_t steps_left_ = 0;       // for unseal()

@@ -43,7 +43,7 @@ class OperandGroups {
   /// for empty.
   OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden = {});
 
-  /// Returns the BVH for the same tree after an edit, in which only the primitives `moved` have got
+  /// Returns the BVH for the same tree after an edit, in which only the primitives `moved` have
   /// other extents. Groups keep their members, and grow if these reach further. Returns null if the
   /// groups would need other members, or if too many primitives have moved since they were made.
   static std::shared_ptr<const OperandGroups> with_moved(

@@ -69,8 +69,7 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
   std::vector<Class> classes(count);
   std::iota(classes.begin(), classes.end(), 0u);
   std::unordered_map<uint64_t, uint32_t> first_of;  // by hash
-  std::vector<uint32_t> next_of;                    // by primitive, another one that has the same
-                                                    // hash and differs
+  std::vector<uint32_t> next_of;                    // another with the same hash
   for (uint32_t i = 0; i < count; ++i) {
     const size_t bit = hashes[i] & mask;
     if ((twice[bit / 64] >> bit % 64 & 1) == 0) continue;

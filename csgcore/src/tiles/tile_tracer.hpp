@@ -118,8 +118,7 @@ class TileTracer {
 
   /// What a list has lost because it is hidden.
   struct Cut {
-    const CellList* fallback = nullptr;  // the fallback list: the list before it was cut; null if
-                                         // it was not cut
+    const CellList* fallback = nullptr;  // the list before it was cut; null: it was not
     /// All rays end before this t: TileRays::Met::cut_t.
     double t = std::numeric_limits<double>::infinity();
   };

@@ -9,8 +9,7 @@ struct Pending {
   bool complement;
   uint32_t operands_left;
   uint32_t if_true, if_false;  // where the whole operation continues
-  uint32_t next;               // where the operand starts that was compiled before and follows in
-                               // the list
+  uint32_t next;               // start of the operand compiled before, which follows in the list
   bool is_last_operand;
 };
 

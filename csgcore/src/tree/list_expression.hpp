@@ -15,8 +15,7 @@ namespace csgcore {
 class ListExpression {
  public:
   enum class Step : uint8_t {
-    kTest,          // pushes the next test; tests come in the order of their indices in the
-                    // CellList
+    kTest,          // pushes the next test, in the order of CellList's indices
     kIntersection,  // replaces the top two operands by one, as kUnion does
     kUnion,
   };
@@ -39,8 +38,7 @@ class ListExpression {
   bool combine(Block& block, const Block& next);
 
   std::vector<Step> steps_;
-  std::vector<Block> blocks_;    // those that are no operands yet; the last one comes first in the
-                                 // Blist
+  std::vector<Block> blocks_;    // no operands yet; the last one comes first in the Blist
   std::vector<uint32_t> jumps_;  // by number: how many jumps lead there
 };
 
