@@ -1,5 +1,5 @@
-// Primitives in canonical form, and the questions that the subdivision asks of them. Each kind
-// answers them in a file of its own (src/primitives/primitive_kind.hpp).
+// Primitives in canonical form, and the geometric tests that the subdivision makes with them. Each
+// kind implements these in a file of its own (src/primitives/primitive_kind.hpp).
 #pragma once
 
 #include "csgcore/primitive.hpp"

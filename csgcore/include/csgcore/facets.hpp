@@ -10,7 +10,7 @@
 
 namespace csgcore {
 
-/// $fn, $fa (degrees) and $fs of a round primitive, with OpenSCAD's defaults.
+/// $fn, $fa (degrees) and $fs of a round primitive, with OpenSCAD's default values.
 struct FacetSettings {
   double fn = 0;
   double fa = 12;

@@ -9,7 +9,7 @@
 namespace csgcore {
 
 enum class Shading : uint8_t {
-  kOpenScad,  // rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space, OpenSCAD's light
+  kOpenScad,  // OpenSCAD's light: rgb · (0.2 + |n·(−1, 1, 1)/√3|) in eye space
   kPhong,     // positional light with ambient, diffuse and specular parts (csgcore/phong.hpp)
 };
 

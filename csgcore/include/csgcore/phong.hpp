@@ -16,8 +16,9 @@ constexpr double kPhongAmbient = 0.2;    // POV-Ray: ambient
 constexpr double kPhongDiffuse = 0.7;    // POV-Ray: diffuse
 constexpr double kPhongSpecular = 0.3;   // POV-Ray: phong
 constexpr double kPhongExponent = 40.0;  // POV-Ray: phong_size
-/// How far the light stands to the left of and above the eye, as a share of the eye's distance from
-/// the scene's centre: enough for relief, little enough that no large part faces away from it.
+/// The distance of the light to the left of the eye, and above it, as a share of the eye's distance
+/// from the scene's centre. It is enough for relief, and so little that no large part faces away
+/// from the light.
 constexpr double kPhongLightOffset = 0.5;
 
 /// A white point light that does not fade with distance and casts no shadow.

@@ -19,7 +19,7 @@ namespace csgcore {
 /// A polyhedron is large, and primitives share it: 10,000 nut traps have the same one.
 ///
 /// Canonical space is given by x_local = center + scale · x_canonical, coordinate by coordinate.
-/// The enclosing quadric is there the sphere or the frustum of canonical_primitive.hpp.
+/// There the enclosing quadric is the sphere or the frustum of canonical_primitive.hpp.
 class Polyhedron {
  public:
   /// A node of the hierarchy of faces, in preorder: a half-space normal · x ≤ limit in canonical

@@ -1,4 +1,5 @@
-// Set operations on Nef polyhedra. Slow to compile: nothing else includes CGAL/Nef_polyhedron_3.h.
+// Set operations on Nef polyhedra. No other file includes CGAL/Nef_polyhedron_3.h, which is slow to
+// compile.
 #include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
@@ -89,9 +90,9 @@ Nef value_of(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> pol
 ///
 /// Neither of CGAL's own functions can be used. Nef_polyhedron_3::regularization() merges facets by
 /// SNC_simplify, whose SNC_decorator::add_sloop_to_facet() links the circle that is left about a
-/// vertex to the wrong side of its facet (5.5.1): where an apex touches that facet, inside and
-/// outside become one volume. And CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a
-/// cavity that holds something, and fails where a vertex touches a facet.
+/// vertex to the wrong side of its facet (5.5.1): if an apex touches that facet, inside and outside
+/// become one volume. CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a cavity that
+/// contains something, and fails if a vertex touches a facet.
 ExactBoundary boundary_of(const Nef& solid) {
   ExactBoundary boundary;
   std::unordered_map<Nef::Vertex_const_handle, std::size_t> indices;

@@ -14,7 +14,7 @@ void with_threads(unsigned threads, Work&& work) {
     work();
     return;
   }
-  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
+  // TBB warns on stderr if an arena asks for more threads than the process is allowed.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(static_cast<int>(threads));
   arena.execute(work);

@@ -96,7 +96,7 @@ Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
   if (halves[above].count() < count) {
     child.stalled = child.doubled = 0;
   } else {
-    // Cutting off more than half of the cell as empty space is progress too.
+    // Cutting off more than half of the cell as empty space is progress, too.
     const int axis = static_cast<int>(split.axis);
     const bool halved = child.box.size()[axis] >= 0.5 * cell.box.size()[axis];
     if (!other.is_constant() || halved) ++child.stalled;
@@ -179,7 +179,7 @@ void Builder::run(bool in_parallel, Work&& work) {
   }
   const unsigned threads =
       options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
-  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
+  // TBB warns on stderr if an arena asks for more threads than the process is allowed.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     std::max(threads, 1u));
   tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));

@@ -91,7 +91,7 @@ class Builder {
   const SubdivisionOptions& options_;
   const double overlap_;
   const BatchSink& sink_;
-  bool repeats_ = false;  // some primitive stands in the list more than once
+  bool repeats_ = false;  // the list names some primitive more than once
   bool in_parallel_ = false;
   const CellCosts costs_;
   const uint64_t budget_;  // bytes

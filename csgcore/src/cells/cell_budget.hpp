@@ -1,24 +1,26 @@
 // The budget of a subdivision, and how cells share it.
 //
 // No rule of the paper bounds the number of cells where surfaces meet along curves or coincide over
-// faces: however small a cell at a shared rim is, it holds all the primitives that share the rim.
-// With K below their number, the cells along the rim are divided down to the pixel threshold, and
-// the tree holds (length of the rim in pixels) cells for every rim: gigabytes for a vase of 200
-// frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes). It is spent in rounds:
+// faces. However small a cell at a shared rim is, all the primitives that share the rim cross it.
+// If they are more than K, the cells along the rim are divided down to the pixel threshold, and the
+// tree has as many cells for each rim as the rim is pixels long: gigabytes for a vase of 200
+// frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes), which is spent in
+// rounds:
 //
-// - The root gets a credit. A division is paid for from its cell's credit, and hands the rest on to
-//   the two halves, in proportion to their tests. A cell that cannot pay is paused. The first
-//   round may use up a part of the budget only, and as long as that lasts a cell may take many
-//   times its share: cells of ordinary designs are then hardly ever paused.
-// - When all others are done, what is left of the budget (most subtrees need less than their share)
-//   is dealt out to the paused cells, in proportion to their tests, and they go on: each of them
-//   by a division at least.
-// - Where what is left does not take every paused cell one step further, all of them are given up:
-//   they become leaves with more than K primitives (LeafKind::kGivenUp).
+// - The root cell gets a credit. Each division takes its cost from its cell's credit, and divides
+//   the rest among the two halves in proportion to their tests. A cell whose credit does not
+//   suffice is paused. The first round may use up only a part of the budget; as long as that lasts,
+//   a cell may take many times its share, so that the cells of ordinary designs are hardly ever
+//   paused.
+// - When all other cells are done, the rest of the budget is dealt out to the paused cells in
+//   proportion to their tests (there is a rest, since most subtrees need less than their share).
+//   Each paused cell gets enough for one division at least, and they go on.
+// - If the rest does not suffice to divide every paused cell once, all of them are given up: they
+//   become leaves with more than K primitives (LeafKind::kGivenUp).
 //
-// So all parts of a design go equally short, no cell depends on when another one was divided, and
-// the tree is the same for every number of threads. A design that stays within the budget gets the
-// cells that it would have without one.
+// So all parts of a design are cut short equally, no cell depends on when another one was divided,
+// and the tree is the same for every number of threads. A design that stays within the budget gets
+// the same cells as without a budget.
 #pragma once
 
 #include <algorithm>

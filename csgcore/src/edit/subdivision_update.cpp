@@ -1,4 +1,5 @@
-// Following an edit: only the cells that a changed primitive reaches are subdivided anew.
+// Subdivision::update, which follows an edit: only the cells that a changed primitive reaches are
+// subdivided anew.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Traces packets of rays through lists: the evaluation that tiles and kd cells share.
+// Traces packets of rays through Boolean lists. Tiles and kd cells share this evaluation.
 #pragma once
 
 #include "packets/ranges.hpp"

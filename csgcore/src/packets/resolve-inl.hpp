@@ -186,7 +186,7 @@ class RayResolver {
 
   bool together(const Event& a, const Event& b) const {
     const double gap = std::abs(b.t - a.t);
-    if (gap * length_ < parameters_.thickness_tolerance) return true;  // |n·d| ≤ |d|
+    if (gap * length_ < parameters_.thickness_tolerance) return true;  // since |n·d| ≤ |d|
     return gap * std::max(facing(a), facing(b)) < parameters_.thickness_tolerance;
   }
 

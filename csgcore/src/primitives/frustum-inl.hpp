@@ -104,7 +104,7 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const auto infinite = hn::Set(d, kInfinity);
-  // Re-based at the ray's point nearest to the axis within the slab, where nothing cancels.
+  // Re-base the ray at its point nearest to the axis within the slab, where nothing cancels.
   const auto nearest = hn::Neg(hn::Mul(dot_xy(p, direction), inverse.lateral2));
   const auto within = hn::Max(hn::Min(nearest, slab.end), slab.start);
   // For an empty slab any base will do.

@@ -78,7 +78,7 @@ class SphereKind final : public PrimitiveKind {
   Classification classify(const CanonicalPrimitive& primitive,
                           const Box& cell_world) const override {
     const CanonicalCell cell = to_canonical(primitive, cell_world);
-    // By convexity, a cell whose 8 corners are inside is inside.
+    // By convexity, a cell whose 8 corners lie inside lies inside.
     const double inner = 1.0 - cell.slack;
     if (contains(primitive, cell.center)) {
       for (int corner = 0; corner < 8; ++corner) {

@@ -4,7 +4,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE

@@ -48,7 +48,7 @@ constexpr double kLongestDirection = 3;
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 constexpr ScreenSlab kNoSlab = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
 
-/// The picture's plane.
+/// The picture's plane, and the maps between u, v and pixels.
 struct Picture {
   const View& view;
   bool is_perspective;
@@ -88,7 +88,7 @@ bool is_large(const Extent& screen) {
   return std::min(screen.half[0], screen.half[1]) >= kCorneredHalf_px;
 }
 
-/// Narrows an extent to a rectangle, in pixels.
+/// Narrows an extent to a rectangle; rounds it to pixels' centres first if options.centers_only.
 void narrow(Rectangle to, const Picture& picture, const ScreenOptions& options, Extent& screen) {
   if (options.centers_only) {
     to = {std::ceil(to.low_x), std::floor(to.high_x), std::ceil(to.low_y), std::floor(to.high_y)};

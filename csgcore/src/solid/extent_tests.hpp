@@ -21,8 +21,8 @@ struct Halves {
 
 /// Answers for up to 64 primitives, bit i for the i-th.
 struct ExtentAnswers {
-  uint64_t outside[2];  // certainly outside the half below, above
-  uint64_t inside[2];   // the half lies certainly inside
+  uint64_t outside[2];  // the primitive certainly lies outside of the half below, above
+  uint64_t inside[2];   // the half certainly lies inside the primitive
   uint64_t open;        // no balls: undecided unless they are outside or inside
 };
 

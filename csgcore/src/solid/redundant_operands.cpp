@@ -100,7 +100,7 @@ constexpr size_t kMostOperands = size_t{1} << 17;
 constexpr double kCoplanar = 0x1p-10;
 constexpr double kApartInside = 4;
 
-/// Marks primitives that lie within another operand of their union.
+/// Finds primitives that lie within another operand of their union.
 class InnerOperands {
  public:
   InnerOperands(std::span<const CsgToken> tokens, std::span<const CanonicalPrimitive> primitives,

@@ -1,4 +1,4 @@
-// Restricting a cell's function to the cell's two halves (paper §2.2.1).
+// Restricts a cell's list to the cell's two halves (paper §2.2.1).
 #pragma once
 
 #include <optional>

@@ -60,8 +60,8 @@ void CsgTreeBuilder::close() {
     return;
   }
   if (frame.operand_count == 1) {
-    // The lone operand takes this node's place. Its own root may now stand directly under an
-    // operation that it can dissolve into.
+    // The lone operand takes this node's place. The operand's own root may now be directly under an
+    // operation into which it can dissolve.
     if (!tokens_.back().is_primitive) {
       const CsgToken root = tokens_.back();
       tokens_.pop_back();
