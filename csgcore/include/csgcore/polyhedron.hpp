@@ -55,7 +55,7 @@ class Polyhedron {
   /// Does the same with a given quadric, which the vertices lie on or in.
   Polyhedron(std::vector<HalfSpace> half_spaces, std::vector<Vec3> vertices, Canonical canonical);
 
-  /// Return OpenSCAD's faceted sphere and frustum, with the preconditions of facets.hpp.
+  /// These return OpenSCAD's faceted sphere and frustum, with the preconditions of facets.hpp.
   static std::shared_ptr<const Polyhedron> sphere(double radius, int fragments);
   static std::shared_ptr<const Polyhedron> frustum(double z_min, double z_max, double r_bottom,
                                                    double r_top, int fragments);

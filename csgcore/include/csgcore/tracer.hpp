@@ -78,14 +78,14 @@ struct TraceStats {
 /// the one that was drawn: it maps ids to primitives. Throws std::out_of_range at an unknown id.
 Hits hits_of(const Image& image, const Scene& scene);
 
-/// Draw the solid into `image`, or store what the pixels' centres see in `hits`, by screen tiles.
-/// `stats` is overwritten.
+/// These draw the solid into `image`, or store what the pixels' centres see in `hits`, by screen
+/// tiles. They overwrite `stats`.
 void draw(const Solid& solid, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats);
 void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
            TraceStats& stats);
 
-/// Do the same by a kd-tree. Cells that were dropped below its threshold count as empty.
+/// These do the same by a kd-tree. Cells that were dropped below its threshold count as empty.
 void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats);
 void trace(const Subdivision& subdivision, const View& view, const TraceOptions& options,

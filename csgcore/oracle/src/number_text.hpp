@@ -16,7 +16,7 @@ inline std::string shortest_text(double number) {
   return {text, end};
 }
 
-/// Return the parts as "a, b, c".
+/// These return the parts as "a, b, c".
 std::string joined(const std::vector<std::string>& parts);
 std::string joined(const std::vector<double>& numbers);
 inline std::string coordinates(const csgcore::Vec3& v) { return joined({v.x, v.y, v.z}); }

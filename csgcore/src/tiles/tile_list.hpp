@@ -65,7 +65,8 @@ class CullReasons {
 /// of depth. Within the stretch it is known to hold, which may settle the list:
 /// - primitives that lie wholly within the stretch, and that the list does not depend on there, are
 ///   cancelled or lie inside the solid;
-/// - if the list is true at a depth of the stretch, all primitives behind that depth are hidden.
+/// - if all rays of the tile have ended at some depth of the stretch (see `last_value`), all
+///   primitives behind that depth are hidden.
 /// Since primitives are convex, the four rays through the tile's corners give an occluder's
 /// stretch.
 class TileCuller {
@@ -98,7 +99,8 @@ class TileCuller {
   /// Cuts the list by a face, if all rays of the tile enter one primitive through one plane face
   /// and end there. Then `result` lacks primitives that lie behind that plane, or that come earlier
   /// in the file and reach no further than into it. Returns false if there is no such face, or no
-  /// primitive behind it. cut_t() is the largest t at which rays enter by the face.
+  /// primitive behind it. cut_t() is then the largest t at which rays enter by the face, plus a
+  /// slack for rounding.
   bool cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
                    CellList& result);
   /// By index in the list.

@@ -123,7 +123,7 @@ class NefSolid {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Write Object File Format, and ASCII STL (for triangles only), with 17 digits.
+/// These write Object File Format, and ASCII STL (for triangles only), with 17 digits.
 void write_off(std::ostream& out, const csgcore::Mesh& mesh);
 void write_stl(std::ostream& out, const csgcore::Mesh& mesh);
 
