@@ -1,79 +1,83 @@
-// Primitives in canonical form, and the questions that the subdivision asks of them. Each kind
-// answers them in a file of its own (src/primitives/primitive_kind.hpp).
+// Primitives in canonical form, and the geometric tests that the subdivision makes with them. Each
+// kind implements these in a file of its own (src/primitives/primitive_kind.hpp).
 #pragma once
 
 #include "csgcore/primitive.hpp"
 
 namespace csgcore {
 
-/// Where a primitive lies against a cell. Conservative: kInside and kOutside are certain.
+/// How a cell lies relative to a primitive. kOutside: the two are disjoint. kInside: the cell lies
+/// within the primitive. Both are certain; kCrosses says only that neither could be shown.
 enum class Classification : uint8_t { kOutside, kInside, kCrosses };
 
-/// Canonical space: x_canonical = world_to_canonical · (x_world − center).
+/// A primitive in canonical space, where it has a standard place and size: x_canonical =
+/// world_to_canonical · (x_world − center).
 ///   kSphere:  the unit ball.
 ///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
 ///   kPolyhedron: see polyhedron.hpp.
 struct alignas(64) CanonicalPrimitive {
   Shape shape = Shape::kSphere;
-  /// kSphere or kFrustum: what encloses a polyhedron in canonical space; of others their own shape.
+  /// The quadric, kSphere or kFrustum, that encloses a polyhedron in canonical space. A primitive
+  /// of another kind is its own enclosure.
   Shape enclosure = Shape::kSphere;
   double radius_mid = 1;
   double radius_slope = 0;
   Vec3 center{0.0};  // world position of the canonical origin
-  /// Radius in world space of what is a true ball there, else 0.
+  /// Radius in world space if the primitive is a ball there, else 0.
   double ball_radius = 0;
-  /// Upper bound of how much longer than in world space a distance is in canonical space.
+  /// Upper bound of the factor by which a length grows from world to canonical space.
   double canonical_stretch = 1;
   Mat3 world_to_canonical{1.0};
   Mat3 canonical_to_world{1.0};
   Box bounds;  // tight, in world space
-  /// Bound of the rounding error of canonical coordinates, per unit of the largest world coordinate
-  /// (or offset from the centre) that they are computed from.
+  /// Bound of the rounding error of canonical coordinates, per unit of the largest number that they
+  /// are computed from: a world coordinate or an offset from the centre.
   double canonical_error = 0;
-  /// Bound of what the rounding of world_to_canonical alone does, relative to the largest canonical
-  /// coordinate.
+  /// Bound of the part of this error that the rounding of world_to_canonical causes, per unit of
+  /// the largest canonical coordinate.
   double inversion_error = 0;
-  std::shared_ptr<const Polyhedron> polyhedron;  // of a polyhedron, else null
+  std::shared_ptr<const Polyhedron> polyhedron;  // null unless shape is kPolyhedron
   std::optional<Color> color;
   CutFaces cut_faces = CutFaces::kByTree;
   uint32_t id = 0;
 };
 
-/// Precondition: is_valid(primitive).
+/// Returns the canonical form of a primitive. Precondition: is_valid(primitive).
 CanonicalPrimitive canonicalize(const Primitive& primitive);
 
-/// The cell is a closed, non-empty box.
+/// Classifies a cell, which is a closed, non-empty box in world space.
 Classification classify(const CanonicalPrimitive& primitive, const Box& cell);
 
-/// The same for what is no true ball and a cell that meets the bounds.
+/// Does the same if the primitive is no ball (ball_radius = 0) and the cell meets its bounds.
 Classification classify_within_bounds(const CanonicalPrimitive& primitive, const Box& cell);
 
-/// The point furthest along a direction, in world space but for rounding.
+/// Returns the primitive's point furthest along a direction, in world space, up to rounding.
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
-/// Whether the two are certainly more than `margin` apart, in world units: a plane was found
-/// between them. Of what is long and thin, it often is not.
+/// Returns true if a plane was found that separates the two with more than `margin` world units
+/// between them. False proves nothing: for long and thin primitives the search often fails.
 bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin);
 
-/// Upper bound of how far from its centre the primitive reaches, in world units; tight for what is
-/// not sheared.
+/// Returns an upper bound of the distance, in world units, from the primitive's `center` to any of
+/// its points. It is tight if the primitive is not sheared.
 double reach(const CanonicalPrimitive& primitive);
 
-/// Whether the ball, of a radius in world units, certainly lies in the primitive.
+/// Returns whether the ball (radius in world units) certainly lies within the primitive.
 bool holds_ball(const CanonicalPrimitive& primitive, const Vec3& center_world, double radius);
 
-/// Whether a primitive certainly reaches no further than `limit` beyond another one's surface, in
-/// world units; or stays −limit within it, where that is negative.
+/// Returns whether `inner` certainly reaches no further than `limit` world units out of the surface
+/// of `outer`. With a negative limit, all of `inner` must lie at least −limit below that surface.
 bool lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer, double limit);
 
-/// The distance, in world units, of the two planes across a direction, of any length, that the
-/// primitive just lies between.
+/// Returns the distance, in world units, between the two planes perpendicular to the direction (of
+/// any length but 0) that touch the primitive from both sides.
 double width(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
-/// Whether the primitive is certainly thinner than that, in world units, across some direction.
+/// Returns whether the primitive's width along some direction is certainly less than `thickness`,
+/// in world units.
 bool is_thinner(const CanonicalPrimitive& primitive, double thickness);
 
-/// Membership in the closed solid, as exact as double evaluates it.
+/// Returns whether the point lies in the closed primitive, up to the rounding of doubles.
 bool contains(const CanonicalPrimitive& primitive, const Vec3& point_world);
 
 }  // namespace csgcore

@@ -1,4 +1,4 @@
-// Which part of a picture an edit has changed.
+// The part of a picture that an edit has changed.
 #pragma once
 
 #include <vector>
@@ -10,25 +10,26 @@
 
 namespace csgcore {
 
-/// The areas of a picture in which one of `after` differs from one of `before`, both from this view
-/// with these settings (scene_box among them), at most: all samples of every other pixel are the
-/// same, bit for bit. They do not overlap, and there are few of them. The whole picture
-///   - where the solid may have changed anywhere (TreeEdit::kAnywhere);
-///   - where its bounds have: rays, the light and the thinnest piece that exists are fitted to
-///   them;
-///   - where ids are measured and those of primitives that were kept have changed.
-/// None if nothing of the change is on the screen. `after` is of the scene after the edit, `before`
-/// of the same tree before; `tree_edit` is that tree's.
-/// A picture drawn with Boundary::kBehind changes in the same areas. Hits, whose primitives are
-/// indices, change everywhere unless edit.keeps_indices().
+/// Returns areas outside of which the pictures of `before` and `after`, from this view and with
+/// these settings (the same scene_box among them), have the same samples, bit for bit. The areas do
+/// not overlap, and there are few of them. It is the whole picture
+///   - if the solid may have changed anywhere (TreeEdit::kAnywhere);
+///   - if the bounds have changed, since rays, the light and the thickness tolerance are fitted to
+///     them;
+///   - if ids are measured and those of kept primitives have changed.
+/// There are no areas if no part of the change is on the screen. `before` and `after` are the
+/// solids of the same tree before and after the edit; `tree_edit` is SceneEdit's entry for that
+/// tree.
+/// The areas hold for both values of Boundary. Hits name primitives by index, and so change
+/// everywhere unless edit.keeps_indices().
 std::vector<PixelArea> changed_areas(const Solid& before, const Solid& after, const SceneEdit& edit,
                                      TreeEdit tree_edit, const View& view,
                                      const FrameSettings& settings);
 
-/// The pixels through any point of which a ray may meet the solid.
+/// Returns an area that has every pixel with a point through which a ray may meet the solid.
 PixelArea area_of(const Solid& solid, const View& view);
 
-/// Number of pixels.
+/// Returns the number of pixels in areas that do not overlap.
 uint64_t count_pixels(const std::vector<PixelArea>& areas);
 
 }  // namespace csgcore

@@ -11,19 +11,19 @@ namespace csgcore {
 /// Regularised set operations (NUMERICS.md). A difference is its first operand minus all others.
 enum class Op : uint8_t { kUnion, kIntersection, kDifference };
 
-/// One token of the postfix form: either a primitive's index or an operation over the
-/// `operand_count` subtrees that precede it.
+/// One token of the postfix form: either a primitive or an operation on the `value` subtrees that
+/// precede it.
 struct CsgToken {
   bool is_primitive;
   Op op;           // meaningful for operations only
-  uint32_t value;  // the primitive's index, or the operand count (≥ 2)
+  uint32_t value;  // the primitive's index, or the number of operands (≥ 2)
 };
 
-/// A CSG tree in postfix order, in normal form: no empty operands, no operation with fewer than
+/// A CSG tree in postfix order and in normal form: no empty operands, no operation with fewer than
 /// two operands, no union directly under a union, no intersection under an intersection, no
-/// difference as the first operand of a difference, no union as a later operand of a difference.
-/// No tokens: the empty set. Made by CsgTreeBuilder. Nesting may be arbitrarily deep: nothing that
-/// walks a tree may recurse.
+/// difference as the first operand of a difference, no union as a later operand of a difference. A
+/// tree without tokens is the empty set. CsgTreeBuilder makes trees. They may be nested to any
+/// depth, so that code must not recurse over a tree.
 class CsgTree {
  public:
   CsgTree() = default;
@@ -37,26 +37,27 @@ class CsgTree {
   std::vector<CsgToken> tokens_;
 };
 
-/// The tree minus one more primitive: a section plane, for one. Nothing minus something is empty.
+/// Returns the tree minus one more primitive, for example a section plane. The empty tree stays
+/// empty.
 CsgTree subtract(const CsgTree& tree, uint32_t primitive);
 
-/// The tree with each primitive named as `name` says, which is asked in the tree's order.
+/// Returns the tree with each primitive named as `name` says, which is asked in the tree's order.
 CsgTree renamed(const CsgTree& tree, const std::function<uint32_t(uint32_t primitive)>& name);
 
-/// Builds a tree from the outside in, without recursion:
+/// Builds a tree, in normal form, from the outside in and without recursion:
 ///   builder.open(Op::kDifference); builder.primitive(0); builder.primitive(1); builder.close();
-/// Operands that turn out empty are dropped by OpenSCAD's rules: an empty operand leaves a union,
-/// empties an intersection, and empties a difference if it is its first.
+/// Empty operands are dropped by OpenSCAD's rules: in a union they count for nothing, in an
+/// intersection any of them makes the result empty, and in a difference the first one does.
 class CsgTreeBuilder {
  public:
   void open(Op op);
   void primitive(uint32_t index);
-  /// An operand that is the empty set (an invalid primitive, an empty group).
+  /// Adds an operand that is the empty set (an invalid primitive, an empty group).
   void empty();
   /// Closes the innermost open operation. Precondition: one is open.
   void close();
-  /// The tree: the union of what was added at the top level. Precondition: every open() is closed.
-  /// Leaves the builder empty.
+  /// Returns the union of what was added at the top level, and leaves the builder empty.
+  /// Precondition: every open() is closed.
   CsgTree finish();
 
  private:

@@ -1,5 +1,5 @@
-// How far a primitive reaches: what the subdivision reads of every primitive that it tests against
-// a cell, in one cache line.
+// How far a primitive reaches, in one cache line: all that the subdivision reads of most primitives
+// that it tests against a cell.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace csgcore {
 
-/// The primitive lies within center ± half. A true ball is decided by distances from the centre
-/// alone: a cell is outside where its nearest point is further than √outside2, and inside where its
-/// furthest is nearer than √inside2. For other shapes outside2 is +inf and inside2 −1, which decide
-/// nothing.
+/// The primitive lies within the box center ± half. A ball is decided by distances from the centre
+/// alone: a cell lies outside of it if the cell's nearest point is further away than √outside2, and
+/// inside if the cell's furthest point is nearer than √inside2. For primitives that are no balls
+/// outside2 = +inf and inside2 = −1, which decide nothing. World units.
 struct alignas(64) Extent {
   double center[3];
   double half[3];

@@ -11,7 +11,7 @@ using Vec3 = glm::dvec3;
 using Mat3 = glm::dmat3;  // column-major, as GLM stores it: m[column][row]
 
 /// Closed axis-aligned box. A default-constructed box is empty (min > max) and is the identity of
-/// `merge`.
+/// `merge`. An empty box has no meaningful center() and size().
 struct Box {
   Vec3 min{std::numeric_limits<double>::infinity()};
   Vec3 max{-std::numeric_limits<double>::infinity()};
@@ -25,10 +25,10 @@ struct Box {
   void merge(const Vec3& point);
 };
 
-/// The points that lie in both. An empty result is the default-constructed box.
+/// Returns the points that lie in both. An empty result is the default-constructed box.
 Box intersection(const Box& a, const Box& b);
 
-/// x ↦ linear·x + translation.
+/// The affine map x ↦ linear·x + translation.
 struct Affine {
   Mat3 linear{1.0};
   Vec3 translation{0.0};
@@ -40,10 +40,10 @@ struct Affine {
   bool finite() const;
 };
 
-/// (a ∘ b)(x) = a(b(x)).
+/// Returns the map a ∘ b, which applies b first: (a ∘ b)(x) = a(b(x)).
 Affine compose(const Affine& a, const Affine& b);
 
-/// The inverse of the linear part; its determinant must not be 0.
+/// Returns the inverse of a matrix whose determinant is not 0.
 Mat3 inverse(const Mat3& m);
 
 }  // namespace csgcore

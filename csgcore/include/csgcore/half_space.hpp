@@ -1,9 +1,9 @@
 // Convex polyhedra as intersections of half-spaces whose doubles are taken as exact.
 //
-// A polyhedron of OpenSCAD is a list of vertices that are rounded, so that the four corners of a
-// facet lie in no plane. Half-spaces have no such trouble: any of them define one convex solid,
-// whose facets are plane and whose vertices are rationals. They are what csgcore and its oracles
-// agree on.
+// OpenSCAD lists the vertices of a polyhedron, and rounds them, so that the four corners of a facet
+// lie in no plane. Half-spaces have no such trouble: every set of them defines one convex solid,
+// whose facets are plane and whose vertices are rationals. So csgcore and its oracles take the
+// half-spaces for the definition of a polyhedron.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,7 +15,7 @@
 
 namespace csgcore {
 
-/// normal·x ≤ offset. The normal points outwards and need not be of unit length.
+/// The points x with normal·x ≤ offset. The normal points outwards and may have any length but 0.
 struct HalfSpace {
   Vec3 normal;
   double offset;
@@ -25,14 +25,14 @@ struct HalfSpace {
 ///
 ///   max_j sectors_j·(x, y) ≤ min_k (bands_k.radius + bands_k.slope·z),   z_min ≤ z ≤ z_max.
 ///
-/// The left side measures (x, y) by the polygon that is inscribed in the unit circle: it is the
+/// The left side measures (x, y) by the polygon that is inscribed in the unit circle, and is the
 /// same for all z. So the facets of two sectors and two bands meet in one point, however they are
-/// rounded, and all are trapezoids. Which facet a direction or a height belongs to is known without
-/// a search.
+/// rounded, and all facets are trapezoids. The facet of a direction or a height is found without a
+/// search.
 struct FacetedRevolution {
   struct Band {
-    double radius;  // of the circle through the vertices, where the band's plane meets z = 0
-    double slope;   // its growth with z
+    double radius;  // of the circle through the vertices, extrapolated to z = 0
+    double slope;   // growth of the radius with z
   };
   std::vector<glm::dvec2>
       sectors;              // sector j lies between the vertices at 360·j/n and 360·(j+1)/n°
@@ -40,26 +40,27 @@ struct FacetedRevolution {
   double z_min, z_max;      // −inf, +inf: no cap, since the bands end in an apex
 };
 
-/// The primitives of facets.hpp, with the same preconditions. The vertices are those of the mesh
-/// but for rounding: of the planes, and along a band of a sphere amplified by up to `fragments`.
+/// The facets of sphere_mesh() and frustum_mesh() (facets.hpp), with the same preconditions. Their
+/// vertices differ from the mesh's by the rounding of the planes only, which along a band of a
+/// sphere is amplified by up to `fragments`.
 FacetedRevolution faceted_sphere(double radius, int fragments);
 FacetedRevolution faceted_frustum(double z_min, double z_max, double r_bottom, double r_top,
                                   int fragments);
 
-/// bands × sectors, from the top down, sector by sector; then the cap below and the cap above, if
-/// there.
+/// Returns the half-spaces band by band from the top down, sector by sector within a band; then
+/// those of the lower and the upper cap, if there.
 std::vector<HalfSpace> half_spaces(const FacetedRevolution& solid);
-/// Of a box that is not empty.
+/// Returns the six half-spaces of a box, which must not be empty.
 std::vector<HalfSpace> half_spaces(const Box& box);
 
-/// One half-space a face, as far out as the outermost vertex: none is cut off. The faces may run
-/// either way, each for itself: the solid lies on one side of its plane. Nothing if the mesh is not
-/// the closed boundary of one convex solid with plane faces, within kMeshDigits of its largest
-/// coordinate.
+/// Returns one half-space for each face of the mesh, as far out as its outermost vertex, so that no
+/// vertex is cut off. A face may list its vertices in either direction, whatever other faces do.
+/// Returns nothing unless the mesh is, within kMeshDigits of its largest coordinate, the closed
+/// boundary of one convex solid with plane faces.
 std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh);
 
-/// A .csg holds 6 significant digits: a coordinate is off by up to 5e-6 of itself, a vertex and the
-/// plane that it is compared with by twice that.
+/// A .csg holds 6 significant digits, so that a coordinate is off by up to 5e-6 of itself. A vertex
+/// and the plane that it is compared with are both off by so much.
 constexpr double kMeshDigits = 1e-5;
 
 }  // namespace csgcore

@@ -1,4 +1,4 @@
-// What rays show of a solid, in double.
+// What the pixels of a view see of a solid, in double.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@ namespace csgcore {
 
 /// Which boundary of the solid a ray shows.
 enum class Boundary : uint8_t {
-  kFirst,  // where it first enters the solid; where it first leaves it, if the eye is inside
-  kBehind  // the next one after kFirst: where it leaves the piece (or gap) whose front kFirst shows
+  kFirst,  // where it first enters the solid, or first leaves it if the eye is inside
+  kBehind  // the next boundary after kFirst, where the ray leaves the piece (or gap) that it enters
+           // there
 };
 
 /// What each pixel's centre sees, in double. Row-major from the top left corner.

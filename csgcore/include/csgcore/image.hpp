@@ -11,8 +11,8 @@ namespace csgcore {
 
 constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
 
-/// Row-major from the top left corner. `rgb` always holds width·height entries; the other channels
-/// hold as many or, where they were not asked for, none.
+/// Row-major from the top left corner. `rgb` always holds width·height entries. The measured
+/// channels hold as many or, if they were not asked for, none.
 struct Image {
   uint32_t width_px = 0;
   uint32_t height_px = 0;

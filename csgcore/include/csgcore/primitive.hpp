@@ -13,8 +13,9 @@ namespace csgcore {
 
 class Polyhedron;
 
-/// RGBA as the file gives it. A channel above 1 makes a surface brighter than white would; a
-/// negative r, g or b stands for that channel of the scheme's colour. The alpha is in [0, 1].
+/// RGBA as the file gives it; no gamma curve is applied to it. A channel above 1 makes a surface
+/// brighter than white would; a negative r, g or b stands for that channel of the scheme's colour.
+/// The alpha is in [0, 1].
 struct Color {
   float r, g, b, a;
   bool operator==(const Color&) const = default;
@@ -28,7 +29,7 @@ enum class CutFaces : uint8_t {
   kAlways,
 };
 
-/// A primitive as the design describes it. Valid (see `is_valid`) before it may enter a Scene.
+/// A primitive as the design describes it. Only valid ones (see `is_valid`) may enter a Scene.
 struct Primitive {
   Shape shape = Shape::kSphere;
   double r_bottom = 0;  // the sphere's radius, or the frustum's at z_min (0: pointed)
@@ -43,16 +44,17 @@ struct Primitive {
   uint32_t id = 0;
 };
 
+/// These make primitives and check nothing: see is_valid().
 Primitive make_sphere(double radius, const Affine& local_to_world = {});
 Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
                        const Affine& local_to_world = {});
 Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
                           const Affine& local_to_world = {});
 
-/// False for what is the empty set in OpenSCAD (a size that is ≤ 0, infinite or nan; a matrix that
-/// is not finite), and for a singular matrix, which flattens the solid to nothing.
+/// Returns false for what OpenSCAD takes for the empty set (a size that is ≤ 0, infinite or nan; a
+/// matrix that is not finite), and for a singular matrix, which flattens the solid to nothing.
 bool is_valid(const Primitive& primitive);
-/// is_valid(), whatever local_to_world is.
+/// Returns what is_valid() would for a nonsingular local_to_world.
 bool has_valid_shape(const Primitive& primitive);
 
 }  // namespace csgcore

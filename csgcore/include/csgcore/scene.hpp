@@ -1,4 +1,4 @@
-// What a design means: primitives and the trees over them. The input of everything in csgcore.
+// The meaning of a design: primitives and the trees over them. All of csgcore works on scenes.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ struct Layer {
   CsgTree solid;
 };
 
-/// All trees index into `primitives`, each of which is valid. Data only.
+/// The trees hold indices into `primitives`, each of which is valid (is_valid).
 struct Scene {
   std::vector<Primitive> primitives;
   CsgTree model;  // the solid: what is measured, picked and validated
-  /// What the picture is composed of, from the first that is drawn. Where no layer is of the model,
-  /// the model itself is drawn before them, opaque.
+  /// The layers of the picture, from the first that is drawn. Where no layer is of the model, the
+  /// model itself is drawn before them, opaque.
   std::vector<Layer> layers;
 };
 

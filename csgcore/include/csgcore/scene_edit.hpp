@@ -1,5 +1,5 @@
-// What differs between two scenes, a design before and after a save: what was made from the earlier
-// one need not be made again where the later one is the same.
+// The difference between two scenes, such as a design before and after a save. Data made from the
+// earlier scene need not be made again where the later scene is the same.
 //
 //   const SceneEdit edit = compare(before, after);
 //   auto primitives = canonical_primitives(after, *earlier_primitives, edit);
@@ -17,41 +17,42 @@
 
 namespace csgcore {
 
-/// How a tree of the later scene compares with that of the earlier.
+/// How a tree of the later scene compares with the same tree of the earlier one.
 enum class TreeEdit : uint8_t {
-  kSame,      // token by token, whatever became of the primitives
-  kWithin,    // the solids are the same wherever no primitive that was removed or added reaches
+  kSame,      // the tokens are the same; primitives may have changed
+  kWithin,    // the solids are the same outside of all removed and added primitives
   kAnywhere,  // nothing is known
 };
 
-/// From an earlier scene to a later one. A primitive that was changed was removed and added. All
-/// others are kept: they are the same solids, in the same order.
+/// The edit that leads from an earlier scene to a later one. A primitive whose shape was changed
+/// counts as removed and added. All others are kept: they are the same solids, in the same order.
 struct SceneEdit {
   uint32_t primitives_before = 0;
   uint32_t primitives_after = 0;
   std::vector<uint32_t> removed;    // indices into the earlier scene, ascending
   std::vector<uint32_t> added;      // indices into the later scene, ascending
   std::vector<uint32_t> recolored;  // kept primitives; indices into the later scene, ascending
-  bool has_other_ids = false;       // of kept primitives
+  bool has_other_ids = false;       // ids of kept primitives have changed
   bool has_other_layers = false;    // the picture is composed of other layers
   TreeEdit model = TreeEdit::kAnywhere;
 
-  /// All that is kept has its index: primitives were changed in place, or not at all.
+  /// Returns whether kept primitives have kept their indices: others were changed in place.
   bool keeps_indices() const { return removed == added; }
-  /// No solid has changed, in shape or in colour; nor have ids.
+  /// Returns whether no shape, colour or id has changed.
   bool nothing() const;
-  /// No solid has changed in shape: colours have, or ids.
+  /// Returns whether no shape has changed; colours and ids may have.
   bool surfaces_only() const;
-  /// By the index of an earlier primitive its later one; kGone if it was removed.
+  /// For each earlier primitive its index in the later scene; kGone if it was removed.
   static constexpr uint32_t kGone = 0xFFFFFFFFu;
   std::vector<uint32_t> later_indices() const;
 };
 
-/// Primitives are matched in file order: index by index where the trees are the same; else those
-/// before the first and after the last that differ. Takes time proportional to the scenes' sizes.
+/// Compares two scenes, in time proportional to their sizes. If the trees are the same, primitives
+/// are matched by index. Otherwise those before the first difference and those after the last one
+/// are matched, and all between count as removed or added.
 SceneEdit compare(const Scene& before, const Scene& after);
 
-/// The same convex solid, number by number; colour and id aside.
+/// Returns whether two primitives have the same numbers, colour and id aside.
 bool same_shape(const Primitive& a, const Primitive& b);
 
 }  // namespace csgcore

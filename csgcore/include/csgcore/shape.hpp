@@ -3,14 +3,16 @@
 
 #include <cstdint>
 
-/// One X(Name) a kind, which is Shape::kName. The exact twins of the oracle are looked up by this
-/// list, so that a kind that lacks one does not build (CONTRIBUTING.md, "Adding a primitive").
+/// Lists the kinds of primitives, X(Name) for Shape::kName. All code that answers for a kind is
+/// looked up by this list, so that a kind for which some of it is missing does not build
+/// (CONTRIBUTING.md, "Adding a primitive"). The dimensions are members of Primitive
+/// (primitive.hpp):
 ///
 /// Sphere: centred at the local origin, radius r_bottom.
 ///
 /// Frustum: local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between.
 ///
-/// Polyhedron: convex; `polyhedron`.
+/// Polyhedron: the convex solid that `polyhedron` points to.
 #define CSGCORE_FOR_EACH_SHAPE(X) X(Sphere) X(Frustum) X(Polyhedron)
 
 namespace csgcore {

@@ -18,59 +18,61 @@ struct CellList;
 class OperandGroups;
 struct LeanTree;
 
-/// The canonical primitives of a scene, index for index. Shared by the solids of its trees.
+/// The canonical primitives of a scene, with the same indices. The solids of its trees share them.
 using CanonicalPrimitives = std::vector<CanonicalPrimitive>;
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene);
 
-/// Those of the scene after an edit, from those before: only added primitives are computed. Bit for
-/// bit as if made anew.
+/// Returns the canonical primitives of the scene after an edit. `earlier` are those before it, of
+/// which all that were kept are copied. The result is the same, bit for bit, as if made anew.
 std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& scene,
                                                                 const CanonicalPrimitives& earlier,
                                                                 const SceneEdit& edit);
 
-/// One tree of a scene, immutable.
+/// The solid of one tree of a scene; immutable.
 class Solid {
  public:
   /// Every index in `tree` must be below primitives->size().
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree);
 
-  /// A tree of the scene after an edit, from that before. What holds is shared; drawn, it is bit
-  /// for bit as if made anew. `tree_edit` is the tree's own: SceneEdit::model of the
-  /// model.
+  /// Makes the solid of a tree of the scene after an edit. `earlier` is the solid of the same tree
+  /// before it, with which data that the edit does not change are shared. Pictures are the same,
+  /// bit for bit, as of a solid made anew. `tree_edit` belongs to the tree: SceneEdit::model.
   Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
         const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit);
 
   std::span<const CanonicalPrimitive> primitives() const { return *primitives_; }
-  /// Index for index those of `primitives()`; none if the tree is empty.
+  /// The extents of primitives(), with the same indices; none if the tree is empty.
   std::span<const Extent> extents() const;
-  /// The whole tree, as a list that is valid everywhere; without operands that change nothing
-  /// (redundant_operands.hpp).
+  /// The whole tree as a list that is valid everywhere, without redundant operands, which change
+  /// nothing (redundant_operands.hpp).
   const Blist& list() const { return list_; }
-  /// The primitives that only those operands name: what lies within others, and what equals others.
+  /// The primitives that only redundant operands name: those that lie within others, and those that
+  /// equal others. Ascending.
   std::span<const uint32_t> inner() const;
   std::span<const uint32_t> equal() const;
-  /// The same in the form that is restricted to cells and tiles; null if the list is constant.
+  /// list() in the form that is restricted to cells and tiles; null if the tree is empty.
   const CellList* cell_list() const { return cell_list_.get(); }
-  /// The same with operands in groups.
+  /// list() with its operands in a BVH (operand_groups.hpp).
   const OperandGroups& groups() const { return *groups_; }
-  /// The same without what rays do not get to that start outside of the solid that is left, and end
-  /// where they enter it (hidden_operands.hpp). What is left holds wherever the whole does.
+  /// The same without operands that rays from outside never reach (hidden_operands.hpp). Its solid
+  /// contains the whole solid, and looks the same to rays that start outside of it and end where
+  /// they enter it.
   const OperandGroups& outer_groups() const { return *outer_groups_; }
-  /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
-  /// intersection's their intersection, a difference's that of its first operand. Empty if the
-  /// solid is.
+  /// A box around the solid, computed along the tree: for a union it is the union of the operands'
+  /// boxes, for an intersection their intersection, for a difference the first operand's box. It is
+  /// empty if the solid is known to be.
   const Box& bounds() const { return bounds_; }
-  /// Point membership in the closed primitives; on a surface either answer may come.
+  /// Returns whether the point lies in the solid. On a surface either answer may come.
   bool contains(const Vec3& point) const;
 
  private:
-  /// The one that the list and the groups are made of.
+  /// Returns the tree that the list and the groups are made of: `tree` without redundant operands.
   const CsgTree& used_of(const CsgTree& tree) const;
   void make_groups(const CsgTree& tree, Extents extents);
   void find_outer_groups(const CsgTree& tree);
 
   std::shared_ptr<const CanonicalPrimitives> primitives_;
-  std::shared_ptr<const LeanTree> lean_;  // null: all operands count
+  std::shared_ptr<const LeanTree> lean_;  // null: no operand is redundant
   Blist list_;
   std::shared_ptr<const CellList> cell_list_;
   std::shared_ptr<const OperandGroups> groups_, outer_groups_;

@@ -14,10 +14,11 @@
 
 namespace csgcore {
 
-/// What Subdivision::update did.
+/// Says what Subdivision::update did.
 struct SubdivisionUpdate {
-  /// All was subdivided anew. Otherwise leaves and tests up to these indices are what they were,
-  /// but for leaves that are kReplaced now, and for the indices of primitives; the rest is new.
+  /// Everything was subdivided anew. Otherwise the leaves and tests with indices below the next two
+  /// members are those of before, except that replaced leaves have become kReplaced and that tests
+  /// name primitives by their new indices. All others are new.
   bool is_anew = false;
   size_t first_new_leaf = 0;
   size_t first_new_test = 0;
@@ -26,7 +27,7 @@ struct SubdivisionUpdate {
   uint64_t leaves_made = 0;
 };
 
-/// The finished kd-tree. nodes[0] is the root; empty if the solid is.
+/// The finished kd-tree. nodes()[0] is the root; there are no nodes if the solid is empty.
 class Subdivision {
  public:
   /// The solid must outlive the subdivision.
@@ -43,25 +44,33 @@ class Subdivision {
   const Box& root_box() const { return root_box_; }
   size_t bytes() const;
 
-  /// Paper §2.3: subdivides on where cells that were dropped for the old view exceed the threshold
-  /// in the new one. Returns whether anything changed. Leaves keep their indices. The budget is
-  /// that of all views together: what it does not suffice for is drawn, but not divided.
+  /// Paper §2.3: divides those cells that were dropped for the old view and exceed the threshold in
+  /// the new one. Returns whether anything changed. Leaves keep their indices. All views together
+  /// share one budget: cells for which it does not suffice become kGivenUp, which are drawn but not
+  /// divided.
   bool refine(const View& view);
 
-  /// Follows an edit: `solid` is of the scene after it, that of this subdivision of the same tree
-  /// before; both must live. `tree_edit` is that tree's (SceneEdit::model).
-  /// Leaves are kept whose cells lie wholly inside or wholly outside of every changed primitive's
-  /// old and new form alike; others are subdivided anew, each for itself. Where that is too little
-  /// to be worth it all is subdivided anew: where the root box changes, the cells that change hold
-  /// more than a third of the tests, more than half of what is stored has been replaced by and
-  /// by, the budget does not suffice for what is added, or cells are dropped below a threshold.
+  /// Follows an edit. `solid` is the solid after the edit of the tree that this is the subdivision
+  /// of; it and the solid before the edit must both be alive. `tree_edit` belongs to the tree
+  /// (SceneEdit::model).
+  ///
+  /// A leaf is kept if its cell lies wholly inside or wholly outside of every changed primitive,
+  /// and on the same side before and after the edit. Each other leaf is subdivided anew. Everything
+  /// is subdivided anew if
+  /// - the root box changes, the solid may have changed anywhere (TreeEdit::kAnywhere), or the
+  ///   solid is empty before or after the edit,
+  /// - more than some 2% of the primitives were changed (one always may),
+  /// - the leaves to be replaced hold more than a third of the tests, or more than half of all
+  ///   tests would belong to leaves replaced by this and earlier edits,
+  /// - the budget does not suffice for the new cells, or threshold_px > 0.
   SubdivisionUpdate update(const Solid& solid, const SceneEdit& edit, TreeEdit tree_edit);
 
-  /// The leaf that holds the point (of several that share it, one); nullptr outside the root box.
+  /// Returns the leaf whose cell holds the point, one of them if it lies on their common face;
+  /// nullptr outside the root box.
   const Leaf* find(const Vec3& point) const;
 
-  /// How far, in world units, each cell's function is valid beyond the cell itself: an overlap that
-  /// absorbs the float rounding of a renderer's cell boundaries.
+  /// How far beyond the cell itself, in world units, each cell's function is valid. This overlap
+  /// absorbs the rounding of cell boundaries in a renderer that computes in float.
   double overlap() const { return overlap_; }
 
  private:
@@ -75,11 +84,11 @@ class Subdivision {
   uint64_t replaced_tests_ = 0;  // of leaves that update() has replaced
 };
 
-/// Leaf counts by kind.
+/// Counts of leaves by kind, and of the tests of leaves in the tree.
 struct LeafCensus {
   uint64_t by_kind[kLeafKinds] = {};
   uint64_t tests = 0;
-  uint64_t leaves() const;  // all that the tree still has: kReplaced is not counted
+  uint64_t leaves() const;  // without kReplaced, which are no part of the tree
 };
 LeafCensus census(const Subdivision& subdivision);
 

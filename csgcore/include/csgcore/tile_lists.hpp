@@ -1,5 +1,5 @@
-// What the rays of each tile of the screen can meet: the tracer's tiles (tracer.hpp), for renderers
-// that evaluate lists themselves.
+// The tracer's tiles (tracer.hpp), each with the list that its rays need, for renderers that
+// evaluate lists themselves.
 #pragma once
 
 #include <cstdint>
@@ -15,37 +15,41 @@ namespace csgcore {
 
 struct TileListOptions {
   Boundary boundary = Boundary::kFirst;
-  /// Rays go through the pixels' centres only, not through any point of them.
+  /// True: rays go through the pixels' centres only. False: they may go through any point of a
+  /// pixel.
   bool centers_only = true;
-  /// The renderer's own: how much closer to the eye a surface may lie before it counts as that much
-  /// beyond it. World units, > 0.
+  /// The thickness tolerance that the renderer draws with (NUMERICS.md, "The definition"). World
+  /// units, > 0.
   double thickness_tolerance = 0;
-  /// Tiles of 8 pixels with longer lists are divided once more, to 8×4; those with lists longer
-  /// than the second down to 2×2, and if that does not help either, there is no result.
+  /// A tile of 8×8 pixels is divided once more, to 8×4, if its list is longer than short_list.
+  /// Tiles with lists longer than longest_list are divided down to 2×2 pixels; if a list is still
+  /// longer then, list_tiles() fails.
   uint32_t short_list = 32;
   uint32_t longest_list = std::numeric_limits<uint32_t>::max();
-  /// Worker threads; 0: as many as there are. The lists do not depend on it.
+  /// Number of worker threads; 0: as many as there are. The lists do not depend on it.
   unsigned threads = 0;
 };
 
 struct ListedTile {
   PixelArea area;
-  /// Of TileLists::tests, a function that equals the solid's wherever the tile's rays go, up to
-  /// cut_s. Not constant.
+  /// The range of TileLists::tests that is the tile's list. Along the tile's rays, it has the
+  /// solid's values up to cut_s. It is not empty; its jump targets count from first_test.
   uint32_t first_test = 0;
   uint32_t test_count = 0;
-  /// View's s at which every ray of the tile has met its first boundary: the function is without
-  /// what lies behind it. +∞: it is without nothing.
+  /// A value of View's s before which every ray of the tile has ended (see Boundary). The list may
+  /// lack primitives behind it. +∞: it lacks none.
   double cut_s = 0;
 };
 
 struct TileLists {
-  /// Those with anything to meet, row by row from the top left corner, each from its own.
+  /// The tiles whose lists are not constant, in the order of their top left corners: row by row,
+  /// and from left to right.
   std::vector<ListedTile> tiles;
   std::vector<BlistTest> tests;
 };
 
-/// Replaces `lists`; false, with nothing in them, if one would be longer than the longest.
+/// Replaces `lists`. Returns false, and leaves them empty, if a list would be longer than
+/// longest_list.
 bool list_tiles(const Solid& solid, const View& view, const TileListOptions& options,
                 TileLists& lists);
 

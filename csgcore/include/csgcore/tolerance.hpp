@@ -1,15 +1,16 @@
-// What is too small to exist in a solid, and what rounding may displace.
+// The two tolerances that are fitted to a solid's size.
 #pragma once
 
 #include "csgcore/geometry.hpp"
 
 namespace csgcore {
 
-/// Thinnest piece of a solid of these bounds, and narrowest gap in it, that exists: a thickness
-/// along the normal, in world units (NUMERICS.md, "The definition").
+/// Returns the thickness tolerance τ of a solid with these bounds, in world units. Pieces and gaps
+/// that are thinner along the surface normal do not exist (NUMERICS.md, "The definition").
 double thickness_tolerance(const Box& solid_bounds);
 
-/// How far beyond a cell its function is valid (Subdivision::overlap), for a solid of these bounds.
+/// Returns how far beyond a cell its function is valid (Subdivision::overlap), in world units, for
+/// a solid with these bounds; 0 if they are empty.
 double cell_overlap(const Box& solid_bounds);
 
 }  // namespace csgcore

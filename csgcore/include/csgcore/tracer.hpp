@@ -1,12 +1,13 @@
 // The CPU ray tracer: exact pictures in double, by SIMD packets of rays (NUMERICS.md says how
 // exact).
 //
-// Two structures tell a ray what it can meet; both hand lists of tests to the same evaluation,
-// and both make the same picture:
-// - tiles: per frame, the screen is divided like a kd-tree, down to tiles of 8 pixels, and the
-//   solid's list is restricted to each. Nothing is built in world space: the fastest first picture.
-// - the kd-tree of a Subdivision (paper §2), traversed front to back by each packet: built once, it
-//   pays for many frames of a dense model.
+// One of two structures finds the list of tests that a ray needs; the evaluation of the list is the
+// same for both, and so is the picture, bit for bit:
+// - tiles: for each frame, the screen is divided like a kd-tree, down to tiles of 8 pixels, and the
+//   solid's list is restricted to each tile. Nothing is built in world space, which makes it the
+//   fastest way to a first picture.
+// - cells: each packet traverses the kd-tree of a Subdivision (paper §2) from front to back. The
+//   tree is built once, which pays if many frames of a dense model are drawn.
 #pragma once
 
 #include <cstdint>
@@ -25,62 +26,66 @@
 namespace csgcore {
 
 struct TraceOptions {
-  /// Worker threads; 0: as many as there are. The picture does not depend on it.
+  /// Number of worker threads; 0: as many as there are. The picture does not depend on it.
   unsigned threads = 0;
-  /// Rays per pixel where neighbouring pixels show an edge, 1 elsewhere; deterministic. 1: none.
-  /// The measured channels are always those of the pixel's centre.
+  /// Rays per pixel where neighbouring pixels show an edge (sample_pattern.hpp); elsewhere one ray
+  /// goes through the pixel's centre. 1: edges are not sampled. The measured channels are always
+  /// those of the centre.
   uint32_t samples = 1;
   Boundary boundary = Boundary::kFirst;
-  /// Trace these pixels only, which lie within the view; none: all. `image` or `hits` come from the
-  /// same view, settings, samples and boundary, and keep all other pixels: the picture is the whole
-  /// one, bit for bit, if the solid has since changed nowhere else (changed_areas.hpp).
-  /// With more than one sample the pixels beside the area are looked at too, which it may have made
-  /// edges of, or no longer edges.
+  /// The only pixels that are traced, an area within the view; none: all pixels. `image` or `hits`
+  /// must hold a picture of the same view, settings, samples and boundary, whose other pixels are
+  /// kept. The result equals the whole picture, bit for bit, if the solid has changed nowhere else
+  /// since (changed_areas.hpp).
+  /// With more than one sample the pixels next to the area are drawn, too, since an edge may have
+  /// come or gone there.
   std::optional<PixelArea> area;
-  /// In place of thickness_tolerance() of the solid's bounds: that of a renderer whose pixels are
-  /// traced anew. World units, > 0; no more than 2⁻²⁰ of the size of these bounds.
+  /// Replaces thickness_tolerance() of the solid's bounds, for pixels that are traced on behalf of
+  /// another renderer with that tolerance. World units, > 0, at most 2⁻²⁰ of the size of the
+  /// bounds.
   std::optional<double> thickness_tolerance;
-  /// Find out why primitives were skipped (TraceStats::skipped); costs a little. Of an area that is
-  /// not the whole picture, what only others show is counted as cancelled.
+  /// Fills TraceStats::skipped, which costs little. With an `area`, primitives that only other
+  /// parts of the picture show are counted as cancelled.
   bool count_skipped = false;
-  /// Where it asks for it, the frame ends early: what is left undrawn is undefined.
+  /// A stop request ends the frame early, and leaves undefined pixels.
   std::stop_token stop{};
 };
 
-/// Primitives of the solid that were never intersected with any ray, by the reason.
+/// Counts the primitives of the solid that were never intersected with any ray, by the reason.
 struct SkippedPrimitives {
   uint64_t off_screen = 0;  // their bounds miss the picture
   uint64_t sub_pixel = 0;   // they fall between the samples
-  uint64_t cancelled = 0;   // where they are, the operations leave nothing, or a later equal one
+  uint64_t cancelled = 0;   // other operands make them irrelevant, or a later one equals them
   uint64_t inside = 0;      // they lie within the solid
-  uint64_t hidden = 0;      // they lie behind what is seen
+  uint64_t hidden = 0;      // they lie behind visible surfaces
 };
 
-/// Of one frame. Times in ms.
+/// Statistics of one frame.
 struct TraceStats {
-  uint64_t primitives = 0;     // that the solid's tree names; this and the next two if counted
-  uint64_t intersected = 0;    // of them, those that any ray was intersected with
+  uint64_t primitives = 0;  // named by the tree; counted with count_skipped only, like the next two
+  uint64_t intersected = 0;    // of these, those that some ray was intersected with
   SkippedPrimitives skipped;   // the rest
-  uint64_t tiles = 0;          // tiles that were traced; 0 with a Subdivision
-  uint64_t rays = 0;           // rays that had anything to meet
-  uint64_t intersections = 0;  // of a ray with a primitive
-  uint64_t resolved_rays = 0;  // rays on which crossings coincide, or nearly
+  uint64_t tiles = 0;          // traced; 0 with a Subdivision
+  uint64_t rays = 0;           // rays that had primitives to be intersected with
+  uint64_t intersections = 0;  // of one ray with one primitive each
+  uint64_t resolved_rays = 0;  // rays on which crossings coincide, or nearly do
   uint64_t edge_pixels = 0;    // pixels with more than one sample
-  double cull_ms = 0;          // bounds of the primitives on the screen
-  double trace_ms = 0;         // all the rest
+  double cull_ms = 0;          // for the primitives' bounds on the screen
+  double trace_ms = 0;         // for all the rest
 };
 
-/// What an image with measured channels shows, in floats. Primitives are found by their ids: those
-/// of the scene that was drawn.
+/// Returns the hits that an image with measured channels shows, in its float precision. `scene` is
+/// the one that was drawn: it maps ids to primitives. Throws std::out_of_range at an unknown id.
 Hits hits_of(const Image& image, const Scene& scene);
 
-/// Traces the solid by screen tiles.
+/// These draw the solid into `image`, or store what the pixels' centres see in `hits`, by screen
+/// tiles. They overwrite `stats`.
 void draw(const Solid& solid, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats);
 void trace(const Solid& solid, const View& view, const TraceOptions& options, Hits& hits,
            TraceStats& stats);
 
-/// The same by a kd-tree. Cells that it dropped below its threshold are empty.
+/// These do the same by a kd-tree. Cells that were dropped below its threshold count as empty.
 void draw(const Subdivision& subdivision, const View& view, const FrameSettings& settings,
           const TraceOptions& options, Image& image, TraceStats& stats);
 void trace(const Subdivision& subdivision, const View& view, const TraceOptions& options,

@@ -9,8 +9,9 @@ namespace csgcore {
 
 enum class Projection : uint8_t { kPerspective, kOrthographic };
 
-/// A camera in world space. `right`, `up` and `forward` are orthonormal, right × up = −forward; or
-/// = forward, in a picture that is mirrored.
+/// A camera in world space. `right`, `up` and `forward` are orthonormal with right × up = −forward,
+/// or = forward if the picture is mirrored. half_height > 0, and the picture has at least one
+/// pixel.
 /// A pixel (x, y), y downwards from the top left corner, is seen along the ray through its centre:
 ///   u = (2(x + ½) − width)/height · half_height,  v = (height − 2(y + ½))/height · half_height
 ///   perspective:  p(s) = eye + s·(forward + u·right + v·up), s > 0, half_height = tan(fov/2)
@@ -37,21 +38,23 @@ struct PixelArea {
   bool operator==(const PixelArea&) const = default;
 };
 
-/// origin + s·direction, in world space.
+/// The points origin + s·direction, in world space.
 struct Ray {
   Vec3 origin;
   Vec3 direction;
 };
 
-/// The ray of the pixel whose centre is (x_px + ½, y_px + ½), parametrised by s as above.
+/// Returns the ray through (x_px + ½, y_px + ½), which is the centre of a pixel if both are whole
+/// numbers. Its parameter is View's s.
 Ray pixel_ray(const View& view, double x_px, double y_px);
 
-/// Upper bound of the size, in pixels, of the box's projection: the larger side of its bounding
-/// rectangle on the screen; +inf if the box reaches the eye's plane of a perspective view; 0 if it
-/// lies wholly behind the eye of a perspective view.
+/// Returns an upper bound of the size, in pixels, of the box's projection: the larger side of its
+/// bounding rectangle on the screen. In a perspective view it is +inf if the box reaches the eye's
+/// plane from in front, and 0 if the whole box lies behind that plane.
 double projected_size_px(const View& view, const Box& box);
 
-/// projected_size_px(view, box) < size_px, up to rounding, and quicker.
+/// Returns whether projected_size_px(view, box) < size_px, up to rounding. It is faster, since most
+/// boxes are decided by one of their diagonals.
 bool projects_below(const View& view, const Box& box, double size_px);
 
 }  // namespace csgcore

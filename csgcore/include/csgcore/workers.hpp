@@ -1,4 +1,4 @@
-// The worker threads of everything in csgcore.
+// The worker threads of csgcore, started ahead.
 #pragma once
 
 #include <functional>
@@ -6,10 +6,10 @@
 
 namespace csgcore {
 
-/// Starts them beside what else has to be done first: the first parallel work of a program pays for
-/// it otherwise, a millisecond, and up to 4 ms where another thread has to be made since the first
-/// belong elsewhere (half of the pictures of CC1000: 9 ms instead of 5). Nothing but time depends
-/// on it.
+/// Starts the worker threads while the caller does other work. Otherwise the first parallel work of
+/// a program waits for them: a millisecond, or up to 4 ms if another thread has to be made since
+/// the first ones belong elsewhere (half of the pictures of CC1000 took 9 ms instead of 5). Only
+/// times depend on this class.
 class Workers {
  public:
   Workers();
@@ -17,7 +17,7 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Runs the work in the calling thread; what csgcore does in it, it does with these.
+  /// Runs the work in the calling thread, and with these workers where csgcore works in parallel.
   void run(const std::function<void()>& work);
 
  private:

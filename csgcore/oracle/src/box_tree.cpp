@@ -13,8 +13,8 @@ using csgcore::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A box is widened by this share of its coordinates and of the ray's origin: far more than the
-/// rounding of the half dozen operations between them and the answer.
+/// A box is widened by this share of its coordinates and of the ray's origin, which is far more
+/// than the rounding of half a dozen operations.
 constexpr double kBoxSlack = 1e-12;
 
 int longest_axis(const Vec3& size) {

@@ -1,4 +1,4 @@
-// Which boxes a line may meet: a binary tree of bounding boxes, split at medians.
+// A binary tree of bounding boxes, split at medians, which finds the boxes that a line may meet.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@ namespace oracle {
 
 class BoxTree {
  public:
-  /// The items go by their indices.
+  /// The items are the indices of the boxes.
   explicit BoxTree(const std::vector<csgcore::Box>& boxes);
 
-  /// Sets `items` to those whose boxes the line may meet, in no particular order: certainly all
+  /// Sets `items` to those whose boxes the line may meet, in no particular order. They include all
   /// that it meets at t ≥ first_t.
   void find(const csgcore::Vec3& origin, const csgcore::Vec3& direction, double first_t,
             std::vector<uint32_t>& items) const;
@@ -22,11 +22,11 @@ class BoxTree {
   static constexpr uint32_t kInner = 0xFFFFFFFFu;
   struct Node {
     csgcore::Box box;
-    uint32_t item;  // kInner: it has two children, the first of which is the next node
-    uint32_t next;  // where to go on if the line misses the box
+    uint32_t item;  // kInner: the node has two children, the first of which is the next node
+    uint32_t next;  // the node after this subtree
   };
 
-  std::vector<Node> nodes_;  // depth first
+  std::vector<Node> nodes_;  // in preorder
 };
 
 }  // namespace oracle

@@ -30,10 +30,10 @@ bool write_all(int out, std::string_view text) {
 }
 
 [[noreturn]] void be_child(const std::function<void(std::ostream&)>& work, int out, pid_t parent) {
-  // What the parent does at an interruption is the parent's business.
+  // The parent's signal handlers must not run in the child.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // it ended before it could be said so
+  if (getppid() != parent) _exit(1);  // the parent ended before the line above
   try {
     std::ostringstream text;
     work(text);
@@ -45,7 +45,7 @@ bool write_all(int out, std::string_view text) {
   _exit(1);
 }
 
-/// Reads all that comes; kBuilt at its end.
+/// Reads all output of the child. Returns kBuilt at its end.
 NefStatus read_all(int in, const NefLimits& limits, std::string& text) {
   char buffer[1 << 16];
   for (;;) {

@@ -8,8 +8,8 @@
 
 namespace oracle {
 
-/// One coordinate of a local point's image, relative to a point of the world, however far both are
-/// from the origin.
+/// Returns one coordinate of a local point's image relative to a world point, accurate however far
+/// both are from the origin.
 inline Interval coordinate_about(const csgcore::Vec3& point, const csgcore::Affine& map,
                                  const csgcore::Vec3& local, int axis) {
   Exact sum = Exact(map.translation[axis]) - Exact(point[axis]);
@@ -27,9 +27,9 @@ inline void merge_point(const csgcore::Vec3& point, const csgcore::Affine& map,
   for (int i = 0; i < 3; ++i) merge(coordinate_about(point, map, local, i), i, box);
 }
 
-/// Makes the box hold the image of a disc across the local z axis (columns = 2), or of a ball
-/// (columns = 3), about the point of that axis at height z. Along a world axis it reaches as far as
-/// the radius times the norm of that coordinate of the map's first columns.
+/// Extends the box by the image of a disc across the local z axis (columns = 2) or of a ball
+/// (columns = 3), whose centre is on that axis at height z. Along a world axis the image reaches as
+/// far as the radius times the norm of that coordinate of the map's first columns.
 inline void merge_round(const csgcore::Vec3& point, const csgcore::Affine& map, double z,
                         double radius, int columns, csgcore::Box& box) {
   for (int i = 0; i < 3; ++i) {
@@ -40,13 +40,13 @@ inline void merge_round(const csgcore::Vec3& point, const csgcore::Affine& map, 
   }
 }
 
-/// The disc across the local z axis at that height.
+/// Extends the box by the image of the disc across the local z axis at height z.
 inline void merge_disc(const csgcore::Vec3& point, const csgcore::Affine& map, double z,
                        double radius, csgcore::Box& box) {
   merge_round(point, map, z, radius, 2, box);
 }
 
-/// The ball about the local origin.
+/// Extends the box by the image of the ball about the local origin.
 inline void merge_ball(const csgcore::Vec3& point, const csgcore::Affine& map, double radius,
                        csgcore::Box& box) {
   merge_round(point, map, 0, radius, 3, box);

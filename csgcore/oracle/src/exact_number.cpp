@@ -7,11 +7,12 @@
 namespace oracle {
 namespace {
 
-/// Compared by repeated squaring; roots of different radicands may meet. No filter of its own: who
-/// asks has tried intervals.
+/// Roots in CGAL, which compares those of different radicands by repeated squaring. It has no
+/// filter of its own, since callers have tried intervals before.
 using Extension = CGAL::Sqrt_extension<Exact, Exact, CGAL::Tag_true, CGAL::Tag_false>;
 
-/// root·scale·root.r. CGAL takes √0 for positive, so what is rational must not look like more.
+/// Returns root·scale·root.r. CGAL takes √0 for positive, so that a rational number must not be
+/// given as a root.
 Extension scaled(const ExactRoot& root, const Exact& scale) {
   if (root.q.is_zero() || root.radicand.is_zero()) return Extension(Exact(root.p * scale));
   return Extension(Exact(root.p * scale), Exact(root.q * scale), root.radicand);
@@ -35,7 +36,7 @@ ExactRoot quotient(const Exact& numerator, const Exact& denominator) {
   return {-numerator, 0, 0, -denominator};
 }
 
-// Half the derivative, a·t + b, is −√discriminant where the ray enters and √discriminant where it
+// Half the derivative, a·t + b, is −√discriminant where the ray enters, and √discriminant where it
 // leaves.
 
 ExactRoot root_of(const Quadratic<Exact>& quadratic, bool enters) {
@@ -51,7 +52,7 @@ Interval root_of(const Quadratic<Interval>& quadratic, bool enters) {
   const auto& [a, b, c, discriminant] = quadratic;
   const Interval root = CGAL::sqrt(discriminant);
   const Interval slope = enters ? -root : root;
-  // Of the root's two forms, (slope − b)/a and c/(−b − slope), the one in which nothing cancels.
+  // The root has the forms (slope − b)/a and c/(−b − slope). Take the one without cancellation.
   const bool opposite = enters ? b.sup() < 0 : b.inf() > 0;
   return opposite ? c / (-b - slope) : (slope - b) / a;
 }

@@ -15,7 +15,7 @@ using csgcore::Vec3;
 
 double middle(const Interval& interval) { return 0.5 * (interval.inf() + interval.sup()); }
 
-/// The power of two that brings the largest entry to between 1 and 2.
+/// Returns the power of two that scales the largest entry to [1, 2).
 Exact scale_to_one(const std::array<Vector<Exact>, 3>& matrix) {
   double largest = 0;
   for (const Vector<Exact>& row : matrix) {
@@ -24,7 +24,7 @@ Exact scale_to_one(const std::array<Vector<Exact>, 3>& matrix) {
   return power_of_two(-std::ilogb(largest));
 }
 
-/// What of a line lies in a convex set, as far as is known: without an end it goes on.
+/// The part of a line in a convex set. It is infinite on a side without a surface.
 struct Part {
   std::optional<Surface> begin, end;
 };
@@ -45,7 +45,7 @@ std::optional<Part> within_planes(const Target<Number>& target, const LocalRay<N
     const auto crossing = [&](Surface surface) {
       return crossing_of(target, ray, surface, enters);
     };
-    // Of planes that are met at once the first stays.
+    // If planes are met at the same point, the first one stays.
     if (!bound || direction * compare(crossing(Surface(i)), crossing(*bound)) < 0) {
       bound = Surface(i);
     }
@@ -53,7 +53,7 @@ std::optional<Part> within_planes(const Target<Number>& target, const LocalRay<N
   return part;
 }
 
-/// Of the cone's two nappes that with ρ ≥ 0.
+/// Returns the part of the ray within the wall; of a cone, within the nappe with ρ ≥ 0.
 template <class Number>
 std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Number>& ray) {
   if (!target.has_wall) return Part{};
@@ -64,11 +64,12 @@ std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Num
     return meets ? std::optional(Part{Surface::kWall, Surface::kWall}) : std::nullopt;
   }
   if (a < 0) {
-    // One half-line in each nappe: in ours the ray enters if ρ grows along it.
+    // The ray has one half-line in each nappe. It enters the one with ρ ≥ 0 if ρ grows along the
+    // ray.
     const bool enters = sign_of(target.growth) * sign_of(ray.d[2]) > 0;
     return enters ? Part{Surface::kWall, {}} : Part{{}, Surface::kWall};
   }
-  // Along a generatrix. A half-line in the other nappe does not reach the slab.
+  // The ray is parallel to a generatrix. A half-line in the other nappe does not reach the slab.
   const int b = sign_of(wall.b);
   if (b != 0) return b < 0 ? Part{Surface::kWall, {}} : Part{{}, Surface::kWall};
   return sign_of(wall.c) <= 0 ? std::optional(Part{}) : std::nullopt;
@@ -170,7 +171,7 @@ double base_of(const Target<Interval>& target, const NearRay<Interval>& ray) {
     od += target.weight[i] * o[i] * d[i];
     dd += target.weight[i] * d[i] * d[i];
   }
-  // Next to the axis of what has one, but within the slab.
+  // If there is an axis, take the point next to it, within the slab.
   double base = dd > 0 ? -od / dd : 0;
   if (target.has_wall && !target.planes.empty() && d[2] != 0) {
     const double half = middle(target.planes[0].limit) / std::abs(d[2]), center = -o[2] / d[2];
@@ -193,7 +194,7 @@ std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>
   if (wall->begin && (!part->begin || beyond(*part->begin, true) > 0)) part->begin = wall->begin;
   if (wall->end && (!part->end || beyond(*part->end, false) < 0)) part->end = wall->end;
   const Ends ends{*part->begin, *part->end};
-  // Two crossings of the wall lie apart.
+  // Two crossings of the wall are distinct.
   if (ends.begin == ends.end) return ends;
   const bool has_length = compare(crossing_of(target, ray, ends.begin, true),
                                   crossing_of(target, ray, ends.end, false)) < 0;
@@ -225,7 +226,8 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface) {
-  // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
+  // Half the gradient times the direction is half the derivative along the ray, which is
+  // ±√discriminant at a root.
   const Interval across = surface == Surface::kWall
                               ? CGAL::sqrt(ray.wall.discriminant)
                               : CGAL::abs(dot(target.planes[uint32_t(surface)].normal, ray.d));

@@ -1,14 +1,16 @@
-// One primitive against one ray, in exact arithmetic or in intervals: the same formulas in both.
+// The intersection of one ray with one primitive, by the same formulas in exact arithmetic and in
+// intervals.
 //
-// A ray x(t) = origin + t·direction, relative to a pivot near the model, becomes in the primitive's
-// local space, about its middle and magnified by λ > 0 (a power of two times |det M| of the
-// local→world matrix M, so that no quotients are needed), o + t·d. There
+// A ray x(t) = origin + t·direction, relative to a pivot near the model, is mapped to o + t·d in
+// the primitive's local space, relative to the primitive's middle and magnified by λ > 0. (λ is a
+// power of two times |det M| for the local→world matrix M, so that no quotients are needed.) There
+// the solids are
 //   sphere:  |o + t·d|² ≤ (λr)²
 //   frustum: |z| ≤ λk, (2k)²(x² + y²) ≤ ρ(z)², ρ(z) = λk(r₀ + r₁) + (r₁ − r₀)z
 //   polyhedron: n·(o + t·d) ≤ λ(offset − n·middle) for all its half-spaces
-// with half its height k, its radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius, and not
-// negative within the slab. The wall's inequality is scaled by a power of four, a half-space's by a
-// power of two.
+// A frustum has half the height k and the radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius
+// at z, and not negative within the slab. The wall's inequality is scaled by a power of four, a
+// half-space's by a power of two.
 #pragma once
 
 #include <array>
@@ -34,50 +36,52 @@ Number dot(const Vector<Number>& a, const Vector<Number>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Relative to a pivot, in world space and its prepared unit.
+/// A ray relative to the pivot, in world space in the prepared unit.
 template <class Number>
 struct NearRay {
   Vector<Number> origin, direction;
 };
 
-/// normal·x ≤ limit within.
+/// The half-space normal·x ≤ limit.
 template <class Number>
 struct Plane {
-  Vector<Number> normal;  // its largest coordinate is between 1 and 2
+  Vector<Number> normal;  // its largest coordinate is in [1, 2)
   Number limit;
 };
 
-/// What the oracles ask of a kind of primitive (exact_twin.hpp).
+/// The oracles' interface to a kind of primitive (exact_twin.hpp).
 class ExactTwin;
 
-/// A valid primitive, prepared for rays that are relative to a pivot: what lies within its wall, if
-/// it has one, and within all its planes. What has both has the planes of a slab across the z axis
-/// for its first two.
+/// A valid primitive, prepared for rays relative to a pivot: the solid within its wall, if it has
+/// one, and within all its planes. If it has both, the first two planes are a slab across the z
+/// axis.
 template <class Number>
 struct Target {
   const ExactTwin* twin = nullptr;
   bool has_wall = false;
-  std::array<Vector<Number>, 3> to_local;  // rows of λM⁻¹
-  Vector<Number> from_middle;         // from the local solid's middle to the pivot, in the world
+  std::array<Vector<Number>, 3> to_local;  // the rows of λM⁻¹
+  Vector<Number> from_middle;         // from the local solid's middle to the pivot, in world space
   Number radius;                      // of the wall: λr, or λk(r₀ + r₁)
-  Number growth, squared_height;      // r₁ − r₀, (2k)²; of a frustum's
-  std::vector<Plane<Number>> planes;  // of a frustum the bottom and the top; a polyhedron's faces
-  /// The solid lies about its middle as far as a ball, by this measure: Σ weight·x².
+  Number growth, squared_height;      // r₁ − r₀ and (2k)², for a frustum's wall
+  std::vector<Plane<Number>> planes;  // a frustum's bottom and top; a polyhedron's faces
+  /// Weights of the coordinates. By the measure Σ weight·x², the solid lies around its middle
+  /// roughly like a ball.
   csgcore::Vec3 weight;
 };
 
-/// `unit` is a power of two, by which lengths in the world are multiplied; if they are about 1
-/// thereafter, no interval overflows.
+/// Makes the target of a primitive. World lengths are multiplied by `unit`, a power of two; if they
+/// are about 1 then, no interval overflows.
 Target<Exact> make_target(const csgcore::Primitive& primitive, const csgcore::Vec3& pivot,
                           double unit);
 Target<Interval> enclose(const Target<Exact>& target);
 
-/// Surfaces of a primitive: the wall, or the plane of that index. A point of a frustum's rim, or a
-/// pointed end, belongs to the cap; one of a polyhedron's edge or vertex to the face of the lowest
-/// index.
+/// A surface of a primitive: the wall, or the plane with that index. The rims and pointed ends of a
+/// frustum belong to its caps. The edges and vertices of a polyhedron belong to the face with the
+/// lowest index.
 enum class Surface : uint32_t { kBottom = 0, kTop = 1, kWall = 0xFFFFFFFFu };
 
-/// The part of a ray within the closed primitive, if it has any length.
+/// The surfaces at the ends of the part of a ray within the closed primitive, which has a length >
+/// 0.
 struct Ends {
   Surface begin, end;
 };
@@ -89,14 +93,15 @@ struct LocalRay {
   Quadratic<Number> wall;
 };
 
-/// `base` is the ray's parameter that becomes t = 0, so that intervals stay narrow.
+/// Maps a ray into the target's local space. `base` is the ray's parameter that becomes t = 0; a
+/// good one keeps intervals narrow.
 template <class Number>
 LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& ray, double base);
 
-/// The parameter near which the ray passes the primitive, roughly.
+/// Returns approximately the parameter at which the ray passes the primitive.
 double base_of(const Target<Interval>& target, const NearRay<Interval>& ray);
 
-/// Where the ray meets the surface, which is that of an end.
+/// Returns the parameter at which the ray meets the surface, which must be that of an end.
 template <class Number>
 auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
                  bool enters) {
@@ -107,20 +112,23 @@ auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surf
 
 LocalRay<Interval> enclose(const LocalRay<Exact>& ray);
 
-/// The same, as tight as doubles are, relative to the parameter. `enclosed` is enclose(exact).
+/// Returns an enclosure of the same parameter that is as tight as doubles allow. `enclosed` is
+/// enclose(exact).
 Interval enclose_crossing(const Target<Exact>& target, const LocalRay<Exact>& exact,
                           const LocalRay<Interval>& enclosed, Surface surface, bool enters);
 
-/// `planes` are indices in rising order, of all planes that may bound the part (see NearPlanes).
+/// Returns the ends of the ray's part within the target, if it has a length > 0. `planes` are the
+/// indices, in ascending order, of all planes that may bound the part (see NearPlanes).
 template <class Number>
 std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>& ray,
                             std::span<const uint32_t> planes);
 
-/// The primitive's outward normal in world space, of any length, where t is within `t`.
+/// Returns the primitive's outward normal in world space, of any length, for all parameters within
+/// `t`.
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                            const Interval& t, Surface surface);
 
-/// |n·d| there, of the unit normal n and the ray's direction d in the world.
+/// Returns |n·d| there, with the unit normal n and the ray's direction d in world space.
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface);
 

@@ -73,7 +73,7 @@ class ExactRays::Impl {
         (moved_differs(forward) || moved_differs(-forward))) {
       return Doubt::kEye;
     }
-    // Two surfaces, each displaced.
+    // Each of two surfaces may be displaced.
     for (const double sign : {-1, 1}) {
       SeenRay other = own;
       other.thickness = std::max(0.0, own.thickness + sign * 2 * scene_.displacement);
@@ -83,7 +83,7 @@ class ExactRays::Impl {
   }
 
  private:
-  /// A coordinate axis that is not the direction's own.
+  /// Returns a coordinate axis that is not parallel to the direction.
   static Vec3 axis_across(const Vec3& direction) {
     return std::abs(direction.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   }

@@ -4,7 +4,7 @@
 
 namespace oracle {
 
-// A kind's file defines its twin.
+// The file of each kind defines its twin.
 #define ORACLE_DECLARE(Name) extern const ExactTwin& Name##_twin;
 CSGCORE_FOR_EACH_SHAPE(ORACLE_DECLARE)
 #undef ORACLE_DECLARE

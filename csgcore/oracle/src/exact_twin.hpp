@@ -1,6 +1,6 @@
-// What the oracles ask of a kind of primitive: its exact twin. A kind's answers stand in one file,
-// sphere_twin.cpp and so on; CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds, and one
-// without a twin does not link.
+// The oracles' interface to a kind of primitive: its exact twin. Each kind implements it in one
+// file, sphere_twin.cpp and so on. CSGCORE_FOR_EACH_SHAPE (csgcore/shape.hpp) lists the kinds, and
+// a kind without a twin does not link.
 #pragma once
 
 #include <string>
@@ -15,40 +15,40 @@ struct HalfSpace;
 
 namespace oracle {
 
-/// The exact twin of a kind. All questions are about a valid primitive of that kind.
+/// The exact twin of a kind. All functions take valid primitives of that kind.
 class ExactTwin {
  public:
-  /// A point well within the solid, in local space.
+  /// Returns a point well inside the solid, in local space.
   virtual Vector<Exact> middle(const csgcore::Primitive& primitive) const = 0;
-  /// Sets the target's wall and planes, and its weight; λ (see exact_primitive.hpp) is
-  /// `magnification`.
+  /// Sets the target's wall, planes and weight. `magnification` is λ of exact_primitive.hpp.
   virtual void add_surfaces(const csgcore::Primitive& primitive, const Exact& magnification,
                             Target<Exact>& target) const = 0;
-  /// The wall of a ray, o + t·d in the target's local space; all zero if the kind has no wall.
+  /// Returns the wall along the ray o + t·d in the target's local space; all zero if the kind has
+  /// no wall.
   virtual Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
                                 const Vector<Exact>& d) const;
   virtual Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
                                    const Vector<Interval>& d) const;
-  /// Half the gradient of the wall at a local point.
+  /// Returns half the gradient of the wall's function at a local point.
   virtual Vector<Interval> wall_normal(const Target<Interval>& target,
                                        const Vector<Interval>& point) const;
-  /// Makes the box hold the primitive, relative to a point of the world: tight, and wider by no
-  /// more than rounding. RoundingUp is on.
+  /// Extends the box, which is relative to a world point, by the primitive: tightly, but for
+  /// outward rounding. RoundingUp must be on.
   virtual void merge_box(const csgcore::Vec3& point, const csgcore::Primitive& primitive,
                          csgcore::Box& box) const = 0;
 
-  /// The solid's half-spaces in local space; what is round has that many fragments around.
+  /// Returns the solid's half-spaces in local space. Round solids get that many fragments.
   virtual std::vector<csgcore::HalfSpace> half_spaces(const csgcore::Primitive& primitive,
                                                       int fragments) const = 0;
 
-  /// The C++ expression that makes the primitive; `map` is that of its matrix.
+  /// Returns the C++ expression that makes the primitive. `map` is the expression of its matrix.
   virtual std::string as_cpp(const csgcore::Primitive& primitive, const std::string& map) const = 0;
-  /// The OpenSCAD expression of the local solid.
+  /// Returns the OpenSCAD expression of the local solid.
   virtual std::string as_openscad(const csgcore::Primitive& primitive) const = 0;
 
-  /// Sizes that a search for a smaller scene may change.
+  /// Returns the primitive's sizes, which minimise() may change.
   virtual std::vector<double*> sizes(csgcore::Primitive& primitive) const = 0;
-  /// Simpler primitives with the same matrix, the simplest one first.
+  /// Returns simpler primitives with the same matrix, the simplest one first.
   virtual std::vector<csgcore::Primitive> simpler(const csgcore::Primitive& primitive) const = 0;
 
  protected:

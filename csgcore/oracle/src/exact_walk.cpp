@@ -92,7 +92,7 @@ void ExactWalk::add_candidate(uint32_t primitive) {
   candidates_.push_back(std::move(candidate));
 }
 
-/// The ends' parameters, from what there is.
+/// Finds the parameters of the ends, from the exact ray if there is one.
 void ExactWalk::find_ends(Candidate& candidate) {
   const Surface surfaces[2] = {candidate.ends.begin, candidate.ends.end};
   if (candidate.exact) {
@@ -109,7 +109,7 @@ void ExactWalk::find_ends(Candidate& candidate) {
   }
 }
 
-/// Makes the parameters as tight as doubles are.
+/// Makes the parameters as tight as doubles allow.
 void ExactWalk::refine(Candidate& candidate) {
   if (candidate.exact) return;
   ++counts_.exact_segments;
@@ -128,7 +128,7 @@ ExactRoot ExactWalk::exact_of(const Crossing& crossing) const {
                      !crossing.at_end);
 }
 
-/// −1 if `a` comes first, 0 if they are one.
+/// Returns −1 if `a` comes first, 0 if both have the same parameter, 1 otherwise.
 int ExactWalk::order(const Crossing& a, const Crossing& b) {
   if (a.candidate == b.candidate) return int(a.at_end) - int(b.at_end);
   ++counts_.comparisons;
@@ -161,7 +161,7 @@ void ExactWalk::pass_until(size_t count) {
   while (passed_ > count) tree_.flip(primitive_of(crossings_[--passed_]));
 }
 
-/// The solid's value all along the ray.
+/// Finds the solid's value everywhere along the ray.
 void ExactWalk::evaluate() {
   values_.assign(1, tree_.value());
   eye_ = 0;
@@ -194,14 +194,15 @@ std::optional<ExactWalk::Coincidence> ExactWalk::first_turning_coincidence() {
   return std::nullopt;
 }
 
-/// |n·d| there.
+/// Returns |n·d| at the crossing.
 Interval ExactWalk::steepness(const Crossing& crossing) const {
   const Candidate& candidate = candidates_[crossing.candidate];
   return steepness_at(scene_.intervals[candidate.primitive], candidate.local,
                       candidate.u[crossing.at_end], surface_of(crossing));
 }
 
-/// Along the normal of that of the two which the ray meets more squarely, in the prepared unit.
+/// Returns the distance along the normal of the surface that the ray meets more squarely, in the
+/// prepared unit.
 Interval ExactWalk::thickness_between(const Crossing& a, const Crossing& b) const {
   return CGAL::abs(t_of(b) - t_of(a)) * (CGAL::max)(steepness(a), steepness(b));
 }
@@ -224,8 +225,9 @@ bool ExactWalk::together(const Crossing& a, const Crossing& b) {
 
 // --- What is shown ---
 
-/// The crossings by which a coincidence changes the primitives: its own, and those together with
-/// its first or its last boundary. The tree is left as it is after all of them.
+/// Collects the crossings by which a coincidence changes the primitives, in the order of the
+/// primitives: its own, and those that coincide with its first or last boundary. Leaves the tree at
+/// a point after all of them.
 void ExactWalk::collect_changes(const Coincidence& coincidence) {
   changed_.clear();
   for (size_t i = coincidence.begin; i < coincidence.first; ++i) {
@@ -242,7 +244,7 @@ void ExactWalk::collect_changes(const Coincidence& coincidence) {
   drop_what_came_back();
 }
 
-/// What is both entered and left has not changed.
+/// Drops both crossings of primitives that are entered and left.
 void ExactWalk::drop_what_came_back() {
   std::sort(changed_.begin(), changed_.end(), [this](const Crossing& a, const Crossing& b) {
     return primitive_of(a) < primitive_of(b);
@@ -258,8 +260,8 @@ void ExactWalk::drop_what_came_back() {
   changed_ = std::move(kept);
 }
 
-/// Whether the change is of the kind that turns the value from what it is at the eye: added
-/// primitives that are entered and subtracted ones that are left, or the reverse for an eye inside.
+/// Returns whether the crossing can turn the value from that at the eye: if the eye is outside, by
+/// entering an added primitive or leaving a subtracted one; if it is inside, the reverse.
 bool ExactWalk::turns(const Crossing& crossing) const {
   const bool adds = crossing.at_end == bool(values_[eye_]);
   const uint32_t primitive = primitive_of(crossing);
@@ -282,7 +284,8 @@ ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
   const Target<Exact>& target = scene_.exact[primitive];
   const Surface surface = surface_of(crossing);
   const bool enters = !crossing.at_end;
-  // Anew from a point next to the crossing, so that nothing is lost on a tiny primitive.
+  // Map the ray anew from a point next to the crossing, so that no precision is lost for a tiny
+  // primitive.
   const double base = middle(t_of(crossing));
   const LocalRay<Exact> exact = localize(target, exact_ray_, base);
   const LocalRay<Interval> local = enclose(exact);
@@ -298,14 +301,14 @@ ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
     shown.from_pivot[i] = middle(offset);
     shown.hit.position[i] = middle(Interval(scene_.pivot[i]) + offset);
   }
-  // Outward of the solid: against the ray unless the eye is inside.
+  // The normal outward of the solid points against the ray unless the eye is inside.
   const bool is_cut =
       turns(crossing) ? enters == bool(values_[eye_]) : tree_.is_subtracted(primitive);
   shown.hit.normal = (is_cut ? -1.0 : 1.0) * glm::normalize(middle(normal));
   return shown;
 }
 
-/// The doubles next to base_s + base + u, which lies within `s`.
+/// Returns the doubles next to base_s + base + u, which lies within `s`.
 Bounds ExactWalk::tight_s(const ExactRoot& u, double base, const Interval& s) const {
   const Exact zero_s = Exact(base_s_) + Exact(base);
   const auto sign_at = [&](double at) { return compare(u, quotient(Exact(at) - zero_s, 1)); };
@@ -313,7 +316,7 @@ Bounds ExactWalk::tight_s(const ExactRoot& u, double base, const Interval& s) co
   while (std::nextafter(bounds.lower, kInfinity) < bounds.upper) {
     double half = bounds.lower + (bounds.upper - bounds.lower) / 2;
     if (bounds.lower < 0 && bounds.upper > 0) half = 0;
-    if (half == bounds.upper) half = std::nextafter(bounds.lower, kInfinity);  // rounded up
+    if (half == bounds.upper) half = std::nextafter(bounds.lower, kInfinity);  // it was rounded up
     const int sign = sign_at(half);
     if (sign >= 0) bounds.lower = half;
     if (sign <= 0) bounds.upper = half;

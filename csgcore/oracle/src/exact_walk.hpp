@@ -1,4 +1,4 @@
-// One ray through a prepared scene, by the definition of csgcore/NUMERICS.md, 1.
+// Traces one ray through a prepared scene, by the definition of csgcore/NUMERICS.md, 1.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace oracle {
 
-/// A ray, with how far it is moved and what is taken for τ, both in world units.
+/// A ray to be traced, moved by `shift`, with `thickness` for τ; both are in world units.
 struct SeenRay {
   csgcore::Ray ray;
   csgcore::Projection projection;
@@ -19,17 +19,17 @@ struct SeenRay {
   csgcore::Vec3 shift{0.0};
 };
 
-/// One ray after the other. RoundingUp must be on.
+/// Traces rays one after the other. RoundingUp must be on.
 class ExactWalk {
  public:
   explicit ExactWalk(const PreparedScene& scene) : scene_(scene), tree_(scene.outside) {}
 
   struct Shown {
     ExactHit hit;
-    csgcore::Vec3 from_pivot{0.0};  // the hit's position
+    csgcore::Vec3 from_pivot{0.0};  // the hit's position relative to the pivot
   };
   Shown see(const SeenRay& ray);
-  /// Whether something between the last ray's crossings was too near τ for intervals.
+  /// Returns whether some thickness along the last ray was too near τ for intervals.
   bool unsettled() const { return unsettled_; }
 
   const ExactCounts& counts() const { return counts_; }
@@ -39,20 +39,20 @@ class ExactWalk {
   struct Candidate {
     uint32_t primitive;
     Ends ends;
-    // In intervals, by a parameter u = t − base.
+    // The ray in intervals, with the parameter u = t − base.
     double base;
     LocalRay<Interval> local;
-    Interval u[2], t[2];  // of the ends
-    /// By t; where intervals did not suffice.
+    Interval u[2], t[2];  // of the two ends
+    /// The exact ray with the parameter t, if intervals did not suffice.
     std::optional<LocalRay<Exact>> exact;
   };
   struct Crossing {
     uint32_t candidate;
     bool at_end;
   };
-  /// Boundaries of the solid of which each is together with the next: crossings [first, last], the
-  /// first and the last of which are boundaries themselves. Other boundaries lie before `begin` and
-  /// not before `end`.
+  /// A coincidence: boundaries of the solid each of which coincides with the next. `first` and
+  /// `last` are the crossings of its first and last boundary. The boundary before it has an index
+  /// below `begin`, and the one after it has the index `end`.
   struct Coincidence {
     size_t begin, first, last, end;
   };
@@ -94,22 +94,22 @@ class ExactWalk {
   ExactCounts counts_;
   bool unsettled_ = false;
 
-  // The ray: x(t) = pivot + origin + t·direction, s = base_s + t.
+  // The ray is x(t) = pivot + origin + t·direction, with s = base_s + t.
   SeenRay seen_;
   double base_s_ = 0;
   NearRay<Exact> exact_ray_;
   NearRay<Interval> ray_;
-  Exact exact_eye_t_;  // nothing is seen up to there, in perspective
+  Exact exact_eye_t_;  // in perspective, only t beyond it is seen
   Interval eye_t_;
 
   std::vector<uint32_t> items_;
   NearPlanes near_planes_;
   std::vector<Candidate> candidates_;
   std::vector<Crossing> crossings_;  // in order along the ray
-  std::vector<uint8_t> values_;      // of the solid, before each crossing and after the last
-  std::vector<Crossing> changed_;    // by a coincidence, in order of the primitives
+  std::vector<uint8_t> values_;      // the solid's, before each crossing and after the last
+  std::vector<Crossing> changed_;    // see collect_changes()
   std::vector<uint32_t> changed_primitives_;
-  size_t eye_ = 0;  // crossings behind the eye
+  size_t eye_ = 0;  // the number of crossings behind the eye
 };
 
 }  // namespace oracle

@@ -13,7 +13,7 @@ namespace {
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// Across the axis.
+/// The dot product across the axis.
 template <class Number>
 Number dot_across(const Vector<Number>& a, const Vector<Number>& b) {
   return a[0] * b[0] + a[1] * b[1];
@@ -34,7 +34,8 @@ Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
   wall.a = w * dot_across(d, d) - CGAL::square(growth);
   wall.b = w * dot_across(o, d) - radius * growth;
   wall.c = w * dot_across(o, o) - CGAL::square(radius);
-  // As a sphere's: w(|ρd − go|² − w(o × d)²) across the axis, g the growth of ρ along the ray.
+  // As for a sphere, this form does not cancel: w(|ρd − go|² − w(o × d)²) across the axis, where g
+  // is the growth of ρ along the ray.
   const Number x = radius * d[0] - growth * o[0], y = radius * d[1] - growth * o[1];
   const Number moment = o[0] * d[1] - o[1] * d[0];
   wall.discriminant = w * (CGAL::square(x) + CGAL::square(y) - w * CGAL::square(moment));

@@ -25,7 +25,7 @@ using csgcore::Shape;
 using csgcore::Vec3;
 using Tokens = std::vector<CsgToken>;
 
-/// All numbers of a primitive but a polyhedron's own.
+/// Returns all numbers of a primitive except those of a polyhedron's solid.
 std::vector<double*> numbers_of(Primitive& primitive) {
   std::vector<double*> numbers = twin_of(primitive.shape).sizes(primitive);
   Affine& map = primitive.local_to_world;
@@ -35,8 +35,8 @@ std::vector<double*> numbers_of(Primitive& primitive) {
   return numbers;
 }
 
-/// Tokens, shapes that are not balls, half-spaces, digits: the smaller scene is that of which the
-/// first that differs is smaller.
+/// The size of a scene: tokens, primitives that are no spheres, half-spaces, digits. Sizes are
+/// compared in this order.
 using Size = std::tuple<size_t, size_t, size_t, size_t>;
 
 Size size_of(const Scene& scene) {
@@ -57,7 +57,7 @@ Size size_of(const Scene& scene) {
   return {scene.model.tokens().size(), shapes, half_spaces, digits};
 }
 
-/// Only the primitives that the tokens name, with their indices for ids.
+/// Returns a scene of the primitives that the tokens name, with their indices for ids.
 Scene scene_of(const std::vector<Primitive>& primitives, const Tokens& tokens) {
   constexpr uint32_t kUnnamed = std::numeric_limits<uint32_t>::max();
   std::vector<uint32_t> indices(primitives.size(), kUnnamed);
@@ -99,7 +99,7 @@ class Minimiser {
  private:
   Tokens tokens() const { return {best_.model.tokens().begin(), best_.model.tokens().end()}; }
 
-  /// Takes the scene if it is smaller and shows what is looked for.
+  /// Takes the scene if it is smaller and still shows the disagreement. Returns whether it did.
   bool take(Scene scene) {
     const Size size = size_of(scene);
     if (!(size < size_) || tries_left_ == 0) return false;
@@ -119,13 +119,13 @@ class Minimiser {
     return take(std::move(scene));
   }
 
-  /// Of every operation some operands in a row: half of them, a quarter, …, one.
+  /// Tries to drop adjacent operands of an operation: half of them, a quarter, …, one.
   bool drop_operands() {
     const Tokens all = tokens();
     const std::vector<size_t> firsts = first_tokens(all);
     for (size_t i = all.size(); i-- > 0;) {
       if (all[i].is_primitive) continue;
-      std::vector<size_t> ends{i};  // after the operands, the last one first
+      std::vector<size_t> ends{i};  // the ends of the operands, the last one first
       while (ends.back() > firsts[i]) ends.push_back(firsts[ends.back() - 1]);
       const size_t count = ends.size() - 1;
       for (size_t part = count / 2; part > 0; part /= 2) {
@@ -137,7 +137,8 @@ class Minimiser {
     return false;
   }
 
-  /// Without the tokens [from, to), operands of the operation `op`, which keeps so many.
+  /// Returns the scene without the tokens [from, to), which are operands of the operation `op`;
+  /// `operands` of its operands are left.
   Scene without(const Tokens& all, size_t op, size_t from, size_t to, size_t operands) const {
     Tokens rest = all;
     rest[op].value = uint32_t(operands);

@@ -9,17 +9,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a dozen operations may be off by, as a share of their largest term, whichever way doubles
-/// are rounded.
+/// Error bound of a dozen operations, as a share of their largest term, for every rounding mode.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// The sum of a normal's coordinates: none is above 2.
+/// Bound of the sum of a normal's coordinates, each of which is at most 2.
 constexpr double kNormalSum = 6;
 
 double width(const Interval& x) { return x.sup() - x.inf(); }
 double magnitude(const Interval& x) { return std::max(std::abs(x.inf()), std::abs(x.sup())); }
 
-/// What n·v is off by if v's lower bounds are taken for v.
+/// Returns the error bound of n·v if v's lower bounds are taken for v.
 double error_of(const Vector<Interval>& v) {
   double error = 0;
   for (const Interval& x : v) error = std::max(error, width(x) + kRounding * magnitude(x));
@@ -36,7 +35,7 @@ bool NearPlanes::find(const Target<Interval>& target, const LocalRay<Interval>& 
   meetings_.clear();
   planes_.clear();
   const double origin_error = error_of(ray.o), ascent_error = error_of(ray.d);
-  double begin = -kInfinity, end = kInfinity;  // the part lies within, certainly
+  double begin = -kInfinity, end = kInfinity;  // the part certainly lies within these
   for (const Plane<Interval>& plane : target.planes) {
     const double ascent = dot(plane.normal, ray.d);
     const double room = plane.limit.inf() - dot(plane.normal, ray.o);

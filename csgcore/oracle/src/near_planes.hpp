@@ -1,5 +1,5 @@
-// Which of many planes may bound a ray's part of a polyhedron: found by doubles with an error
-// bound, so that intervals and exact numbers have next to none to look at.
+// Finds the planes that may bound a ray's part within a polyhedron, by doubles with an error bound.
+// Intervals and exact numbers then have few planes left to test.
 #pragma once
 
 #include <span>
@@ -11,16 +11,16 @@ namespace oracle {
 
 class NearPlanes {
  public:
-  /// Looks at all of the target's planes. False if the ray surely has no part within them.
+  /// Tests all of the target's planes. Returns false if the ray certainly has no part within them.
   bool find(const Target<Interval>& target, const LocalRay<Interval>& ray);
 
-  /// Indices in rising order: all planes but those that the ray surely meets outside the part that
-  /// others leave of it.
+  /// Indices in ascending order, of all planes but those that the ray certainly meets outside of
+  /// the part that the other planes leave.
   std::span<const uint32_t> planes() const { return planes_; }
 
  private:
-  /// Where the ray passes a plane: certainly at lower ≤ t ≤ upper. One that is too nearly parallel
-  /// to tell stays on its side there.
+  /// The meeting of the ray with a plane, at lower ≤ t ≤ upper. A ray that is parallel to the
+  /// plane, as far as doubles tell, stays on its side of it within these limits.
   enum class Kind : uint8_t { kEnters, kLeaves, kStaysWithin, kStaysOutside };
   struct Meeting {
     Kind kind;

@@ -1,4 +1,5 @@
-// Set operations on Nef polyhedra. Slow to compile: nothing else includes CGAL/Nef_polyhedron_3.h.
+// Set operations on Nef polyhedra. No other file includes CGAL/Nef_polyhedron_3.h, which is slow to
+// compile.
 #include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
@@ -39,8 +40,8 @@ Nef nef_of(const ConvexPolyhedron& polyhedron) {
   return Nef(surface);
 }
 
-/// Of one or more operands, always the two smallest first: an operation takes time in proportion to
-/// both.
+/// Combines one or more operands, always the two smallest ones first, since an operation takes time
+/// in proportion to the sizes of both.
 template <class Operation>
 Nef accumulate(std::span<Nef> operands, Operation operation) {
   const auto is_larger = [](const Nef& a, const Nef& b) {
@@ -84,14 +85,14 @@ Nef value_of(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> pol
   return operands.empty() ? Nef(Nef::EMPTY) : operands.front();
 }
 
-/// Returns the regularised solid's boundary: the facets between its volumes and what is outside. A
-/// facet that dangles, or a crack, has volumes of the same kind on both of its sides.
+/// Returns the regularised solid's boundary: the facets between its volumes and the outside. A
+/// dangling facet, or a crack, has volumes of the same kind on both of its sides.
 ///
-/// Neither of CGAL's own ways serves. Nef_polyhedron_3::regularization() merges facets by
+/// Neither of CGAL's own functions can be used. Nef_polyhedron_3::regularization() merges facets by
 /// SNC_simplify, whose SNC_decorator::add_sloop_to_facet() links the circle that is left about a
-/// vertex to the wrong side of its facet (5.5.1): where an apex touches that facet, inside and
-/// outside become one volume. And CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a
-/// cavity that holds something, and fails where a vertex touches a facet.
+/// vertex to the wrong side of its facet (5.5.1): if an apex touches that facet, inside and outside
+/// become one volume. CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h loses a cavity that
+/// contains something, and fails if a vertex touches a facet.
 ExactBoundary boundary_of(const Nef& solid) {
   ExactBoundary boundary;
   std::unordered_map<Nef::Vertex_const_handle, std::size_t> indices;
@@ -102,7 +103,7 @@ ExactBoundary boundary_of(const Nef& solid) {
   };
   Nef::Halffacet_const_iterator half;
   CGAL_forall_halffacets(half, solid) {
-    // A halffacet looks into its volume; of the two, the one that looks out of the solid.
+    // A halffacet faces its volume. Take the one of each pair that faces out of the solid.
     if (half->incident_volume()->mark() || !half->twin()->incident_volume()->mark()) continue;
     Facet facet{half->plane().orthogonal_vector(), {}};
     Nef::Halffacet_cycle_const_iterator cycle;
@@ -124,8 +125,8 @@ ExactBoundary boundary_of(const Nef& solid) {
 
 ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
                            std::span<const ConvexPolyhedron> polyhedra) {
-  // Facets that dangle and cracks have no volume, and make none in a later operation: it is enough
-  // to leave them out of the last solid.
+  // Dangling facets and cracks have no volume, and make none in a later operation, so that it is
+  // enough to leave them out of the final solid.
   return boundary_of(value_of(tree, polyhedra));
 }
 

@@ -8,7 +8,7 @@
 namespace oracle {
 namespace {
 
-// Of numbers in the text: a power of two is fastest.
+// The base of numbers in the text. A power of two is fastest.
 constexpr int kBase = 32;
 
 }  // namespace

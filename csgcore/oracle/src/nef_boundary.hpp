@@ -10,20 +10,21 @@
 
 namespace oracle {
 
-/// Triangles turn counterclockwise seen from outside. None is degenerate. A vertex may be there
-/// more than once.
+/// Triangles are counterclockwise as seen from outside, and none is degenerate. Several vertices
+/// may be equal.
 struct ExactBoundary {
   std::vector<Point> vertices;
   std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-/// Of the regularised solid of the tree, by Nef polyhedra. Takes as long as it takes.
+/// Returns the boundary of the regularised solid of the tree, by Nef polyhedra. Its time has no
+/// limit.
 ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
                            std::span<const ConvexPolyhedron> polyhedra);
 
-/// As text, with all digits: out of one process and into another.
+/// Writes the boundary as text with all digits, for another process to read.
 void write_boundary(std::ostream& out, const ExactBoundary& boundary);
-/// Throws std::runtime_error if it is cut short.
+/// Reads a boundary. Throws std::runtime_error if the text ends early.
 ExactBoundary read_boundary(std::istream& in);
 
 }  // namespace oracle

@@ -1,5 +1,5 @@
-// The exact kernel of the Nef oracle: rationals behind intervals of doubles, evaluated where these
-// cannot tell.
+// The exact kernel of the Nef oracle: rationals behind intervals of doubles, which are evaluated
+// only if the intervals do not suffice.
 #pragma once
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -24,8 +24,8 @@ static_assert(std::is_same_v<Kernel::Exact_kernel::FT, Rational>);
 
 inline Rational rational_of(const Number& number) { return number.exact(); }
 
-/// a·x + b·y + c·z + d ≤ 0 within, in world coordinates, exactly; the boundary's normal points
-/// outwards.
+/// Returns the exact boundary plane of the half-space in world coordinates, whose normal points
+/// outwards: a·x + b·y + c·z + d ≤ 0 inside.
 Plane world_plane(const csgcore::HalfSpace& half_space, const csgcore::Affine& local_to_world);
 
 }  // namespace oracle

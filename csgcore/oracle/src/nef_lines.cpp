@@ -25,7 +25,7 @@ Vec3 rounded(const Point& p) {
   return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
 }
 
-/// Directions, none of them special: a line from a point meets no edge but by chance.
+/// Returns a random direction, so that a line from a point meets an edge only by chance.
 Vec3 random_direction(std::minstd_rand& random) {
   Vec3 direction;
   for (int axis = 0; axis < 3; ++axis)
@@ -65,8 +65,8 @@ NefLines::Stabbing NefLines::stab(const Point& origin, const Vec3& direction,
   }
   std::sort(touches.begin(), touches.end(),
             [](const Touch& a, const Touch& b) { return a.s < b.s; });
-  // At an edge or a vertex several planes are touched; within a facet its own alone, even if two of
-  // its triangles meet there.
+  // At an edge or a vertex the line touches several planes. Inside a facet it touches only that of
+  // the facet, even where two of its triangles meet.
   for (const Touch& touch : touches) {
     if (result.events.empty() || result.events.back().s != touch.s) {
       result.events.push_back({touch.s, touch.plane, true, touch.enters});

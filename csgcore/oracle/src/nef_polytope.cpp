@@ -17,13 +17,15 @@ using Hull = CGAL::Polyhedron_3<Kernel>;
   throw std::invalid_argument("the half-spaces of a polyhedron bound no solid");
 }
 
-/// The plane p·x = 1 of a point p ≠ 0, and the other way round (polarity about the origin).
+/// Returns the pole p of the plane p·x = 1, by polarity about the origin. Poles of poles are the
+/// planes again.
 Point pole_of(const Plane& plane) {
   return {-plane.a() / plane.d(), -plane.b() / plane.d(), -plane.c() / plane.d()};
 }
 
-/// A point of doubles within. A linear program takes time in proportion to the square of its
-/// planes, so it gets some of them, and then those that its solution was found to be beyond.
+/// Returns a point of doubles in the interior. A linear program takes time in proportion to the
+/// square of the number of planes. So it gets some of them first, and then those that its solution
+/// violates.
 Point interior_point(const std::vector<Plane>& planes) {
   constexpr std::size_t kFirstPlanes = 64;
   std::vector<Plane> some;
@@ -50,7 +52,7 @@ Point interior_point(const std::vector<Plane>& planes) {
   }
 }
 
-/// In world coordinates.
+/// Returns an interior point in world coordinates.
 Point interior_point(const ConvexPolyhedron& polyhedron) {
   std::vector<Plane> planes;
   for (const csgcore::HalfSpace& h : polyhedron.half_spaces) {
@@ -66,7 +68,7 @@ Point interior_point(const ConvexPolyhedron& polyhedron) {
 }  // namespace
 
 Plane world_plane(const csgcore::HalfSpace& half_space, const csgcore::Affine& local_to_world) {
-  // n·M⁻¹·(x − t) ≤ o, multiplied by |det M|: no quotients.
+  // The half-space is n·M⁻¹·(x − t) ≤ o; multiplied by |det M|, it needs no quotients.
   const Vector x = vector_of(local_to_world.linear[0]);
   const Vector y = vector_of(local_to_world.linear[1]);
   const Vector z = vector_of(local_to_world.linear[2]);
@@ -80,9 +82,10 @@ Plane world_plane(const csgcore::HalfSpace& half_space, const csgcore::Affine& l
   return {normal.x(), normal.y(), normal.z(), -offset};
 }
 
-// About a point within, the hull of the planes' poles is the polar of the solid: its vertices are
-// the solid's facets, its facets the vertices. Where more than three planes meet in one vertex, the
-// hull has several coplanar triangles, whose poles are one and the same point.
+// The convex hull of the planes' poles about an interior point is the polar of the solid: its
+// vertices are the solid's facets, and its facets are the solid's vertices. If more than three
+// planes meet in one vertex, the hull has several coplanar triangles, whose poles are the same
+// point.
 Polytope polytope_of(const ConvexPolyhedron& polyhedron) {
   const Point inside = interior_point(polyhedron);
   const Vector to_inside = inside - CGAL::ORIGIN;
@@ -103,7 +106,7 @@ Polytope polytope_of(const ConvexPolyhedron& polyhedron) {
     const auto edge = facet->halfedge();
     const Plane plane(edge->vertex()->point(), edge->next()->vertex()->point(),
                       edge->next()->next()->vertex()->point());
-    if (!(plane.d() < 0)) throw_no_solid();  // the hull does not hold the origin within
+    if (!(plane.d() < 0)) throw_no_solid();  // the origin is not inside the hull
     const Point vertex = pole_of(plane) + to_inside;
     const auto [entry, is_new] = indices.try_emplace(vertex, result.vertices.size());
     if (is_new) result.vertices.push_back(vertex);

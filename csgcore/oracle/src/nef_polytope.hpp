@@ -5,14 +5,14 @@
 
 namespace oracle {
 
-/// A polygon's corners lie exactly in its plane, counterclockwise seen from outside.
+/// The corners of a facet lie exactly in its plane, counterclockwise as seen from outside.
 struct Polytope {
   std::vector<Point> vertices;
   std::vector<std::vector<std::size_t>> facets;
 };
 
-/// In world coordinates. Throws std::invalid_argument where the half-spaces have no common
-/// interior, or bound no solid.
+/// Returns the polytope in world coordinates. Throws std::invalid_argument if the half-spaces have
+/// no common interior, or an unbounded one.
 Polytope polytope_of(const ConvexPolyhedron& polyhedron);
 
 }  // namespace oracle

@@ -19,8 +19,8 @@ namespace {
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// a, b, c, d, divided by the absolute value of the first that is not 0: the same for all
-/// half-spaces that are the same.
+/// The coefficients a, b, c, d divided by the absolute value of the first one that is not 0, so
+/// that equal half-spaces have equal keys.
 using PlaneKey = std::array<Rational, 4>;
 
 PlaneKey key_of(const Plane& plane) {
@@ -41,7 +41,8 @@ FacetPlane facet_plane_of(const PlaneKey& key) {
           {}};
 }
 
-/// Of numbers of many digits: added by twos, so that few of the sums are long.
+/// Returns the sum of numbers with many digits. It adds them in pairs, so that few of the sums are
+/// long.
 Rational sum_of(std::vector<Rational> terms) {
   if (terms.empty()) return 0;
   for (; terms.size() > 1; terms.resize((terms.size() + 1) / 2)) {
@@ -94,7 +95,7 @@ class NefSolid::Impl {
         PlaneKey key = key_of(world_plane(half_space, polyhedra[polyhedron].local_to_world));
         name(key, polyhedron);
         for (Rational& coefficient : key) coefficient = -coefficient;
-        name(key, polyhedron);  // the solid may lie outside, where it was subtracted
+        name(key, polyhedron);  // the solid may lie outside, if this was subtracted
       }
     }
   }

@@ -14,7 +14,7 @@
 namespace oracle {
 namespace {
 
-/// How many borders lie between a triangle and what is outside.
+/// The number of borders between a triangle and the outside.
 using Nesting = std::optional<int>;
 
 using Traits = CGAL::Projection_traits_3<Kernel>;
@@ -24,9 +24,9 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
-/// The edges that cycles run along once, by their ends. An edge of the solid may lie within a facet
-/// and end there: the ridge of a groove that reaches the facet from behind. The cycle runs along it
-/// to and fro, and the facet is on both of its sides.
+/// Returns the edges that cycles run along once, by their ends. An edge of the solid may lie within
+/// a facet and end there, as the ridge of a groove does that reaches the facet from behind. A cycle
+/// runs along such an edge in both directions, and the facet is on both of its sides.
 std::set<std::pair<std::size_t, std::size_t>> borders_of(const Facet& facet) {
   std::set<std::pair<std::size_t, std::size_t>> borders;
   for (const std::vector<std::size_t>& cycle : facet.cycles) {
@@ -39,7 +39,7 @@ std::set<std::pair<std::size_t, std::size_t>> borders_of(const Facet& facet) {
   return borders;
 }
 
-/// From the infinite face inwards.
+/// Finds the nesting of all triangles, from the infinite face inwards.
 void find_nesting(const Triangulation& triangulation) {
   std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
   open.back()->info() = 0;

@@ -1,4 +1,4 @@
-// Facets with holes, in triangles.
+// The triangulation of facets with holes.
 #pragma once
 
 #include <array>
@@ -9,14 +9,13 @@
 namespace oracle {
 
 /// A plane polygon, possibly with holes: closed cycles of indices of points, in any order. An edge
-/// that they run along twice, to and fro, has the polygon on both of its sides.
+/// that cycles run along in both directions has the polygon on both of its sides.
 struct Facet {
   Vector normal;
   std::vector<std::vector<std::size_t>> cycles;
 };
 
-/// Appends triangles that turn counterclockwise about the normal. They have the facet's corners and
-/// no others.
+/// Appends triangles, counterclockwise about the normal, whose corners are those of the facet.
 void triangulate(const Facet& facet, const std::vector<Point>& points,
                  std::vector<std::array<std::size_t, 3>>& triangles);
 

@@ -9,14 +9,14 @@
 
 namespace oracle {
 
-/// The shortest decimal that reads as the same double.
+/// Returns the shortest decimal that reads as the same double.
 inline std::string shortest_text(double number) {
   char text[32];  // the longest is "-2.2250738585072014e-308"
   const auto end = std::to_chars(text, text + sizeof text, number).ptr;
   return {text, end};
 }
 
-/// "a, b, c"
+/// These return the parts as "a, b, c".
 std::string joined(const std::vector<std::string>& parts);
 std::string joined(const std::vector<double>& numbers);
 inline std::string coordinates(const csgcore::Vec3& v) { return joined({v.x, v.y, v.z}); }

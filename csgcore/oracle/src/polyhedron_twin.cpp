@@ -34,7 +34,7 @@ Plane<Exact> scaled(const HalfSpace& half_space, const Vector<Exact>& middle,
   return plane;
 }
 
-/// The face's vertices, clockwise seen from outside.
+/// Returns the indices of the face's vertices as text, clockwise as seen from outside.
 std::vector<std::string> face_of(const Polyhedron& polyhedron, const HalfSpace& half_space) {
   constexpr double kRounding = 1e-9;  // of vertices, as a share of the largest
   const Vec3 normal = glm::normalize(half_space.normal);
@@ -64,7 +64,7 @@ std::vector<std::string> face_of(const Polyhedron& polyhedron, const HalfSpace& 
   return names;
 }
 
-/// Solids that a polyhedron may become: the simplest ones, and its box.
+/// Returns solids that may replace a polyhedron: the simplest ones, and its box.
 std::vector<std::shared_ptr<const Polyhedron>> simpler_than(const Polyhedron& polyhedron) {
   std::vector<std::shared_ptr<const Polyhedron>> result{Polyhedron::frustum(-1, 1, 1, 0, 3),
                                                         Polyhedron::box({Vec3(-1), Vec3(1)}),

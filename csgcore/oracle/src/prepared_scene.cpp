@@ -22,15 +22,15 @@ using csgcore::Vec3;
 /// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
 constexpr double kThicknessTolerance = 1e-9;
 
-/// The box relative to a point. RoundingUp must be on.
+/// Returns the primitive's box relative to a point. RoundingUp must be on.
 Box box_about(const Vec3& point, const Primitive& primitive) {
   Box box;
   twin_of(primitive.shape).merge_box(point, primitive, box);
   return box;
 }
 
-/// Of the model: a union's box is that of its operands' boxes, an intersection's their common part,
-/// a difference's that of its first operand.
+/// Returns the model's box: for a union the union of the operands' boxes, for an intersection their
+/// intersection, for a difference the first operand's box.
 Box model_box(const Scene& scene, const std::vector<Box>& boxes) {
   std::vector<Box> stack;
   for (const csgcore::CsgToken& token : scene.model.tokens()) {
@@ -61,7 +61,7 @@ std::vector<Box> boxes_about(const Vec3& point, const Scene& scene) {
   return boxes;
 }
 
-/// Any point near the model will do.
+/// Returns a point near the model; any will do.
 Vec3 pivot_of(const Scene& scene) {
   const Box box = model_box(scene, boxes_about(Vec3(0.0), scene));
   return box.empty() ? Vec3(0.0) : box.center();
@@ -82,8 +82,8 @@ std::vector<uint32_t> find_alike(const Scene& scene) {
   return result;
 }
 
-/// What the rounding of coordinates can do: those of a point near the model and those of the middle
-/// of a primitive, each to the spacing of the doubles there.
+/// Returns the displacement by the rounding of coordinates: those of a point near the model and
+/// those of a primitive's middle, each by the spacing of doubles there.
 double coordinate_rounding(const Vec3& pivot, double size) {
   constexpr double kSpacing = std::numeric_limits<double>::epsilon();
   const Vec3 far = glm::abs(pivot);

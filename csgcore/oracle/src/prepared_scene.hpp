@@ -13,19 +13,19 @@ struct PreparedScene {
 
   const csgcore::Scene& scene;
   csgcore::Vec3 pivot;  // near the model's middle, in world space
-  double size;          // see ExactScene
+  double size;          // this and the next two are those of ExactScene
   double thickness;
   double displacement;
-  /// A power of two. Rays, targets and boxes are in world space multiplied by it, where the model
-  /// is about 1 across.
+  /// The prepared unit, a power of two. Rays, targets and boxes are in world space multiplied by
+  /// it, where the model is about 1 across.
   double unit;
-  TreeValue outside;  // the tree's value where all rays begin
-  // By the primitives' indices.
+  TreeValue outside;  // the tree's value outside of all primitives, where rays begin
+  // By primitive:
   std::vector<Target<Exact>> exact;
   std::vector<Target<Interval>> intervals;
-  std::vector<uint32_t> first_alike;  // the first primitive of the same shape, numbers and matrix
+  std::vector<uint32_t> first_alike;  // the first primitive with the same shape, numbers and matrix
   BoxTree boxes;                // of the primitives that the model names, relative to the pivot
-  std::vector<uint32_t> boxed;  // their indices, by the items of that tree
+  std::vector<uint32_t> boxed;  // by item of that tree, the primitive's index
 };
 
 }  // namespace oracle

@@ -19,7 +19,7 @@ Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
   wall.a = dot(d, d);
   wall.b = dot(o, d);
   wall.c = dot(o, o) - radius2;
-  // By Lagrange's identity, without the squares of o, which cancel.
+  // Lagrange's identity avoids the squares of o, which would cancel.
   const Vector<Number> moment = cross(o, d);
   wall.discriminant = radius2 * wall.a - dot(moment, moment);
   return wall;

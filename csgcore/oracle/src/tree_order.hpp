@@ -1,4 +1,4 @@
-// A tree's tokens from the outside in.
+// Visits a tree's tokens from the outside in.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace oracle {
 
-/// Of each subtree, by its last token, the first.
+/// Returns, for each token, the first token of the subtree that ends with it.
 inline std::vector<size_t> first_tokens(std::span<const csgcore::CsgToken> tokens) {
   std::vector<size_t> firsts, open;
   for (size_t i = 0; i < tokens.size(); ++i) {
@@ -24,11 +24,12 @@ inline std::vector<size_t> first_tokens(std::span<const csgcore::CsgToken> token
   return firsts;
 }
 
-/// Calls open(op), primitive(index) and close() as a CsgTreeBuilder is told of the tree.
+/// Calls open(op), primitive(index) and close() in the order in which a CsgTreeBuilder builds the
+/// tree.
 template <class Visitor>
 void visit_outside_in(std::span<const csgcore::CsgToken> tokens, Visitor& visitor) {
   const std::vector<size_t> firsts = first_tokens(tokens);
-  std::vector<std::vector<csgcore::Op>> opened(tokens.size());  // before the token, outermost first
+  std::vector<std::vector<csgcore::Op>> opened(tokens.size());  // by token, outermost first
   for (size_t i = tokens.size(); i-- > 0;) {
     if (!tokens[i].is_primitive) opened[firsts[i]].push_back(tokens[i].op);
   }

@@ -12,7 +12,7 @@ TreeValue::TreeValue(const csgcore::CsgTree& tree, size_t primitives)
       first_leaf_(primitives, kNone),
       signs_(primitives, 0),
       turned_(nodes_.size(), 0) {
-  std::vector<uint32_t> operands;  // roots of the subtrees so far
+  std::vector<uint32_t> operands;  // the roots of the subtrees so far
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const CsgToken& token = tree.tokens()[i];
     Node& node = nodes_[i];
@@ -49,7 +49,7 @@ void TreeValue::find_signs(const csgcore::CsgTree& tree) {
 
 void TreeValue::flip(uint32_t primitive) {
   for (uint32_t leaf = first_leaf_[primitive]; leaf != kNone; leaf = nodes_[leaf].next_leaf) {
-    nodes_[leaf].in_favour = holds(leaf) ? 0 : 1;  // of a leaf: whether the point is inside
+    nodes_[leaf].in_favour = holds(leaf) ? 0 : 1;  // for a leaf: whether the point is inside
     turned_[leaf] ^= 1;
     uint32_t i = leaf;
     for (; nodes_[i].parent != kNone; i = nodes_[i].parent) {
@@ -73,7 +73,7 @@ bool TreeValue::goes_back_to(uint32_t leaf) const {
 }
 
 uint32_t TreeValue::turning_primitive(std::span<const uint32_t> changed) {
-  // There and back again: in between, what has turned is what did by these primitives.
+  // Flip back, clear the turns, and flip again: turned_ then has the turns due to these primitives.
   for (const uint32_t primitive : changed) flip(primitive);
   std::fill(turned_.begin(), turned_.end(), uint8_t{0});
   for (const uint32_t primitive : changed) flip(primitive);

@@ -11,7 +11,7 @@ constexpr double kSqrt3_4 = 0.86602540378443864676;
 
 double radians(double angle_deg) { return angle_deg * (std::numbers::pi / 180); }
 
-// Of angles from 0 to 90.
+// These take angles from 0 to 90°, both included.
 double sin_first_quadrant(double angle_deg) {
   if (angle_deg == 30) return 0.5;
   if (angle_deg == 45) return kSqrt1_2;

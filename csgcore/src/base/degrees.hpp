@@ -4,7 +4,7 @@
 
 namespace csgcore {
 
-/// 0 ≤ angle_deg < 360.
+/// Precondition: 0 ≤ angle_deg < 360.
 double sin_degrees(double angle_deg);
 double cos_degrees(double angle_deg);
 

@@ -5,8 +5,8 @@
 namespace csgcore {
 namespace {
 
-/// The features that Highway compiles its targets for (its set_macros-inl.h); clang 14 cannot ask
-/// for F16C, which every processor with AVX2 has.
+/// Asks for the features that Highway compiles its targets for (its set_macros-inl.h), except F16C:
+/// clang 14 cannot ask for it, and every processor with AVX2 has it.
 SimdLevel widest_supported() {
 #if defined(__x86_64__) || defined(__i386__)
   const bool sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&

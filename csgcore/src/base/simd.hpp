@@ -1,25 +1,25 @@
-// Which version of the vectorised functions runs on this machine.
+// The choice of the version of the vectorised functions that runs on this machine.
 //
-// Highway compiles each of them for several instruction sets; its own choice at run time would load
-// libhwy, whose start-up measures the processor's clock for milliseconds.
+// Highway compiles each of them for several instruction sets. Its own choice at run time is not
+// used, since it loads libhwy, which measures the processor's clock for milliseconds at start-up.
 #pragma once
 
 namespace csgcore {
 
-/// From the widest to what every machine has (on ARM, that is NEON).
+/// Instruction sets, from the widest to the one that every machine has (NEON on ARM).
 enum class SimdLevel : int { kAvx512, kAvx2, kSse4, kBaseline };
 
-/// The widest that the processor and the operating system support, within the limit. Every level
-/// gives the same results, bit for bit.
+/// Returns the widest level within the limit that the processor and the operating system support.
+/// Every level gives the same results, bit for bit.
 SimdLevel simd_level();
 
-/// For tests: from now on, nothing wider than this. Not while other threads trace.
+/// Limits simd_level() to `widest`, for tests. It must not be called while other threads trace.
 void limit_simd_level(SimdLevel widest);
 
 }  // namespace csgcore
 
-/// After HWY_ONCE, with <hwy/highway.h>: makes FUNCTION, of the sources' HWY_NAMESPACE, callable as
-/// CSGCORE_SIMD(FUNCTION)(arguments).
+/// Makes FUNCTION of the source's HWY_NAMESPACE callable as CSGCORE_SIMD(FUNCTION)(arguments). It
+/// is used within `#if HWY_ONCE`, and needs <hwy/highway.h>.
 #define CSGCORE_SIMD_EXPORT(FUNCTION)                                                  \
   constexpr decltype(&HWY_STATIC_DISPATCH(FUNCTION)) k_##FUNCTION##_versions[] = {     \
       HWY_CHOOSE_AVX3(FUNCTION), HWY_CHOOSE_AVX2(FUNCTION), HWY_CHOOSE_SSE4(FUNCTION), \

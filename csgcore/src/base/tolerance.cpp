@@ -6,14 +6,14 @@
 namespace csgcore {
 namespace {
 
-/// Thinnest piece over the diagonal of the solid's box: NUMERICS.md says why.
+/// The thickness tolerance as a share of the diagonal of the solid's box (NUMERICS.md, "Why 1e-9").
 constexpr double kThicknessTolerance = 1e-9;
 
 /// Every cell's function is valid this far beyond the cell, as a fraction of the root box's largest
 /// side: 16 times the rounding (2^-24) of a float coordinate in the model's own units, which is how
 /// far a renderer in float may misplace a cell's boundary.
 constexpr double kOverlap = 0x1p-20;
-/// And at least some steps of a double this far from the origin, as a fraction of the coordinate.
+/// The overlap is at least this fraction of the largest coordinate: some steps of a double there.
 constexpr double kCoordinateRounding = 0x1p-50;
 
 }  // namespace

@@ -19,9 +19,9 @@ Ray pixel_ray(const View& view, double x_px, double y_px) {
 double projected_size_px(const View& view, const Box& box) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr int kCorners = 8;
-  // A corner's coordinates along the view's axes are those of the lowest corner plus, for each axis
-  // of the box that it is at the far end of, that edge's. In loops over all corners, without
-  // branches: every cell of a subdivision with a threshold asks.
+  // A corner's coordinates along the view's axes are those of the lowest corner plus the edges to
+  // the far end of those axes of the box at which it lies. The loops run over all corners without
+  // branches, since every cell of a subdivision with a threshold comes here.
   const Vec3 low = box.min - view.eye;
   const Vec3 size = box.size();
   double u[kCorners], v[kCorners], depth[kCorners];
@@ -61,7 +61,7 @@ double projected_size_px(const View& view, const Box& box) {
 }
 
 bool projects_below(const View& view, const Box& box, double size_px) {
-  // One diagonal of the box is mostly enough to tell that it is larger.
+  // One diagonal of the box mostly shows that the projection is larger.
   const Vec3 low = box.min - view.eye;
   const Vec3 high = box.max - view.eye;
   double low_scale = 1, high_scale = 1;

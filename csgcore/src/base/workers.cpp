@@ -9,14 +9,14 @@ namespace csgcore {
 
 struct Workers::Started {
   tbb::task_arena arena;
-  std::jthread thread;  // joined before the arena goes
+  std::jthread thread;  // joined before the arena is destroyed
 };
 
 Workers::Workers() : started_(std::make_unique<Started>()) {
   try {
     started_->thread = std::jthread([&arena = started_->arena] { arena.enqueue([] {}); });
   } catch (const std::system_error&) {
-    // No thread is to be had: oneTBB will say so where it matters.
+    // No thread can be made. oneTBB will report that where it matters.
   }
 }
 

@@ -5,12 +5,12 @@
 namespace csgcore {
 namespace {
 
-/// How much a tree will hold.
+/// The size of the assembled tree.
 struct Size {
   size_t nodes = 0, leaves = 0, tests = 0;
 };
 
-/// As deep as there were rounds.
+/// Adds the size of a chunk. The recursion is as deep as there were rounds.
 void add_size(const Chunk& chunk, Size& size) {
   size.nodes += chunk.nodes.size();
   size.leaves += chunk.leaves.size();
@@ -24,7 +24,7 @@ void add_size(const Chunk& chunk, Size& size) {
   for (const Chunk& resumed : chunk.resumed) add_size(resumed, size);
 }
 
-/// As deep as parts are.
+/// Adds the size of a part. The recursion is as deep as parts are nested.
 void add_size(const Part& part, Size& size) {
   if (part.split.axis == KdNode::kLeafAxis) {
     add_size(part.chunk, size);
@@ -40,14 +40,14 @@ uint32_t new_slot(Chunk& tree) {
   return static_cast<uint32_t>(tree.nodes.size() - 1);
 }
 
-/// Appends the leaves [first, end), and their tests.
+/// Appends the leaves [first, end) and their tests to the tree.
 void append_leaves(const Chunk& chunk, uint32_t first, uint32_t end, Chunk& tree) {
   if (first == end) return;
   const auto test_of = [&](uint32_t leaf) {
     return leaf < chunk.leaves.size() ? chunk.leaves[leaf].first_test : chunk.tests.size();
   };
   const uint64_t first_test = test_of(first);
-  const uint64_t grown = tree.tests.size() - first_test;  // modulo 2^64, as it may shrink
+  const uint64_t grown = tree.tests.size() - first_test;  // modulo 2^64, since it may be negative
   const size_t size = tree.leaves.size();
   tree.leaves.insert(tree.leaves.end(), chunk.leaves.begin() + first, chunk.leaves.begin() + end);
   for (size_t i = size; i < tree.leaves.size(); ++i) tree.leaves[i].first_test += grown;
@@ -55,16 +55,16 @@ void append_leaves(const Chunk& chunk, uint32_t first, uint32_t end, Chunk& tree
                     chunk.tests.begin() + static_cast<std::ptrdiff_t>(test_of(end)));
 }
 
-/// Writes the subtrees of a chunk, in order, and what was resumed in it. Gives the memory of
-/// resumed chunks back as it goes.
+/// Writes the subtrees of a chunk in order, with those that were resumed in it, and frees resumed
+/// chunks as it goes.
 class ChunkWriter {
  public:
   ChunkWriter(Chunk& chunk, Chunk& tree) : chunk_(chunk), tree_(tree) {}
 
   bool is_done() const { return root_ == chunk_.roots.size(); }
 
-  /// The next subtree; its root goes to `slot`, its other nodes to the end. As deep as there were
-  /// rounds.
+  /// Writes the next subtree: its root to `slot`, its other nodes to the end. The recursion is as
+  /// deep as there were rounds.
   void write_next(uint32_t slot) {
     const Chunk::Root first = chunk_.roots[root_], end = chunk_.end_of(root_);
     ++root_;
@@ -77,7 +77,7 @@ class ChunkWriter {
 
  private:
   void write_whole(const Chunk::Root& first, const Chunk::Root& end, uint32_t slot) {
-    // By how much indices grow; modulo 2^32, as they may shrink.
+    // Indices grow by these numbers, modulo 2^32, since they may be negative.
     const size_t size = tree_.nodes.size();
     const uint32_t nodes = static_cast<uint32_t>(size) - 1 - first.node;
     const uint32_t leaves = static_cast<uint32_t>(tree_.leaves.size()) - first.leaf;
@@ -95,8 +95,8 @@ class ChunkWriter {
   }
 
   void write_with_resumed(const Chunk::Root& first, const Chunk::Root& end, uint32_t slot) {
-    std::vector<uint32_t> places(end.node - first.node);  // by node, in the tree
-    // Leaves are taken over in runs, up to the next that is replaced.
+    std::vector<uint32_t> places(end.node - first.node);  // by node, its index in the tree
+    // Leaves are copied in runs, up to the next paused one.
     uint32_t first_leaf = first.leaf, leaf = first.leaf;
     for (uint32_t i = first.node; i < end.node; ++i) {
       const uint32_t place = i == first.node ? slot : new_slot(tree_);
@@ -135,10 +135,10 @@ class ChunkWriter {
   Chunk& chunk_;
   Chunk& tree_;
   size_t root_ = 0, paused_ = 0, next_resumed_ = 0;
-  std::unique_ptr<ChunkWriter> resumed_;  // of the resumed chunk that is being written
+  std::unique_ptr<ChunkWriter> resumed_;  // the writer of the resumed chunk that is being written
 };
 
-/// As deep as parts are. Gives their memory back as it goes.
+/// Writes a part, and frees its memory as it goes. The recursion is as deep as parts are nested.
 void place(Part& part, uint32_t slot, Chunk& tree) {
   if (part.split.axis == KdNode::kLeafAxis) {
     ChunkWriter(part.chunk, tree).write_next(slot);

@@ -1,4 +1,4 @@
-// Puts the pieces of a kd-tree together.
+// Assembles the pieces of a kd-tree.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,12 @@
 
 namespace csgcore {
 
-/// The whole tree as the one chunk that one task alone, with no cell paused, would have produced.
+/// Returns the whole tree as one chunk, which is the chunk that a single task would have produced
+/// if no cell had been paused.
 Chunk assemble(std::unique_ptr<Part> part);
 
-/// Puts the subtrees of `chunk` in the places of the nodes `slots` of `tree`: the root of each at
-/// its slot, and the rest behind all that `tree` holds. What was resumed stands in the place of
-/// what was paused.
+/// Puts the subtrees of `chunk`, in order, into `tree`: each root replaces the node at its slot,
+/// and other nodes are appended. Resumed subtrees take the places of the paused cells.
 void place(Chunk chunk, std::span<const uint32_t> slots, Chunk& tree);
 
 }  // namespace csgcore

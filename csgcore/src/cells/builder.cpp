@@ -18,45 +18,46 @@ namespace {
 /// A cell whose longest side is below this many overlaps is not divided further.
 constexpr double kSmallestCellOverlaps = 16;
 
-/// A cell in whose ancestors' last so many divisions not one primitive left, and hardly any empty
-/// space was cut off, is not divided further: what still crosses it coincides with, or meets, the
-/// rest there (paper, figure 2). With a pixel threshold the paper's own rule (case 4) ends the
-/// cells where surfaces meet in a point, which one half of each division contains. Surfaces that
-/// coincide over a face stand in both halves; such cells end here under every rule, as else the
-/// whole face would be dropped.
+/// A cell is not divided further if so many divisions above it dropped not one test and cut off
+/// hardly any empty space: the surfaces that still cross it coincide or meet there (paper, figure
+/// 2). With a pixel threshold this rule applies only to surfaces that coincide over a face, which
+/// stay in both halves of each division: the whole face would be dropped otherwise. Where surfaces
+/// meet in a point, one half of each division contains it, and the paper's own rule (case 4) ends
+/// these cells.
 constexpr uint32_t kStalledDivisions = 9;
-/// Where it is the view that never ends a division (at the eye), coincident surfaces end after so
-/// many of which both halves kept every primitive.
+/// At the eye, the pixel threshold never ends a division. There, a cell is taken for one whose
+/// surfaces coincide after so many divisions in a row in which both halves kept every test.
 constexpr uint32_t kCoincidentDivisions = 14;
-/// A cell below the threshold is asked whether its surfaces coincide if so many divisions in a row
-/// have repeated them all. If so, all of them cross at least n² of n³ smaller cells; surfaces that
-/// meet in a point or along a curve cross about n or fewer.
+/// A cell below the threshold is searched for coincident surfaces if so many divisions in a row
+/// have kept every test in both halves. If the surfaces coincide, all of them cross at least n² of
+/// n³ smaller cells; surfaces that meet in a point or along a curve cross about n or fewer.
 constexpr uint32_t kSuspectDivisions = 4;
 
-/// Dividing a cell repeats the primitives that cross both halves. The leaves may hold so many
-/// tests for each of the solid's, and this many in any case; a cell whose share is used up is
-/// not divided further. It bounds memory and time where surfaces lie so close that dividing hardly
-/// separates them (a thousand nested shells). CSn and CCn need 3 to 6 for each at K = 8, and 70 to
-/// 120 by the paper's rule.
+/// Dividing a cell repeats the primitives that cross both halves. For each test of the solid, the
+/// leaves may hold kTestsPerTest tests, and kTestsInAnyCase tests besides. A cell whose share is
+/// used up is not divided further. This bounds memory and time if surfaces lie so close that
+/// dividing hardly separates them (a thousand nested shells). CSn and CCn need 3 to 6 tests for
+/// each at K = 8, and 70 to 120 by the paper's rules.
 constexpr double kTestsPerTest = 128;
 constexpr double kTestsInAnyCase = 0x1p18;
-/// With a pixel threshold, which bounds the number of cells, lists this short go on all the same:
-/// so short are they where surfaces meet in points, whose cells the paper's rule alone ends.
+/// With a pixel threshold, which bounds the number of cells, cells with lists this short are
+/// divided all the same. Lists are this short where surfaces meet in points, and only the paper's
+/// rule (case 4) should end these cells.
 constexpr uint32_t kFewTests = 32;
 
-/// Lists longer than this are divided as two tasks. A property of the data alone, so that the
-/// result is the same for every number of threads.
+/// The halves of a list longer than this become two tasks. That depends on the data alone, so that
+/// the result is the same for every number of threads.
 constexpr uint32_t kTaskTests = 256;
-/// So many paused cells, which are small, are resumed by one task.
+/// One task resumes so many paused cells, which are small.
 constexpr size_t kResumedTogether = 64;
-/// And so many, at least, in parallel.
+/// Fewer paused cells than this are resumed by one thread.
 constexpr size_t kPausedForTasks = 1024;
-/// Before cells are first paused these shares of the budget may be used up: a larger one by tasks,
-/// since few designs, if any, should pause cells; a smaller one by one task alone, so that what is
-/// dear is divided in parallel.
+/// The first round may use up the budget divided by these numbers before cells are paused: by
+/// kFirstShare if there are several tasks, since few designs, if any, should pause cells; by
+/// kFirstShareAlone if there is one task, so that expensive designs are continued in parallel.
 constexpr uint64_t kFirstShare = 2;
 constexpr uint64_t kFirstShareAlone = 8;
-/// And as long as they last each cell may take so many times its share.
+/// As long as that lasts, each cell may take so many times its share.
 constexpr uint64_t kOvercommitment = 256;
 
 bool has_repeats(std::span<const BlistTest> tests, size_t primitives) {
@@ -68,7 +69,7 @@ bool has_repeats(std::span<const BlistTest> tests, size_t primitives) {
   return false;
 }
 
-/// Whether the list has at most `limit` distinct primitives. `seen` is working memory.
+/// Returns whether the list has at most `limit` distinct primitives. `seen` is working memory.
 bool has_at_most(uint32_t limit, const CellList& list, std::vector<uint32_t>& seen) {
   seen.clear();
   for (const uint32_t primitive : list.primitives()) {
@@ -87,7 +88,7 @@ Cell child_of(const Cell& cell, const Split& split, bool above) {
   return child;
 }
 
-/// One half of a divided cell; `count` tests were divided into `halves`, at this cost.
+/// Returns one half of a divided cell, whose `count` tests were divided into `halves` at this cost.
 Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
               const CellList (&halves)[2], int64_t cost) {
   Cell child = child_of(cell, split, above);
@@ -95,7 +96,7 @@ Cell child_of(const Cell& cell, const Split& split, bool above, uint32_t count,
   if (halves[above].count() < count) {
     child.stalled = child.doubled = 0;
   } else {
-    // Cutting off more than half of the cell as empty space is progress too.
+    // Cutting off more than half of the cell as empty space is progress, too.
     const int axis = static_cast<int>(split.axis);
     const bool halved = child.box.size()[axis] >= 0.5 * cell.box.size()[axis];
     if (!other.is_constant() || halved) ++child.stalled;
@@ -121,7 +122,7 @@ void pause(const Cell& cell, const CellList& list, uint64_t needed, Chunk& chunk
   add_leaf(cell, list, LeafKind::kReplaced, chunk);
 }
 
-/// A subtree that begins with a paused cell, or is an empty one.
+/// Adds a subtree that is one paused cell, or an empty leaf if the list is constant.
 void add_start(const Cell& cell, const CellList& list, uint64_t needed, Chunk& starts) {
   starts.begin_root();
   if (list.is_constant()) {
@@ -144,7 +145,8 @@ double first_allowance(const CellList& list) {
   return kTestsPerTest + kTestsInAnyCase / std::max(list.count(), 1u);
 }
 
-/// The part's chunks in the order of their nodes. As deep as parts are.
+/// Collects the part's chunks in the order of their nodes. The recursion is as deep as parts are
+/// nested.
 void collect_chunks(Part& part, std::vector<Chunk*>& chunks) {
   if (part.split.axis == KdNode::kLeafAxis) {
     chunks.push_back(&part.chunk);
@@ -167,7 +169,7 @@ Builder::Builder(const Solid& solid, const SubdivisionOptions& options, double o
       budget_(options.budget_bytes > 0 ? std::min(options.budget_bytes, kLargestBudget)
                                        : subdivision_budget(solid.list().tests.size())) {}
 
-/// Calls `work`, with as many threads as the options say if in parallel.
+/// Calls `work`, in parallel with as many threads as the options say, or in this thread.
 template <typename Work>
 void Builder::run(bool in_parallel, Work&& work) {
   in_parallel_ = in_parallel && options_.threads != 1;
@@ -177,7 +179,7 @@ void Builder::run(bool in_parallel, Work&& work) {
   }
   const unsigned threads =
       options_.threads == 0 ? std::thread::hardware_concurrency() : options_.threads;
-  // TBB warns on stderr where an arena asks for more threads than the process is allowed.
+  // TBB warns on stderr if an arena asks for more threads than the process is allowed.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     std::max(threads, 1u));
   tbb::task_arena arena(static_cast<int>(std::max(threads, 1u)));
@@ -193,7 +195,7 @@ Chunk Builder::build(const Box& root_box) {
   release(std::move(workspace));
   cell.allowance = first_allowance(list);
   const uint64_t left = budget_ - std::min(budget_, leaf_bytes(list.count()));
-  // Small scenes don't start the thread pool; one task alone needs no assembling afterwards.
+  // Small scenes do not start the thread pool, and a single task needs no assembling.
   const bool small = list.count() <= size_t{kTaskTests} * options_.leaf_primitives;
   cell.credit = left / (small ? kFirstShareAlone : kFirstShare);
   std::unique_ptr<Part> part;
@@ -219,8 +221,8 @@ void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest>
 void Builder::start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts) {
   Cell cell{leaf.box, depth};
   cell.allowance = kTestsPerTest;
-  // What no division separated is divided again only where that now helps at once: else it would
-  // become hundreds of cells, and each of them again with the next edit.
+  // A cell whose surfaces no division separated is divided again only if the first division now
+  // helps. Otherwise it would become hundreds of cells, and more with every edit.
   if (leaf.kind == LeafKind::kFull) cell.stalled = kStalledDivisions - 1;
   add_start(cell, list, costs_.most_division(list.count()), starts);
 }
@@ -239,7 +241,8 @@ bool Builder::finish(Chunk& starts, uint64_t stored_bytes) {
   return resume_paused({&starts}, left_to(starts, stored_bytes));
 }
 
-/// `left` of the budget is left to the chunks and what they have paused.
+/// Resumes the paused cells of the chunks. `left` is the part of the budget that is left to the
+/// chunks, from which their own costs are subtracted first.
 bool Builder::resume_paused(const std::vector<Chunk*>& chunks, int64_t left) {
   size_t paused = 0;
   for (const Chunk* chunk : chunks) {
@@ -355,7 +358,7 @@ std::unique_ptr<Part> Builder::build_part(const Cell& cell, const CellList& list
   return part;
 }
 
-/// The part as one chunk, delivered to the sink.
+/// Builds the part as one chunk, and delivers it to the sink.
 std::unique_ptr<Part> Builder::finish_part(const Cell& cell, const CellList& list) {
   auto part = std::make_unique<Part>();
   auto workspace = acquire();
@@ -369,8 +372,8 @@ std::unique_ptr<Part> Builder::finish_part(const Cell& cell, const CellList& lis
   return part;
 }
 
-/// Recursion is bounded: a division halves the cell's longest side, or takes an eighth off a side
-/// where that separates primitives, down to kSmallestCellOverlaps.
+/// Divides the cell recursively. The depth is bounded: a division halves the longest side, or takes
+/// at least an eighth off a side if that separates primitives, down to kSmallestCellOverlaps.
 void Builder::divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
                      Chunk& chunk) const {
   LeafKind kind = list.is_constant() ? LeafKind::kEmpty : leaf_kind(cell, list, workspace.distinct);
@@ -410,9 +413,9 @@ void Builder::divide(const Cell& cell, const CellList& list, size_t level, Works
   }
 }
 
-/// Whether the cell's surfaces coincide over a face, as far as grids of smaller cells tell: a
-/// coarse one, which answers no to most, and a finer one. None where the credit does not suffice
-/// for the answer. `cost` gets what it costs, or would cost at most.
+/// Returns whether the cell's surfaces coincide over a face, as far as grids of smaller cells tell:
+/// a coarse grid, which rules most cells out, then a finer one. Returns nothing if the credit does
+/// not suffice. `cost` gets the actual cost, or else the highest possible cost of the next grid.
 std::optional<bool> Builder::coincides(const Cell& cell, const CellList& list, uint64_t credit,
                                        Workspace& workspace, uint64_t& cost) const {
   uint32_t probed = 0;
@@ -434,7 +437,8 @@ std::optional<bool> Builder::coincides(const Cell& cell, const CellList& list, u
   return true;
 }
 
-/// The paper's conditions (§2.2), generalised by K; kEmpty: none holds, the cell is divided.
+/// Returns the kind of leaf by the paper's conditions (§2.2), generalised to K primitives; kEmpty
+/// if none holds, so that the cell is to be divided.
 LeafKind Builder::leaf_kind(const Cell& cell, const CellList& list,
                             std::vector<uint32_t>& distinct) const {
   const uint32_t limit = options_.leaf_primitives;
@@ -464,7 +468,7 @@ Split Builder::choose_split(const Cell& cell, const CellList& list) const {
   const Split split = options_.split == SplitRule::kCyclic
                           ? cyclic_split(cell.box, cell.depth)
                           : surface_area_split(solid_.extents(), list, cell.box);
-  // Where coordinates are too coarse for a plane there, the longest side still has room for one
+  // If coordinates are too coarse for a plane there, the longest side still has room for one
   // (is_small).
   const int axis = static_cast<int>(split.axis);
   const bool divides = split.position > cell.box.min[axis] && split.position < cell.box.max[axis];

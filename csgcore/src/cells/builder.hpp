@@ -1,4 +1,4 @@
-// Builds kd subtrees: the recursive division of paper §2.2, as tasks.
+// Builds kd subtrees by the recursive division of paper §2.2, in parallel tasks.
 #pragma once
 
 #include <memory>
@@ -16,21 +16,24 @@ namespace csgcore {
 
 class Builder {
  public:
-  /// Keeps references to all but the overlap.
+  /// Keeps references to all arguments but the overlap.
   Builder(const Solid& solid, const SubdivisionOptions& options, double overlap,
           const BatchSink& sink);
 
-  /// The whole tree. Uses as many threads as the options say; the result does not depend on them.
+  /// Builds the whole tree, with as many threads as the options say. The result does not depend on
+  /// their number.
   Chunk build(const Box& root_box);
 
-  /// Adds to `starts` a cell that is to be divided, of a tree that is there: a leaf at this depth
-  /// that was dropped, with its tests;
+  /// Adds to `starts` a cell of an existing tree that is to be divided: a dropped leaf at this
+  /// depth, with its tests.
   void start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest> tests, Chunk& starts);
-  /// or one whose function has become `list`, which is restricted to it.
+  /// Does the same for a leaf whose function has become `list`, which is restricted to its cell.
   void start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts);
-  /// Whether the budget, of which `stored_bytes` are used, takes all of them a step further.
+  /// Returns whether the budget, of which `stored_bytes` are used, suffices to divide each of the
+  /// starts at least once.
   bool can_divide(const Chunk& starts, uint64_t stored_bytes) const;
-  /// Divides them: `starts` gets a subtree for each, in order. Returns whether the budget sufficed.
+  /// Divides the starts: `starts` gets a subtree for each of them, in order. Returns whether the
+  /// budget sufficed.
   bool finish(Chunk& starts, uint64_t stored_bytes);
 
  private:
@@ -38,7 +41,7 @@ class Builder {
   struct Level {
     CellList halves[2];
   };
-  /// What a task works with.
+  /// The working memory of a task.
   struct Workspace {
     explicit Workspace(const Solid& solid)
         : classifier(solid.primitives()), restrictor(solid.extents(), classifier) {}
@@ -54,7 +57,8 @@ class Builder {
     size_t first, end;
     Chunk* result;
   };
-  /// What is dealt out to paused cells: to each what it needs, and its share of the rest.
+  /// The credit that is dealt out to paused cells: each gets what it needs, and a share of `rest`
+  /// in proportion to its part of all `tests`.
   struct Deal {
     uint64_t rest, tests;
   };
@@ -87,7 +91,7 @@ class Builder {
   const SubdivisionOptions& options_;
   const double overlap_;
   const BatchSink& sink_;
-  bool repeats_ = false;  // some primitive stands in the list more than once
+  bool repeats_ = false;  // the list names some primitive more than once
   bool in_parallel_ = false;
   const CellCosts costs_;
   const uint64_t budget_;  // bytes

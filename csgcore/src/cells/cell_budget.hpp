@@ -1,24 +1,26 @@
-// What a subdivision may cost, and how cells share it.
+// The budget of a subdivision, and how cells share it.
 //
 // No rule of the paper bounds the number of cells where surfaces meet along curves or coincide over
-// faces: however small a cell at a shared rim is, it holds all the primitives that share the rim.
-// With K below their number, the cells along the rim are divided down to the pixel threshold, and
-// the tree holds (length of the rim in pixels) cells for every rim: gigabytes for a vase of 200
-// frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes). It is spent in rounds:
+// faces. However small a cell at a shared rim is, all the primitives that share the rim cross it.
+// If they are more than K, the cells along the rim are divided down to the pixel threshold, and the
+// tree has as many cells for each rim as the rim is pixels long: gigabytes for a vase of 200
+// frusta. So a subdivision has a budget (SubdivisionOptions::budget_bytes), which is spent in
+// rounds:
 //
-// - The root gets a credit. A division is paid for from its cell's credit, and hands the rest on to
-//   the two halves, in proportion to their tests. A cell that cannot pay is paused. The first
-//   round may use up a part of the budget only, and as long as that lasts a cell may take many
-//   times its share: cells of ordinary designs are then hardly ever paused.
-// - When all others are done, what is left of the budget (most subtrees need less than their share)
-//   is dealt out to the paused cells, in proportion to their tests, and they go on: each of them
-//   by a division at least.
-// - Where what is left does not take every paused cell one step further, all of them are given up:
-//   they become leaves with more than K primitives (LeafKind::kGivenUp).
+// - The root cell gets a credit. Each division takes its cost from its cell's credit, and divides
+//   the rest among the two halves in proportion to their tests. A cell whose credit does not
+//   suffice is paused. The first round may use up only a part of the budget; as long as that lasts,
+//   a cell may take many times its share, so that the cells of ordinary designs are hardly ever
+//   paused.
+// - When all other cells are done, the rest of the budget is dealt out to the paused cells in
+//   proportion to their tests (there is a rest, since most subtrees need less than their share).
+//   Each paused cell gets enough for one division at least, and they go on.
+// - If the rest does not suffice to divide every paused cell once, all of them are given up: they
+//   become leaves with more than K primitives (LeafKind::kGivenUp).
 //
-// So all parts of a design go equally short, no cell depends on when another one was divided, and
-// the tree is the same for every number of threads. A design that stays within the budget gets the
-// cells that it would have without one.
+// So all parts of a design are cut short equally, no cell depends on when another one was divided,
+// and the tree is the same for every number of threads. A design that stays within the budget gets
+// the same cells as without a budget.
 #pragma once
 
 #include <algorithm>
@@ -30,11 +32,12 @@
 
 namespace csgcore {
 
-/// Above all memory; times a number of tests it does not overflow.
+/// More than any memory, and small enough that its product with a number of tests does not
+/// overflow.
 constexpr uint64_t kLargestBudget = uint64_t{1} << 40;
 
-/// What it costs to test one primitive against a cell. Time is paid for in bytes, too: it takes
-/// about as long as to make so many bytes of leaves.
+/// Returns the cost of testing one primitive against a cell. Time counts in bytes, too: the test
+/// takes about as long as making so many bytes of leaves.
 inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
   if (!primitive.polyhedron) return 1;
   constexpr uint64_t kFewFaces = 8, kFacesPerByte = 4;
@@ -42,21 +45,23 @@ inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
   return 4 + (std::max(faces, kFewFaces) - kFewFaces) / kFacesPerByte;
 }
 
-/// Costs in bytes. Of a solid's primitives, the mean is taken.
+/// Costs in bytes. `test_cost` is the mean over the solid's primitives.
 class CellCosts {
  public:
   explicit CellCosts(uint64_t test_cost) : test_cost_(test_cost) {}
 
-  /// What the division of a list may cost at most: both halves keep all of it.
+  /// Returns the highest cost of dividing a list of `count` tests: that for two halves which keep
+  /// all of them.
   uint64_t most_division(uint32_t count) const {
     return kDivision + count * (sizeof(BlistTest) + test_cost_);
   }
-  /// What it did cost. Negative where more tests went than the cells take.
+  /// Returns the actual cost of a division. It is negative if the tests that were dropped took more
+  /// bytes than the new cells.
   int64_t division(uint32_t count, uint32_t below, uint32_t above) const {
     return static_cast<int64_t>(kDivision + count * test_cost_) +
            static_cast<int64_t>(sizeof(BlistTest)) * (int64_t{below} + above - count);
   }
-  /// To test a whole list against some boxes.
+  /// Returns the cost of testing a list of `count` tests against some boxes.
   uint64_t probes(uint32_t count, uint32_t boxes) const {
     return boxes * (kProbe + count * test_cost_);
   }
@@ -69,7 +74,7 @@ class CellCosts {
   uint64_t test_cost_;
 };
 
-/// Bytes of a tree that is one leaf.
+/// The bytes of a tree that is one leaf with `count` tests.
 constexpr uint64_t leaf_bytes(uint32_t count) {
   return sizeof(KdNode) + sizeof(Leaf) + count * sizeof(BlistTest);
 }

@@ -5,8 +5,9 @@
 namespace csgcore {
 namespace {
 
-/// Bytes. By the paper's rule, 1 pixel and 640×480, the cells of CS1000 take 12 MB, T1022's 30,
-/// CC10000's 72, CS100000's 202, and 440 at half a pixel.
+/// The default budget, in bytes. By the paper's rules, at a threshold of 1 pixel and 640×480, the
+/// cells of CS1000 take 12 MB, those of T1022 30 MB, of CC10000 72 MB, of CS100000 202 MB, and of
+/// the latter at half a pixel 440 MB.
 constexpr uint64_t kBudgetInAnyCase = uint64_t{64} << 20;
 constexpr uint64_t kBudgetPerTest = 8192;
 constexpr uint64_t kMostBudget = uint64_t{2} << 30;

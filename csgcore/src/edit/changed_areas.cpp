@@ -12,8 +12,8 @@
 namespace csgcore {
 namespace {
 
-/// More changed primitives than this are taken together: to find out which of their rectangles
-/// overlap takes time that grows with the square of their number.
+/// If more primitives than this have changed, one area holds all of them: finding overlaps among
+/// their rectangles takes time that grows with the square of their number.
 constexpr size_t kManyPrimitives = 64;
 
 PixelArea whole_picture(const View& view) { return {0, 0, view.width_px, view.height_px}; }
@@ -30,12 +30,12 @@ bool overlap(const PixelArea& a, const PixelArea& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-/// Whether the two are better taken as one.
+/// Returns whether the two areas should be merged.
 bool belong_together(const PixelArea& a, const PixelArea& b) {
   return overlap(a, b) || size_of(hull(a, b)) <= size_of(a) + size_of(b);
 }
 
-/// Until none overlap. All before `next` are known to stand apart.
+/// Merges areas until no two overlap. No two areas before `next` belong together.
 void merge(std::vector<PixelArea>& areas) {
   for (size_t next = 1; next < areas.size();) {
     const auto at = areas.begin() + static_cast<long>(next);
@@ -51,17 +51,18 @@ void merge(std::vector<PixelArea>& areas) {
   }
 }
 
-/// Finds areas on the screen.
+/// Finds the areas of primitives on the screen.
 class Screen {
  public:
-  /// `bounds`: of the solids, outside of which nothing is seen.
+  /// `bounds` are those of the solids, outside of which nothing is seen.
   Screen(const View& view, const Box& bounds) : view_(view), frame_(frame_rays(view, bounds)) {
-    // Far beyond what rounding does to a ray, far below a pixel.
+    // The margin is far larger than the rounding of a ray, and far smaller than a pixel.
     const double margin = cell_overlap(bounds);
     bounds_ = {bounds.min - margin, bounds.max + margin};
   }
 
-  /// The pixels through any point of which a ray may meet the primitive within the solid's bounds.
+  /// Returns an area that has every pixel with a point through which a ray may meet the primitive
+  /// within the solid's bounds.
   std::optional<PixelArea> area_of(const CanonicalPrimitive& primitive) const {
     const Box box = intersection(primitive.bounds, bounds_);
     if (box.empty()) return std::nullopt;
@@ -109,7 +110,7 @@ class Screen {
     return area;
   }
 
-  /// Those that the extent reaches any point of.
+  /// Returns the pixels along an axis that the extent reaches any point of.
   static Range pixels(const Extent& extent, int axis, uint32_t size_px) {
     const double low = std::ceil(extent.center[axis] - extent.half[axis] - 0.5);
     const double high = std::floor(extent.center[axis] + extent.half[axis] + 0.5) + 1;
@@ -124,7 +125,7 @@ class Screen {
   Box bounds_;
 };
 
-/// By index, whether the solid's tree names the primitive.
+/// Returns, by index, whether the solid's list names the primitive.
 std::vector<uint8_t> named(const Solid& solid) {
   std::vector<uint8_t> result(solid.primitives().size());
   for (const BlistTest& test : solid.list().tests) result[test.primitive] = 1;

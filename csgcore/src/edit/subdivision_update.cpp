@@ -1,4 +1,5 @@
-// Following an edit: only the cells that a changed primitive reaches are subdivided anew.
+// Subdivision::update, which follows an edit: only the cells that a changed primitive reaches are
+// subdivided anew.
 #include <algorithm>
 #include <utility>
 
@@ -10,14 +11,17 @@
 namespace csgcore {
 namespace {
 
-/// To subdivide more than this share of the tests cell by cell takes as long as all at once.
+/// Subdividing cells that hold more than this share of the tests one by one takes as long as
+/// subdividing everything anew.
 constexpr double kMostReplacedAtOnce = 1.0 / 3;
-/// More may be garbage only until all is subdivided anew.
+/// If replaced leaves would hold more than this share of the stored tests, everything is subdivided
+/// anew, which gets rid of them.
 constexpr double kMostReplaced = 0.5;
-/// Each node is held against all changes that reach it: no more than this share of the primitives.
+/// Each node is tested against all changes that reach it, so that no more than this share of the
+/// primitives may have changed.
 constexpr double kMostChanges = 0.02;
 
-/// A primitive before and after the edit; null where it is not there.
+/// A primitive before and after the edit; null if it does not exist then.
 struct Change {
   const CanonicalPrimitive* before;
   const CanonicalPrimitive* after;
@@ -36,7 +40,7 @@ std::vector<Change> changes_of(const Solid& before, const Solid& after, const Sc
   return changes;
 }
 
-/// Whether the function of the cell may be another.
+/// Returns whether the change may change the function of the cell.
 bool concerns(const Change& change, const Box& cell) {
   const auto place = [&](const CanonicalPrimitive* primitive) {
     return primitive ? classify(*primitive, cell) : Classification::kOutside;
@@ -53,7 +57,7 @@ Box half_of(const Box& box, const KdNode& node, bool above) {
 
 class Updater {
  public:
-  /// Keeps references to all but the overlap.
+  /// Keeps references to all arguments but the overlap.
   Updater(const Solid& solid, const SubdivisionOptions& options, double overlap, Chunk& tree)
       : overlap_(overlap),
         tree_(tree),
@@ -62,10 +66,10 @@ class Updater {
         builder_(solid, options, overlap, no_sink_),
         is_changed_(tree.nodes.size()) {}
 
-  /// Marks nodes whose leaves name a primitive that is gone. They are mostly found by their cells,
-  /// too; but a cell may name what a closer look finds outside of it.
+  /// Marks the nodes of leaves that name a removed primitive, and all nodes above them. mark()
+  /// finds most of them; but a leaf may name a primitive that classify() finds outside of its cell.
   void mark_gone(const std::vector<uint32_t>& later_indices) {
-    // Nodes come after the one above them.
+    // A node has a larger index than its parent.
     for (size_t i = tree_.nodes.size(); i-- > 0;) {
       const KdNode& node = tree_.nodes[i];
       if (node.axis != KdNode::kLeafAxis) {
@@ -78,7 +82,8 @@ class Updater {
     }
   }
 
-  /// Marks the node if some leaf below it is concerned.
+  /// Marks the nodes above leaves whose functions the changes may change, and the node itself.
+  /// Returns whether the node is marked.
   bool mark(uint32_t node, const Box& box, std::span<const Change> changes) {
     const Box cell = inflated(box);
     std::vector<Change> own;
@@ -97,7 +102,7 @@ class Updater {
     return is_changed_[node] != 0;
   }
 
-  /// Of the leaves that are to be replaced.
+  /// Counts of the leaves that are to be replaced, and of their tests.
   struct Count {
     uint64_t leaves = 0, tests = 0;
   };
@@ -111,7 +116,7 @@ class Updater {
     return count;
   }
 
-  /// Replaces the marked leaves. `tests` are the whole solid's. Returns whether the budget
+  /// Replaces the marked leaves. `tests` is the list of the whole solid. Returns whether the budget
   /// sufficed.
   bool replace_all(const Box& root_box, std::span<const BlistTest> tests) {
     if (!is_changed_[0]) return true;
@@ -133,8 +138,8 @@ class Updater {
     return std::span(tree_.tests).subspan(leaf.first_test, leaf.test_count);
   }
 
-  /// Starts what replaces the marked leaves at and below the node. As deep as the tree. `list` is
-  /// the solid's function within the node's cell.
+  /// Starts the subtrees that replace the marked leaves at and below the node. `list` is the
+  /// solid's function within the node's cell. The recursion is as deep as the tree.
   void start(uint32_t index, const Box& box, uint32_t depth, const CellList& list) {
     const KdNode& node = tree_.nodes[index];
     if (node.axis == KdNode::kLeafAxis) {
@@ -164,8 +169,8 @@ class Updater {
   Restrictor restrictor_;
   Builder builder_;
   Chunk starts_;
-  std::vector<uint32_t> slots_;      // nodes whose places the subtrees of `starts_` take
-  std::vector<uint8_t> is_changed_;  // by node, of those before the edit
+  std::vector<uint32_t> slots_;      // the nodes that the subtrees of starts_ replace
+  std::vector<uint8_t> is_changed_;  // by node of the tree before the edit
 };
 
 }  // namespace

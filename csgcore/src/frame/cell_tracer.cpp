@@ -12,7 +12,7 @@
 namespace csgcore {
 namespace {
 
-/// Pixels a side that one task traces, and of which rays that a cell cannot decide are collected.
+/// The side of the squares of pixels that tasks trace.
 constexpr uint32_t kTaskSide_px = 32;
 constexpr uint32_t kTileBlocks = kTileSide_px / kPacketHeight_px;
 static_assert(kTileSide_px == kPacketWidth_px);
@@ -22,7 +22,7 @@ void for_each_lane(LaneMask lanes, Visit&& visit) {
   for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<uint32_t>(std::countr_zero(lanes)));
 }
 
-/// Traces the lanes that are wanted of each block of a tile.
+/// Traces the wanted lanes of each block of a tile.
 class LaneVisitor final : public TileVisitor {
  public:
   LaneVisitor(const FrameRays& frame, const Tile& whole, std::span<const LaneMask> lanes,
@@ -57,9 +57,9 @@ class LaneVisitor final : public TileVisitor {
 
 }  // namespace
 
-/// What one task works with.
+/// The working memory of a task.
 struct CellTracer::Workspace {
-  /// A node that some lanes have yet to visit, and the parts of their rays within its cell.
+  /// A node that some lanes have yet to visit, and the ranges of their rays within its cell.
   struct Visit {
     uint32_t node;
     LaneMask lanes;
@@ -72,7 +72,7 @@ struct CellTracer::Workspace {
   uint64_t rays = 0;
 };
 
-/// One packet's way through the tree.
+/// The traversal of the tree by one packet.
 class CellTracer::Traversal {
  public:
   Traversal(CellTracer& owner, const PacketBlock& block, Workspace& workspace)
@@ -81,9 +81,9 @@ class CellTracer::Traversal {
     invert_directions(rays_, inverses_);
   }
 
-  /// Stores what it decides; returns the lanes that cells cannot decide.
+  /// Stores the pixels that cells can decide. Returns the other lanes.
   LaneMask trace() {
-    // Lanes that run in different directions along an axis meet the cells in different orders.
+    // Lanes whose directions differ in sign along an axis meet the cells in different orders.
     for (LaneMask left = block_.lanes; left != 0;) {
       const uint32_t first = static_cast<uint32_t>(std::countr_zero(left));
       LaneMask group = 0;
@@ -108,7 +108,7 @@ class CellTracer::Traversal {
     return result;
   }
 
-  /// The part of each ray in the root cell; the lanes that have one.
+  /// Finds the range of each ray in the root cell. Returns the lanes that have one.
   LaneMask clip_to_root(LaneMask lanes, PacketRange& range) {
     const Box& box = tree_.root_box();
     LaneMask result = 0;
@@ -158,7 +158,7 @@ class CellTracer::Traversal {
     }
   }
 
-  /// Goes on to the half that lanes come to first; the other waits on the stack.
+  /// Goes on to the half that the lanes reach first, and pushes the other one onto the stack.
   void divide(Workspace::Visit& visit, uint32_t signs) {
     const KdNode& node = tree_.nodes()[visit.node];
     const int axis = static_cast<int>(node.axis);
@@ -185,7 +185,7 @@ class CellTracer::Traversal {
       return;
     }
     assign(workspace_.list, tree_.tests_of(leaf));
-    // Of few primitives, all are intersected.
+    // A leaf has few primitives, all of which are intersected.
     workspace_.nearest.assign(leaf.test_count, -std::numeric_limits<double>::max());
     const TraceList list{tree_.solid().primitives().data(), &workspace_.list,
                          workspace_.nearest.data(), -std::numeric_limits<double>::max()};
@@ -214,7 +214,7 @@ class CellTracer::Traversal {
   PacketInverses inverses_;
   LaneMask done_ = 0;
   LaneMask undecided_ = 0;
-  LaneMask known_ = 0;  // lanes whose value at the eye is known: in eye_inside_
+  LaneMask known_ = 0;  // lanes whose value at the eye is known and in eye_inside_
   LaneMask eye_inside_ = 0;
 };
 
@@ -260,8 +260,7 @@ void CellTracer::trace_tile(const Tile& tile, Workspace& workspace) {
   if (!all_decided) trace_by_tile(tile, undecided);
 }
 
-/// Crossings that coincide are taken together along the whole ray, and so with the whole list: that
-/// of the rays' tile.
+/// Coincidence resolution needs the whole ray, and so the list of the rays' tile.
 void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undecided) {
   LaneVisitor visitor(frame_, tile, undecided, sink_);
   tile_tracer().visit(tile, visitor);

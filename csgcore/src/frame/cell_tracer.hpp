@@ -1,4 +1,5 @@
-// Traces a picture through the cells of a kd-tree (paper §2.3: front to back), a packet at a time.
+// Traces a picture through the cells of a kd-tree, from front to back (paper §2.3), packet by
+// packet.
 #pragma once
 
 #include <memory>
@@ -10,15 +11,15 @@
 
 namespace csgcore {
 
-/// One frame.
+/// Traces one frame.
 class CellTracer {
  public:
-  /// Keeps references to all but the parameters.
+  /// Keeps references to all arguments but the parameters.
   CellTracer(const Subdivision& subdivision, const FrameRays& frame,
              const TraceParameters& parameters, HitSink& sink, CullReasons& cull_reasons);
   ~CellTracer();
 
-  /// The area's pixels, through their centres, in parallel.
+  /// Traces the area's pixels through their centres, in parallel.
   void trace(const PixelArea& area);
 
   TileTracer::Counts counts() const;

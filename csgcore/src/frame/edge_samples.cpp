@@ -11,7 +11,8 @@ namespace {
 
 constexpr uint32_t kBlockSide_px = 8;
 
-/// Of 255, in any channel: less is no edge that anybody sees, but shading that changes smoothly.
+/// A difference in any channel, of 255, up to which neighbours show no visible edge but smooth
+/// shading.
 constexpr int kEdgeContrast = 10;
 
 bool differs(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
@@ -29,7 +30,9 @@ EdgeMap::EdgeMap(const Image& image, const PixelArea& area)
   const auto mark = [&](uint32_t x, uint32_t y) {
     x -= area_.x;
     y -= area_.y;
-    if (x >= area_.width || y >= area_.height) return;  // wrapped around if above or to the left
+    if (x >= area_.width || y >= area_.height)
+      return;  // wrapped around if it lies above or to the
+               // left
     uint8_t& edge = edges_[size_t{y} * area_.width + x];
     count_ += edge == 0;
     edge = 1;
@@ -94,7 +97,8 @@ void KeptColors::restore_around(const PixelArea& replaced, Image& image) const {
   }
 }
 
-/// Fills packets with the samples of one pixel after the other, whatever their number.
+/// Fills packets with the samples of pixels one after the other; a pixel's samples may be in two
+/// packets.
 class EdgeVisitor::Batch {
  public:
   Batch(EdgeVisitor& owner, TileRays& rays) : owner_(owner), rays_(rays) {}
@@ -109,7 +113,7 @@ class EdgeVisitor::Batch {
     }
   }
 
-  /// Traces what is left.
+  /// Traces the samples that are in the packet.
   void flush() {
     if (size_ == 0) return;
     for (uint32_t lane = size_; lane < kPacketRays; ++lane) {
@@ -146,7 +150,7 @@ class EdgeVisitor::Batch {
   PacketLaterals laterals_;
   size_t pixel_of_[kPacketRays];
   uint32_t size_ = 0;
-  double sum_[3] = {};  // of the pixel that is being summed up
+  double sum_[3] = {};  // of the samples of the current pixel
   uint32_t summed_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Antialiasing: more rays for the pixels at which an edge shows.
+// Antialiasing: more rays for pixels that show an edge.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace csgcore {
 
-/// The pixels of an area that differ visibly from one of their direct neighbours, which may lie
-/// beyond it.
+/// The edge pixels of an area, which differ visibly from a direct neighbour. The neighbour may lie
+/// outside of the area.
 class EdgeMap {
  public:
   EdgeMap(const Image& image, const PixelArea& area);
-  /// Of a pixel, or a tile, of the area.
+  /// Returns whether a pixel of the area is an edge pixel.
   bool is_edge(uint32_t x, uint32_t y) const {
     return edges_[size_t{y - area_.y} * area_.width + (x - area_.x)] != 0;
   }
@@ -24,18 +24,18 @@ class EdgeMap {
   PixelArea area_;
   uint32_t block_columns_;
   std::vector<uint8_t> edges_;   // per pixel
-  std::vector<uint8_t> blocks_;  // per block of kBlockSide_px: whether it has any
+  std::vector<uint8_t> blocks_;  // per block of kBlockSide_px a side: whether it has any
   uint64_t count_ = 0;
 };
 
-/// Within the picture, the pixels of the area and so many around it.
+/// Returns the area enlarged by `by_px` pixels on each side, within the picture.
 PixelArea grown(const PixelArea& area, uint32_t by_px, const View& view);
 
-/// Colours of a picture's area, to be put back.
+/// A copy of the colours of a picture's area, which can be restored.
 class KeptColors {
  public:
   KeptColors(const Image& image, const PixelArea& area);
-  /// Those that lie outside of `replaced`, which is a part of the area.
+  /// Restores the colours outside of `replaced`, which must be a part of the area.
   void restore_around(const PixelArea& replaced, Image& image) const;
 
  private:
@@ -46,7 +46,7 @@ class KeptColors {
 /// Replaces the colours of edge pixels by the mean of `samples` rays (sample_pattern.hpp).
 class EdgeVisitor final : public TileVisitor {
  public:
-  /// `sink` gives the colours; rgb of `image` is written.
+  /// `sink` gives the shading and the background; only `rgb` of `image` is written.
   EdgeVisitor(const EdgeMap& edges, uint32_t samples, const FrameRays& frame, const ImageSink& sink,
               Image& image)
       : edges_(edges), samples_(samples), frame_(frame), sink_(sink), image_(image) {}

@@ -38,7 +38,7 @@ TraceParameters parameters_of(const Solid& solid, const TraceOptions& options) {
   return parameters;
 }
 
-/// Each pixel through its centre.
+/// Traces each pixel through its centre.
 class PixelVisitor final : public TileVisitor {
  public:
   PixelVisitor(const FrameRays& frame, HitSink& sink) : frame_(frame), sink_(sink) {}
@@ -88,7 +88,7 @@ void count_cull_reasons(const Solid& solid, const CullReasons& cull_reasons, Tra
   }
 }
 
-/// One frame of a solid.
+/// Draws one frame of a solid.
 class Frame {
  public:
   Frame(const Solid& solid, const View& view, const TraceOptions& options, TraceStats& stats)
@@ -105,7 +105,7 @@ class Frame {
 
   const FrameRays& rays() const { return rays_; }
 
-  /// By a kd-tree, or by tiles without one.
+  /// Traces by a kd-tree, or by tiles if `subdivision` is null.
   void trace(const Subdivision* subdivision, HitSink& sink) { trace(subdivision, area_, sink); }
 
   void draw(const Subdivision* subdivision, const FrameSettings& settings, Image& image) {
@@ -114,8 +114,9 @@ class Frame {
       trace(subdivision, area_, sink);
       return;
     }
-    // The area's pixels may make edges of those beside them, and whether these are edges depends on
-    // those beyond: on the colours of their centres, which `image` holds no longer.
+    // The area's pixels may make edges of the pixels beside them. Whether these are edges depends
+    // on their neighbours further out, by the colours of pixels' centres, which `image` no longer
+    // holds.
     const PixelArea sampled = grown(area_, 1, rays_.view);
     const PixelArea looked_at = grown(area_, 2, rays_.view);
     const KeptColors kept(image, looked_at == sampled ? PixelArea{} : looked_at);
@@ -124,7 +125,7 @@ class Frame {
     kept.restore_around(sampled, image);
   }
 
-  /// Counts what was skipped, if wanted.
+  /// Counts the skipped primitives, if wanted.
   void finish() {
     if (cull_reasons_.wanted()) count_cull_reasons(solid_, cull_reasons_, stats_);
   }
@@ -139,7 +140,7 @@ class Frame {
         tracer.trace(area);
         add(tracer.counts());
         stats_.tiles = 0;
-        // What stands in some cell, and was not met there, lies behind what was.
+        // A primitive that some cell names, and that was not intersected, lies behind visible ones.
         for (const BlistTest& test : subdivision->tests()) {
           cull_reasons_.note(test.primitive, CullReason::kHidden);
         }

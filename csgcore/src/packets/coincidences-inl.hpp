@@ -1,5 +1,5 @@
-// The crossings that coincide with those at which the lanes of a packet stand, where it is plain
-// which those are (NUMERICS.md, "Coincidences"). Included once per instruction set.
+// Coincidence resolution for all lanes of a packet at once, where it is plain which crossings
+// coincide (NUMERICS.md, "Coincidences"). Included once per instruction set.
 #if defined(CSGCORE_CLUSTERS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_CLUSTERS_INL_HPP
 #undef CSGCORE_CLUSTERS_INL_HPP
@@ -16,20 +16,20 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// A coincidence is told here if this many times the tolerance lies between its crossings and all
-/// others; and none of its faces is met at an angle at which a primitive kApart away might be
-/// together with it, so many times over. The rest is the RayResolver's: rays that pass within some
-/// tolerances of an edge, or along a face.
+/// A coincidence is *plain* if its crossings are at least this many tolerances away from all other
+/// crossings, and if none of its faces is met at so small an angle that a primitive separated by
+/// kApart, divided by this number, might coincide with it. RayResolver handles the rest: rays that
+/// pass within some tolerances of an edge, or along a face.
 constexpr double kPlain = 2.0;
 
-/// The coincidences at which lanes stand.
+/// The coincidences at the lanes' t.
 struct Coincidences {
-  LaneMask plain = 0;   // lanes whose coincidence is told
-  LaneMask turned = 0;  // of these, the lanes whose value behind it is another one than before
-  PacketV end;          // its last crossing
+  LaneMask plain = 0;   // lanes whose coincidence is plain
+  LaneMask turned = 0;  // of these, the lanes whose value changes across the coincidence
+  PacketV end;          // t of its last crossing
 };
 
-/// Finds coincidences, of one packet and list.
+/// Finds coincidences of one packet and list.
 class CoincidenceFinder {
  public:
   CoincidenceFinder(const FrameRays& frame, const RayPacket& rays, const TraceList& trace,
@@ -51,8 +51,8 @@ class CoincidenceFinder {
     }
   }
 
-  /// Finds the coincidences of lanes that stand at a boundary, up to which their value is `value`;
-  /// crossings up to `from` are behind them.
+  /// Finds the coincidences of lanes whose t is at a boundary, and whose value before it is
+  /// `value`. Crossings up to `from` are passed already.
   HWY_NOINLINE Coincidences find(const Walk& walk, LaneMask lanes, bool value,
                                  const PacketV& from) {
     const Wide d;
@@ -85,7 +85,7 @@ class CoincidenceFinder {
     return coincidences;
   }
 
-  /// Keeps in the hits what those lanes show whose coincidence turned: the last find's.
+  /// Stores the hits of lanes whose coincidence, as the last find() found it, has turned.
   HWY_NOINLINE void show(LaneMask lanes, PacketHits& hits) {
     const int32_t* const shown = states_[0].lane;
     for (LaneMask left = lanes; left != 0;) {
@@ -103,14 +103,15 @@ class CoincidenceFinder {
  private:
   using Ints = hn::CappedTag<int32_t, 16>;
 
-  /// Keeps what the primitive shows.
+  /// Stores the primitive's crossings as the hits of the lanes.
   void show_primitive(uint32_t primitive, LaneMask lanes, PacketHits& hits) {
     const Wide d;
     for (uint32_t index = 0; lanes != 0 && index < trace_.list->count(); ++index) {
       const uint32_t entry = trace_.list->primitive[index];
       if ((entry & kPrimitiveBits) != primitive) continue;
       const bool complement = (entry & CellList::kComplementBit) != 0;
-      // If a primitive stands in the list both ways, one of its tests turns so.
+      // If the list has the primitive both as such and as a complement, one of its tests turns this
+      // way.
       const bool at_end = complement != value_;
       const PacketSegments& segment = segments_.compute(index, lanes);
       const double* const own = at_end ? segment.end : segment.start;
@@ -143,14 +144,15 @@ class CoincidenceFinder {
     }
   }
 
-  /// Whether a crossing coincides with that where the lanes stand, as far as length tells: no
-  /// normal is longer than the ray's direction.
+  /// Returns whether a crossing is less than the tolerance away along the ray from that at the
+  /// lanes' t. Then the two coincide whatever their normals, since |n·d| ≤ |d|.
   HWY_INLINE WideM is_near(WideV crossing, int chunk) const {
     const WideV gap = hn::Abs(hn::Sub(crossing, t_.chunk[chunk]));
     return hn::And(hn::Lt(gap, near_.chunk[chunk]), hn::Lt(from_.chunk[chunk], crossing));
   }
 
-  /// The lanes that are to be intersected with a primitive; the others are outside of it there.
+  /// Returns the lanes that must be intersected with a primitive. The others lie outside of it
+  /// there.
   HWY_INLINE LaneMask lanes_to_ask(uint32_t index) {
     const Wide d;
     LaneMask asked = lanes_ & segments_.reached(index);
@@ -169,7 +171,8 @@ class CoincidenceFinder {
     return asked & ~apart;
   }
 
-  /// What becomes of the test (of its negation, where the solid ends) in the coincidence.
+  /// Writes the test's state in the coincidence; that of its negation if `value_` is true, so that
+  /// what ends is treated like what starts.
   HWY_INLINE void write_state(uint32_t index, PacketStates& states) {
     const Wide d;
     const uint32_t entry = trace_.list->primitive[index];
@@ -215,8 +218,8 @@ class CoincidenceFinder {
     }
   }
 
-  /// How far from the coincidence the nearest of all other crossings is; and where the coincidence
-  /// ends.
+  /// Updates gap_, the distance to the nearest crossing outside of the coincidence, and end_, the
+  /// last crossing in it.
   HWY_INLINE void keep_gap(WideM is_near, WideV crossing, int c) {
     WideV& gap = gap_.chunk[c];
     const WideV other = hn::Abs(hn::Sub(crossing, t_.chunk[c]));
@@ -225,7 +228,7 @@ class CoincidenceFinder {
     end = hn::IfThenElse(is_near, hn::Max(end, crossing), end);
   }
 
-  /// The least |n·d| of the coincidence's crossings: thickness per τ.
+  /// Updates facing_, the least |n·d| of the coincidence's crossings: thickness per unit of t.
   HWY_INLINE void keep_facing(uint32_t index, LaneMask lanes, LaneMask on_cap, const PacketV& t) {
     if (lanes == 0) return;
     Lanes3<Wide> normals[kChunks];
@@ -248,7 +251,7 @@ class CoincidenceFinder {
       const auto b = hn::Load(i, to.lane + first);
       const auto last = hn::Max(a, b);
       const auto first_of_both = hn::Min(a, b);
-      // turning::union_of and turning::intersection_of.
+      // These are turning::union_of and turning::intersection_of.
       if (is_union) {
         const auto hands_over = hn::And(hn::Eq(first_of_both, ends), hn::Gt(last, ends));
         hn::Store(hn::IfThenElse(hands_over, holds, last), i, to.lane + first);
@@ -260,7 +263,7 @@ class CoincidenceFinder {
     }
   }
 
-  /// Whether nothing beside the coincidence can be together with it.
+  /// Returns the lanes with whose coincidence no other crossing can coincide.
   LaneMask plain_lanes() const {
     const Wide d;
     LaneMask plain = 0;
@@ -294,8 +297,8 @@ class CoincidenceFinder {
   ListSegments& segments_;
   ListExpression& expression_;
   std::vector<PacketStates>& states_;
-  PacketV near_;  // in τ: crossings nearer than that are together, whatever their normals
-  // What one find works with:
+  PacketV near_;  // in t: crossings nearer than that coincide, whatever their normals
+  // The state of one find():
   LaneMask lanes_ = 0;
   bool value_ = false;
   bool any_apart_ = false;

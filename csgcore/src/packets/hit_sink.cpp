@@ -17,7 +17,7 @@ Vec3 position_of(const FrameRays& frame, const RayPacket& rays, const PacketHits
   return frame.pivot + (lane_of(rays.origin, lane) + hits.t[lane] * lane_of(rays.direction, lane));
 }
 
-/// Calls back with the lane and the pixel's place in a picture of this width.
+/// Calls visit(lane, index) for each pixel of the block, with its index in a picture of this width.
 template <typename Visit>
 void for_each_pixel(const PacketBlock& block, uint32_t width_px, Visit&& visit) {
   for (LaneMask left = block.lanes; left != 0; left &= left - 1) {
@@ -48,7 +48,7 @@ void copy_pixels(const PacketPixels& pixels, const PacketBlock& block, uint32_t 
   }
 }
 
-/// Calls back with the first pixel's place in each row of the tile.
+/// Calls visit(index) for the first pixel of each row of the tile.
 template <typename Visit>
 void for_each_row(const Tile& tile, uint32_t width_px, Visit&& visit) {
   for (uint32_t y = tile.y; y < tile.y + tile.height; ++y) visit(size_t{y} * width_px + tile.x);
@@ -116,7 +116,7 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
 void ImageSink::clear(const Tile& tile) {
   Rgb8* const top = &image_.rgb[size_t{tile.y} * image_.width_px + tile.x];
   std::fill_n(top, tile.width, background_);
-  for (uint32_t y = 1; y < tile.height; ++y) {  // many bytes at a time
+  for (uint32_t y = 1; y < tile.height; ++y) {  // copies many bytes at a time
     std::copy_n(top, tile.width, top + size_t{y} * image_.width_px);
   }
   if (!measured_) return;

@@ -1,4 +1,4 @@
-// Where traced packets go: pictures, or hits in memory.
+// Receivers of traced packets, which store them as pictures or as hits in memory.
 #pragma once
 
 #include "csgcore/hits.hpp"
@@ -9,18 +9,18 @@
 
 namespace csgcore {
 
-/// Called by all threads, for each pixel from one of them.
+/// Receives the hits of packets. All threads call it, but each pixel is passed once.
 class HitSink {
  public:
   virtual ~HitSink() = default;
-  /// Nothing is seen in the tile.
+  /// Stores misses in all pixels of the tile.
   virtual void clear(const Tile& tile) = 0;
-  /// Lanes that hit nothing are misses.
+  /// Stores the block's pixels. Lanes without a hit are misses.
   virtual void store(const PacketBlock& block, const RayPacket& rays, const TraceList& list,
                      const PacketHits& hits) = 0;
 };
 
-/// Fills a Hits.
+/// Stores hits in a Hits object.
 class MemorySink final : public HitSink {
  public:
   MemorySink(const FrameRays& frame, Hits& hits);
@@ -33,7 +33,7 @@ class MemorySink final : public HitSink {
   Hits& hits_;
 };
 
-/// Shades an Image.
+/// Shades hits into an Image.
 class ImageSink final : public HitSink {
  public:
   ImageSink(const FrameRays& frame, const FrameSettings& settings, const Box& solid_bounds,

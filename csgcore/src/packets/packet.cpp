@@ -1,5 +1,5 @@
 // Compiled once per instruction set by Highway. Multiplications and additions are never fused, and
-// what one lane gets does not depend on the others: every instruction set gives the same bits.
+// the result of a lane does not depend on other lanes: every instruction set gives the same bits.
 #include "packets/packet.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -26,12 +26,12 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// What makes the primitive's normals those of the solid (paper §3.2, step 4).
+/// Returns the factor that makes the primitive's normals those of the solid (paper §3.2, step 4).
 HWY_INLINE WideV outward_sign(const TraceList& list, uint32_t index) {
   return hn::Set(Wide(), is_complement(list, index) ? -1.0 : 1.0);
 }
 
-/// The test's normals at its crossings τ = t, outward of the solid.
+/// Returns the normals at the crossings t of the test's primitive, outward of the solid.
 HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
                                        const TraceList& list, uint32_t index, WideV t,
                                        LaneMask on_cap, int chunk) {
@@ -43,21 +43,21 @@ HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& 
                 outward_sign(list, index));
 }
 
-/// What lies where the lanes stand.
+/// The crossings at the lanes' t.
 struct Crossings {
   Lanes3<Wide> normal[kChunks];
-  PacketV facing;    // |n·d|: thickness per τ
-  LaneMask unclear;  // lanes with no crossing there, or several together
+  PacketV facing;    // n·d|, the thickness per unit of t
+  LaneMask unclear;  // lanes without a crossing at t, or whose crossing may coincide
 };
 
-/// Looks for the crossings at which the lanes stand, and keeps in the hits what they show.
+/// Finds the crossings at the lanes' t, and stores their index, normal and on_cap in `hits`.
 HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& rays,
                                     const TraceList& trace, const TraceParameters& parameters,
                                     ListSegments& segments, const Walk& walk, LaneMask lanes,
                                     PacketHits& hits) {
   const Wide d;
   Crossings result;
-  PacketV gap;  // to the next other crossing
+  PacketV gap;  // in t, to the nearest other crossing
   for (int c = 0; c < kChunks; ++c) {
     gap.chunk[c] = hn::Set(d, kInfinity);
     result.normal[c] = broadcast(d, Vec3{0.0});
@@ -121,7 +121,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     const WideV thickness = hn::Mul(gap.chunk[c], facing);
     together |= bits_of(hn::Le(thickness, hn::Set(d, parameters.thickness_tolerance)), c);
     if (any_apart) {
-      // The cosine at which kApart is the thinnest piece.
+      // At this cosine a separation by kApart measures just one tolerance along the normal.
       const WideV cosine2 =
           hn::Mul(hn::Mul(facing, facing), hn::Load(d, rays.inverse_length2 + first_lane(c)));
       together |= bits_of(hn::Le(cosine2, hn::Set(d, 1 / (kApart * kApart))), c);
@@ -176,9 +176,9 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
   }
 }
 
-/// The hits of lanes that stand at their first boundary, with which other crossings may coincide,
-/// or which want the one behind it. Lanes whose coincidence is plain go on from coincidence to
-/// coincidence together; the others are left to the resolver, one by one.
+/// Finds the hits of lanes at whose first boundary other crossings may coincide, or that show the
+/// boundary behind it. Lanes whose coincidences are plain (coincidences-inl.hpp) go on from one to
+/// the next together. The others are left to RayResolver, one by one.
 HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                                      const TraceList& list, const TraceParameters& parameters,
                                      const double* leave, Walk walk, ListSegments& segments,
@@ -263,7 +263,7 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   const Crossings crossings =
       show_crossings(frame, rays, list, parameters, segments, walk, left, hits);
   hits.undecided |= crossings.unclear;
-  // What may be together with the hit must lie where the list is valid.
+  // All crossings that may coincide with the hit must lie where the list is valid.
   const auto thinnest2 =
       hn::Set(d, parameters.thickness_tolerance * parameters.thickness_tolerance);
   for (int c = 0; c < kChunks; ++c) {

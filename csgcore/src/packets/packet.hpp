@@ -1,4 +1,4 @@
-// Traces packets of rays through lists: the evaluation that tiles and kd cells share.
+// Traces packets of rays through Boolean lists. Tiles and kd cells share this evaluation.
 #pragma once
 
 #include "packets/ranges.hpp"
@@ -7,14 +7,14 @@
 
 namespace csgcore {
 
-/// The first hit of each lane in `lanes` along its whole ray.
+/// Finds the first hit of each lane in `lanes` along its whole ray.
 void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceParameters& parameters,
                   PacketWorkspace& workspace, PacketHits& hits);
 
-/// The same within a range. `eye_inside`: the solid's value at the eye, of the lanes in `known`;
-/// that of others is the value at their `enter`. Lanes that the range alone cannot decide come back
-/// as undecided.
+/// Does the same within a range. `eye_inside` is the solid's value at the eye for the lanes in
+/// `known`; for other lanes it is the value at range.enter. Lanes that the range alone cannot
+/// decide are returned in hits.undecided.
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
                            const TraceParameters& parameters, LaneMask known, LaneMask eye_inside,

@@ -3,7 +3,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -39,7 +39,7 @@ RangeSplit split_range(const RayPacket& rays, const PacketInverses& inverses, in
     const size_t first = first_lane(c);
     const auto gap = hn::Sub(hn::Set(d, plane), hn::Load(d, rays.origin[axis] + first));
     const auto product = hn::Mul(gap, hn::Load(d, inverses.inverse[axis] + first));
-    // A ray within the plane (0·∞) counts as beyond.
+    // A ray within the plane (0·∞ = NaN) counts as beyond.
     const auto t = hn::IfThenElse(hn::Eq(product, product), product, hn::Set(d, -kInfinity));
     const auto enter = hn::Load(d, range.enter + first);
     const auto leave = hn::Load(d, range.leave + first);

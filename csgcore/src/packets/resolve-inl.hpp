@@ -1,5 +1,5 @@
-// One ray on which crossings coincide: they are taken together (NUMERICS.md, "Coincidences").
-// Included once per instruction set.
+// Coincidence resolution for single rays (NUMERICS.md, "Coincidences"). Included once per
+// instruction set.
 #if defined(CSGCORE_RESOLVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_RESOLVE_INL_HPP
 #undef CSGCORE_RESOLVE_INL_HPP
@@ -22,15 +22,15 @@ namespace HWY_NAMESPACE {
 
 using Event = PacketWorkspace::Event;
 
-/// Crossings at which the solid's value changes are its boundaries. Two crossings are together if
-/// they lie less than the tolerance apart, measured along the normal of that of the two which the
-/// ray meets more squarely. A coincidence is a maximal run of boundaries each together with the
-/// next.
+/// Finds the crossing that a ray shows, by the letter of the definition. A boundary is a crossing
+/// at which the solid's value changes. Two crossings coincide if they lie less than the tolerance
+/// apart, measured along the normal of the surface that the ray meets more squarely. A coincidence
+/// is a maximal run of boundaries each of which coincides with the next.
 class RayResolver {
   static constexpr uint32_t kNone = 0xFFFFFFFFu;
 
  public:
-  /// All of the list's segments are computed for the lane.
+  /// The segments of all of the list's primitives must be computed for the lane.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
               const TraceList& trace, const TraceParameters& parameters, PacketWorkspace& workspace)
       : frame_(frame),
@@ -54,8 +54,8 @@ class RayResolver {
     Event event;
     bool on_cap;
   };
-  /// The crossing that the ray shows, if any. No boundary lies before t; `value` is that at the
-  /// eye.
+  /// Returns the crossing that the ray shows, if any. No boundary may lie before t; `value` is the
+  /// solid's value at the eye.
   std::optional<Shown> resolve(double t, bool value) {
     collect();
     const auto at_t = std::lower_bound(events_.begin(), events_.end(), t,
@@ -77,11 +77,11 @@ class RayResolver {
   }
 
  private:
-  /// Boundaries [first, last] of which each is together with the next. The boundaries next to them
-  /// lie before `begin` and not before `end`.
+  /// A coincidence: a run of boundaries in events_[first] to events_[last]. The boundary before it
+  /// has an index below `begin`, and the one after it has the index `end`.
   struct Coincidence {
     size_t begin, first, last, end;
-    bool turns;  // the value after it is not that before it
+    bool turns;  // the value after it differs from that before it
   };
 
   const CellList& list() const { return *trace_.list; }
@@ -89,8 +89,8 @@ class RayResolver {
     return list().primitive[event.index] & kPrimitiveBits;
   }
 
-  /// What was crossed up to the eye is behind it. A primitive that stands in the list more than
-  /// once is crossed once, by the first of its tests.
+  /// Collects the crossings beyond the eye, in order. A primitive with several tests is crossed
+  /// once, by the first of them.
   void collect() {
     find_repeats();
     events_.clear();
@@ -109,7 +109,7 @@ class RayResolver {
     passed_ = 0;
   }
 
-  /// For each test the next one of the same primitive.
+  /// Finds, for each test, the next test of the same primitive.
   void find_repeats() {
     const uint32_t count = list().count();
     repeats_.assign(count, kNone);
@@ -127,7 +127,7 @@ class RayResolver {
     }
   }
 
-  // `inside_` is that of a point after the first passed_ crossings.
+  // inside_ belongs to a point after the first passed_ crossings.
   void flip(uint32_t index) {
     for (; index != kNone; index = repeats_[index]) inside_[index] = !inside_[index];
   }
@@ -145,7 +145,8 @@ class RayResolver {
     return number == CellList::kTrue;
   }
 
-  /// Passes the first crossing that changes the value, which is `value` now; the crossing's place.
+  /// Passes crossings up to the first one that changes the value, which is `value` now. Returns the
+  /// index of that crossing.
   size_t next_boundary(bool value) {
     while (passed_ < events_.size()) {
       flip(events_[passed_++].index);
@@ -154,7 +155,8 @@ class RayResolver {
     return events_.size();
   }
 
-  /// `first` was passed, and changed the value from what it is before the coincidence.
+  /// Returns the coincidence that begins with `first`, which has just been passed. `value` is the
+  /// value before it.
   Coincidence coincidence_of(size_t begin, size_t first, bool value) {
     Coincidence coincidence{begin, first, first, events_.size(), true};
     for (;;) {
@@ -173,7 +175,7 @@ class RayResolver {
     return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
   }
 
-  /// |n·d| there: thickness per τ.
+  /// Returns |n·d| at the crossing: thickness per unit of t.
   double facing(const Event& event) const {
     const Single d;
     const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
@@ -184,13 +186,14 @@ class RayResolver {
 
   bool together(const Event& a, const Event& b) const {
     const double gap = std::abs(b.t - a.t);
-    if (gap * length_ < parameters_.thickness_tolerance) return true;  // |n·d| ≤ |d|
+    if (gap * length_ < parameters_.thickness_tolerance) return true;  // since |n·d| ≤ |d|
     return gap * std::max(facing(a), facing(b)) < parameters_.thickness_tolerance;
   }
 
-  /// The crossings by which a coincidence changes the primitives: its own, and those together with
-  /// its first or last boundary, which rounding alone may have kept from being boundaries. In order
-  /// of the primitives; `inside_` is left as it is after all of them.
+  /// Collects the crossings by which a coincidence changes the primitives: its own, and those that
+  /// coincide with its first or last boundary, which only rounding may have kept from being
+  /// boundaries. They are in the order of the primitives. Leaves inside_ at a point after all of
+  /// them.
   void collect_changes(const Coincidence& coincidence) {
     const auto place = [&](size_t i) { return events_.begin() + static_cast<long>(i); };
     changed_.assign(place(coincidence.first), place(coincidence.last + 1));
@@ -212,7 +215,7 @@ class RayResolver {
     drop_what_came_back();
   }
 
-  /// What is both entered and left has not changed.
+  /// Drops both crossings of primitives that are entered and left.
   void drop_what_came_back() {
     std::sort(changed_.begin(), changed_.end(), [&](const Event& a, const Event& b) {
       const uint32_t primitives[] = {primitive_of(a), primitive_of(b)};
@@ -229,13 +232,14 @@ class RayResolver {
     changed_.resize(kept);
   }
 
-  /// Whether the test becomes true by the crossing, or, if `value`, false.
+  /// Returns whether the crossing makes the test's operand true or, if `value` is true, false.
   bool turns(const Event& event, bool value) const {
     const bool complement = (list().primitive[event.index] & CellList::kComplementBit) != 0;
     return (event.at_end == complement) != value;
   }
 
-  /// Of a primitive that is both added and subtracted, the test by which it turns the value.
+  /// Returns the event with the test by which its primitive turns the value: a primitive may be
+  /// both added and subtracted.
   Event as_turning(Event event, bool value) const {
     const Event first = event;
     for (; event.index != kNone; event.index = repeats_[event.index]) {
@@ -244,8 +248,8 @@ class RayResolver {
     return first;
   }
 
-  /// The primitive by which the coincidence turns the value (turning, in list_expression.hpp), or
-  /// what tells that none does.
+  /// Returns the primitive by which the coincidence turns the value, or another state (`turning` in
+  /// list_expression.hpp).
   int32_t turning_primitive(bool value) {
     using Step = ListExpression::Step;
     has_changed_.assign(list().count(), 0);
@@ -274,7 +278,7 @@ class RayResolver {
     return operands_.size() == 1 ? operands_.back() : turning::kFails;
   }
 
-  /// The crossing that is seen of a coincidence which turns the value from `value`.
+  /// Returns the crossing that is shown of a coincidence which turns the value from `value`.
   Event shown_of(const Coincidence& coincidence, bool value) {
     collect_changes(coincidence);
     const int32_t primitive = turning_primitive(value);
@@ -294,8 +298,8 @@ class RayResolver {
   const uint32_t lane_;
   const TraceList& trace_;
   const TraceParameters& parameters_;
-  std::vector<Event>& events_;   // by τ
-  std::vector<Event>& changed_;  // by a coincidence
+  std::vector<Event>& events_;   // in order of t
+  std::vector<Event>& changed_;  // see collect_changes()
   std::vector<uint8_t>& inside_;
   std::vector<uint32_t>& repeats_;
   std::vector<uint32_t>& order_;

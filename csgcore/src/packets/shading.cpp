@@ -8,7 +8,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -22,7 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// OpenSCAD's light: 0.2 + |n · light| (frontend/OPENSCAD.md, "Light and colours").
+/// Returns the shade of OpenSCAD's light: 0.2 + |n · light| (frontend/OPENSCAD.md, "Light and
+/// colours").
 HWY_INLINE WideV openscad_shade(const ShadeSettings& settings, const PacketHits& hits, int chunk) {
   const Wide d;
   constexpr double kAmbient = 0.2;
@@ -47,7 +48,7 @@ HWY_INLINE void shade_phong(const ShadeSettings& settings, const FrameRays& fram
   }
 }
 
-/// Lanes of `lanes` that show the same test as the lowest of them.
+/// Returns those of `lanes` that show the same test as the lowest of them.
 HWY_INLINE LaneMask lanes_of_first(const PacketHits& hits, LaneMask lanes) {
   const uint32_t index = hits.index[std::countr_zero(lanes)];
   LaneMask same = 0;
@@ -79,7 +80,7 @@ HWY_INLINE Vec3 base_color(const ShadeSettings& settings, const TraceList& list,
 void shade_packet(const ShadeSettings& settings, const FrameRays& frame, const RayPacket& rays,
                   const TraceList& list, const PacketHits& hits, PacketColors& colors) {
   const Wide d;
-  PacketV colors_of[3];  // of the faces, by channel
+  PacketV colors_of[3];  // the faces' own colours, by channel
   for (PacketV& channel : colors_of) {
     for (int c = 0; c < kChunks; ++c) channel.chunk[c] = hn::Zero(d);
   }
@@ -158,7 +159,7 @@ ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
                              const Box& solid_bounds) {
   ShadeSettings shade;
   shade.shading = settings.shading;
-  // OpenSCAD's light, (−1, 1, 1)/√3 in eye space.
+  // The direction of OpenSCAD's light is (−1, 1, 1)/√3 in eye space.
   shade.light_world = (-view.right + view.up - view.forward) / std::sqrt(3.0);
   shade.phong = phong_light(view, settings.scene_box.empty() ? solid_bounds : settings.scene_box);
   shade.front = 255.0 * Vec3(settings.front);

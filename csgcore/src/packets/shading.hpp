@@ -1,4 +1,4 @@
-// How the hits of a packet turn into colours.
+// The shading of a packet's hits.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace csgcore {
 
-/// How hits turn into colours.
+/// The settings of shading.
 struct ShadeSettings {
   Shading shading = Shading::kOpenScad;
   Vec3 light_world{0.0};  // kOpenScad: shade = 0.2 + |n · light_world|
@@ -23,7 +23,7 @@ struct ShadeSettings {
 ShadeSettings shade_settings(const FrameSettings& settings, const View& view,
                              const Box& solid_bounds);
 
-/// Each 0…255, not rounded.
+/// Colours with each channel in [0, 255], not rounded.
 struct alignas(64) PacketColors {
   double rgb[3][kPacketRays];
 };
@@ -34,7 +34,7 @@ using Rgb8 = std::array<uint8_t, 3>;
 struct PacketPixels {
   Rgb8 rgb[kPacketRays];
 };
-/// The colours of `lanes`, rounded; that of the others is given.
+/// Rounds the colours of `lanes`, and gives the colour `others` to all other lanes.
 void round_colors(const PacketColors& colors, LaneMask lanes, const Rgb8& others,
                   PacketPixels& pixels);
 

@@ -1,4 +1,4 @@
-// What a packet is traced through, and what is found on the way.
+// The input of tracing a packet, its working memory, and its result.
 #pragma once
 
 #include <cstdint>
@@ -14,46 +14,48 @@
 
 namespace csgcore {
 
-/// What is to be traced: a list, and what is known about its tests.
+/// The list to be traced, with facts about its tests that save work.
 struct TraceList {
   const CanonicalPrimitive* primitives = nullptr;
   const CellList* list = nullptr;
-  /// By index in the list: no crossing of the primitive lies at a smaller τ.
+  /// By index in the list: a lower bound of t at the primitive's crossings.
   const double* nearest_t = nullptr;
   double earliest_t = 0;  // the least of them
-  /// By index in the list: the lanes that may meet the primitive. None: nobody knows.
+  /// By index in the list: the lanes that may meet the primitive. Null: all may.
   const LaneMask* reached = nullptr;
 };
 
-/// What the solid is, beyond its list.
+/// The parameters of the definition of a picture (NUMERICS.md), for all lists of a frame.
 struct TraceParameters {
   double thickness_tolerance = 0;
   Boundary boundary = Boundary::kFirst;
   std::stop_token stop{};
 };
 
-/// By lane, what becomes of an operand at crossings that coincide: see list_expression.hpp.
+/// By lane, the state of an operand at a coincidence (`turning` in list_expression.hpp).
 struct alignas(64) PacketStates {
   int32_t lane[kPacketRays];
 };
 
-/// Working memory of one thread, for packets of one list after the other.
+/// The working memory of one thread, for all packets that it traces.
 struct PacketWorkspace {
   // By index in the list:
   std::vector<PacketSegments> segments;
   std::vector<LaneMask> computed;         // lanes whose segments are known
   std::vector<LaneMask> reached;          // TraceList::reached
-  std::vector<LaneMask> apart;            // lanes that stand away from it
-  std::vector<LaneMask> program_counter;  // of an evaluation, by a test's number
-  std::vector<uint8_t> was_computed;      // for any packet of the list; empty: nobody wants to know
-  uint64_t rays = 0;                      // traced along their whole length
+  std::vector<LaneMask> apart;            // lanes known to be separated from the primitive
+  std::vector<LaneMask> program_counter;  // by a test's number: the lanes whose program counter it
+                                          // is (ListSegments::program_counter)
+  std::vector<uint8_t> was_computed;      // by index: intersected for any packet of the list; empty
+                                          // if not wanted
+  uint64_t rays = 0;                      // those traced along their whole length
   uint64_t intersections = 0;             // of rays with primitives
   uint64_t resolved_rays = 0;
 
-  // What coincident crossings are told with:
+  // For coincidences:
   ListExpression expression;
   std::vector<PacketStates> states;  // a stack
-  // The resolver's.
+  // For RayResolver:
   struct Event {
     double t;
     uint32_t index;  // in the list
@@ -67,13 +69,14 @@ struct PacketWorkspace {
   std::vector<int32_t> operands;     // a stack
 };
 
-/// Per lane. Only lanes of `hits` hold anything.
+/// The hits of a packet. Only the entries of lanes in `hits` have a meaning.
 struct alignas(64) PacketHits {
   LaneMask hits = 0;
-  /// Lanes whose hit the range alone cannot decide; only from trace_packet_in_range.
+  /// Lanes whose hit the range alone cannot decide; none unless trace_packet_in_range() traced
+  /// them.
   LaneMask undecided = 0;
-  LaneMask on_cap = 0;      // the hit is on a flat face
-  LaneMask eye_inside = 0;  // of all lanes that were traced: the solid holds at the eye
+  LaneMask on_cap = 0;      // the `on_cap` with which the hit's normal is found (kind_rays-inl.hpp)
+  LaneMask eye_inside = 0;  // of all traced lanes, those whose eye lies in the solid
   alignas(64) double t[kPacketRays];
   double normal[3][kPacketRays];  // unit, outward of the solid
   uint32_t index[kPacketRays];    // of the test in the list

@@ -1,5 +1,5 @@
-// Walks a packet along its rays from crossing to crossing until the solid's value changes. Included
-// once per instruction set.
+// Walks a packet along its rays from crossing to crossing until the solid's value changes. Each
+// lane has a current t. Included once per instruction set.
 #if defined(CSGCORE_WALK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_WALK_INL_HPP
 #undef CSGCORE_WALK_INL_HPP
@@ -19,16 +19,16 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// The lanes that are intersected with any of these: four at a time, so that whose segments are
-/// known does not depend on the vectors' width.
+/// Returns all lanes of the groups of four that hold any of the given lanes. Lanes are intersected
+/// in these groups, so that it does not depend on the vectors' width which segments are known.
 HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
   lanes |= lanes >> 1;
   lanes |= lanes >> 2;
   return (lanes & 0x11111111u) * 0xFu;
 }
 
-/// The segments of a list's primitives, computed where first needed. Once any lane's is known,
-/// those of the others are empty; or right, where a vector holds more than four.
+/// The segments of a list's primitives, which are computed when first needed. Once a primitive's
+/// segment is known for any lane, the segments of other lanes are either right or empty.
 class ListSegments {
  public:
   ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
@@ -58,7 +58,7 @@ class ListSegments {
       const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
       reached_[i] = reached;
       computed_[i] = apart_of_[i] = 0;
-      // Of a large scene, they come from far away.
+      // The primitives of a large scene are scattered in memory.
       if (reached != 0) prefetch_rays_part(primitive(i));
       all_must_hold_ &= (if_inside[i] == CellList::kFalse && if_outside[i] == next) ||
                         (if_inside[i] == next && if_outside[i] == CellList::kFalse);
@@ -66,16 +66,16 @@ class ListSegments {
     }
     all_must_hold_ &= list.list->root == next;
   }
-  /// Whether the list holds where all of its tests do: each makes it false, or hands on to the
-  /// next one.
+  /// Returns whether the list is an intersection of its tests' operands: each test makes it false
+  /// or leads on to the next one.
   HWY_INLINE bool all_must_hold() const { return all_must_hold_; }
-  /// The lanes that may meet the primitive: the others are outside of it all along.
+  /// Returns the lanes that may meet the primitive. The others lie outside of it throughout.
   HWY_INLINE LaneMask reached(uint32_t index) const { return reached_[index]; }
-  /// Whether their segments are computed.
+  /// Returns whether the segments of all these lanes are computed.
   HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
     return (lanes & ~computed_[index]) == 0;
   }
-  /// Those of the lanes.
+  /// Returns the segments, after computing those of `lanes`.
   HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
     PacketSegments& segments = segments_[index];
     if (!are_known(index, lanes)) {
@@ -89,8 +89,9 @@ class ListSegments {
     }
     return segments;
   }
-  /// Those of `lanes`, which stand at t, that are kApart from the primitive. Of a ball it takes as
-  /// long to tell as to intersect it: nobody knows.
+  /// Returns those of `lanes` whose points at t are separated from the primitive by kApart
+  /// thickness tolerances. For a ball the test costs as much as the intersection, so that it
+  /// returns none.
   HWY_INLINE LaneMask apart(uint32_t index, const PacketV& t, LaneMask lanes) {
     if (primitive(index).ball_radius > 0) return 0;
     LaneMask& known = apart_of_[index];
@@ -101,14 +102,15 @@ class ListSegments {
     }
     return lanes & known;
   }
-  /// The lanes have gone on.
+  /// Must be called when lanes have changed their t.
   HWY_INLINE void forget_apart(LaneMask lanes) {
     has_points_ = false;
     if (!any_apart_) return;
     for (uint32_t i = 0; i < list_.list->count(); ++i) apart_of_[i] &= ~lanes;
   }
 
-  /// For who reads all of the lanes': what they miss has segments too.
+  /// Computes the segments of all primitives for the lanes; those of primitives that they cannot
+  /// meet become empty.
   void compute_all(LaneMask lanes) {
     for (uint32_t i = 0; i < list_.list->count(); ++i) {
       const LaneMask wanted = lanes & reached(i);
@@ -122,8 +124,9 @@ class ListSegments {
   HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
     return list_.primitives[entries_[index] & kPrimitiveBits];
   }
-  /// By a test's number, or a constant: the lanes whose evaluation stands there. Between
-  /// evaluations, none stand at tests.
+  /// The program counters of an evaluation: by the number of a test or of a constant, the lanes
+  /// that evaluate this test next, or that have this value. Between evaluations the entries of
+  /// tests are 0.
   HWY_INLINE LaneMask* program_counter() { return workspace_.program_counter.data(); }
 
  private:
@@ -139,8 +142,8 @@ class ListSegments {
   const RayPacket& rays_;
   const TraceList& list_;
   const double apart_;
-  // What the vectors of the list and the workspace hold, whose own pointers the compiler would read
-  // again after every store of a mask:
+  // These point into the vectors of the list and the workspace. The compiler would read the
+  // vectors' own pointers again after every store of a mask.
   const uint32_t* entries_;
   PacketSegments* segments_;
   LaneMask* computed_;
@@ -149,24 +152,25 @@ class ListSegments {
   bool all_must_hold_ = true;
   bool any_apart_ = false;
   bool has_points_ = false;
-  PacketPoints points_;  // where the lanes stand
+  PacketPoints points_;  // the lanes' points at their t
   PacketWorkspace& workspace_;
 };
 
-/// Where the packet stands.
+/// The state of a packet's walk.
 struct Walk {
   PacketV t;
   LaneMask live = 0;
-  LaneMask moved = 0;  // lanes that no longer stand where they began, but at a crossing
+  LaneMask moved = 0;  // lanes that have moved from where they began to a crossing
 };
 
-/// The list's value at t, and how far it surely keeps that before.
+/// The list's value at the lanes' t. If it is the value `before`, it stays the same at least up to
+/// next_t.
 struct Evaluation {
   LaneMask value = 0;
   PacketV next_t;
 };
 
-/// Lanes whose value is at least as large.
+/// Returns the lanes with v ≥ least.
 HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
   const Wide d;
   LaneMask result = 0;
@@ -174,7 +178,7 @@ HWY_INLINE LaneMask lanes_from(const PacketV& v, double least) {
   return result;
 }
 
-/// The largest value of any of the lanes; −∞ of none.
+/// Returns the largest value of any of the lanes; −∞ without lanes.
 HWY_INLINE double furthest_of(const PacketV& v, LaneMask lanes) {
   const Wide d;
   WideV furthest = hn::Set(d, -kInfinity);
@@ -184,7 +188,7 @@ HWY_INLINE double furthest_of(const PacketV& v, LaneMask lanes) {
   return hn::GetLane(hn::MaxOfLanes(d, furthest));
 }
 
-/// Lowers `next_t` of `lanes` to what lies ahead of them.
+/// Lowers `next_t` of `lanes` to `ahead` where that is greater than t.
 HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const PacketV& t,
                         PacketV& next_t) {
   for (int c = 0; c < kChunks; ++c) {
@@ -194,11 +198,11 @@ HWY_INLINE void stop_at(const WideV (&ahead)[kChunks], LaneMask lanes, const Pac
   }
 }
 
-/// Short-circuit evaluation of all lanes at once: those that stand at the test whose turn it is
-/// are tested and jump. Only tests that decide are visited; what no lane can have reached at its
-/// t is not intersected. `before`: the lanes' value up to here; how far another one lasts is not
-/// found. A test one of whose jumps ends with the value before cannot change that by jumping, so
-/// that nobody needs to know where.
+/// Evaluates the list by short circuit, for all lanes at once: the lanes whose program counter is
+/// the current test are tested and jump. Only tests that decide are visited, and a primitive is not
+/// intersected if no lane can have reached it at its t. `before` is the lanes' value up to here.
+/// For lanes whose value is another one, next_t is not found. A jump to the constant that equals
+/// `before` cannot change the value, so that the crossing which causes it is not looked for.
 HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const Walk& walk,
                          LaneMask before, Evaluation& result) {
   const Wide d;
@@ -208,7 +212,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   LaneMask* const program_counter = segments.program_counter();
   program_counter[CellList::kFalse] = program_counter[CellList::kTrue] = 0;
   program_counter[list.root] = walk.live;
-  const LaneMask other[] = {before, ~before};  // whose value before is not false, true
+  const LaneMask other[] = {before, ~before};  // lanes whose value before is not false, not true
   const auto changing = [&](uint32_t number) {
     return number < CellList::kFirst ? other[number] : kAllLanes;
   };
@@ -227,7 +231,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
     if (!segments.are_known(index, active)) {
       const double nearest_t = trace.nearest_t[index];
       if (furthest_t < nearest_t) {
-        // Outside as yet, until there at the earliest.
+        // The lanes are still outside, until nearest_t at the earliest.
         for (int c = 0; c < kChunks; ++c) ahead[c] = hn::Set(d, nearest_t);
         if (may_enter != 0) stop_at(ahead, may_enter, walk.t, result.next_t);
         outer |= active;
@@ -261,9 +265,11 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
   result.value = program_counter[CellList::kTrue];
 }
 
-/// Moves lanes that are outside of all primitives to the first crossing that may change the list's
-/// value; lanes that meet none are no longer live. What follows such a crossing decides the value,
-/// whatever precedes it, since nothing is entered before. Returns the value up to there.
+/// Moves lanes that start outside of all primitives to the first crossing that may change the
+/// list's value. Lanes without such a crossing are no longer live. Outside of all primitives,
+/// evaluation visits only the tests on the chain of if_outside from the root on, so that the first
+/// crossing of one of these is the first that may change the value. Returns the value up to the
+/// crossing.
 HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& segments, Walk& walk) {
   const Wide d;
   const CellList& list = *trace.list;
@@ -285,7 +291,7 @@ HWY_INLINE bool walk_to_first_crossing(const TraceList& trace, ListSegments& seg
   return number == CellList::kTrue;
 }
 
-/// Where the lanes of a packet stand against a segment.
+/// The lanes of a packet that lie before the start of a segment, and within the segment.
 struct Sides {
   LaneMask before, within;
 };
@@ -303,8 +309,8 @@ HWY_INLINE Sides sides_of(const PacketSegments& segment, const PacketV& t) {
   return {before_start, before_end & ~before_start};
 }
 
-/// Moves lanes to where `to` says, no further than `leave`; returns those that got there.
-/// `furthest_t` becomes that of all that go on, or more.
+/// Moves lanes to `to`, unless that lies beyond `leave`. Returns the lanes that were moved. Raises
+/// `furthest_t` to the largest t of these.
 HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* leave, Walk& walk,
                                double& furthest_t) {
   const Wide d;
@@ -323,17 +329,17 @@ HWY_INLINE LaneMask move_lanes(LaneMask lanes, const double* to, const double* l
   return arrived;
 }
 
-/// Of a list that holds where all of its tests do, walks all lanes of `walk.live`, whose value
-/// is false, until it is true, no further than `leave`; returns the lanes that got there. A test
-/// that fails is passed over at once: to where it holds again. The least t that none moves any
-/// further is the first where all hold (the fixed point of an intersection).
+/// Walks all lanes of `walk.live`, whose value is false, until it is true, but not beyond `leave`.
+/// Returns the lanes that got there. Precondition: segments.all_must_hold(). A test that fails
+/// moves a lane to the next t at which it holds. The first t at which all tests hold is the least
+/// one that no test moves any further (the fixed point of an intersection).
 HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, const double* leave,
                                 Walk& walk) {
   const CellList& list = *trace.list;
   const uint32_t* const if_inside = list.if_inside.data();
   double furthest_t = furthest_of(walk.t, walk.live);
-  LaneMask unsettled = walk.live;  // lanes that moved after they were asked of some test
-  uint32_t last_moved = 0;         // by it, moved last
+  LaneMask unsettled = walk.live;  // lanes that have moved since they passed some test
+  uint32_t last_moved = 0;         // the last test that moved a lane
   bool is_first_round = true;
   const auto end = [&](LaneMask lanes) {
     walk.live &= ~lanes;
@@ -347,7 +353,7 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
       if (!must_be_outside) {
         end(unsettled & ~active);
       } else if (active != 0 && !segments.are_known(index, active)) {
-        // Outside as yet, or by its place alone.
+        // Lanes before the primitive, or separated from it, are outside.
         const bool is_ahead = furthest_t < trace.nearest_t[index];
         active &= is_ahead ? 0 : ~segments.apart(index, walk.t, active);
       }
@@ -366,7 +372,7 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
           last_moved = index;
         }
       }
-      // Since then nothing has moved, and all that had has been asked again.
+      // No lane has moved since this test moved one, and all tests have been passed since.
       if (moves == 0 && moved == 0 && index == last_moved && !is_first_round) break;
     }
     is_first_round = false;
@@ -375,8 +381,8 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
   return walk.live;
 }
 
-/// Walks all lanes of `walk.live` until their value is no longer that in `before`, no further than
-/// `leave`; returns the lanes that got there, whose t is kept in the walk.
+/// Walks all lanes of `walk.live` until their value is not that in `before`, but not beyond
+/// `leave`. Returns the lanes that got there; walk.t has their t.
 HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segments, LaneMask before,
                                    const double* leave, Walk& walk) {
   if (segments.all_must_hold() && (before & walk.live) == 0) {
@@ -404,7 +410,7 @@ HWY_INLINE LaneMask walk_to_change(const TraceList& trace, ListSegments& segment
   return changed;
 }
 
-/// The value of all lanes where they stand.
+/// Returns the value of all lanes at their t.
 HWY_INLINE LaneMask value_of(const TraceList& trace, ListSegments& segments, const Walk& walk) {
   Evaluation evaluation;
   evaluate(trace, segments, walk, 0, evaluation);

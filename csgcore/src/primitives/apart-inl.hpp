@@ -1,5 +1,5 @@
-// Who stands far from a primitive, told in float: most of a list's primitives, at a fraction of
-// what their segments cost. Included once per instruction set.
+// A test in float that finds points far away from a primitive. It decides most of a list's
+// primitives at a fraction of the cost of their segments. Included once per instruction set.
 #if defined(CSGCORE_APART_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_APART_INL_HPP
 #undef CSGCORE_APART_INL_HPP
@@ -18,27 +18,29 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// A ray that stands so many thinnest pieces away from a primitive is told to be outside by its
-/// place alone: far more than what is rounded there. No crossing of that primitive can be together
-/// with one where the ray stands, unless the ray runs along that face: the resolver's business.
+/// A point on a ray counts as outside of a primitive without an intersection if it lies this many
+/// thickness tolerances away from it, which is far more than rounding. Then no crossing of that
+/// primitive can coincide with one at the point, unless the ray runs along the face; coincidence
+/// resolution handles that.
 constexpr double kApart = 0x1p14;
 
-/// What float rounds (NUMERICS.md, "Classification and culling"): twice the distance is asked for,
-/// and nothing is said of points and primitives so many times the distance from the pivot, or where
-/// the distance is less in canonical space, whose coordinates are about 1.
+/// Allowances for the rounding of float (NUMERICS.md, "Classification and culling"). A point must
+/// be kApartAsked times the distance away. No answer is given if the point or the primitive is more
+/// than kApartFurthest times the distance from the pivot, or if the distance in canonical space,
+/// whose coordinates are about 1, is less than kApartLeastReach.
 constexpr double kApartAsked = 2.0;
 constexpr double kApartFurthest = 0x1p18;
 constexpr double kApartLeastReach = 0x1p-18;
 
-/// As many lanes as the machine has, up to 16.
+/// Vectors of as many lanes as the machine has, up to 16.
 using Floats = hn::CappedTag<float, 16>;
 
-/// Points of a packet, relative to the pivot; NaN for those too far away to be told.
+/// A packet of points, relative to the pivot; NaN for those that are too far away.
 struct alignas(64) PacketPoints {
   float coordinate[3][kPacketRays];
 };
 
-/// The rays' at t.
+/// Finds the rays' points at t.
 HWY_NOINLINE static HWY_MAYBE_UNUSED void find_points(const RayPacket& rays, const PacketV& t,
                                                       double distance, PacketPoints& points) {
   const Wide d;
@@ -57,7 +59,7 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void find_points(const RayPacket& rays, con
   }
 }
 
-/// `center`: relative to the pivot; `reach`: in canonical space.
+/// `center` is relative to the pivot, `reach` in canonical space.
 template <Shape kEnclosure>
 HWY_INLINE LaneMask lanes_apart_from(const CanonicalPrimitive& primitive, const Vec3& center,
                                      const PacketPoints& points, double reach) {
@@ -79,8 +81,8 @@ HWY_INLINE LaneMask lanes_apart_from(const CanonicalPrimitive& primitive, const 
   return result;
 }
 
-/// The lanes whose points lie further away from the primitive (of a polyhedron: from what encloses
-/// it) than `distance`, as far as float tells.
+/// Returns lanes whose points certainly lie further than `distance` away from the primitive (or
+/// from a polyhedron's enclosure).
 HWY_NOINLINE static HWY_MAYBE_UNUSED LaneMask lanes_apart(const CanonicalPrimitive& primitive,
                                                           const Vec3& pivot,
                                                           const PacketPoints& points,

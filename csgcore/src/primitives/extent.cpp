@@ -8,8 +8,8 @@
 
 namespace csgcore {
 
-/// The bounds of a primitive are computed with a few roundings of its coordinates; this many units
-/// of their last place, and the slack of its size, cover them.
+/// The bounds of a primitive are computed with a few roundings of its coordinates, which this share
+/// of the coordinates and the slack of the primitive's size cover.
 constexpr double kCoordinateRounding = 8 * std::numeric_limits<double>::epsilon();
 
 Extent extent_of(const CanonicalPrimitive& primitive) {

@@ -13,13 +13,13 @@
 namespace csgcore {
 namespace {
 
-// OpenSCAD's: below this radius it counts no fragments (GRID_FINE), and $fa and $fs have a least
-// value.
+// These are OpenSCAD's: the radius below which it counts no fragments (GRID_FINE), and the least
+// value of $fa and $fs.
 constexpr double kGridFine = 1.0 / (1 << 20);
 constexpr double kLeastFacetSetting = 0.01;
 constexpr double kMostFragments = std::numeric_limits<int>::max();
 
-/// Index of the ring's first vertex.
+/// Adds a ring of vertices, and returns the index of the first one.
 uint32_t add_ring(Mesh& mesh, double radius, double z, int fragments) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   for (int i = 0; i < fragments; ++i) {
@@ -47,7 +47,7 @@ void add_band(Mesh& mesh, uint32_t below, uint32_t above, int fragments) {
   }
 }
 
-/// The triangles from a ring to an apex above or below it.
+/// Adds the triangles between a ring and an apex above or below it.
 void add_fan(Mesh& mesh, uint32_t ring, uint32_t apex, int fragments, bool upwards) {
   for (int i = 0; i < fragments; ++i) {
     const int next = (i + 1) % fragments;

@@ -1,4 +1,4 @@
-// The frustum on rays: its segment, and its normal. Included once per instruction set.
+// The segments and normals of frusta on rays. Included once per instruction set.
 #if defined(CSGCORE_FRUSTUM_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_FRUSTUM_INL_HPP
 #undef CSGCORE_FRUSTUM_INL_HPP
@@ -19,13 +19,14 @@ struct Interval {
   hn::Vec<D> start, end;
 };
 
-/// A ray whose direction has less than this share across the axis, or along it, runs along the
-/// axis, or level: within the frustum it does not drift by a bit of its coordinates.
+/// A ray runs along the axis if its direction has less than this share across it, and it is level
+/// if its direction has less than this share along it. Within the frustum such a ray does not drift
+/// by a bit of its coordinates.
 constexpr double kTrace = 1e-30;
 
-/// The reciprocals of a direction's slope against the slab and of its squared lateral part, or 1
-/// where the ray is level or along the axis. By one division, which is what most of an intersection
-/// waits for; the product of the two is far from the ends of the doubles, as traces are none.
+/// The reciprocals of a direction's z and of its squared lateral part, or 1 where the ray is level
+/// or along the axis. One division makes both, since most of an intersection waits for divisions.
+/// The product of the two numbers cannot over- or underflow, since kTrace excludes tiny ones.
 template <class D>
 struct Inverses {
   hn::Vec<D> z, lateral2;
@@ -44,7 +45,7 @@ HWY_INLINE Inverses<D> inverses(D d, const Lanes3<D>& direction, hn::Vec<D> late
   return {hn::Mul(inverse, lateral), hn::Mul(inverse, z), level, along};
 }
 
-/// |z| ≤ 1. Empty where a level ray is outside.
+/// Returns the interval with |z| ≤ 1, which is empty for a level ray outside of the slab.
 template <class D>
 HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, const Inverses<D>& inverse) {
   const auto one = hn::Set(d, 1.0);
@@ -52,7 +53,7 @@ HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, const Inverses<D>& inverse) {
   const auto at_top = hn::Mul(hn::Sub(one, z), inverse.z);
   const Interval<D> sloped = {hn::Min(at_bottom, at_top), hn::Max(at_bottom, at_top)};
   if (hn::AllFalse(d, inverse.level)) return sloped;
-  // A level ray is inside for ever or never.
+  // A level ray is inside everywhere or nowhere.
   const auto infinite = hn::Set(d, kInfinity);
   const auto outside = hn::Gt(hn::Abs(z), one);
   const auto level_start = hn::IfThenElse(outside, infinite, hn::Neg(infinite));
@@ -60,7 +61,7 @@ HWY_INLINE Interval<D> slab(D d, hn::Vec<D> z, const Inverses<D>& inverse) {
           hn::IfThenElse(inverse.level, hn::Neg(level_start), sloped.end)};
 }
 
-/// The part of a slab that the wall leaves.
+/// Returns the intersection of the slab's interval with the wall's segment.
 template <class D>
 HWY_INLINE Segment<D> cut(D d, const Interval<D>& slab, const Segment<D>& wall) {
   const auto start = hn::Max(slab.start, wall.start);
@@ -74,7 +75,7 @@ HWY_INLINE hn::Vec<D> dot_xy(const Lanes3<D>& a, const Lanes3<D>& b) {
   return hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y));
 }
 
-/// In canonical space, the cylinder's wall: x² + y² ≤ 1.
+/// Returns the segment within the cylinder's wall in canonical space, x² + y² ≤ 1.
 template <class D>
 HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& direction,
                                     const Inverses<D>& inverse) {
@@ -83,19 +84,19 @@ HWY_INLINE Segment<D> cylinder_wall(D d, const Lanes3<D>& p, const Lanes3<D>& di
   const auto inside = hn::Sub(hn::Set(d, 1.0), dot_xy(foot, foot));
   const Segment<D> wall = segment_about(d, middle, inside, inverse.lateral2);
   if (hn::AllFalse(d, inverse.along)) return wall;
-  // A ray along the axis keeps its distance from it: inside for ever or never.
+  // A ray along the axis keeps its distance from it, and is inside everywhere or nowhere.
   const auto endless = hn::And(inverse.along, hn::Ge(inside, hn::Zero(d)));
   return {hn::IfThenElse(endless, hn::Set(d, -kInfinity), wall.start),
           hn::IfThenElse(endless, hn::Set(d, kInfinity), wall.end), wall.start_on_cap,
           wall.end_on_cap};
 }
 
-/// Where q of a cone's quadratic is less, the ray passes the apex as far as doubles tell, and a
-/// quotient of it might overflow.
+/// If q of a cone's quadratic is less than this, the ray passes through the apex, as far as doubles
+/// tell, and c/q might overflow.
 constexpr double kLeastQ = 1e-290;
 
-/// In canonical space, the cone's wall, x² + y² ≤ (mid + slope·z)², on the nappe where that radius
-/// is ≥ 0; within the slab.
+/// Returns the segment within the cone's wall in canonical space, x² + y² ≤ (mid + slope·z)², on
+/// the nappe where that radius is ≥ 0. It is valid within the slab only.
 template <class D>
 HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3<D> p,
                                 const Lanes3<D>& direction, hn::Vec<D> lateral2,
@@ -103,35 +104,36 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const auto infinite = hn::Set(d, kInfinity);
-  // Re-based at the ray's point nearest to the axis within the slab, where nothing cancels.
+  // Re-base the ray at its point nearest to the axis within the slab, where nothing cancels.
   const auto nearest = hn::Neg(hn::Mul(dot_xy(p, direction), inverse.lateral2));
   const auto within = hn::Max(hn::Min(nearest, slab.end), slab.start);
-  // Of an empty slab any base will do.
+  // For an empty slab any base will do.
   const auto base = hn::IfThenElse(hn::Lt(hn::Abs(within), infinite), within, zero);
   p = p + scaled(direction, base);
-  // a·t² + 2h·t + c ≤ 0.
+  // The inside of the wall is a·t² + 2h·t + c ≤ 0.
   const auto slope = hn::Set(d, primitive.radius_slope);
   const auto radius = hn::Add(hn::Set(d, primitive.radius_mid), hn::Mul(slope, p.z));
   const auto growth = hn::Mul(slope, direction.z);
   const auto a = hn::Sub(lateral2, hn::Mul(growth, growth));
   const auto h = hn::Sub(dot_xy(p, direction), hn::Mul(growth, radius));
   const auto c = hn::Sub(dot_xy(p, p), hn::Mul(radius, radius));
-  // h² − a·c = |radius·d − growth·p|² − (p × d)² across the axis: of the products that h² and a·c
-  // have in common, none is left to cancel.
+  // h² − a·c = |radius·d − growth·p|² − (p × d)² across the axis. This form has none of the
+  // products that h² and a·c have in common and that would cancel.
   const auto lean_x = hn::Sub(hn::Mul(radius, direction.x), hn::Mul(growth, p.x));
   const auto lean_y = hn::Sub(hn::Mul(radius, direction.y), hn::Mul(growth, p.y));
   const auto moment = hn::Sub(hn::Mul(p.x, direction.y), hn::Mul(p.y, direction.x));
   const auto squares =
       hn::Sub(hn::Add(hn::Mul(lean_x, lean_x), hn::Mul(lean_y, lean_y)), hn::Mul(moment, moment));
-  // Where a·c ≤ 0 nothing cancels in the first place.
+  // If a·c ≤ 0, nothing cancels in h² − a·c.
   const auto product = hn::Mul(a, c);
   const auto discriminant =
       hn::IfThenElse(hn::Le(product, zero), hn::Sub(hn::Mul(h, h), product), squares);
-  // a ≥ 0: between the roots. a < 0: beyond one of them, on the nappe that the radius grows into.
+  // The ray is inside between the roots if a ≥ 0, and beyond one of them, on the nappe into which
+  // the radius grows, if a < 0.
   const auto between = hn::Ge(a, zero);
   const auto a_is_zero = hn::Eq(a, zero);
   auto misses = hn::And(between, hn::Le(discriminant, zero));
-  // Roots without cancellation, q/a and c/q: both by one division, as in `inverses`.
+  // The roots q/a and c/q have no cancellation. One division makes both, as in inverses().
   const auto root = hn::Sqrt(hn::Max(discriminant, zero));
   const auto q = hn::Neg(hn::Add(h, hn::CopySign(root, h)));
   const auto quotient = hn::Div(one, hn::Mul(a, q));
@@ -140,8 +142,9 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
   const auto q_is_zero = hn::Lt(hn::Abs(q), hn::Set(d, kLeastQ));
   const auto is_special = hn::Or(a_is_zero, q_is_zero);
   if (!hn::AllFalse(d, is_special)) {
-    // No q: through the apex, both at 0. a = 0: one root is at infinity, on the side that q points
-    // to. Neither a nor h: the ray keeps its distance from the wall.
+    // If q is 0, the ray passes through the apex, and both roots are 0. If a is 0, one root is at
+    // infinity, on the side that q points to. If a and h are 0, the ray keeps its distance from the
+    // wall.
     const auto keeps = hn::And(a_is_zero, hn::Eq(h, zero));
     const auto c_over_q = hn::IfThenElseZero(hn::Not(q_is_zero), hn::Div(c, q));
     root_a = hn::IfThenElse(q_is_zero, zero, root_a);
@@ -160,7 +163,7 @@ HWY_INLINE Segment<D> cone_wall(D d, const CanonicalPrimitive& primitive, Lanes3
                     no_lanes(d));
 }
 
-/// Of a ray p + t·direction in canonical space.
+/// Returns the segment of rays p + t·direction in canonical space.
 template <class D>
 HWY_INLINE Segment<D> canonical_segment(D d, const CanonicalPrimitive& primitive,
                                         const Lanes3<D>& p, const Lanes3<D>& direction) {
@@ -173,21 +176,22 @@ HWY_INLINE Segment<D> canonical_segment(D d, const CanonicalPrimitive& primitive
                  : cone_wall(d, primitive, p, direction, lateral2, inverse, ends));
 }
 
-/// The points, relative to the centre, that lie further away than `reach` in canonical space:
-/// beyond an end, or beyond the wall moved outward.
+/// Returns which points (relative to the centre, world units) lie further than `reach` from the
+/// solid in canonical space: beyond an end, or beyond the wall moved outward.
 template <class D>
 HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& point,
                                   double reach) {
   const Lanes3<D> p = transformed(d, primitive.world_to_canonical, point);
   const double slope = primitive.radius_slope;
   const auto beyond = hn::Gt(hn::Abs(p.z), set(d, 1 + reach));
-  // Of the wall's meridian, √(1 + slope²) ≤ 1 + |slope|.
+  // The wall moves outward by reach·√(1 + slope²) ≤ reach·(1 + |slope|), measured across the axis.
   const auto moved = set(d, primitive.radius_mid + reach * (1 + std::abs(slope)));
   const auto radius = hn::Max(hn::Add(moved, hn::Mul(set(d, slope), p.z)), hn::Zero(d));
   return hn::Or(beyond, hn::Gt(dot_xy(p, p), hn::Mul(radius, radius)));
 }
 
-/// Where a cone's radius is less, it is not taken for a guess at the distance from the axis.
+/// A cone's radius is a good guess at a surface point's distance from the axis unless it is less
+/// than this.
 constexpr double kNearApex = 0x1p-20;
 
 }  // namespace frustum_rays
@@ -214,9 +218,9 @@ struct FrustumRays {
     const auto one = hn::Set(d, 1.0);
     auto wall_z = hn::Zero(d);
     if (primitive.radius_slope != 0) {
-      // The wall's gradient has the distance from the axis for a radius: the wall's own but for
-      // rounding, of which one step leaves nothing, unless next to the apex. There none is left,
-      // and the axis' direction away from the cone's body stands in.
+      // The wall's gradient needs the point's distance from the axis. It is the wall's radius up to
+      // rounding, which one Newton step removes, unless next to the apex. At the apex itself, where
+      // there is no gradient, the axis' direction away from the cone's body stands in.
       const auto downhill = hn::Set(d, -primitive.radius_slope);
       const auto radius = hn::Sub(hn::Set(d, primitive.radius_mid), hn::Mul(downhill, point.z));
       const auto across2 = frustum_rays::dot_xy(point, point);

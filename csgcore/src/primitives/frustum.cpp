@@ -1,5 +1,5 @@
-// The cylinder, the frustum and the cone with either end pointed, under affine maps. Canonical:
-// |z| ≤ 1 with a radius linear in z, the larger end's being 1.
+// The cylinder, the frustum, and the cone with either end pointed, under affine maps. In canonical
+// space |z| ≤ 1, and the radius is linear in z and 1 at the larger end.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -16,14 +16,15 @@ bool within(const Box& inner, const Box& outer) {
          inner.max.y <= outer.max.y && inner.min.z >= outer.min.z && inner.max.z <= outer.max.z;
 }
 
-/// Whether the frustum's axis, from end to end, meets the cell: the quickest answer for a cell that
-/// is large against the frustum. No guarantee either way at the margin, as none is needed.
+/// Returns whether the frustum's axis, from end to end, meets the cell, which is the fastest test
+/// for a cell larger than the frustum. Rounding may give either answer at the margin; none is
+/// wrong, since kCrosses is always allowed.
 bool axis_meets(const CanonicalPrimitive& primitive, const Box& cell) {
   const Vec3& axis = primitive.canonical_to_world[2];
   double low = -1.0;
   double high = 1.0;
   for (int i = 0; i < 3; ++i) {
-    const double inverse = 1.0 / axis[i];  // ±inf bounds, or NaN, which std::min and max pass over
+    const double inverse = 1.0 / axis[i];  // makes ±inf bounds, or NaN, which min and max ignore
     const double a = (cell.min[i] - primitive.center[i]) * inverse;
     const double b = (cell.max[i] - primitive.center[i]) * inverse;
     low = std::max(low, std::min(a, b));
@@ -32,8 +33,8 @@ bool axis_meets(const CanonicalPrimitive& primitive, const Box& cell) {
   return low <= high;
 }
 
-/// About the cell's point nearest to the frustum's axis, by cyclic coordinate descent on the box of
-/// the three edge parameters.
+/// Returns approximately the cell's point nearest to the frustum's axis, by cyclic coordinate
+/// descent in the three edge parameters.
 Vec3 nearest_to_axis(const CanonicalCell& cell) {
   constexpr int kSweeps = 2;
   Vec3 parameter{0.0};
@@ -52,7 +53,8 @@ Vec3 nearest_to_axis(const CanonicalCell& cell) {
   return nearest;
 }
 
-/// By convexity, a cell whose 8 corners are inside is inside. Heights are known to be.
+/// Returns whether the 8 corners, whose heights are known to be in range, lie inside. By convexity,
+/// all of the cell then does.
 bool holds_corners(const CanonicalPrimitive& primitive, const CanonicalCell& cell) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 point = cell.corner(corner);
@@ -62,10 +64,12 @@ bool holds_corners(const CanonicalPrimitive& primitive, const CanonicalCell& cel
   return true;
 }
 
-/// So far from coaxial, in canonical units, two frusta are by rounding alone.
+/// Two frusta whose axes differ by no more than this, in canonical units, are coaxial up to
+/// rounding.
 constexpr double kCoaxial = 1e-14;
 
-/// Of two frusta that have one axis. `reach`: in the outer one's canonical units.
+/// Implements lies_within() for two coaxial frusta, with `reach` in the outer one's canonical
+/// units. Returns false for others.
 bool frustum_lies_within(const CanonicalPrimitive& inner, const CanonicalPrimitive& outer,
                          double reach) {
   const Mat3 map = outer.world_to_canonical * inner.canonical_to_world;
@@ -85,8 +89,8 @@ bool frustum_lies_within(const CanonicalPrimitive& inner, const CanonicalPrimiti
   return true;
 }
 
-/// The direction across a frustum's axis that canonical space stretches most: where an elliptical
-/// cylinder is thinnest.
+/// Returns the direction across a frustum's axis that the map stretches most, along which an
+/// elliptical cylinder is thinnest.
 Vec3 most_stretched_across(const Vec3& row_x, const Vec3& row_y) {
   const double angle =
       0.5 * std::atan2(2 * glm::dot(row_x, row_y), glm::dot(row_x, row_x) - glm::dot(row_y, row_y));
@@ -115,8 +119,8 @@ class FrustumKind final : public PrimitiveKind {
     result.canonical_to_world =
         Mat3{linear[0] * radius, linear[1] * radius, linear[2] * half_height};
     result.world_to_canonical = inverse(result.canonical_to_world);
-    // The two end discs bound it; a disc's support along a world axis is its radius times the norm
-    // of that axis' row over the disc's two directions.
+    // The bounds are those of the two end discs. A disc's support along a world axis is its radius
+    // times the norm of the axis' row over the disc's two directions.
     const Mat3& map = result.canonical_to_world;
     for (const double end : {-1.0, 1.0}) {
       const double end_radius = result.radius_mid + end * result.radius_slope;
@@ -166,10 +170,9 @@ class FrustumKind final : public PrimitiveKind {
                                                             : Classification::kCrosses;
     }
 
-    // A separating direction, starting from the wall's normal on the cell's side. Each step
-    // reflects it at the plane between the two supporting points (Chung and Wang, "Quick collision
-    // detection of polytopes in virtual environments", 1996); a step ends with a proof or without
-    // an answer.
+    // Search for a separating direction, starting from the wall's normal on the cell's side. Each
+    // step reflects it at the plane between the two supporting points (Chung and Wang, "Quick
+    // collision detection of polytopes in virtual environments", 1996), and may find a proof.
     constexpr int kSteps = 5;
     const Vec3 nearest = nearest_to_axis(cell);
     if (contains(primitive, nearest)) return Classification::kCrosses;
@@ -192,7 +195,7 @@ class FrustumKind final : public PrimitiveKind {
   bool holds(const CanonicalPrimitive& outer, const CanonicalPrimitive& inner,
              double limit) const override {
     if (inner.shape == Shape::kFrustum) {
-      // Canonical lengths are at most so many times the world's.
+      // canonical_stretch bounds canonical lengths over world lengths.
       const double reach = limit > 0 ? kCoaxial : limit * outer.canonical_stretch;
       if (frustum_lies_within(inner, outer, reach)) return true;
     }
@@ -200,7 +203,8 @@ class FrustumKind final : public PrimitiveKind {
   }
 
   bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
-    // Canonical space has it no more than 2 thick in any direction.
+    // A cylinder is at least 2 thick in every direction of canonical space, and so at least
+    // 2/canonical_stretch in world space. This may miss thin cones, which the interface allows.
     if (primitive.canonical_stretch * thickness <= 2) return false;
     const Mat3 rows = glm::transpose(primitive.world_to_canonical);
     return width(primitive, rows[2]) < thickness ||

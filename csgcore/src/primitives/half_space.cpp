@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Each of a length such that its product with the polygon's vertices on both its sides is 1.
+/// Returns the sectors' vectors. The dot product of a vector with the polygon's vertices at both
+/// ends of its sector is 1.
 std::vector<glm::dvec2> unit_sectors(int fragments) {
   const double apothem = cos_degrees(180.0 / fragments);
   std::vector<glm::dvec2> sectors;
@@ -36,7 +37,7 @@ FacetedRevolution::Band band_between(const Ring& a, const Ring& b) {
 
 using Edge = std::pair<uint32_t, uint32_t>;
 
-/// Every edge is run through once in each direction.
+/// Returns whether faces run through every edge once in each direction.
 bool is_closed(const Mesh& mesh) {
   std::vector<Edge> edges, twins;
   for (const std::vector<uint32_t>& face : mesh.faces) {
@@ -50,8 +51,8 @@ bool is_closed(const Mesh& mesh) {
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-/// Every edge is run through twice, in whichever direction. Told much sooner than which way each
-/// face has to run.
+/// Returns whether faces run through every edge twice, in any directions. This is tested first,
+/// since it is much faster than finding out which way each face has to run.
 bool has_paired_edges(const Mesh& mesh) {
   std::vector<Edge> edges;
   for (const std::vector<uint32_t>& face : mesh.faces) {
@@ -68,7 +69,8 @@ bool has_paired_edges(const Mesh& mesh) {
   return true;
 }
 
-/// Twice the face's area, along its normal (Newell's method, about the first vertex).
+/// Returns the face's normal with twice its area as the length (Newell's method, about the first
+/// vertex).
 Vec3 area_vector(const Mesh& mesh, const std::vector<uint32_t>& face) {
   const Vec3 first = mesh.vertices[face[0]];
   Vec3 sum(0.0);
@@ -150,7 +152,7 @@ std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh) {
       face_highest = std::max(face_highest, glm::dot(normal, mesh.vertices[i]));
     }
     const double slack = tolerance * length;
-    if (highest - lowest <= slack) return std::nullopt;  // it is flat
+    if (highest - lowest <= slack) return std::nullopt;  // the solid is flat
     if (highest - face_lowest <= slack) {
       result.push_back({normal, highest});
     } else if (face_highest - lowest <= slack) {
@@ -160,7 +162,7 @@ std::optional<std::vector<HalfSpace>> half_spaces(const Mesh& mesh) {
       return std::nullopt;
     }
   }
-  // A face that is there twice has paired edges, too.
+  // The edges of a face that is listed twice are paired, too; is_closed() rejects it.
   if (!is_closed(outward)) return std::nullopt;
   return result;
 }

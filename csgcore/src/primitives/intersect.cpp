@@ -1,10 +1,10 @@
 // Compiled once per instruction set by Highway. Multiplications and additions are never fused, and
-// what one lane gets does not depend on the others: every instruction set gives the same bits.
+// the result of a lane does not depend on other lanes: every instruction set gives the same bits.
 #include "primitives/intersect.hpp"
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE

@@ -1,4 +1,4 @@
-// Packets of rays against one primitive.
+// The intersection of packets of rays with one primitive.
 #pragma once
 
 #include "csgcore/canonical_primitive.hpp"
@@ -10,20 +10,20 @@ namespace csgcore {
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
-/// Of the first four lanes alone.
+/// Intersects the first four lanes only.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
 
-/// Of the first four lanes alone: the primitive's outward unit normals where they enter it, by
-/// coordinate. Those of one plane face are the same, bit for bit. `normals` is aligned as a packet
-/// is.
+/// Finds the primitive's outward unit normals where the first four lanes enter it, coordinate by
+/// coordinate. Normals of one plane face are the same, bit for bit. `normals` must be aligned as a
+/// packet is.
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
                         const CanonicalPrimitive& primitive, const PacketSegments& segments,
                         double (&normals)[3][kPacketRays]);
 
-/// The lanes that certainly lie, at τ = t, further than `distance` (world units) away from the
-/// primitive, or, of a polyhedron, from what encloses it; told in float (NUMERICS.md,
-/// "Classification and culling"). Polyhedra and what is no true ball only.
+/// Returns lanes whose points at t certainly lie further than `distance` (world units) from the
+/// primitive, or from a polyhedron's enclosure. The test is done in float (NUMERICS.md,
+/// "Classification and culling"). Precondition: the primitive is no ball (ball_radius = 0).
 LaneMask find_apart(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, const double (&t)[kPacketRays],
                     double distance);

@@ -1,14 +1,13 @@
-// The kinds' answers about rays: one line a kind. Included once per instruction set.
+// Includes the rays of all kinds, one line for each kind. Included once per instruction set.
 //
-// A kind called Name answers by a struct NameRays with
-//   kHasCaps: whether the ends of a segment differ by more than their place, as a frustum's do:
-//   some
-//     lie on its wall and some on its caps;
-//   segment(d, primitive, center, rays): where the rays are within the primitive, and which of the
-//     two ends lie on a cap;
-//   normal(d, primitive, center, rays, t, on_cap): its outward unit normal at τ = t, where a ray
-//     crosses its surface.
-// `center` is the primitive's, relative to the rays' pivot.
+// A kind called Name has a struct NameRays with
+//   kHasCaps: whether the normal at an end depends on more than its position: a frustum's end lies
+//     on the wall or on a cap;
+//   segment(d, primitive, center, rays): the rays' segments within the primitive, and which of
+//     their ends lie on a cap;
+//   normal(d, primitive, center, rays, t, on_cap): the primitive's outward unit normal at t, where
+//     the ray crosses its surface.
+// `center` is the primitive's centre relative to the rays' pivot.
 #include "primitives/frustum-inl.hpp"
 #include "primitives/polyhedron-inl.hpp"
 #include "primitives/sphere-inl.hpp"

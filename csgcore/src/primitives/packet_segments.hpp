@@ -1,13 +1,13 @@
-// Where a packet's rays are within one primitive.
+// The segments of a packet's rays within one primitive.
 #pragma once
 
 #include "rays/ray_packet.hpp"
 
 namespace csgcore {
 
-/// Where a primitive's surface cuts the rays: start < end in τ, or +∞ and −∞; and what the normal
-/// there is asked for with: of a frustum, whether that end lies on a cap; of a polyhedron, whether
-/// the ray leaves there.
+/// The parameters t at which the rays enter and leave a primitive: start < end, or +∞ and −∞ for a
+/// ray that misses it. The masks are needed to find the normals at the ends: for a frustum they say
+/// whether the end lies on a cap, for a polyhedron whether the ray leaves there.
 struct alignas(64) PacketSegments {
   double start[kPacketRays];
   double end[kPacketRays];

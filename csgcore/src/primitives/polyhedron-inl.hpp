@@ -1,4 +1,4 @@
-// The convex polyhedron on rays: its segment, and its normal. Included once per instruction set.
+// The segments and normals of convex polyhedra on rays. Included once per instruction set.
 #if defined(CSGCORE_POLYHEDRON_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_POLYHEDRON_INL_HPP
 #undef CSGCORE_POLYHEDRON_INL_HPP
@@ -15,21 +15,22 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace polyhedron_rays {
 
-/// What of rays lies within the faces that were looked at, in canonical space, and the faces that
-/// cut it there.
+/// The parts of rays that lie within the faces tested so far, and the canonical normals of the
+/// faces that cut their ends.
 template <class D>
 struct FacedSegment {
   hn::Vec<D> start, end;
   Lanes3<D> start_normal, end_normal;
 };
 
-/// Cuts by a face's half-space, height + t·growth ≤ 1, in the lanes where an end lies beyond it.
+/// Cuts the segments by a face's half-space, height + t·growth ≤ 1, in the lanes in which an end
+/// lies beyond it.
 template <bool kWithNormals, class D>
 HWY_INLINE void cut(D d, const Vec3& face_normal, hn::Vec<D> height, hn::Vec<D> growth,
                     hn::Mask<D> beyond, FacedSegment<D>& segment) {
   const auto zero = hn::Zero(d);
   const auto at = hn::Div(hn::Sub(hn::Set(d, 1.0), height), growth);
-  // A ray along the face is beyond it for ever.
+  // A ray parallel to the face is beyond it everywhere.
   const auto never = hn::And(beyond, hn::Eq(growth, zero));
   segment.start = hn::IfThenElse(never, hn::Set(d, kInfinity), segment.start);
   const auto later = hn::And(hn::Lt(growth, zero), hn::Gt(at, segment.start));
@@ -46,15 +47,15 @@ HWY_INLINE void cut(D d, const Vec3& face_normal, hn::Vec<D> height, hn::Vec<D> 
   }
 }
 
-/// Rays in canonical space, o + (t − base)·direction: re-based at the point of each that is nearest
-/// to the canonical origin.
+/// Rays in canonical space, o + (t − base)·direction: each is re-based at its point nearest to the
+/// canonical origin.
 template <class D>
 struct RebasedRays {
   Lanes3<D> o, direction;
   hn::Vec<D> inverse_length2, base;
 };
 
-/// `center`: relative to the rays' pivot.
+/// `center` is relative to the rays' pivot.
 template <class D>
 HWY_INLINE RebasedRays<D> rebased(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                                   const Rays<D>& rays) {
@@ -66,7 +67,7 @@ HWY_INLINE RebasedRays<D> rebased(D d, const CanonicalPrimitive& primitive, cons
   return {o + scaled(direction, base), direction, inverse_length2, base};
 }
 
-/// Normals are found if asked for.
+/// Returns the segments of rays within the solid, with the normals if asked for.
 template <bool kWithNormals, class D>
 HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primitive,
                                            const Vec3& center, const Rays<D>& rays) {
@@ -75,7 +76,7 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
       primitive.enclosure == Shape::kSphere
           ? segment_about(d, hn::Zero(d), hn::Sub(hn::Set(d, 1.0), dot(d, o, o)), inverse_length2)
           : frustum_rays::canonical_segment(d, primitive, o, direction);
-  // What encloses the solid lies beyond it: some face cuts each end.
+  // The enclosure is larger than the solid, so that some face cuts each end.
   const Lanes3<D> none = broadcast(d, Vec3(0, 0, 1));
   FacedSegment<D> segment{enclosed.start, enclosed.end, none, none};
   auto live = hn::Lt(segment.start, segment.end);
@@ -86,7 +87,7 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
     const Polyhedron::Entry& entry = entries[i];
     hn::Vec<D> height, growth;
     if (entry.axis < Polyhedron::Entry::kNoAxis) {
-      // The dot products' other terms are zeros.
+      // The other terms of the dot products are zero.
       const auto along = hn::Set(d, entry.normal[static_cast<int>(entry.axis)]);
       height = hn::Mul(along, origin_along[entry.axis]);
       growth = hn::Mul(along, direction_along[entry.axis]);
@@ -95,7 +96,7 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
       height = dot(d, normal, o);
       growth = dot(d, normal, direction);
     }
-    // What holds at both ends holds between them.
+    // If both ends lie in the half-space, so does all between them.
     const auto at_start = hn::Add(height, hn::Mul(segment.start, growth));
     const auto at_end = hn::Add(height, hn::Mul(segment.end, growth));
     const auto beyond = hn::And(live, hn::Gt(hn::Max(at_start, at_end), hn::Set(d, entry.limit)));
@@ -111,8 +112,9 @@ HWY_NOINLINE FacedSegment<D> faced_segment(D d, const CanonicalPrimitive& primit
   return segment;
 }
 
-/// What of rays lies within a box, by slabs (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986):
-/// the same ends as faced_segment's, since each is one division by the same numbers.
+/// Returns the segments of rays within a box, by slabs (Kay and Kajiya, "Ray Tracing Complex
+/// Scenes", 1986). The ends are the same as faced_segment's, since each is one division of the same
+/// numbers.
 template <class D>
 HWY_NOINLINE Segment<D> box_segment(D d, const CanonicalPrimitive& primitive,
                                     const Polyhedron::Slabs& slabs, const Vec3& center,
@@ -149,7 +151,8 @@ HWY_NOINLINE Segment<D> box_segment(D d, const CanonicalPrimitive& primitive,
   return segment_if(d, hn::Lt(start, end), start, end, no_lanes(d), hn::Not(no_lanes(d)));
 }
 
-/// The faces by which rays cross a box; of those that are crossed at once, the first.
+/// Returns the segments within a box with the normals of the faces that rays cross. Of faces that a
+/// ray crosses at the same point, the first counts.
 template <class D>
 HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive, const Vec3& center,
                                        const Rays<D>& rays) {
@@ -171,8 +174,8 @@ HWY_NOINLINE FacedSegment<D> box_faces(D d, const CanonicalPrimitive& primitive,
 
 }  // namespace polyhedron_rays
 
-/// See kind_rays-inl.hpp. "On a cap" is where the ray leaves: the normal is that of the face that
-/// cuts it there.
+/// See kind_rays-inl.hpp. An end is "on a cap" if the ray leaves there: the normal is that of the
+/// face that cuts this end.
 struct PolyhedronRays {
   static constexpr bool kHasCaps = true;
 

@@ -15,17 +15,17 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// By this share the enclosing quadric is larger than it need be, and a branch's faces are taken to
-/// lie so much further in: far above what is rounded, so that a branch that is passed over would
-/// not have moved a crossing by its last bit; far below the distance between faces.
+/// The enclosing quadric is larger than it need be by this share, and a branch's faces are taken to
+/// lie further in by it. It is far above the rounding, so that no face below a branch that is
+/// skipped would have moved a crossing by its last bit, and far below the distances between faces.
 constexpr double kMargin = 1e-9;
 
-/// Branches of so few entries would be tested at the cost of the entries themselves.
+/// A branch with so few entries would cost as much as the entries themselves.
 constexpr size_t kFewEntries = 8;
 
-/// Lists the points `items` (indices) as a hierarchy in preorder: `open(items)` before the points
-/// of a branch, `close(entry)` after them with what `open` gave, `add(i)` for each point.
-/// Coincidences are halved across their longest side.
+/// Lists the points `items` (indices) as a hierarchy in preorder. It calls `open(items)` before the
+/// points of a branch, `close(entry)` with the result of `open` after them, and `add(i)` for each
+/// point. A branch's points are divided in halves across the longest side of their box.
 template <typename Open, typename Close, typename Add>
 void list_clusters(std::span<const Vec3> points, std::span<uint32_t> items, bool is_whole,
                    const Open& open, const Close& close, const Add& add) {
@@ -55,7 +55,8 @@ std::vector<uint32_t> all_indices(size_t count) {
   return indices;
 }
 
-/// Of points all around the origin, whatever direction.
+/// Returns the mean direction of points as seen from the origin, or any direction if the points lie
+/// all around it.
 Vec3 mean_direction(std::span<const Vec3> points, std::span<const uint32_t> items) {
   Vec3 sum(0.0);
   for (const uint32_t i : items) sum += glm::normalize(points[i]);
@@ -63,16 +64,16 @@ Vec3 mean_direction(std::span<const Vec3> points, std::span<const uint32_t> item
   return length > 0 ? sum / length : Vec3(0, 0, 1);
 }
 
-/// The support of a frustum in canonical space.
+/// Returns the largest direction · p over the points p of a frustum in canonical space.
 double frustum_support(const Polyhedron::Canonical& frustum, const Vec3& direction) {
   const double lateral = std::hypot(direction.x, direction.y);
   return std::max(direction.z + lateral * (frustum.radius_mid + frustum.radius_slope),
                   -direction.z + lateral * (frustum.radius_mid - frustum.radius_slope));
 }
 
-/// At most the least axis · p of the points p of the frustum with normal · p ≥ offset; +∞ if there
-/// are none. By the Lagrangian dual, whose every value is a bound: offset·λ − support(λ·normal −
-/// axis), λ ≥ 0, is concave in λ.
+/// Returns a lower bound of axis · p over the points p of the frustum with normal · p ≥ offset; +∞
+/// if there are none. It maximises the Lagrangian dual offset·λ − support(λ·normal − axis), which
+/// is concave in λ and every value of which for λ ≥ 0 is such a bound.
 double least_in_frustum(const Polyhedron::Canonical& frustum, const Vec3& axis, const Vec3& normal,
                         double offset) {
   if (offset >= frustum_support(frustum, normal)) return kInfinity;
@@ -83,7 +84,7 @@ double least_in_frustum(const Polyhedron::Canonical& frustum, const Vec3& axis, 
   while (bound(2 * high) > bound(high)) high *= 2;
   high *= 2;
   double low = 0;
-  constexpr int kSteps = 40;  // each keeps 2/3
+  constexpr int kSteps = 40;  // each keeps 2/3 of the interval
   for (int step = 0; step < kSteps; ++step) {
     const double a = low + (high - low) / 3;
     const double b = high - (high - low) / 3;
@@ -92,7 +93,8 @@ double least_in_frustum(const Polyhedron::Canonical& frustum, const Vec3& axis, 
   return bound(0.5 * (low + high));
 }
 
-/// The same of the unit ball, whose cap the half-space cuts off; `axis` is of unit length.
+/// Returns the minimum for the unit ball, of which the half-space cuts off a cap. `axis` has unit
+/// length.
 double least_in_ball(const Vec3& axis, const Vec3& normal, double offset) {
   const double length = glm::length(normal);
   const double height = offset / length;
@@ -109,7 +111,8 @@ Vec3 mean_of(const std::vector<Vec3>& points) {
   return sum;
 }
 
-/// About the vertices' mean.
+/// Returns a canonical space, centred at the vertices' mean, in which the vertices lie in the unit
+/// ball.
 Polyhedron::Canonical within_ball(const std::vector<Vec3>& vertices) {
   const Vec3 center = mean_of(vertices);
   Vec3 half(0.0);
@@ -121,8 +124,8 @@ Polyhedron::Canonical within_ball(const std::vector<Vec3>& vertices) {
   return {center, half * radius, false};
 }
 
-/// The half-space in canonical space, as normal · x ≤ 1. The offset from the centre is the small
-/// difference of what may be large: in long double.
+/// Returns the normal of the half-space in canonical space, where it is normal · x ≤ 1. The offset
+/// from the centre may be a small difference of large numbers, and is computed in long double.
 Vec3 canonical_normal(const HalfSpace& half_space, const Vec3& center, const Vec3& scale) {
   long double offset = half_space.offset;
   for (int i = 0; i < 3; ++i) {
@@ -136,7 +139,7 @@ Vec3 canonical_normal(const HalfSpace& half_space, const Vec3& center, const Vec
   return normal;
 }
 
-/// Along which the vector points; kNoAxis if it leans.
+/// Returns the axis that the vector is parallel to, or kNoAxis.
 uint32_t axis_of(const Vec3& v) {
   const int zeros = (v.x == 0) + (v.y == 0) + (v.z == 0);
   if (zeros != 2) return Polyhedron::Entry::kNoAxis;
@@ -270,7 +273,7 @@ void Polyhedron::find_slabs() {
     const double along = entry.normal[axis];
     (along < 0 ? slabs.below : slabs.above)[axis] = along;
   }
-  // Six faces along the axes that bound a solid are two across each axis.
+  // If six axis-parallel faces bound a solid, two of them are perpendicular to each axis.
   slabs_ = slabs;
 }
 
@@ -292,8 +295,9 @@ bool Polyhedron::contains(const Vec3& point, double slack) const {
 }
 
 Vec3 Polyhedron::face_towards(const Vec3& point) const {
-  // Of all faces it is the one that reaches highest there, and on all of the ray. On the enclosing
-  // quadric, which is not within the solid, it is in no branch that is passed over.
+  // It is the face with the largest normal · x, which is the same at all points x of the ray. At
+  // the point where the ray meets the enclosing quadric, which lies outside of the solid, that face
+  // is below no branch that is skipped.
   const Vec3 p = point / gauge(point);
   Vec3 normal(0.0);
   double furthest = -kInfinity;
@@ -318,7 +322,7 @@ double Polyhedron::gauge(const Vec3& p) const {
 
 Vec3 Polyhedron::support(const Vec3& direction) const {
   const double length = glm::length(direction);
-  // No vertex of a branch reaches further; the margin is for rounding.
+  // Returns a bound of how far the vertices below a branch reach; the margin is for rounding.
   const auto reach_of = [&](const VertexEntry& branch, double along) {
     const double cosine = along / length;
     if (cosine >= branch.cosine) return branch.reach * length;
@@ -332,7 +336,7 @@ Vec3 Polyhedron::support(const Vec3& direction) const {
     furthest = along;
     vertex = entry.direction;
   };
-  // First by whichever branch reaches furthest: most others are then passed over.
+  // First descend into the branch with the furthest bound, so that most others can be skipped.
   for (size_t begin = 0, end = vertex_entries_.size(); begin < end;) {
     size_t next_begin = end, next_end = end;
     double next_reach = -kInfinity;

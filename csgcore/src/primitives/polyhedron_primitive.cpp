@@ -1,4 +1,4 @@
-// The convex polyhedron under affine maps. Canonical: see polyhedron.hpp.
+// The convex polyhedron under affine maps. polyhedron.hpp describes its canonical space.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,7 +10,7 @@
 namespace csgcore {
 namespace {
 
-/// By convexity, a cell whose 8 corners are inside is inside.
+/// Returns whether the cell's 8 corners lie inside. By convexity, all of the cell then does.
 bool holds_corners(const Polyhedron& polyhedron, const CanonicalCell& cell) {
   for (int corner = 0; corner < 8; ++corner) {
     if (!polyhedron.contains(cell.corner(corner), cell.slack)) return false;
@@ -18,7 +18,7 @@ bool holds_corners(const Polyhedron& polyhedron, const CanonicalCell& cell) {
   return true;
 }
 
-/// A polyhedron of more faces is not asked whether it holds another primitive.
+/// A polyhedron with more entries than this is not tested for holding another primitive.
 constexpr size_t kMostFaces = 64;
 
 class PolyhedronKind final : public PrimitiveKind {
@@ -40,7 +40,7 @@ class PolyhedronKind final : public PrimitiveKind {
     result.center = primitive.local_to_world.point(canonical.center);
     for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
     result.world_to_canonical = inverse(result.canonical_to_world);
-    // Its support along a world axis is that along the axis' row of the map.
+    // The support along a world axis is that of the local solid along the axis' row of the map.
     const Mat3 rows = glm::transpose(result.canonical_to_world);
     for (int axis = 0; axis < 3; ++axis) {
       const auto reach = [&](const Vec3& direction) {
@@ -59,11 +59,11 @@ class PolyhedronKind final : public PrimitiveKind {
     if (polyhedron.contains(cell.center)) {
       return holds_corners(polyhedron, cell) ? Classification::kInside : Classification::kCrosses;
     }
-    // Most of what is outside is outside of what encloses it.
+    // Most cells outside of the solid lie outside of its enclosure.
     const Classification enclosure = kind_of(primitive.enclosure).classify(primitive, cell_world);
     if (enclosure == Classification::kOutside) return enclosure;
-    // A separating direction, as the frustum's kind finds it, from the normal of the face towards
-    // the cell on.
+    // Search for a separating direction as FrustumKind::classify does, starting from the normal of
+    // the face towards the cell.
     constexpr int kSteps = 8;
     Vec3 direction = glm::normalize(polyhedron.face_towards(cell.center));
     for (int step = 0; step < kSteps; ++step) {
@@ -106,7 +106,7 @@ class PolyhedronKind final : public PrimitiveKind {
     for (const Polyhedron::Entry& face : primitive.polyhedron->entries()) {
       if (face.skip > 0) continue;
       const Vec3 normal = face.normal * primitive.world_to_canonical;
-      // Further from the canonical origin, which lies within, than all of it is thick.
+      // The face lies further than `thickness` from the canonical origin, which lies inside.
       if (glm::dot(normal, normal) * thickness * thickness <= 1) continue;
       if (width(primitive, normal) < thickness) return true;
     }

@@ -1,4 +1,4 @@
-// What a primitive answers about rays, by its kind. Included once per instruction set.
+// The rays of a primitive of any kind. Included once per instruction set.
 #if defined(CSGCORE_PRIMITIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_PRIMITIVE_INL_HPP
 #undef CSGCORE_PRIMITIVE_INL_HPP
@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// Calls back with the …Rays of the primitive's kind, so that loops need not ask for it.
+/// Calls visit(NameRays()) for the primitive's kind, so that loops inside `visit` need not look it
+/// up.
 template <class Visit>
 HWY_INLINE void with_rays_of_kind(const CanonicalPrimitive& primitive, Visit&& visit) {
   switch (primitive.shape) {
@@ -28,7 +29,7 @@ HWY_INLINE void with_rays_of_kind(const CanonicalPrimitive& primitive, Visit&& v
   }
 }
 
-/// The primitive's own outward unit normal at τ = t, which lies on its surface.
+/// Returns the primitive's own outward unit normal at t, which lies on its surface.
 template <class D>
 HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const Vec3& pivot,
                                const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> on_cap) {
@@ -39,13 +40,14 @@ HWY_INLINE Lanes3<D> normal_of(D d, const CanonicalPrimitive& primitive, const V
   return normal;
 }
 
-/// Fetches what `intersect_lanes` reads.
+/// Prefetches the parts of the primitive that intersect_lanes() reads.
 HWY_INLINE void prefetch_rays_part(const CanonicalPrimitive& primitive) {
   hwy::Prefetch(&primitive);
   hwy::Prefetch(&primitive.world_to_canonical[1]);
 }
 
-/// The segments of all chunks that hold any of the lanes; those of the others stay.
+/// Finds the segments of all chunks that hold any of the lanes, and leaves those of other chunks as
+/// they are.
 HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame,
                                                           const RayPacket& packet, LaneMask lanes,
                                                           const CanonicalPrimitive& primitive,
@@ -71,7 +73,7 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame
   segments.end_on_cap = (segments.end_on_cap & ~done) | end_on_cap;
 }
 
-/// The normals of all chunks that hold any of the lanes.
+/// Finds the normals of all chunks that hold any of the lanes.
 HWY_NOINLINE static HWY_MAYBE_UNUSED void find_normals(const FrameRays& frame,
                                                        const RayPacket& packet, LaneMask lanes,
                                                        const CanonicalPrimitive& primitive,

@@ -11,7 +11,7 @@
 
 namespace csgcore {
 
-// A kind's file defines it.
+// The file of each kind defines its constant.
 #define CSGCORE_DECLARE(Name) extern const PrimitiveKind& Name##_kind;
 CSGCORE_FOR_EACH_SHAPE(CSGCORE_DECLARE)
 #undef CSGCORE_DECLARE
@@ -29,7 +29,7 @@ const PrimitiveKind& kind_of(Shape shape) {
 
 namespace {
 
-/// A ball against a box, by the exact distances of the box's nearest and furthest points.
+/// Classifies a box against a ball by the distances of its nearest and its furthest point.
 Classification classify_ball(const Vec3& center, double radius, const Box& cell) {
   double nearest2 = 0;
   double furthest2 = 0;
@@ -38,7 +38,7 @@ Classification classify_ball(const Vec3& center, double radius, const Box& cell)
     const double above = center[axis] - cell.max[axis];
     const double gap = std::max(std::max(below, above), 0.0);
     nearest2 += gap * gap;
-    const double reach = std::max(-below, -above);  // both ≤ the cell's far side
+    const double reach = std::max(-below, -above);  // distance to the far side
     furthest2 += reach * reach;
   }
   const double radius2 = radius * radius;
@@ -54,14 +54,15 @@ double largest_row_sum(const Mat3& m) {
 
 Mat3 absolute(const Mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
-/// What is rounded in the middle of a cell, its offset from the primitive and three products, each.
+/// kTermRounding bounds the relative rounding of a canonical coordinate: that of the cell's middle,
+/// of its offset from the primitive, and of three products.
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kTermRounding = 8 * kEpsilon;
 
 double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// With W for the rounded inverse of C, canonical coordinates come out as W·C·x for the true x, so
-/// that W·C − 1 is their relative error (which is itself a sum of three rounded products).
+/// If W is the rounded inverse of C, the computed canonical coordinates are W·C·x for the true x,
+/// and their relative error is W·C − 1. That in turn is computed as sums of three rounded products.
 double inversion_error(const CanonicalPrimitive& primitive) {
   const Mat3& w = primitive.world_to_canonical;
   const Mat3& c = primitive.canonical_to_world;
@@ -69,12 +70,12 @@ double inversion_error(const CanonicalPrimitive& primitive) {
          4 * kEpsilon * largest_row_sum(absolute(w) * absolute(c));
 }
 
-/// Bound of the rounding of a cell's canonical coordinates; `terms` bounds the world coordinates
-/// that they are computed from. A quick bound does wherever it is small; the sharp one is for maps
-/// that are nearly singular.
+/// Returns a bound of the rounding of a cell's canonical coordinates. `terms` bounds the world
+/// coordinates that they are computed from. A quick bound is enough if it is small; maps that are
+/// nearly singular need the sharp one.
 double canonical_slack(const CanonicalPrimitive& primitive, const CanonicalCell& cell,
                        const Vec3& terms) {
-  constexpr double kSmall = 1e-9;  // no cell of interest is so small against the primitive
+  constexpr double kSmall = 1e-9;  // cells are much larger than this share of a primitive
   const double quick = primitive.canonical_error * largest(terms);
   if (quick < kSmall) return kCanonicalSlack + quick;
   const Vec3 sums = glm::abs(cell.center) + absolute(cell.half) * Vec3{1.0};
@@ -112,7 +113,7 @@ bool is_valid(const Primitive& primitive) {
   if (!primitive.local_to_world.finite()) return false;
   const double determinant = primitive.local_to_world.determinant();
   if (!std::isfinite(determinant) || determinant == 0) return false;
-  // The inverse must be representable too: a determinant that underflows flattens the solid.
+  // The inverse must be representable, too: a matrix so small that it is not flattens the solid.
   if (!Affine{inverse(primitive.local_to_world.linear), Vec3{0.0}}.finite()) return false;
   return has_valid_shape(primitive);
 }
@@ -174,8 +175,8 @@ Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_w
   return primitive.center + primitive.canonical_to_world * furthest;
 }
 
-/// A separating direction is sought by reflections, as the frustum's kind does it; from that
-/// between the centres on, which is the one for balls.
+/// Searches for a separating direction by reflections, as FrustumKind::classify does. It starts
+/// from the direction between the centres, which is the right one for balls.
 bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
   constexpr int kSteps = 12;
   margin += kTermRounding * (largest_coordinate(a) + largest_coordinate(b));
@@ -200,7 +201,7 @@ double reach(const CanonicalPrimitive& primitive) {
   const Mat3& map = primitive.canonical_to_world;
   const Mat3 gram = absolute(glm::transpose(map) * map);
   if (primitive.enclosure == Shape::kSphere) return std::sqrt(largest_row_sum(gram));
-  // The rims, (r cos φ, r sin φ, ±1).
+  // The furthest points lie on the rims, (r cos φ, r sin φ, ±1).
   const double lateral2 = std::max(gram[0][0], gram[1][1]) + gram[0][1];
   const double r = primitive.radius_mid + std::abs(primitive.radius_slope);
   return std::sqrt(r * r * lateral2 + gram[2][2] + 2 * r * std::hypot(gram[2][0], gram[2][1]));

@@ -1,4 +1,4 @@
-// The sphere on rays: its segment, and its normal. Included once per instruction set.
+// The segments and normals of spheres on rays. Included once per instruction set.
 #if defined(CSGCORE_SPHERE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_SPHERE_INL_HPP
 #undef CSGCORE_SPHERE_INL_HPP
@@ -14,7 +14,7 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace sphere_rays {
 
-/// |o + t·d| ≤ radius.
+/// Returns the segment with |o + t·d| ≤ radius.
 template <class D>
 HWY_INLINE Segment<D> within_radius(D d, const Lanes3<D>& o, const Lanes3<D>& direction,
                                     hn::Vec<D> inverse_length2, hn::Vec<D> radius2) {
@@ -23,7 +23,8 @@ HWY_INLINE Segment<D> within_radius(D d, const Lanes3<D>& o, const Lanes3<D>& di
   return segment_about(d, middle, hn::Sub(radius2, dot(d, foot, foot)), inverse_length2);
 }
 
-/// The points, relative to the centre, that lie further away than `reach` in canonical space.
+/// Returns which points (relative to the centre, world units) lie further than `reach` from the
+/// ball in canonical space.
 template <class D>
 HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, const Lanes3<D>& point,
                                   double reach) {
@@ -33,7 +34,7 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
 
 }  // namespace sphere_rays
 
-/// See kind_rays-inl.hpp. A ball, and an ellipsoid, has no caps.
+/// See kind_rays-inl.hpp. Balls and ellipsoids have no caps.
 struct SphereRays {
   static constexpr bool kHasCaps = false;
 
@@ -42,7 +43,7 @@ struct SphereRays {
                                        const Rays<D>& rays) {
     const Lanes3<D> o = rays.origin - broadcast(d, center);
     if (primitive.ball_radius > 0) {
-      // Distances are the world's: the rays' lengths are known.
+      // In world space the lengths of the rays' directions are known.
       const auto radius2 = hn::Set(d, primitive.ball_radius * primitive.ball_radius);
       return sphere_rays::within_radius(d, o, rays.direction, rays.inverse_length2, radius2);
     }
@@ -57,8 +58,8 @@ struct SphereRays {
                                      const Rays<D>& rays, hn::Vec<D> t, hn::Mask<D> /*on_cap*/) {
     const Lanes3<D> point = rays.origin - broadcast(d, center) + scaled(rays.direction, t);
     if (primitive.ball_radius > 0) {
-      // The length is the radius but for rounding: less than 1e-6 of it where a ball is not too
-      // small to exist, of which two steps leave nothing.
+      // The length is the radius up to rounding. That is less than 1e-6 of the radius, unless the
+      // ball is too small to exist, and two Newton steps remove it.
       const auto guess = hn::Set(d, 1 / primitive.ball_radius);
       return scaled(point, newton_inverse_sqrt(d, dot(d, point, point), guess, 2));
     }

@@ -1,4 +1,4 @@
-// The sphere, under affine maps an ellipsoid. Canonical: the unit ball.
+// The sphere, which is an ellipsoid under an affine map, and the unit ball in canonical space.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,8 +9,8 @@
 namespace csgcore {
 namespace {
 
-/// Relative deviation of LᵀL from a multiple of the identity below which the image of a sphere is
-/// treated as a true ball. Far below kCanonicalSlack, which absorbs it.
+/// If LᵀL deviates relatively by less than this from a multiple of the identity, the image of a
+/// sphere is treated as a ball. The deviation is far below kCanonicalSlack, which absorbs it.
 constexpr double kSimilarityTolerance = 1e-14;
 
 bool is_similarity(const Mat3& linear) {
@@ -25,9 +25,10 @@ bool is_similarity(const Mat3& linear) {
   return true;
 }
 
-/// The world's direction that canonical space stretches most: an ellipsoid's shortest axis.
+/// Returns the world direction that the map stretches most, which is along the ellipsoid's shortest
+/// axis.
 Vec3 most_stretched(const Mat3& world_to_canonical) {
-  // Powers of its square lead to it; ten squarings to the 1,024th.
+  // Powers of the map's square converge to it; ten squarings make the 1,024th power.
   Mat3 power = glm::transpose(world_to_canonical) * world_to_canonical;
   for (int i = 0; i < 10; ++i) {
     double largest = 0;
@@ -77,7 +78,7 @@ class SphereKind final : public PrimitiveKind {
   Classification classify(const CanonicalPrimitive& primitive,
                           const Box& cell_world) const override {
     const CanonicalCell cell = to_canonical(primitive, cell_world);
-    // By convexity, a cell whose 8 corners are inside is inside.
+    // By convexity, a cell whose 8 corners lie inside lies inside.
     const double inner = 1.0 - cell.slack;
     if (contains(primitive, cell.center)) {
       for (int corner = 0; corner < 8; ++corner) {
@@ -86,9 +87,10 @@ class SphereKind final : public PrimitiveKind {
       }
       return Classification::kInside;
     }
-    // The cell's point nearest to the ball's centre, by cyclic coordinate descent on the box of the
-    // three edge parameters: convex, and exact after one sweep where the edges are orthogonal. Each
-    // sweep ends with a proof: the plane through that point, if it separates.
+    // Finds the cell's point nearest to the ball's centre, by cyclic coordinate descent in the
+    // three edge parameters. The problem is convex, and one sweep solves it if the edges are
+    // orthogonal. After each sweep, the plane through the point proves that the cell lies outside,
+    // if it separates the two.
     constexpr int kSweeps = 6;
     Vec3 parameter{0.0};
     Vec3 nearest = cell.center;
@@ -111,7 +113,7 @@ class SphereKind final : public PrimitiveKind {
   }
 
   bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
-    // Canonical space has it 2 thick in every direction.
+    // In canonical space the ball is 2 thick in every direction.
     if (primitive.canonical_stretch * thickness <= 2) return false;
     return width(primitive, most_stretched(primitive.world_to_canonical)) < thickness;
   }

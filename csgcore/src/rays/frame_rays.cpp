@@ -9,7 +9,7 @@
 namespace csgcore {
 namespace {
 
-/// With so many bits left, base_s times either half of a double's 53 is exact.
+/// The product of a number of 26 bits with either half of a double's 53 bits is exact.
 double rounded_to_26_bits(double x) {
   if (x == 0 || !std::isfinite(x)) return 0;
   const int exponent = std::ilogb(x);

@@ -22,13 +22,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// As many lanes as the machine has, up to 8; and a single one, for what is done ray by ray.
+/// Wide has as many lanes as the machine has, up to 8. Single has one, for work that is done ray by
+/// ray.
 using Wide = hn::CappedTag<double, 8>;
 using Single = hn::CappedTag<double, 1>;
 
 constexpr size_t kLanes = HWY_MIN(size_t{8}, HWY_LANES(double));
 constexpr int kChunks = static_cast<int>(kPacketRays / kLanes);
-/// Of a packet's first four lanes.
+/// The chunks that hold a packet's first four lanes.
 constexpr int kFourChunks = static_cast<int>(kLanes < 4 ? 4 / kLanes : 1);
 using WideV = hn::Vec<Wide>;
 using WideM = hn::Mask<Wide>;
@@ -57,7 +58,7 @@ HWY_INLINE LaneMask chunk_lanes(int chunk) {
   return ((LaneMask{1} << kLanes) - 1) << first_lane(chunk);
 }
 
-/// The chunks that hold any of the lanes, for a loop over them.
+/// The chunks that hold any of the given lanes, for a loop over them.
 class ChunksOf {
  public:
   class Iterator {
@@ -84,7 +85,7 @@ class ChunksOf {
 HWY_INLINE void fill_lanes(LaneMask lanes, uint32_t value, uint32_t (&all)[kPacketRays]) {
   const hn::CappedTag<uint32_t, kPacketRays> d;
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    // Not by a masked store, which takes dozens of operations of some processors.
+    // A masked store would take dozens of operations on some processors.
     const auto mask = mask_from(d, lanes >> first);
     hn::StoreU(hn::IfThenElse(mask, hn::Set(d, value), hn::LoadU(d, all + first)), d, all + first);
   }
@@ -169,7 +170,8 @@ HWY_INLINE Rays<D> load_rays(D d, const RayPacket& packet, size_t first) {
           hn::LoadU(d, packet.inverse_length2 + first)};
 }
 
-/// Where rays are within a primitive: start < end, or +∞ and −∞; and which ends lie on a flat face.
+/// The stretches of rays within a primitive: start < end, or +∞ and −∞ if the ray misses it. The
+/// masks are the `on_cap` with which the normals at the ends are found (kind_rays-inl.hpp).
 template <class D>
 struct Segment {
   hn::Vec<D> start, end;
@@ -185,8 +187,9 @@ HWY_INLINE Segment<D> segment_if(D d, hn::Mask<D> exists, hn::Vec<D> start, hn::
   return {hn::IfThenElse(exists, start, hn::Set(d, kInfinity)),
           hn::IfThenElse(exists, end, hn::Set(d, -kInfinity)), start_on_cap, end_on_cap};
 }
-/// Within a round wall about the foot of the perpendicular from its centre or axis, where nothing
-/// cancels: `inside` is radius² − |foot|², of the primitive's own magnitude.
+/// Returns the segment within a round wall. `middle` is the ray's parameter at the foot of the
+/// perpendicular from the wall's centre or axis, and `inside` is radius² − |foot|², which has the
+/// primitive's own magnitude, so that no large numbers cancel.
 template <class D>
 HWY_INLINE Segment<D> segment_about(D d, hn::Vec<D> middle, hn::Vec<D> inside,
                                     hn::Vec<D> inverse_length2) {
@@ -196,7 +199,7 @@ HWY_INLINE Segment<D> segment_about(D d, hn::Vec<D> middle, hn::Vec<D> inside,
                     no_lanes(d));
 }
 
-/// Newton's iteration y ← y·(3/2 − x/2·y²) for 1/√x: of a relative error e, a step leaves 3/2·e².
+/// Newton's iteration y ← y·(3/2 − x/2·y²) for 1/√x. A step reduces a relative error e to 3/2·e².
 template <class D>
 HWY_INLINE hn::Vec<D> newton_inverse_sqrt(D d, hn::Vec<D> x, hn::Vec<D> y, int steps) {
   const auto half = hn::Mul(hn::Set(d, 0.5), x);
@@ -205,10 +208,10 @@ HWY_INLINE hn::Vec<D> newton_inverse_sqrt(D d, hn::Vec<D> x, hn::Vec<D> y, int s
   }
   return y;
 }
-/// 1/√x of x > 0, to two roundings; of 0 something finite. By multiplications alone, since a square
-/// root and a division take three times as long. The halved and negated exponent (Lomont, "Fast
-/// inverse square root", 2003) is off by up to 3.5e-2; four steps leave 1.8e-3, 4.9e-6, 3.6e-11 and
-/// nothing.
+/// Returns 1/√x for x > 0, up to two roundings, and a finite number for 0. It multiplies only,
+/// since a square root and a division take three times as long. The halved and negated exponent
+/// (Lomont, "Fast inverse square root", 2003) is off by up to 3.5e-2; four steps reduce that to
+/// 1.8e-3, 4.9e-6, 3.6e-11, and to rounding.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_sqrt(D d, hn::Vec<D> x) {
   const hn::RebindToUnsigned<D> bits;
@@ -217,7 +220,7 @@ HWY_INLINE hn::Vec<D> inverse_sqrt(D d, hn::Vec<D> x) {
   return newton_inverse_sqrt(d, x, guess, 4);
 }
 
-/// Length 1; 0 stays 0.
+/// Returns the vectors scaled to length 1. A zero vector stays zero.
 template <class D>
 HWY_INLINE Lanes3<D> normalized(D d, const Lanes3<D>& v) {
   return scaled(v, inverse_sqrt(d, dot(d, v, v)));

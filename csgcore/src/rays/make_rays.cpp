@@ -4,7 +4,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// a + b in two parts, without rounding (Knuth's TwoSum).
+/// a + b as an unevaluated sum of two parts, without rounding (Knuth's TwoSum).
 struct ExactSum {
   WideV sum, lost;
 };
@@ -28,8 +28,8 @@ HWY_INLINE ExactSum exact_sum(WideV a, WideV b) {
   return {sum, hn::Add(hn::Sub(a, hn::Sub(sum, part)), hn::Sub(b, part))};
 }
 
-/// offset + base_s·direction without rounding the large terms, which cancel: the product is exact
-/// in two parts (Dekker 1971).
+/// Returns offset + base_s·direction. The large terms, which cancel, are not rounded: the product
+/// is exact in two parts (Dekker 1971).
 HWY_INLINE WideV rebased(const ExactSum& offset, WideV base_s, WideV direction) {
   const Wide d;
   const WideV split = hn::Mul(direction, hn::Set(d, 0x1p27 + 1.0));
@@ -39,7 +39,7 @@ HWY_INLINE WideV rebased(const ExactSum& offset, WideV base_s, WideV direction) 
                  hn::Add(hn::Mul(base_s, low), offset.lost));
 }
 
-/// pixel_ray, lane by lane and operation by operation, in so many chunks.
+/// Does what pixel_ray does, by the same operations, for the first kCount chunks of lanes.
 template <int kCount>
 HWY_INLINE void write_rays(const FrameRays& frame, const PacketV& u, const PacketV& v,
                            RayPacket& rays) {

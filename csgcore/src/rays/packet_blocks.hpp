@@ -1,4 +1,4 @@
-// The packets that a tile of pixels is traced by.
+// Tiles of pixels, and the packets that trace them.
 #pragma once
 
 #include "csgcore/view.hpp"
@@ -6,16 +6,16 @@
 
 namespace csgcore {
 
-/// What the screen is divided into.
+/// A part of the screen, in whole pixels.
 using Tile = PixelArea;
 
-/// A packet that is a block of pixels from (x, y) on.
+/// A packet whose rays are a block of pixels with the top left pixel (x, y).
 struct PacketBlock {
   uint32_t x, y;
-  LaneMask lanes;  // those within the picture
+  LaneMask lanes;  // those within the tile
 };
 
-/// Lanes of a block that lie within so many pixels.
+/// Returns the lanes of a block whose columns are below `width` and whose rows are below `height`.
 inline LaneMask lanes_within(uint32_t width, uint32_t height) {
   if (width >= kPacketWidth_px && height >= kPacketHeight_px) return kAllLanes;
   LaneMask lanes = 0;
@@ -26,7 +26,7 @@ inline LaneMask lanes_within(uint32_t width, uint32_t height) {
   return lanes;
 }
 
-/// Calls back with each PacketBlock of the tile, row by row.
+/// Calls visit(block) with each PacketBlock of the tile, row by row.
 template <typename Visit>
 void for_each_block(const Tile& tile, Visit&& visit) {
   for (uint32_t y = 0; y < tile.height; y += kPacketHeight_px) {
@@ -37,7 +37,7 @@ void for_each_block(const Tile& tile, Visit&& visit) {
   }
 }
 
-/// The rays through the centres of a block's pixels.
+/// Makes the rays through the centres of a block's pixels.
 inline void make_block_rays(const FrameRays& frame, const PacketBlock& block, RayPacket& rays) {
   make_block_rays(frame, block.x, block.y, rays);
 }

@@ -1,13 +1,13 @@
-// A packet of rays: what is traced together, on every machine.
+// A packet of rays, which are traced together.
 #pragma once
 
 #include <cstdint>
 
 namespace csgcore {
 
-/// Rays in a packet, on every machine: nothing that bears results depends on the vectors' width.
+/// The number of rays in a packet, on every machine: results must not depend on the vectors' width.
 constexpr uint32_t kPacketRays = 32;
-/// Where a packet is a block of pixels, its sides. Lane = 8·row + column.
+/// The sides of a packet that is a block of pixels. Its lane is 8·row + column.
 constexpr uint32_t kPacketWidth_px = 8;
 constexpr uint32_t kPacketHeight_px = 4;
 static_assert(kPacketWidth_px * kPacketHeight_px == kPacketRays);
@@ -15,7 +15,7 @@ static_assert(kPacketWidth_px * kPacketHeight_px == kPacketRays);
 using LaneMask = uint32_t;  // bit i: lane i
 constexpr LaneMask kAllLanes = 0xFFFFFFFFu;
 
-/// o, d and 1/d·d of each lane, in the units of the world, by coordinate.
+/// Origin o, direction d and 1/(d·d) of each lane's ray, in world units, coordinate by coordinate.
 struct alignas(64) RayPacket {
   double origin[3][kPacketRays];
   double direction[3][kPacketRays];

@@ -4,7 +4,7 @@
 #include "base/simd.hpp"
 #include "tree/cell_list.hpp"
 
-// Vectors whose length is not known to the compiler cannot stand in arrays.
+// Vectors whose length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// The lanes of a block that are in these columns and rows, by bits.
+/// Returns the lanes of a block in the columns and rows whose bits are set.
 HWY_INLINE LaneMask lanes_in(uint32_t columns, uint32_t rows) {
   static_assert(kPacketWidth_px == 8 && kPacketHeight_px == 4);
   constexpr uint32_t kFirstOfRow = 0x01010101u;
@@ -27,14 +27,15 @@ HWY_INLINE LaneMask lanes_in(uint32_t columns, uint32_t rows) {
   return columns * kFirstOfRow & whole_rows;
 }
 
-/// The pixels of two blocks, one below the other from (x, y) on, that no line has beyond it.
+/// Returns the pixels between the slab's lines in two blocks, one below the other, with the top
+/// left pixel (x, y).
 HWY_INLINE uint64_t pixels_between(const ScreenSlab& slab, float x, float y) {
   static_assert(kPacketWidth_px == 8);
   const hn::CappedTag<float, kPacketWidth_px> d;
   uint64_t beyond = 0;
   for (size_t column = 0; column < kPacketWidth_px; column += hn::Lanes(d)) {
     const auto along = hn::Iota(d, static_cast<float>(column));
-    // How far beyond a line the row's pixels are.
+    // The distances of the first row's pixels beyond a line.
     const auto first_row = [&](int line) {
       const float first = slab.x[line] * x + slab.y[line] * y - slab.limit[line];
       return hn::Add(hn::Set(d, first), hn::Mul(hn::Set(d, slab.x[line]), along));
@@ -63,7 +64,7 @@ void find_reached(const Extent* screen, const ScreenSlab* slabs,
   const double origin[] = {static_cast<double>(x), static_cast<double>(y)};
   for (size_t i = 0; i < primitives.size(); ++i) {
     const Extent& extent = screen[primitives[i] & kPrimitiveBits];
-    uint32_t inside[2];  // by column and row
+    uint32_t inside[2];  // bits of columns, bits of rows
     for (size_t axis = 0; axis < 2; axis += hn::Lanes(d)) {
       const auto center = hn::Sub(hn::LoadU(d, extent.center + axis), hn::LoadU(d, origin + axis));
       const auto half = hn::LoadU(d, extent.half + axis);

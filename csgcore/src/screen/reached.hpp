@@ -1,4 +1,4 @@
-// Which of a tile's rays may meet a primitive, by its place on the screen.
+// Finds the rays of a tile that may meet a primitive, by its bounds on the screen.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace csgcore {
 
-/// Of the primitives (indices, the top bit ignored), the lanes that may meet them in the block from
-/// the pixel (x, y) on and in that below it, by their extents on the screen, which are no nan, and
-/// the slabs of those whose inside2 < 0. Of rays through pixels' centres only.
+/// Finds the lanes that may meet each primitive (indices, whose top bits are ignored) in the block
+/// whose top left pixel is (x, y), and in the block below it. It uses the extents on the screen,
+/// which must not be NaN, and the slabs of primitives whose extent has inside2 < 0. It holds for
+/// rays through pixels' centres only.
 void find_reached(const Extent* screen, const ScreenSlab* slabs,
                   std::span<const uint32_t> primitives, uint32_t x, uint32_t y, LaneMask* above,
                   LaneMask* below);

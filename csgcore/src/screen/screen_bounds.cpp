@@ -11,13 +11,14 @@
 namespace csgcore {
 namespace {
 
-/// Primitives bounded by one task.
+/// The number of primitives that one task bounds.
 constexpr size_t kBoundedAtOnce = 4096;
 
-/// Of what is smaller on the screen, its box tells enough.
+/// A primitive whose larger half extent on the screen is below this needs no slab: its box is good
+/// enough.
 constexpr double kSlablessHalf_px = 4;
 
-/// As many as have bits in a word.
+/// As many members as a word has bits.
 constexpr uint32_t kMembersAtOnce = 64;
 
 bool meets(const Extent& screen, const Box& cell) {
@@ -66,7 +67,7 @@ void ScreenBounds::open_wholly(uint32_t group) {
   }
 }
 
-/// A group's box is larger on the screen than what the screen shows of all that it holds.
+/// Narrows a group's extent to the rectangles of its members, which its box in the world exceeds.
 void ScreenBounds::narrow_to_members(uint32_t group) const {
   const OperandGroups::Members members = groups_.members(group);
   const double* const center = groups_.extents()[group].center;
@@ -77,8 +78,9 @@ void ScreenBounds::narrow_to_members(uint32_t group) const {
   narrow(all, frame_.view, screen_[group]);
 }
 
-/// Of a group's members from `first` on, those whose bit is set in `wanted`. What stands elsewhere,
-/// too, was bounded with the frame: only this group's lock is needed for the others.
+/// Bounds those of a group's members from `first` on whose bits are set in `wanted`. Members that
+/// other tests name, too, were bounded in the constructor, so that this group's lock is enough for
+/// the others.
 void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t first,
                                  uint64_t wanted) const {
   uint32_t missing[kMembersAtOnce];
@@ -93,7 +95,7 @@ void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t
   };
   if (find_missing() == 0) return;
   std::atomic<uint8_t>& state = states_[members.group - groups_.first_group()];
-  // Another thread is about to have bounded some: some microseconds.
+  // Another thread is bounding members, which takes microseconds.
   while (state.exchange(kBusy, std::memory_order_acquire) == kBusy) std::this_thread::yield();
   const std::span<const uint32_t> indices(missing, find_missing());
   bound(indices);
@@ -144,7 +146,7 @@ std::optional<uint64_t> ScreenBounds::members_outside(const OperandGroups::Membe
 }
 
 void ScreenBounds::bound(std::span<const uint32_t> indices) const {
-  // They lie anywhere in memory: all of them are fetched at once.
+  // They are scattered in memory, and are all prefetched at once.
   for (const uint32_t i : indices) {
     prefetch(&groups_.extents()[i], sizeof(Extent));
     prefetch(&screen_[i], sizeof(Extent));

@@ -1,4 +1,4 @@
-// Where a solid's primitives and groups lie on the screen, as far as anyone asks.
+// The bounds of a solid's primitives and groups on the screen, which are computed when needed.
 #pragma once
 
 #include <atomic>
@@ -11,29 +11,31 @@
 
 namespace csgcore {
 
-/// The extents that tiles are divided by, of one frame. What stands in no group is bounded with the
-/// frame. What a group holds is told apart from tiles by rectangles, which are found with the
-/// group's own; what meets a tile by these is bounded.
+/// The extents by which tiles are divided, for one frame. Primitives and groups that are in no
+/// group are bounded in the constructor. Members of a group are first tested against tiles by
+/// rectangles, which are found when the group is bounded; a member that meets a tile by its
+/// rectangle is then bounded itself.
 class ScreenBounds final : public OpenClassifier {
  public:
-  /// Keeps references to all of them.
+  /// Keeps references to all arguments but `centers_only`.
   ScreenBounds(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
                const FrameRays& frame, bool centers_only);
 
-  /// Indices as in OperandGroups; only those of what was bounded hold anything.
+  /// The extents by index, as in OperandGroups. An entry has a meaning only once it has been
+  /// bounded.
   std::span<const Extent> extents() const { return {screen_.get(), groups_.count()}; }
 
-  /// Of those whose inside2 < 0.
+  /// The slabs by index, for extents with inside2 < 0.
   const ScreenSlab* slabs() const { return slabs_.get(); }
 
-  /// Bounds all that the group holds. From any thread, again and again.
+  /// Bounds all members of the group. Any thread may call it, and repeatedly.
   void open_wholly(uint32_t group);
-  /// Bounds all primitives, used or not. Not while other threads trace.
+  /// Bounds all primitives, used or not. Must not be called while other threads trace.
   void bound_all();
 
-  /// In screen space.
+  /// Classifies by slabs and k-DOPs in screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
-  /// Of a group that is bounded; bounds those that are not outside.
+  /// Tests members of a group that is bounded. Bounds those that are not outside.
   std::optional<uint64_t> members_outside(const OperandGroups::Members& members, uint32_t first,
                                           uint32_t count, const Box& cell) const override;
 
@@ -42,19 +44,19 @@ class ScreenBounds final : public OpenClassifier {
   void bound_members(const OperandGroups::Members& members, uint32_t first, uint64_t wanted) const;
   void bound(std::span<const uint32_t> indices) const;
 
-  /// Of a group. kBusy: some thread writes what belongs to it.
+  /// The state of a group. kBusy: some thread is writing the bounds of its members.
   enum State : uint8_t { kFree, kBusy };
   std::span<const CanonicalPrimitive> primitives_;
   const OperandGroups& groups_;
   const FrameRays& frame_;
   const ScreenOptions options_;
   std::unique_ptr<Extent[]> screen_;
-  std::unique_ptr<ScreenSlab[]> slabs_;              // of whose inside2 < 0
-  std::unique_ptr<ScreenKDop[]> corners_;            // of those that are large
-  std::unique_ptr<std::atomic<uint8_t>[]> states_;   // of the groups
-  std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // by index: whether screen_ holds it
-  /// Of the members of groups that are seen: what tiles tell them apart by. Of one group low x of
-  /// all, then high x, low y, high y; then the next group's.
+  std::unique_ptr<ScreenSlab[]> slabs_;              // by index, for inside2 < 0
+  std::unique_ptr<ScreenKDop[]> corners_;            // by index, for large primitives
+  std::unique_ptr<std::atomic<uint8_t>[]> states_;   // by group
+  std::unique_ptr<std::atomic<uint8_t>[]> bounded_;  // by index: whether screen_ has it
+  /// The rectangles of the members of visible groups (SoA bounds): by group, low x of all members,
+  /// then high x, low y and high y.
   std::unique_ptr<float[]> rectangles_;
 };
 

@@ -23,21 +23,22 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// A primitive is taken to be larger by this share of its distance and size, and of the view's own
-/// coordinates: far above what is rounded here (some 20 operations of 2^-53), far below a pixel.
+/// A primitive is enlarged by this share of its distance and size, and of the view's own
+/// coordinates. It is far above the rounding here (some 20 operations of 2^-53), and far below a
+/// pixel.
 constexpr double kScreenSlack = 0x1p-44;
 
-/// The view's own coordinates, and those of a group, are rounded once or twice only: this share of
-/// kScreenSlack is theirs.
+/// The view's own coordinates, and those of a group, are rounded only once or twice. This share of
+/// kScreenSlack is enough for them.
 constexpr double kRoundedOnce = 0x1p-4;
 
-/// Nearer to the eye's plane than this share of its own depth, a primitive may be anywhere on the
-/// screen: so far out that no picture shows it.
+/// A primitive that is nearer to the eye's plane than this share of its own reach in depth is taken
+/// to be anywhere on the screen, since quotients by its nearest depth have no bound.
 constexpr double kNearestDepth = 0x1p-20;
 
 using WideV = hn::Vec<Wide>;
 
-/// Several extents' fields.
+/// The fields of several extents.
 struct ExtentLanes {
   Lanes3<Wide> center, half;
   WideV outside2, inside2;
@@ -58,13 +59,13 @@ struct Range {
   WideV low, high;
 };
 
-/// The primitive's reach along a direction: a ball's radius, or its box's.
+/// Returns the reach of the extent's box along a direction.
 HWY_INLINE WideV reach_along(const ExtentLanes& extent, const Vec3& axis) {
   const Wide d;
   return dot(d, extent.half, broadcast(d, glm::abs(axis)));
 }
 
-/// The range of a box's across/depth, depth > 0, by 1/depth at its ends.
+/// Returns the range of across/depth over a box with depth > 0, from 1/depth at its ends.
 HWY_INLINE Range box_range(WideV across, WideV reach, WideV by_nearest, WideV by_furthest) {
   const WideV low = hn::Sub(across, reach);
   const WideV high = hn::Add(across, reach);
@@ -72,8 +73,8 @@ HWY_INLINE Range box_range(WideV across, WideV reach, WideV by_nearest, WideV by
           hn::Max(hn::Mul(high, by_nearest), hn::Mul(high, by_furthest))};
 }
 
-/// The same of a ball: the two planes through the eye that touch it, (across − u·depth)² =
-/// radius²·(1 + u²), with a = depth² − radius² and 1/a.
+/// Returns this range for a ball, from the two planes through the eye that touch it: (across −
+/// u·depth)² = radius²·(1 + u²), with a = depth² − radius² and by_a = 1/a.
 HWY_INLINE Range ball_range(WideV across, WideV depth, WideV radius2, WideV a, WideV by_a) {
   const WideV middle = hn::Mul(across, depth);
   const WideV half =
@@ -81,7 +82,7 @@ HWY_INLINE Range ball_range(WideV across, WideV depth, WideV radius2, WideV a, W
   return {hn::Mul(hn::Sub(middle, half), by_a), hn::Mul(hn::Add(middle, half), by_a)};
 }
 
-/// What a frame needs of its view, once.
+/// Numbers of the view that are computed once for each frame.
 struct Projector {
   const FrameRays& frame;
   bool is_perspective;
@@ -90,7 +91,7 @@ struct Projector {
   double px_per_unit;  // of u and v
   double middle_px[2];
 
-  /// Of `count` indices; a whole vector of them is read.
+  /// Finds the extents of `count` indices. A whole vector of indices is read.
   HWY_INLINE void project(const Extent* world, const uint32_t* indices, uint32_t count,
                           Extent* screen) const;
   HWY_INLINE Range to_pixels(const Range& range, double sign, double middle) const {
@@ -160,7 +161,7 @@ HWY_INLINE void Projector::project(const Extent* world, const uint32_t* indices,
   }
   const Range x = to_pixels(ranges[0], 1, middle_px[0]);
   const Range y = to_pixels(ranges[1], -1, middle_px[1]);
-  const WideV far_off = hn::Set(d, 1e6);  // beyond every picture, and its halves still exact
+  const WideV far_off = hn::Set(d, 1e6);  // beyond every picture; its halves are exact
   alignas(64) double low_x[8], high_x[8], low_y[8], high_y[8], t[8], t_reach[8], inside2[8],
       gone[8];
   const auto clamp = [&](WideV v, WideV otherwise) {
@@ -208,13 +209,14 @@ void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
   }
 }
 
-/// The same in float, of coordinates: each of some ten operations rounds by 2^-24. And of pixels:
-/// a bound that is further beside the picture stays there, however it is rounded.
+/// The slack of coordinates in float, for some ten operations that round by 2^-24 each; and the
+/// slack of bounds in pixels. kFarBeside is in sizes of the picture: a bound further beside the
+/// picture stays beside it, however it is rounded.
 constexpr double kFloatSlack = 0x1p-19;
 constexpr double kFloatSlack_px = 0.125;
-constexpr double kFarBeside = 4;  // the picture's sizes
+constexpr double kFarBeside = 4;
 
-/// As kNearestDepth, of a ball's reach: float has half the digits.
+/// The same as kNearestDepth, for a ball's reach in float, which has half the digits.
 constexpr double kNearestDepthInFloat = 0x1p-10;
 
 Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
@@ -237,7 +239,7 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
   const double double_slack =
       kScreenSlack *
       glm::dot(glm::abs(from_eye) + kRoundedOnce * (glm::abs(center) + glm::abs(view.eye)), ones);
-  double middle[3], slack[3];  // of the group, along the axes
+  double middle[3], slack[3];  // of the group's centre, along the view's axes
   for (int i = 0; i < 3; ++i) {
     middle[i] = glm::dot(from_eye, axes[i]);
     slack[i] = double_slack + kFloatSlack * std::abs(middle[i]);
@@ -263,9 +265,9 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
     }
     const V& nearest = low[2];
     const V& furthest = high[2];
-    // What overflows is neither behind nor beside.
+    // Numbers that overflow count as neither behind nor beside.
     const V behind = is_perspective ? furthest : set(1);
-    // Who is about the eye's plane may be anywhere, and so may what overflows.
+    // A ball next to the eye's plane may be anywhere, and so may one whose numbers overflow.
     const V least = is_perspective ? hn::Mul(rounded_reach, set(kNearestDepthInFloat))
                                    : set(-std::numeric_limits<double>::infinity());
     const auto is_ahead = hn::Gt(nearest, least);
@@ -284,7 +286,7 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
       const auto is_known = hn::And(is_ahead, is_number);
       from = hn::IfThenElse(is_known, from, set(-kFar));
       to = hn::IfThenElse(is_known, to, set(kFar));
-      // A pixel's centre has the pixel's number for its coordinate.
+      // The coordinate of a pixel's centre is the pixel's number.
       if (options.centers_only) {
         from = hn::Ceil(from);
         to = hn::Floor(to);
@@ -302,7 +304,7 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
         hn::StoreU(bound, d, rows[i] + first);
         continue;
       }
-      float some[kRowPadding];  // what follows is another group's
+      float some[kRowPadding];  // the entries that follow belong to another group
       hn::StoreU(bound, d, some);
       std::copy_n(some, left, rows[i] + first);
     }

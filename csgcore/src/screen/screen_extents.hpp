@@ -1,5 +1,5 @@
-// Where primitives lie on the screen and in depth, per frame: the Extents that tiles are divided
-// by.
+// The bounds of primitives on the screen and in depth, per frame: the extents by which tiles are
+// divided.
 #pragma once
 
 #include <limits>
@@ -12,35 +12,40 @@
 
 namespace csgcore {
 
-/// Screen space: x and y in pixels as pixel_ray counts them (whole numbers are pixels' centres), z
-/// is τ. Bounds are conservative: no ray meets the primitive outside of its box.
-/// A primitive that no ray can meet is outside every cell: see cull_reason_on_screen.
-/// inside2 < 0 marks what a closer look may find outside of a tile, and how (screen_slab.hpp).
+/// In screen space, x and y are in pixels as pixel_ray counts them (whole numbers are pixels'
+/// centres), and z is the ray parameter t. Bounds are conservative: no ray meets the primitive
+/// outside of its box.
+/// A primitive that no ray can meet lies outside of every cell (cull_reason_on_screen).
+/// An extent with inside2 < 0 has a slab, and possibly a k-DOP (screen_slab.hpp), which may find
+/// its primitive outside of a tile that its box meets.
 struct ScreenOptions {
-  /// Rays go through pixels' centres only: what lies between them is seen by none.
+  /// True: rays go through pixels' centres only, and no ray meets a primitive that lies between
+  /// them.
   bool centers_only = true;
 };
 
-/// Of the extents of these indices in `world`, into the same places of `screen`.
+/// Finds the extents on the screen of world[i], for each i in `indices`, and stores them in
+/// screen[i].
 void find_screen_extents(const Extent* world, std::span<const uint32_t> indices,
                          const FrameRays& frame, const ScreenOptions& options, Extent* screen);
 
-/// Empty (low > high): seen by none.
+/// A rectangle on the screen. An empty one (low > high) is met by no ray.
 struct Rectangle {
   double low_x, high_x, low_y, high_y;
   bool is_empty() const { return low_x > high_x || low_y > high_y; }
 };
 
-/// Rectangles of balls, in float: conservative ones. `center`: of the world, what the balls count
-/// from; `rows`: of `count` floats each, low x, high x, low y, high y. Those that are behind the
-/// eye, beside the picture or between the rays are empty. Returns what holds all others.
+/// Finds conservative rectangles of balls, in float. The balls' centres are relative to `center`,
+/// which is in world space. `rows` get `count` floats each: low x, high x, low y and high y. The
+/// rectangles of balls that lie behind the eye, beside the picture or between the rays are empty.
+/// Returns a rectangle that holds all others.
 Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& center,
                           const FrameRays& frame, const ScreenOptions& options,
                           float* const (&rows)[4]);
 
-/// Sets x and y, and what tells the cull_reason, to a rectangle.
+/// Sets the extent's x and y, and its cull reason, to those of a rectangle.
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
-/// The same to what of it the extent holds already.
+/// Does the same with the intersection of the rectangle and the extent's own.
 void narrow(const Rectangle& to, const View& view, Extent& screen);
 
 enum class ScreenCullReason : uint8_t { kVisible, kOffScreen, kSubPixel };
@@ -50,7 +55,7 @@ inline ScreenCullReason cull_reason_on_screen(const Extent& screen) {
   return screen.outside2 < 0 ? ScreenCullReason::kSubPixel : ScreenCullReason::kVisible;
 }
 
-/// Whether its rectangle meets an area of the screen, whose z does not count.
+/// Returns whether the extent's rectangle meets an area of the screen, whose z is ignored.
 inline bool overlaps(const Extent& screen, const Box& area) {
   bool result = true;
   for (const int axis : {0, 1}) {
@@ -60,7 +65,7 @@ inline bool overlaps(const Extent& screen, const Box& area) {
   return result;
 }
 
-/// Whether its rectangle holds all of an area of the screen, whose z does not count.
+/// Returns whether the extent's rectangle contains an area of the screen, whose z is ignored.
 inline bool covers(const Extent& screen, const Box& area) {
   bool result = true;
   for (const int axis : {0, 1}) {

@@ -27,33 +27,34 @@
 namespace csgcore {
 namespace {
 
-/// As kScreenSlack, of somewhat larger terms.
+/// The same as kScreenSlack (screen_extents.cpp), for computations with somewhat larger terms.
 constexpr double kPlaneSlack = 0x1p-40;
 
-/// As kNearestDepth of the extents: what is nearer to the eye's plane is so far out that no picture
-/// shows it. And an eye nearer to a wall, in canonical space, is told nothing of its sides.
+/// The same as kNearestDepth (screen_extents.cpp): primitives nearer to the eye's plane may be
+/// anywhere. It is also the least distance of the eye from a wall, in canonical space, at which the
+/// wall has a slab.
 constexpr double kNearest = 0x1p-20;
 
-/// What float rounds of a line, and of a point's distance from it, as a share of the coordinates:
-/// some ten operations of 2^-24.
+/// The rounding in float of a line, and of a point's distance from it, as a share of the
+/// coordinates: some ten operations of 2^-24.
 constexpr double kLineSlack = 0x1p-20;
 
-/// A line further off is none: far beyond every picture.
+/// A line that is further away is dropped. No picture is so large.
 constexpr double kFurthestLine_px = 1e9;
 
-/// |x| + |y| of any of kCornerDirections, at most.
+/// The largest |x| + |y| of kCornerDirections.
 constexpr double kLongestDirection = 3;
 
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 constexpr ScreenSlab kNoSlab = {{0, 0}, {0, 0}, {kNoLimit, kNoLimit}};
 
-/// The picture's plane.
+/// The picture's plane, and the maps between u, v and pixels.
 struct Picture {
   const View& view;
   bool is_perspective;
   double px_per_unit;  // of u and v
   double middle_px[2];
-  double largest_u, largest_v;  // of any point on it
+  double largest_u, largest_v;  // bounds of |u| and |v| in the picture
 
   explicit Picture(const View& of)
       : view(of),
@@ -63,16 +64,16 @@ struct Picture {
         largest_u(0.5 * of.width_px / px_per_unit),
         largest_v(of.half_height) {}
 
-  /// Sets a line, of an slab that has none as yet: beyond it is where x·p.x + y·p.y > limit.
+  /// Sets a line of a slab that does not have it yet; x·p.x + y·p.y > limit is beyond the line.
   void set_line(double x, double y, double limit, int line, ScreenSlab& slab) const {
     const double coordinates_px = middle_px[0] + middle_px[1] + 1 + std::abs(limit);
-    if (!(coordinates_px < kFurthestLine_px)) return;  // nor is nan
+    if (!(coordinates_px < kFurthestLine_px)) return;  // also dropped if NaN
     slab.x[line] = static_cast<float>(x);
     slab.y[line] = static_cast<float>(y);
     slab.limit[line] = static_cast<float>(limit + kLineSlack * coordinates_px);
   }
 
-  /// Of d·p, d being the i-th of kCornerDirections.
+  /// Sets the limits of d·p for the i-th of kCornerDirections, d.
   void set_corner(double low, double high, int i, ScreenKDop& corners) const {
     const double coordinates_px =
         kLongestDirection * (middle_px[0] + middle_px[1] + 1) + std::abs(low) + std::abs(high);
@@ -87,7 +88,7 @@ bool is_large(const Extent& screen) {
   return std::min(screen.half[0], screen.half[1]) >= kCorneredHalf_px;
 }
 
-/// Narrows an extent to a rectangle, in pixels.
+/// Narrows an extent to a rectangle; rounds it to pixels' centres first if options.centers_only.
 void narrow(Rectangle to, const Picture& picture, const ScreenOptions& options, Extent& screen) {
   if (options.centers_only) {
     to = {std::ceil(to.low_x), std::floor(to.high_x), std::ceil(to.low_y), std::floor(to.high_y)};
@@ -105,13 +106,13 @@ namespace HWY_NAMESPACE {
 
 constexpr size_t kMostLanes = 8;
 
-/// Some primitives' fields, side by side. What encloses a polyhedron stands for it.
+/// The fields of some primitives, side by side. Polyhedra are represented by their enclosures.
 struct Columns {
   alignas(64) double to_canonical[9][kMostLanes];  // by column and row
   alignas(64) double to_world[9][kMostLanes];
   alignas(64) double center[3][kMostLanes];
   alignas(64) double mid[kMostLanes], slope[kMostLanes];
-  alignas(64) double height[kMostLanes];  // of a frustum's ends, 1; of a ball 0
+  alignas(64) double height[kMostLanes];  // the z of a frustum's ends, 1; 0 for a ball
   alignas(64) double error[kMostLanes];
   alignas(64) double depth_reach[kMostLanes];
 
@@ -163,15 +164,15 @@ struct Limits {
   WideV low, high;
 };
 
-/// A disc, or a ball, as the screen sees it: its centre and the vectors that span it, along right
-/// or up (`across`) and along the view axis.
+/// A disc or a ball in one direction of the screen. It has the components of its centre, and of the
+/// three vectors that span it, along that direction (`across`) and along the view axis (`depth`).
 struct Span {
   WideV center, center_depth;
   V3 across, depth;
 };
 
-/// The u (or v) of the planes through the eye that touch the span: the roots of
-/// (center − u·center_depth)² = |across − u·depth|². `is_known`: not of a span that the eye's plane
+/// Returns the u (or v) of the two planes through the eye that touch the span: the roots of (center
+/// − u·center_depth)² = |across − u·depth|². Clears `is_known` for spans that the eye's plane
 /// meets.
 HWY_INLINE Limits perspective_limits(const Span& s, WideV slack, WideM& is_known) {
   const Wide d;
@@ -180,7 +181,7 @@ HWY_INLINE Limits perspective_limits(const Span& s, WideV slack, WideM& is_known
   const WideV a = hn::Sub(hn::Mul(s.center_depth, s.center_depth), depth2);
   is_known = hn::And(is_known, hn::And(hn::Gt(s.center_depth, zero),
                                        hn::Gt(a, hn::Mul(hn::Set(d, kNearest), depth2))));
-  // The discriminant is the difference of two squares of the primitive's own size.
+  // This form of the discriminant is a difference of two squares of the primitive's own size.
   const V3 lean = scaled(s.across, s.center_depth) - scaled(s.depth, s.center);
   const auto cross = [](WideV a0, WideV b1, WideV a1, WideV b0) {
     return hn::Sub(hn::Mul(a0, b1), hn::Mul(a1, b0));
@@ -202,8 +203,8 @@ HWY_INLINE Limits orthographic_limits(const Span& s, WideV slack) {
   return {hn::Sub(s.center, reach), hn::Add(s.center, reach)};
 }
 
-/// Limits of the enclosing quadrics along directions of the screen: those of a frustum's two ends,
-/// or twice those of a ball.
+/// The limits of quadrics along directions of the screen: those of a frustum's two ends, or those
+/// of a ball, computed twice.
 class QuadricLimits {
  public:
   HWY_INLINE QuadricLimits(const Columns& columns, const Picture& picture)
@@ -221,7 +222,8 @@ class QuadricLimits {
     slack_ = hn::Mul(hn::Set(d, kPlaneSlack), size);
   }
 
-  /// Of by_u·u + by_v·v. Where they are not known, takes the lane out of `are_known`.
+  /// Returns the limits of by_u·u + by_v·v. Clears `are_known` for lanes whose limits are not
+  /// known.
   HWY_INLINE Limits along(double by_u, double by_v, WideM& are_known) const {
     const Wide d;
     const Vec3 direction = by_u * picture_.view.right + by_v * picture_.view.up;
@@ -255,15 +257,16 @@ class QuadricLimits {
 
 HWY_INLINE WideM all_lanes() { return hn::Eq(hn::Zero(Wide()), hn::Zero(Wide())); }
 
-/// Two lines of the screen: beyond them is where at + u·by_u + v·by_v > slack.
+/// Two lines on the screen for each lane; at + u·by_u + v·by_v > slack is beyond a line.
 struct QuadricLines {
   WideM are_known;
   WideV at[2], by_u[2], by_v[2], slack;
 };
 
-/// The planes that touch the wall and hold the eye or, in orthographic views, the view axis;
-/// in canonical space x·cos φ + y·sin φ − slope·z = mid, beyond which no point of a frustum lies,
-/// whatever φ is, nor one of the ball, of which mid is 1 and slope 0.
+/// Finds the planes that touch the wall and contain the eye or, in orthographic views, are parallel
+/// to the view axis. In canonical space they are x·cos φ + y·sin φ − slope·z = mid. For every φ, no
+/// point of the frustum lies beyond such a plane; nor does a point of the ball, for which mid is 1
+/// and slope 0.
 HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& picture) {
   QuadricLines lines;
   const Wide d;
@@ -277,7 +280,7 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
   const V3 forward = times(columns.to_canonical, view.forward);
   V3 from_center = broadcast(d, view.eye) - center;
   if (!is_perspective) {
-    // Where the ray is next to the centre.
+    // The point of the view axis next to the centre replaces the eye.
     const V3 axis = broadcast(d, view.forward);
     from_center = from_center - scaled(axis, dot(d, from_center, axis));
   }
@@ -290,8 +293,8 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
   const WideV distance = hn::Sub(hn::Sqrt(across2), level);  // of the eye from the wall, at least
   const auto is_far = hn::Gt(distance, hn::Mul(hn::Set(d, kNearest), sum_of_sizes(held)));
   lines.are_known = hn::And(hn::Gt(tangent2, hn::Zero(d)), is_far);
-  // What is rounded on the way into canonical space, and there: of a point next to the eye, or the
-  // centre, and of directions.
+  // The rounding of the map into canonical space, and of the computation there: for a point next to
+  // the eye or the centre, and for directions.
   const WideV error = hn::Mul(hn::Set(d, 4.0), load(columns.error));
   const auto rounded = [&](WideV canonical, WideV world) {
     return hn::Add(hn::Mul(hn::Set(d, kCanonicalSlack), canonical), hn::Mul(error, world));
@@ -307,8 +310,8 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
   const WideV of_point = rounded(hn::Add(sum_of_sizes(eye), one), coordinates);
   const WideV of_lateral = rounded(lateral, hn::Add(largest_u, largest_v));
   const WideV of_forward = rounded(ahead, one);
-  // A plane that misses the eye by so much turns the ray that it holds; or, along the ray, leaves
-  // the view axis.
+  // A plane that misses the eye by the rounding turns the ray that it should contain; an
+  // orthographic one drifts away from the view axis along the ray.
   const WideV of_plane =
       is_perspective
           ? hn::Add(of_forward, hn::Div(hn::Mul(of_point, hn::Add(ahead, lateral)), distance))
@@ -328,7 +331,7 @@ HWY_INLINE QuadricLines find_lines(const Columns& columns, const Picture& pictur
   return lines;
 }
 
-/// What is found of some primitives. Of a vector of them, those of `indices` count.
+/// The results for the primitives of one vector. Lanes beyond the number of `indices` are ignored.
 struct Found {
   std::span<const uint32_t> indices;
   Extent* screen;
@@ -389,7 +392,7 @@ HWY_INLINE void set_lines(const QuadricLines& lines, const Picture& picture, con
   }
 }
 
-/// Of those that are large.
+/// Sets the k-DOPs of large primitives.
 HWY_INLINE void set_corners(const QuadricLimits& limits, const Picture& picture,
                             const Found& found) {
   const Wide d;
@@ -450,14 +453,14 @@ CSGCORE_SIMD_EXPORT(find_quadrics_slabs);
 
 namespace {
 
-/// Polyhedra of so few vertices fill what encloses them badly, others well.
+/// Polyhedra with at most so many vertices fill their enclosures badly; others fill them well.
 constexpr size_t kFewVertices = 64;
 
-/// As many as are looked at together.
+/// The number of quadrics in one call of the vectorised function.
 constexpr size_t kQuadricsAtOnce = 64;
 
-/// Lines along the polyhedron's longest extent on the screen, or nearly so: from the vertex that is
-/// furthest from the first to that which is furthest from it.
+/// Sets lines parallel to the polyhedron's longest extent on the screen, approximately: from the
+/// vertex that is furthest from the first one to the vertex that is furthest from that.
 void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
                      const Picture& picture, ScreenSlab& slab) {
   const auto furthest_from = [&](const glm::dvec2& from) {
@@ -477,7 +480,7 @@ void set_lines_along(std::span<const glm::dvec2> points_px, double margin_px,
   }
 }
 
-/// By the polyhedron's vertices.
+/// Finds the bounds of a polyhedron by its vertices.
 void find_vertices_slab(const CanonicalPrimitive& primitive, const Picture& picture,
                         const ScreenOptions& options, Extent& screen, ScreenSlab& slab,
                         ScreenKDop& corners) {

@@ -1,4 +1,5 @@
-// Where shapes that fill their boxes badly, and all large ones, lie on the screen.
+// Screen slabs and k-DOPs: sharper bounds on the screen for primitives that fill their boxes badly,
+// and for large ones.
 #pragma once
 
 #include <cmath>
@@ -7,15 +8,15 @@
 
 namespace csgcore {
 
-/// Two lines of the screen that a primitive lies between: no ray through a point p, in pixels as
-/// pixel_ray counts them, with x·p.x + y·p.y > limit for either line meets it. (x, y) is of length
-/// 1; or 0 and the limit +∞, where there is no such line.
+/// A screen slab: two lines on the screen between which a primitive lies. No ray through a point p,
+/// in pixels as pixel_ray counts them, with x·p.x + y·p.y > limit for either line meets the
+/// primitive. (x, y) has length 1. If there is no such line, (x, y) is 0 and the limit +∞.
 struct alignas(32) ScreenSlab {
   float x[2], y[2], limit[2];
 };
 
-/// Whether no ray through the tile (a box in screen space; its z does not count) meets what lies
-/// between the lines.
+/// Returns whether no ray through the tile (a box in screen space, whose z is ignored) meets the
+/// region between the lines.
 inline bool misses(const ScreenSlab& slab, const Box& tile) {
   const auto middle = [&](int axis) {
     return static_cast<float>(0.5 * (tile.min[axis] + tile.max[axis]));
@@ -34,8 +35,9 @@ inline bool misses(const ScreenSlab& slab, const Box& tile) {
   return result;
 }
 
-/// What a large primitive leaves of its rectangle's corners: no ray through a point p, in pixels,
-/// meets it where d·p < low or d·p > high for any of kCornerDirections.
+/// The k-DOP (discrete oriented polytope) of a large primitive on the screen, which cuts off the
+/// corners of its rectangle. No ray through a point p, in pixels, with d·p < low or d·p > high for
+/// any direction d of kCornerDirections meets the primitive.
 struct ScreenKDop {
   static constexpr int kCount = 6;
   float low[kCount], high[kCount];
@@ -43,7 +45,7 @@ struct ScreenKDop {
 constexpr float kCornerDirections[ScreenKDop::kCount][2] = {{1, 1},  {1, -1}, {2, 1},
                                                             {2, -1}, {1, 2},  {1, -2}};
 
-/// The same of what lies within the corners' limits.
+/// Returns whether no ray through the tile meets the region within all limits.
 inline bool misses(const ScreenKDop& corners, const Box& tile) {
   const float from[] = {static_cast<float>(tile.min.x), static_cast<float>(tile.min.y)};
   const float to[] = {static_cast<float>(tile.max.x), static_cast<float>(tile.max.y)};
@@ -57,16 +59,16 @@ inline bool misses(const ScreenKDop& corners, const Box& tile) {
   return result;
 }
 
-/// Smaller ones on the screen have no ScreenKDop.
+/// A primitive needs at least this half width or height on the screen for a ScreenKDop.
 constexpr double kCorneredHalf_px = 32;
 
-/// The inside2 of an extent whose primitive has them.
+/// The inside2 of an extent that has a ScreenKDop besides its slab.
 constexpr double kCornered = -2;
 
-/// For each of the indices: narrows the primitive's extent on the screen, which was found from its
-/// box, to the shape itself, or to what encloses a polyhedron of many vertices; and finds lines
-/// that it lies between, and of a large one the corners, which its inside2 tells then. For
-/// primitives on the screen only.
+/// Sharpens the bounds of the primitives with these indices, which must lie on the screen. It
+/// narrows the extent, which was found from the primitive's box, to the shape itself (or to the
+/// enclosure of a polyhedron with many vertices), and finds the slab and, for large primitives, the
+/// k-DOP. The extent's inside2 says which of them there are.
 void find_slabs(const CanonicalPrimitive* primitives, std::span<const uint32_t> indices,
                 const FrameRays& frame, const ScreenOptions& options, Extent* screen,
                 ScreenSlab* slabs, ScreenKDop* corners);

@@ -7,8 +7,8 @@
 
 #include "base/simd.hpp"
 
-// Instruction sets between the ones that matter save little and cost compile time; vectors whose
-// length is not known to the compiler cannot stand in arrays.
+// The instruction sets that are left out would save little and cost compile time. Vectors whose
+// length is not known to the compiler cannot be put into arrays.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
@@ -30,7 +30,7 @@ using Mask = hn::Mask<Doubles>;
 static_assert(sizeof(Extent) == 8 * sizeof(double), "gathered as an array of doubles");
 constexpr int kExtentShift = 3;  // log2 of an Extent's doubles
 
-/// Gathers fields of the extents of as many primitives as fit in a vector.
+/// Gathers fields of the extents of as many primitives as fit into a vector.
 class Gather {
  public:
   HWY_INLINE Gather(const Extent* extents, const uint32_t* primitives)
@@ -54,7 +54,7 @@ class Gather {
   hn::Vec<Signed> offsets_;
 };
 
-/// Of at most 16 lanes.
+/// Converts a mask of at most 16 lanes to bits.
 template <typename Tag>
 HWY_INLINE uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
   std::array<uint8_t, 8> bytes{};
@@ -63,10 +63,10 @@ HWY_INLINE uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
 }
 HWY_INLINE uint64_t bits_of(Mask mask) { return bits_of(Doubles(), mask); }
 
-/// What the interval [min, max] of one axis adds to the tests.
+/// The contribution of the interval [min, max] of one axis to the tests.
 struct AxisTest {
-  Vector near2, far2;  // squared distances from the centre to its nearest and furthest coordinate
-  Mask apart;          // the box does not reach it
+  Vector near2, far2;  // squared distances from the centre to the interval's near and far points
+  Mask apart;          // the extent's box is disjoint from it
 };
 
 HWY_INLINE AxisTest test_axis(Vector center, Vector half, double min, double max) {
@@ -134,15 +134,16 @@ uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell
 using Unsigned = hn::Rebind<uint64_t, Doubles>;
 using Counters = hn::Vec<Unsigned>;
 
-/// A lane counts in 8 fields of 8 bits, one for each bin, and overflows after so many vectors.
+/// A lane counts in 8 fields of 8 bits, one for each bin. A field can count kCounterLimit vectors.
 static_assert(kSplitBins == 8);
 constexpr uint32_t kCounterLimit = 255;
 
-/// A one in the field of the bin, in lanes that are `valid`.
+/// Returns a one in the field of the position's bin, in lanes that are `valid`.
 HWY_INLINE Counters count_one(Vector position, Vector min, Vector bins_per_length, Counters valid) {
   const Doubles d;
   const Unsigned u;
-  // Adding 2^52 rounds to an integer, in the lowest bits: of half less, to the bin.
+  // Adding 2^52 rounds to an integer, which the lowest bits then hold. Subtracting ½ first makes it
+  // the bin.
   const Vector rounder = hn::Set(d, 0x1p52);
   const Vector bin = hn::Sub(hn::Mul(hn::Sub(position, min), bins_per_length), hn::Set(d, 0.5));
   const Vector clamped = hn::Min(hn::Max(bin, hn::Zero(d)), hn::Set(d, kSplitBins - 1.0));
@@ -154,7 +155,7 @@ HWY_INLINE Counters count_one(Vector position, Vector min, Vector bins_per_lengt
 /// Adds the lanes' fields to `bins`.
 HWY_INLINE void add_up(Counters counters, uint32_t* bins) {
   const Unsigned u;
-  // Fields of 16 bits hold the sum of all lanes.
+  // Every other field, widened to 16 bits, can hold the sum of all lanes.
   const Counters fields = hn::Set(u, 0x00FF00FF00FF00FFull);
   const uint64_t even = hn::GetLane(hn::SumOfLanes(u, hn::And(counters, fields)));
   const uint64_t odd = hn::GetLane(hn::SumOfLanes(u, hn::And(hn::ShiftRight<8>(counters), fields)));
@@ -215,7 +216,7 @@ CSGCORE_SIMD_EXPORT(count_ends);
 ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, uint32_t count,
                            const Halves& halves) {
   ExtentAnswers answers = CSGCORE_SIMD(test_extents)(extents, primitives, count, halves);
-  const uint64_t wanted = first_bits(count);  // vectors read past the last primitive
+  const uint64_t wanted = first_bits(count);  // vectors have read past the last primitive
   answers.open &= wanted;
   for (const int side : {0, 1}) {
     answers.outside[side] &= wanted;

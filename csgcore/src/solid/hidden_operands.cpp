@@ -1,19 +1,20 @@
-// Operands are what may be left out: what stands in groups, or takes away, once. Walls are the
-// other primitives of the whole list. By f the solid's value is meant, as a function of who holds a
-// point.
+// The terms of this search: an *operand* is a primitive or a group that may be left out, which
+// stands in the tree once, in a group or as a complement. A *wall* is any other primitive of the
+// whole list. The *reach* of an operand is the primitive, or the box of a group, with the margin
+// around it. f is the solid's value at a point, as a function of which primitives hold the point.
 //
-// Cancelled is who changes f nowhere in its reach, whatever the operands do that reach in there. It
-// may go, and so may all of them: if one is cancelled because another holds it, that other, should
-// it be cancelled too, changes nothing there either.
+// An operand is *cancelled* if it changes f nowhere in its reach, whatever the other operands do
+// that reach in there. A cancelled operand may be left out, and so may all of them together: if an
+// operand is cancelled because another one holds it, and that one is cancelled too, then that one
+// changes nothing there either.
 //
-// Sealed is who stands where f is true if no operand holds, and into whom no operand reaches that
-// is not sealed itself. About all the sealed together runs a border that none of them gets to. No
-// other operand does: there f is as if none held, and so the solid holds. A ray from outside has
-// ended when it gets there. Without the sealed, f is true throughout within, and as before
-// elsewhere. (Who takes away and holds all of a sealed one's place counts with what it is there. If
-// it is sealed itself, then f is true there without it, too.)
-//
-// Reach means the primitive, or the box of a group, and the margin about it.
+// An operand is *sealed* if the walls alone make f true in its reach, and only sealed operands
+// reach in there. Around all sealed operands together runs a border that none of them gets to, nor
+// does any other operand. So on the border f is as if no operand held, and the solid holds: a ray
+// from outside has ended when it gets there. Without the sealed operands, f is true everywhere
+// within the border, and unchanged elsewhere. (A subtracted operand that contains the whole reach
+// of a sealed one counts there with the value it has. If it is sealed itself, f is true there
+// without it, too.)
 #include "solid/hidden_operands.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -30,37 +31,37 @@
 namespace csgcore {
 namespace {
 
-/// Fewer of the operands in groups than this share are not worth lists of their own.
+/// A smaller share of hidden operands among those in groups is not worth lists of their own.
 constexpr double kLeastHidden = 0.25;
 
-/// As many as have bits in a word.
+/// As many primitives as a word has bits.
 constexpr size_t kAtOnce = 64;
 
-/// To find who reaches into what is sealed takes so many steps at most for each operand: where much
-/// is connected with the outside, it may take a thousand.
+/// The search for operands that reach into sealed ones is limited to so many steps for each
+/// operand. If many are connected with the outside, it may take a thousand each.
 constexpr size_t kMostSteps = 4;
 constexpr size_t kStepsInAnyCase = size_t{1} << 14;
 
-/// In a longer list nobody is judged: for each group and operand of the list, all of it is asked.
+/// The operands of a longer list are not judged, since the whole list is tested for each of them.
 constexpr uint32_t kLongestList = 1024;
 
-/// Groups nested deeper are not judged.
+/// Groups that are nested deeper are not judged.
 constexpr size_t kDeepest = 32;
 
-/// What a primitive or group is to the search.
+/// The role of a primitive or group in the search.
 enum class Part : uint8_t {
   kOperand,        // stands in the tree once, in a group or as a complement
-  kWall,           // stands in it once, by itself, and is no complement
+  kWall,           // stands in it once, in no group, and is no complement
   kRepeated,       // stands in it more than once
-  kHoldsRepeated,  // of a group: holds what is
+  kHoldsRepeated,  // a group that holds a repeated primitive or group
 };
 
-/// Of an operand, or of a group.
+/// The search's verdict on an operand or a group.
 enum class ProgramCounter : uint8_t {
-  kSeen,       // of all that is known; of a group, so are its members
-  kSampled,    // of a group: so are its first and its last member, the others were not asked
-  kMixed,      // of a group: its members have their own
-  kSealed,     // would be surrounded by the solid if nothing seen reached in
+  kSeen,       // not known to be hidden; the same holds for a group's members
+  kSampled,    // a group whose first and last member are seen; the others were not judged
+  kMixed,      // a group whose members have verdicts of their own
+  kSealed,     // sealed, unless a seen operand reaches in
   kCancelled,  // the solid does not depend on it
 };
 
@@ -69,13 +70,13 @@ bool is_hidden(ProgramCounter program_counter) {
          program_counter == ProgramCounter::kCancelled;
 }
 
-/// And the margin about it.
+/// Returns the extent's box with the margin around it.
 Box box_of(const Extent& extent, double margin) {
   const Box box = box_of(extent);
   return {box.min - margin, box.max + margin};
 }
 
-/// Judges operands by the primitives of the whole list.
+/// Judges operands by the primitives of the whole list. Belongs to one thread.
 class Judge {
  public:
   Judge(const OperandGroups& groups, std::span<const CanonicalPrimitive> primitives, double margin,
@@ -90,14 +91,14 @@ class Judge {
   Judge(const Judge&) = delete;
   Judge& operator=(const Judge&) = delete;
 
-  /// What stands in the whole list. Of a group of primitives all are asked if its first or its last
-  /// member is found to be hidden.
+  /// Judges an operand that the whole list names, and what it holds. In a group of primitives, all
+  /// members are judged only if the first or the last one is found to be hidden.
   void judge(uint32_t operand) {
     role_ = operand;
     judge(operand, groups_.list(), 0, Effort::kShapes);
   }
 
-  /// Asks the members that were not asked, of groups of primitives.
+  /// Judges the members that judge() left out, of groups of primitives.
   void judge_rest(uint32_t operand) {
     role_ = operand;
     judge_rest_of(operand);
@@ -108,7 +109,8 @@ class Judge {
 
   enum class Effort : uint8_t { kBoxes, kShapes };
 
-  /// `around` equals the whole list in a cell that holds the operand, in which role_ stands for it.
+  /// Judges an operand. `around` equals the whole list in a cell that contains the operand; in this
+  /// list the operand is, or is part of, the entry role_.
   void judge(uint32_t operand, const CellList& around, size_t depth, Effort effort) {
     const CellList& list = restricted(around, operand, depth);
     ProgramCounter program_counter = standing_by(list);
@@ -127,14 +129,15 @@ class Judge {
     }
   }
 
-  /// Of who is where the list equals the whole.
+  /// Returns the verdict on an operand in whose reach `list` equals the whole list.
   ProgramCounter standing_by(const CellList& list) {
     return !depends_on_role(list) ? ProgramCounter::kCancelled
            : holds_by_walls(list) ? ProgramCounter::kSealed
                                   : ProgramCounter::kSeen;
   }
 
-  /// From the operand's box to the operand, a primitive, and the margin around it.
+  /// Restricts the list further, from the operand's box to the operand, which is a primitive, and
+  /// the margin around it.
   const CellList& narrowed(const CellList& list, uint32_t operand) {
     const CanonicalPrimitive& primitive = primitives_[operand];
     const double radius = reach(primitive) + margin_;
@@ -164,7 +167,7 @@ class Judge {
     }
   }
 
-  /// Whether any is hidden.
+  /// Returns whether any of the members is not just kSeen.
   bool judge_all(std::span<const uint32_t> members, const CellList& list, size_t depth,
                  Effort effort) {
     bool is_any_hidden = false;
@@ -188,7 +191,7 @@ class Judge {
     }
   }
 
-  /// To the operand's box, and the margin around it.
+  /// Restricts the list to the operand's box and the margin around it.
   const CellList& restricted(const CellList& around, uint32_t operand, size_t depth) {
     while (lists_.size() <= depth) lists_.push_back(std::make_unique<CellList>());
     restrictor_.restrict(around, box_of(groups_.extents()[operand], margin_), *lists_[depth]);
@@ -205,7 +208,7 @@ class Judge {
     return !groups_.is_group(index) && parts_[index] != Part::kOperand;
   }
 
-  /// Others than the role.
+  /// Returns whether the list names primitives other than role_.
   bool has_primitives(const CellList& list) const {
     return std::ranges::any_of(list.primitives(), [this](uint32_t entry) {
       const uint32_t index = entry & kPrimitiveBits;
@@ -213,7 +216,7 @@ class Judge {
     });
   }
 
-  /// Whether the list is true wherever no operand holds.
+  /// Returns whether the list is true wherever no operand holds.
   bool holds_by_walls(const CellList& list) {
     if (list.is_constant()) return list.root == CellList::kTrue;
     decisions_.clear();
@@ -237,7 +240,8 @@ class Judge {
   CellList narrowed_, walls_;
 };
 
-/// What was judged, and what becomes of it where operands that are seen reach in.
+/// The whole search: judges all operands, then withdraws the verdict kSealed from those that seen
+/// operands reach into.
 class HiddenSearch {
  public:
   HiddenSearch(const OperandGroups& groups, std::span<const CanonicalPrimitive> primitives,
@@ -293,7 +297,7 @@ class HiddenSearch {
       if (!groups_.is_group(index) && !is_complement) parts_[index] = Part::kWall;
       outermost_.push_back(index);
     }
-    // Groups come after what they hold.
+    // A group has a larger index than its members.
     for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
       const bool has_repeated =
           std::ranges::any_of(groups_.members(group).primitive, [this](uint32_t entry) {
@@ -308,7 +312,8 @@ class HiddenSearch {
     return std::span(outermost_).first(outermost_count_);
   }
 
-  /// Hands the program_counters of hidden groups on to what they hold; of unions only, or of all.
+  /// Returns the verdicts, with those of hidden groups handed on to their members: of groups that
+  /// are unions, or of all groups.
   std::vector<ProgramCounter> spread(bool of_all) const {
     std::vector<ProgramCounter> program_counters = program_counters_;
     for (uint32_t group = groups_.count(); group-- > groups_.first_group();) {
@@ -332,8 +337,8 @@ class HiddenSearch {
     return hidden;
   }
 
-  /// Until nothing that is seen reaches into what is sealed. From here on a group that is no union
-  /// is one operand, and of the others only their members count.
+  /// Withdraws kSealed until no seen operand reaches into a sealed one. From here on a group that
+  /// is no union counts as one operand, and of a union only the members count.
   void unseal() {
     program_counters_ = spread(false);
     for (uint32_t index = 0; index < groups_.count(); ++index) {
@@ -341,7 +346,7 @@ class HiddenSearch {
         holds_sealed_[index] = program_counters_[index] == ProgramCounter::kSealed;
         continue;
       }
-      program_counters_[index] = ProgramCounter::kMixed;  // its own was handed on
+      program_counters_[index] = ProgramCounter::kMixed;  // its own verdict was handed on
       holds_sealed_[index] = std::ranges::any_of(
           groups_.members(index).primitive,
           [this](uint32_t entry) { return holds_sealed_[entry & kPrimitiveBits] != 0; });
@@ -361,7 +366,7 @@ class HiddenSearch {
       std::ranges::replace(program_counters_, ProgramCounter::kSealed, ProgramCounter::kSeen);
   }
 
-  /// Operands that are seen and may reach into what is sealed.
+  /// Returns the seen operands that may reach into sealed ones.
   std::vector<uint32_t> seen_near_sealed() {
     std::vector<uint32_t> seen;
     std::vector<uint32_t> pending(outermost().begin(), outermost().end());
@@ -380,15 +385,15 @@ class HiddenSearch {
     return seen;
   }
 
-  /// The sealed operands within the margin of this one's reach, as far as there are steps left.
-  /// Valid until the next call.
+  /// Returns the sealed operands in this operand's reach, as far as there are steps left. The span
+  /// is valid until the next call.
   std::span<const uint32_t> sealed_near(uint32_t operand) {
     near_.clear();
     const Extent* const extents = groups_.extents().data();
     const Box box = box_of(extents[operand], margin_);
     pending_.assign(1, outermost());
     while (!pending_.empty() && steps_left_ > 0) {
-      // Behind all of these vectors may read.
+      // All of these spans are followed by the padding that vectors read.
       const std::span<const uint32_t> operands = pending_.back();
       pending_.pop_back();
       for (size_t first = 0; first < operands.size(); first += kAtOnce) {
@@ -414,16 +419,17 @@ class HiddenSearch {
 
   void take_step() { steps_left_ -= steps_left_ > 0; }
 
-  /// Of groups that only their boxes are, if at all.
+  /// Returns whether two operands are certainly separated by the margin. For a group, only its box
+  /// is tested.
   bool are_apart(uint32_t a, uint32_t b) const {
     if (groups_.is_group(a)) return false;
     if (groups_.is_group(b)) return is_beside(a, b);
-    // Of what is long and thin, boxes tell more.
+    // For long and thin primitives, the boxes find more separations.
     return csgcore::are_apart(primitives_[a], primitives_[b], margin_) || is_beside(a, b) ||
            is_beside(b, a);
   }
 
-  /// Whether the primitive is apart from the other's box.
+  /// Returns whether the primitive is disjoint from the other's box and the margin around it.
   bool is_beside(uint32_t primitive, uint32_t other) const {
     const Box box = box_of(groups_.extents()[other], margin_);
     return classify(primitives_[primitive], box) == Classification::kOutside;
@@ -435,11 +441,11 @@ class HiddenSearch {
   // By index, of primitives and groups:
   std::vector<ProgramCounter> program_counters_;
   std::vector<Part> parts_;
-  std::vector<uint8_t> holds_sealed_;  // is sealed, or is a union of which some member does
-  std::vector<uint32_t> outermost_;    // of the whole list; and the vectors' padding
+  std::vector<uint8_t> holds_sealed_;  // sealed, or a union of which a member holds one
+  std::vector<uint32_t> outermost_;    // named by the whole list; then the vectors' padding
   size_t outermost_count_ = 0;
-  size_t steps_left_ = 0;       // of unseal
-  std::vector<uint32_t> near_;  // sealed_near
+  size_t steps_left_ = 0;       // for unseal()
+  std::vector<uint32_t> near_;  // the result of sealed_near()
   std::vector<std::span<const uint32_t>> pending_;
 };
 

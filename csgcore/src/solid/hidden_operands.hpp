@@ -1,4 +1,4 @@
-// Which operands of a solid nobody sees who looks at it from outside.
+// Operands of a solid that cannot be seen from outside.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace csgcore {
 
-/// Those that are easily found: by boxes, balls about primitives, planes between them. What stands
-/// around those of `inside` is at least `margin` thick, in world units. None if they are not many:
-/// a smaller list would not pay.
+/// Returns hidden operands that are easily found: by boxes, balls about primitives, and planes
+/// between primitives. The solid around those of `inside` is at least `margin` thick, in world
+/// units. Returns none if there are few, since a slightly smaller list does not pay.
 HiddenOperands find_hidden_operands(const OperandGroups& groups,
                                     std::span<const CanonicalPrimitive> primitives, double margin);
 

@@ -15,17 +15,17 @@
 namespace csgcore {
 namespace {
 
-/// An operation of more operands than the first has them grouped, by the second at most; fewer than
-/// the third stay by themselves.
+/// If an operation has more than kManyOperands, they are put into groups of at most kGroupOperands.
+/// Fewer than kFewOperands make no group.
 constexpr size_t kManyOperands = 64;
 constexpr size_t kGroupOperands = 32;
 constexpr size_t kFewOperands = 4;
 
-/// Groups are made anew once a larger share of the primitives has moved: those that hold them reach
-/// further than they need to.
+/// Groups are made anew once a larger share of the primitives has moved, since groups that have
+/// grown reach further than they need to.
 constexpr double kMostMoved = 1.0 / 32;
 
-/// As if of a ball of infinite radius, and nothing inside: nobody asks more than the box.
+/// The extent of a ball of infinite radius that contains no cell, so that only the box decides.
 Extent extent_of_box(const Box& box) {
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   Extent extent{{}, {}, std::numeric_limits<double>::infinity(), 0.0};
@@ -38,8 +38,8 @@ Extent extent_of_box(const Box& box) {
   return extent;
 }
 
-/// For each token, a box outside of which its subtree does not matter: it does not hold there, or
-/// the operations above do not ask.
+/// Returns, for each token, a box outside of which its subtree does not matter: it is false there,
+/// or the operations above it do not depend on it.
 std::vector<Box> relevant_boxes(std::span<const CsgToken> tokens, const Extents& extents) {
   std::vector<Box> boxes = subtree_boxes(tokens, [&](uint32_t i) { return box_of(extents[i]); });
   struct Above {
@@ -57,7 +57,7 @@ std::vector<Box> relevant_boxes(std::span<const CsgToken> tokens, const Extents&
   return boxes;
 }
 
-/// Spreads the lowest 6 bits to every third.
+/// Moves each of the lowest 6 bits i to bit 3·i.
 constexpr uint32_t spread(uint32_t x) {
   uint32_t result = 0;
   for (uint32_t bit = 0; bit < 6; ++bit) result |= (x >> bit & 1) << 3 * bit;
@@ -71,8 +71,8 @@ constexpr auto kSpread = [] {
 
 constexpr uint32_t kMortonBits = 18;
 
-/// Size first, in classes of a factor of 4 unless all are alike, then the place along a Morton
-/// curve.
+/// Returns the sorting key of an operand: its size class first (classes differ by a factor of 4;
+/// `alike` puts all into one), then its place on a Morton curve.
 uint32_t key_of(const Box& box, const Box& all, bool alike) {
   const Vec3 size = all.size();
   const double longest = std::max({size.x, size.y, size.z});
@@ -92,7 +92,7 @@ uint32_t key_of(const Box& box, const Box& all, bool alike) {
 }
 uint32_t size_class(uint32_t key) { return key >> kMortonBits; }
 
-/// As OperandGroups::Members::is_union.
+/// Returns OperandGroups::Members::is_union for a group's list.
 bool is_plain_union(const CellList& list) {
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t next = i == 0 ? CellList::kFalse : i - 1 + CellList::kFirst;
@@ -146,14 +146,14 @@ class OperandGroups::Builder {
  private:
   using Chosen = std::span<const Keyed>;
 
-  /// The tokens [first, end) of the output. None: it is empty.
+  /// An operand is the tokens [first, end) of the output. An empty one has none.
   struct Operand {
     uint32_t first, end;
     Box box;
     bool is_empty() const { return first == end; }
   };
 
-  /// Makes one operand of the last ones, as the operation says.
+  /// Replaces the last operands by one, which is the operation on them.
   void close(const CsgToken& operation, const Box& box) {
     const size_t from = operands_.size() - operation.value;
     const uint32_t first = operands_[from].first;
@@ -175,8 +175,8 @@ class OperandGroups::Builder {
     operands_.push_back({first, static_cast<uint32_t>(output_.size()), box});
   }
 
-  /// Groups the operands from there on, of which a union is made, until they are not many. Those
-  /// left by themselves, the largest among them, are tested first.
+  /// Groups the operands from `from` on, which form a union, until they are not many. Those left
+  /// without a group, the largest among them, come first in the list.
   void group(size_t from) {
     bool are_groups = false;
     while (operands_.size() - from > kManyOperands) {
@@ -187,7 +187,7 @@ class OperandGroups::Builder {
     }
   }
 
-  /// Returns how many are left by themselves, which come first.
+  /// Groups once. Returns how many operands are left without a group; they come first.
   size_t group_once(size_t from, bool are_groups) {
     Box all;
     for (size_t i = from; i < operands_.size(); ++i) all.merge(operands_[i].box);
@@ -217,7 +217,8 @@ class OperandGroups::Builder {
     return left;
   }
 
-  /// At the bits of the keys, from the highest on, until few are left that are alike in size.
+  /// Divides the range at the bits of the keys, from the highest on, until few are left in each
+  /// part and they are in one size class.
   void divide(Chosen range) {
     const uint32_t difference = range.front().key ^ range.back().key;
     if (range.size() <= kGroupOperands && size_class(difference) == 0) {
@@ -235,7 +236,7 @@ class OperandGroups::Builder {
     divide(range.subspan(half));
   }
 
-  /// Its place among the tokens it is appended to.
+  /// Appends the operand to `tokens`, and returns it with its place there.
   Operand append(const Operand& given, std::vector<CsgToken>& tokens) const {
     const uint32_t first = static_cast<uint32_t>(tokens.size());
     tokens.insert(tokens.end(), given_tokens_.begin() + given.first,
@@ -255,7 +256,7 @@ class OperandGroups::Builder {
     operands_.push_back({first, first + 1, box});
   }
 
-  /// Of the union in group_tokens_.
+  /// Makes a group of the union in group_tokens_, and returns its index.
   uint32_t make_group(const Box& box) {
     const Blist list = compile(std::span<const CsgToken>(group_tokens_));
     assign(list_, list.tests);
@@ -288,8 +289,8 @@ class OperandGroups::Builder {
   OperandGroups& groups_;
   std::span<const CsgToken> tokens_;
   std::vector<CsgToken> output_;
-  std::vector<Operand> operands_;  // that wait for their operation
-  // While operands are grouped:
+  std::vector<Operand> operands_;  // those that wait for their operation
+  // Working memory of group_once():
   std::vector<Keyed> keyed_;
   std::vector<Chosen> chosen_;  // of keyed_
   std::vector<Operand> given_;
@@ -312,11 +313,11 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
   std::vector<uint8_t> has_moved(count);
   for (const uint32_t primitive : moved) has_moved[primitive] = 1;
 
-  // Only the boxes of the moved primitives' own tokens may differ.
+  // Only the tokens of moved primitives may have other boxes than before.
   const std::span<const CsgToken> tokens = tree.tokens();
   const std::vector<Box> before = relevant_boxes(tokens, earlier->extents_);
   const std::vector<Box> after = relevant_boxes(tokens, extents);
-  std::vector<Box> reach(count);  // of the moved primitives, wherever they stand
+  std::vector<Box> reach(count);  // by primitive, the boxes of all its tokens, if it moved
   for (size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i].is_primitive && has_moved[tokens[i].value]) {
       if (before[i].empty() != after[i].empty()) return nullptr;
@@ -329,7 +330,7 @@ std::shared_ptr<const OperandGroups> OperandGroups::with_moved(
   auto result = std::make_shared<OperandGroups>(*earlier);
   result->moved_ += static_cast<uint32_t>(moved.size());
   std::copy(extents.begin(), extents.end(), result->extents_.begin());
-  // Groups come after what they hold.
+  // A group has a larger index than its members.
   reach.resize(result->extents_.size());
   for (uint32_t group = result->first_group_; group < result->count(); ++group) {
     for (const uint32_t entry : result->members(group).primitive) {

@@ -1,4 +1,5 @@
-// A solid's list with its operands in groups: what is far from where one looks costs nothing.
+// The operand BVH: a solid's list with its operands in nested groups, which are expanded only where
+// their operands matter.
 #pragma once
 
 #include <array>
@@ -13,67 +14,70 @@
 
 namespace csgcore {
 
-/// Primitives that nobody sees who looks at the solid from outside (hidden_operands.hpp); each of
-/// them stands in the tree once.
+/// Primitives that cannot be seen from outside the solid (hidden_operands.hpp), each of which
+/// stands in the tree once.
 struct HiddenOperands {
-  /// Voids in the solid's inside, and parts there. The operands, these among them, are all that
-  /// stand in groups or take away. Around these the solid holds by the rest alone, and no other
-  /// operand reaches in. Without them it is another solid, but no ray from outside gets to know: it
-  /// has ended where it would get to one of them.
+  /// Voids inside the solid, and parts inside it. All of them are in groups or subtracted. Around
+  /// them the solid is true without them, and no other operand reaches in. Without them the solid
+  /// is another one, but no ray from outside can tell: it ends before it gets to any of them.
   std::vector<uint32_t> inside;
-  /// Where they are, the solid does not depend on them.
+  /// Primitives that the solid does not depend on.
   std::vector<uint32_t> cancelled;
 
   size_t count() const { return inside.size() + cancelled.size(); }
 };
 
-/// The operands of a large union, and what a difference takes away if that is much, stand in groups
-/// of some that are alike in size and near each other: a group is a union of operands, or of
-/// smaller groups. In a list it is a test like a primitive's, of an index beyond the
-/// primitives'. Its extent is a box outside of which none of its operands matters; of nothing is it
-/// known to lie inside.
+/// The operands of a large union, and those that a difference subtracts if they are many, are put
+/// into groups of operands that are alike in size and near each other. A group is a union of
+/// operands or of smaller groups; the groups form a BVH (bounding volume hierarchy). In a list a
+/// group is a test like a primitive's, with an index above those of primitives. Its extent is a box
+/// outside of which none of its operands matters, and never claims that a cell lies inside the
+/// group. To expand a group is to replace its test by those of its members.
 ///
-/// Left out altogether are operands that reach nowhere where they matter: each operation leaves a
-/// box outside of which its operands cannot change the whole.
+/// Operands that reach nowhere where they matter are left out: each operation has a box outside of
+/// which its operands cannot change the solid.
 class OperandGroups {
  public:
   OperandGroups() = default;
-  /// `extents`: of the primitives, index for index. `hidden` are taken for empty.
+  /// `extents` are those of the primitives, with the same indices. The `hidden` operands are taken
+  /// for empty.
   OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden = {});
 
-  /// For the same tree, of whose primitives only `moved` have other extents: groups keep what they
-  /// hold, and grow where that reaches further. Null if the groups would have to hold others, or
-  /// have grown too often.
+  /// Returns the BVH for the same tree after an edit, in which only the primitives `moved` have
+  /// other extents. Groups keep their members, and grow if these reach further. Returns null if the
+  /// groups would need other members, or if too many primitives have moved since they were made.
   static std::shared_ptr<const OperandGroups> with_moved(
       const std::shared_ptr<const OperandGroups>& earlier, const CsgTree& tree,
       const Extents& extents, std::span<const uint32_t> moved);
 
-  /// The whole tree's. Constant if nothing of it is left.
+  /// The list of the whole tree. It is constant if no operand is left.
   const CellList& list() const { return list_; }
-  /// Of the primitives, then of the groups.
+  /// The extents of the primitives, then those of the groups.
   const Extents& extents() const { return extents_; }
-  /// Indices below are primitives'.
+  /// The first index of a group; those below are primitives.
   uint32_t first_group() const { return first_group_; }
   bool is_group(uint32_t index) const { return index >= first_group_; }
-  /// Whether it is a group, and its members' operation no other than its own.
+  /// Returns whether it is a group and its list is the plain union of its members
+  /// (Members::is_union).
   bool is_union(uint32_t index) const {
     return is_group(index) && members_[index - first_group_].is_union;
   }
-  /// How many primitives and groups there are.
+  /// The number of primitives and groups together.
   uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
 
-  /// A group's own list as in a CellList, its numbers counted from its own tests, of which the
-  /// last of the arrays is where evaluation starts.
+  /// A group's own list, as in a CellList: numbers refer to the group's own tests, and the last
+  /// entry of the arrays is where evaluation starts.
   struct Members {
-    std::span<const uint32_t> primitive;  // or group; with kComplementBit
+    std::span<const uint32_t> primitive;  // the index of a primitive or group; with kComplementBit
     std::span<const uint32_t> if_inside, if_outside;
-    /// Where the first of them stands among the members of all groups.
+    /// The position of the first member among the members of all groups.
     uint32_t first;
     uint32_t group;
-    /// Each member holds the group, and the next is asked otherwise: any of them may be left out.
+    /// The group is true where a member is true, and goes on to the next member otherwise. So
+    /// members may be left out without renumbering.
     bool is_union;
 
-    /// Where its rows start in an array of row_size() numbers.
+    /// Returns the group's four rows in an array of row_size() numbers.
     template <typename Number>
     std::array<Number*, 4> rows(Number* numbers) const {
       const size_t count = primitive.size();
@@ -89,16 +93,18 @@ class OperandGroups {
     return {part(primitive_), part(if_inside_), part(if_outside_), range.first, group,
             range.is_union};
   }
-  /// Of all groups together.
+  /// The number of members of all groups.
   uint32_t member_count() const { return static_cast<uint32_t>(if_inside_.size()); }
-  /// Numbers in four rows, of which each group's stand together, and what vectors read past them.
+  /// The size of an array with four rows for each group, one group after the other, and the padding
+  /// that vectors read.
   size_t row_size() const { return 4 * size_t{member_count()} + kRowPadding; }
-  /// Balls that hold the group's members, their centres counted from that of its extent, rounded to
-  /// float. Side by side they are read much faster than extents, which lie all over memory.
+  /// Balls around the group's members, in float, with centres relative to the centre of the group's
+  /// extent. They lie side by side (SoA), and so are read much faster than extents, which are
+  /// scattered in memory.
   BallRows balls(uint32_t group) const;
-  /// The primitives and groups that stand in no group, or in the tree more than once.
+  /// The primitives and groups that the whole list names, or that more than one test names.
   std::span<const uint32_t> common() const { return common_; }
-  /// What was left out.
+  /// The hidden operands that were left out.
   const HiddenOperands& hidden() const { return hidden_; }
 
  private:
@@ -113,11 +119,11 @@ class OperandGroups {
   Extents extents_;
   HiddenOperands hidden_;
   uint32_t first_group_ = 0;
-  uint32_t moved_ = 0;               // primitives that moved since the groups were made
+  uint32_t moved_ = 0;               // how many primitives have moved since the groups were made
   std::vector<Range> members_;       // by group
-  std::vector<uint32_t> primitive_;  // and valid indices that vectors read past the last
+  std::vector<uint32_t> primitive_;  // of all groups; then valid indices as the vectors' padding
   std::vector<uint32_t> if_inside_, if_outside_;
-  std::vector<float> balls_;  // of a group's members x, then y, z and radius; then the next group's
+  std::vector<float> balls_;  // by group: the members' x, then y, z and radius
   std::vector<uint32_t> common_;
 };
 

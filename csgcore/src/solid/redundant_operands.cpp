@@ -18,10 +18,10 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 
-/// A primitive's or operand's class: equal ones have the same.
+/// The class of a primitive or an operand. Equal ones have the same class.
 using Class = uint32_t;
 
-/// Spreads what differs in any bit over all bits (the finaliser of MurmurHash3, Appleby 2011).
+/// Spreads a difference in any bit over all bits (the finaliser of MurmurHash3, Appleby 2011).
 constexpr uint64_t mixed(uint64_t bits) {
   bits = (bits ^ bits >> 33) * 0xFF51AFD7ED558CCDu;
   bits = (bits ^ bits >> 33) * 0xC4CEB9FE1A85EC53u;
@@ -46,8 +46,8 @@ bool is_equal(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
          same_polyhedron(a.polyhedron.get(), b.polyhedron.get());
 }
 
-/// For each primitive the lowest index of those that are equal to it, among all that the tree may
-/// name. Most often all are their own: that costs a few passes over hashes.
+/// Returns, for each primitive, the lowest index among the primitives that equal it. Most often no
+/// two are equal, which costs a few passes over hashes.
 std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
   const size_t count = primitives.size();
   std::vector<uint64_t> hashes(count);
@@ -55,7 +55,8 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) hashes[i] = hash_of(primitives[i]);
   });
-  // Primitives that share a bit with another one, out of so many that few do by chance.
+  // `twice` marks the bits that two hashes share. There are so many bits that few are shared by
+  // chance.
   constexpr size_t kBitsEach = 8;
   const size_t mask = std::bit_ceil(kBitsEach * std::max<size_t>(count, 64)) - 1;
   std::vector<uint64_t> once((mask + 1) / 64), twice((mask + 1) / 64);
@@ -68,7 +69,7 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
   std::vector<Class> classes(count);
   std::iota(classes.begin(), classes.end(), 0u);
   std::unordered_map<uint64_t, uint32_t> first_of;  // by hash
-  std::vector<uint32_t> next_of;                    // others of the hash that differ
+  std::vector<uint32_t> next_of;                    // another with the same hash
   for (uint32_t i = 0; i < count; ++i) {
     const size_t bit = hashes[i] & mask;
     if ((twice[bit / 64] >> bit % 64 & 1) == 0) continue;
@@ -88,18 +89,18 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
   return classes;
 }
 
-/// Of a union's operands, so many of the largest are asked whether they hold the others; and of
-/// none that has more operands than the second.
+/// For each union, so many of its largest operands are tested for holding the others. A union with
+/// more than kMostOperands is not searched.
 constexpr size_t kLargest = 4;
 constexpr size_t kMostOperands = size_t{1} << 17;
 
-/// As shares of the tolerance: a thousand times what is rounded, which a primitive may stand out of
-/// one that holds it, if coincident faces are that one's; and how far from its surface it stays
-/// otherwise.
+/// Shares of the thickness tolerance. A primitive may reach out of the one that holds it by
+/// kCoplanar, a thousand times the rounding, if coincident faces show the latter. Otherwise it must
+/// lie kApartInside below its surface.
 constexpr double kCoplanar = 0x1p-10;
 constexpr double kApartInside = 4;
 
-/// Marks primitives that lie within another operand of their union.
+/// Finds primitives that lie within another operand of their union.
 class InnerOperands {
  public:
   InnerOperands(std::span<const CsgToken> tokens, std::span<const CanonicalPrimitive> primitives,
@@ -111,7 +112,8 @@ class InnerOperands {
         inside_(-kApartInside * thickness_tolerance),
         is_inner_(tokens.size()) {}
 
-  /// By token; empty if there are none. `grounds` gets those that hold others, and the others.
+  /// Returns marks by token, or an empty vector if no primitive lies within another. Appends the
+  /// primitives that hold others, and those that they hold, to `grounds`.
   std::vector<uint8_t> find(std::vector<uint32_t>& grounds) {
     std::vector<uint32_t> roots;
     for (uint32_t i = 0; i < tokens_.size(); ++i) {
@@ -141,7 +143,7 @@ class InnerOperands {
       if (tokens_[root].is_primitive) operands_.push_back(root);
     }
     if (operands_.size() < 2) return;
-    // The largest first; of equal size the last.
+    // The largest come first; among equals in size, the last in the tree.
     largest_ = operands_;
     const size_t asked = std::min(kLargest, largest_.size());
     const auto primitive_of = [this](uint32_t root) { return tokens_[root].value; };
@@ -167,7 +169,7 @@ class InnerOperands {
   bool is_held(uint32_t inner, uint32_t outer) const {
     const double limit = inner < outer ? in_surface_ : inside_;
     const Extent &a = extents_[inner], &b = extents_[outer];
-    // Equal ones are found as such.
+    // Equal primitives are found by their classes.
     if (std::equal(a.half, a.half + 3, b.half)) return false;
     for (int axis = 0; axis < 3; ++axis) {
       const double beyond = std::abs(a.center[axis] - b.center[axis]) + a.half[axis];
@@ -187,7 +189,7 @@ class InnerOperands {
 /// Finds equal operands from the leaves up.
 class Merger {
  public:
-  /// `dropped`: by token, the operands that are left out in any case; or none.
+  /// `dropped` marks, by token, the operands that are left out in any case; it may be empty.
   Merger(std::span<const CsgToken> tokens, std::vector<Class> classes, std::vector<uint8_t> shared,
          std::vector<uint8_t> dropped)
       : tokens_(tokens),
@@ -200,7 +202,8 @@ class Merger {
     find_operands();
   }
 
-  /// Whether any operand equals a later one of its operation.
+  /// Drops operands that equal a later one of their operation. Returns whether any operand is
+  /// dropped.
   bool find() {
     std::vector<Operand> operands;
     for (uint32_t i = 0; i < tokens_.size(); ++i) {
@@ -219,7 +222,7 @@ class Merger {
     return any_dropped_;
   }
 
-  /// The tree without the operands that were dropped.
+  /// Returns the tree without the dropped operands.
   CsgTree tree() const {
     CsgTreeBuilder builder;
     struct Open {
@@ -252,11 +255,11 @@ class Merger {
   struct Operand {
     uint32_t root;  // token
     Class own;
-    uint32_t lowest, highest;  // index of its primitives
-    bool may_be_shared;        // all of its primitives have equals
+    uint32_t lowest, highest;  // of its primitives' indices
+    bool may_be_shared;        // each of its primitives equals another one
   };
 
-  /// The tokens of each operation's operands.
+  /// Lists the root tokens of each operation's operands.
   void find_operands() {
     first_operand_.resize(tokens_.size());
     std::vector<uint32_t> roots;
@@ -279,7 +282,8 @@ class Merger {
       if (is_new) continue;
       const Operand*& last = entry->second;
       const bool is_later = last->highest <= operand.lowest;
-      // Such operands interleave in no file: which of them is shown would differ from face to face.
+      // If the primitives of two operands interleave in the file, different ones of the two would
+      // be shown on different faces.
       if (!is_later && operand.highest > last->lowest) continue;
       dropped_[(is_later ? *last : operand).root] = 1;
       any_dropped_ = true;
@@ -317,9 +321,9 @@ class Merger {
   Class next_class_;
   std::vector<uint8_t> dropped_;  // by token: an operand's root
   bool any_dropped_;
-  std::vector<uint32_t> first_operand_, operand_roots_;  // the first by token
+  std::vector<uint32_t> first_operand_, operand_roots_;  // first_operand_ by token
   struct Known {
-    std::vector<uint32_t> key;  // operation, and its operands' classes
+    std::vector<uint32_t> key;  // the operation, then its operands' classes
     Class own;
   };
   std::unordered_map<uint64_t, std::vector<Known>> known_;

@@ -7,16 +7,16 @@ namespace csgcore {
 
 namespace {
 
-/// So many tests are tested at once.
+/// So many tests of a list are classified at once.
 constexpr uint32_t kBlock = 64;
 
-/// One side's pass over the list, bottom up: a decided test is replaced by what follows it, and
-/// so is one whose two continuations have become the same. Every test is written and only the
-/// kept ones advance the output: what happens to a test is close to random, and a mispredicted
-/// branch costs more than all of this.
+/// One pass over a list, bottom up, for one side: a decided test is replaced by the target that it
+/// leads to, and so is a test whose two targets have become the same. Every test is written and
+/// only the kept ones advance the output: what happens to a test is close to random, and a
+/// mispredicted branch costs more than all of this.
 class Pass {
  public:
-  /// `most`: how many tests the result may get.
+  /// `most` bounds the number of tests of the result.
   Pass(const CellList& list, uint32_t most, CellList& result, std::vector<uint32_t>& map) {
     result.reserve(most);
     if (map.size() <= list.root) map.resize(size_t{list.root} + 1);
@@ -28,16 +28,17 @@ class Pass {
     if_outside_ = result.if_outside.data();
   }
 
-  /// What stands for a number of the list that was passed.
+  /// The number in the result that stands for a number of the list.
   uint32_t& at(uint32_t number) { return map_[number]; }
 
-  /// BlistTest `number` of the list.
+  /// Passes the test `number` of the list.
   void step(uint32_t number, uint32_t primitive, uint32_t if_inside, uint32_t if_outside,
             bool outside, bool inside) {
     map_[number] = put(primitive, map_[if_inside], map_[if_outside], outside, inside);
   }
 
-  /// A test that goes on to `inner` or `outer` of the result; what stands for it there.
+  /// Adds a test with the targets `inner` and `outer`, which are numbers of the result. Returns the
+  /// number that stands for it there.
   uint32_t put(uint32_t primitive, uint32_t inner, uint32_t outer, bool outside, bool inside) {
     primitive_[kept_] = primitive;
     if_inside_[kept_] = inner;
@@ -113,7 +114,7 @@ void Restrictor::open(const CellList& list, const OperandGroups& groups,
     most += groups.members(list.primitive[i] & kPrimitiveBits).primitive.size();
   }
   Pass pass(list, most, result, maps_[0]);
-  std::vector<uint32_t>& map = maps_[1];  // of a group's own numbers
+  std::vector<uint32_t>& map = maps_[1];  // by numbers of a group's own list
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t number = i + CellList::kFirst;
     const uint32_t entry = list.primitive[i];
@@ -172,9 +173,9 @@ ExtentAnswers Restrictor::answers_of(const uint32_t* primitives, uint32_t count,
                                      const Halves& halves) const {
   constexpr int kLast = kSides - 1;
   ExtentAnswers answers = test_extents(extents_.data(), primitives, count, halves);
-  // Balls are decided by their extents alone. Of the others, only those that reach both halves
-  // need to be asked about: what reaches one half only was found to cross the whole cell, and so
-  // crosses that half.
+  // Balls are decided by their extents alone. Other primitives are classified only if they reach
+  // both halves: one that reaches a single half was found to cross the whole cell, and so crosses
+  // that half.
   const uint64_t open = answers.open & ~answers.outside[0] & ~answers.outside[kLast];
   for (int side = 0; open != 0 && side < kSides; ++side) {
     const auto more = open_.classify(primitives, open, side == 0 ? halves.below : halves.above);
@@ -212,7 +213,7 @@ void Restrictor::restrict_sides(const CellList& list, const Halves& halves,
   }
 }
 
-/// Whether some jump leads to each test but the root.
+/// Returns whether some jump leads to each test but the root.
 bool Restrictor::all_have_jumps(const CellList& list) {
   reached_.assign(list.root + 1, 0);
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -223,9 +224,9 @@ bool Restrictor::all_have_jumps(const CellList& list) {
          reached_.end() - 1;
 }
 
-/// Where an operand has been decided, its later tests may have lost every jump to them. If each
-/// test but the root has one, then all are reached, since the way back along such jumps ends at
-/// the root only.
+/// Drops tests that evaluation cannot reach: if an operand has been decided, its later tests may
+/// have lost every jump to them. If some jump leads to each test but the root, then all tests are
+/// reached, since the way back along such jumps can only end at the root.
 void Restrictor::drop_unreached(CellList& list) {
   if (list.is_constant() || all_have_jumps(list)) return;
   reached_.assign(list.root + 1, 0);

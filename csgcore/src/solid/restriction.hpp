@@ -1,4 +1,4 @@
-// Restricting a cell's function to the cell's two halves (paper §2.2.1).
+// Restricts a cell's list to the cell's two halves (paper §2.2.1).
 #pragma once
 
 #include <optional>
@@ -13,8 +13,9 @@
 
 namespace csgcore {
 
-/// Decides what extents leave open. A cell of the kd-tree is a box in the world, a tile of a
-/// picture a box on the screen: the extents and this are all that differs.
+/// Classifies primitives that their extents do not decide. A cell of the kd-tree is a box in the
+/// world, and a tile of a picture is a box on the screen; restriction is the same for both but for
+/// the extents and this classifier.
 class OpenClassifier {
  public:
   virtual ~OpenClassifier() = default;
@@ -22,19 +23,20 @@ class OpenClassifier {
     uint64_t outside = 0;
     uint64_t inside = 0;
   };
-  /// About those of up to 64 primitives (indices, the top bit ignored) whose bit is set in `open`:
-  /// the bits of those that are certainly outside the cell, or hold all of it. Their extents meet
-  /// the cell.
+  /// Classifies those of up to 64 primitives (indices, whose top bit is ignored) that have their
+  /// bit set in `open`. Returns the bits of those that certainly lie outside of the cell, and of
+  /// those that contain all of it. Their extents meet the cell.
   virtual Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const = 0;
-  /// Of up to 64 members of a group, from `first` on, the bits of those that are certainly outside
-  /// the cell, by what is kept for members of groups. None: nothing is.
+  /// Returns, for up to 64 members of a group from `first` on, the bits of those that certainly lie
+  /// outside of the cell, by SoA bounds that are kept for groups. Returns nothing if there are no
+  /// such bounds.
   virtual std::optional<uint64_t> members_outside(const OperandGroups::Members&, uint32_t /*first*/,
                                                   uint32_t /*count*/, const Box& /*cell*/) const {
     return std::nullopt;
   }
 };
 
-/// In world space.
+/// Classifies primitives against boxes in world space.
 class WorldClassifier final : public OpenClassifier {
  public:
   explicit WorldClassifier(std::span<const CanonicalPrimitive> primitives)
@@ -45,31 +47,32 @@ class WorldClassifier final : public OpenClassifier {
   std::span<const CanonicalPrimitive> primitives_;
 };
 
-/// Not to be shared between threads: it keeps its working memory.
+/// Restricts lists to cells. It keeps its working memory, so that each thread needs its own.
 class Restrictor {
  public:
   /// Keeps references to extents and classifier.
   Restrictor(std::span<const Extent> extents, const OpenClassifier& open)
       : extents_(extents), open_(open) {}
 
-  /// Makes each of `below` and `above` the irreducible list that equals `list` within that half: no
-  /// test that the half decides, none whose two continuations agree, none that evaluation cannot
-  /// reach. `list` is not constant, is neither of the two, and comes from a restriction to the
-  /// whole cell.
+  /// Makes each of `below` and `above` the irreducible list that equals `list` within that half of
+  /// a cell: it has no test that the half decides, none whose two targets agree, and none that
+  /// evaluation cannot reach. `list` must not be constant, must be another object than the two, and
+  /// must come from a restriction to the whole cell.
   void restrict(const CellList& list, const Halves& halves, CellList& below, CellList& above);
-  /// The same for one cell and any list.
+  /// Does the same for one cell and any list.
   void restrict(const CellList& list, const Box& cell, CellList& result);
-  /// Whether that would leave the list as it is. `list` is irreducible.
+  /// Returns whether that would leave the list as it is. `list` must be irreducible.
   bool decides_none(const CellList& list, const Box& cell) const;
 
-  /// What a caller knows of a test.
+  /// What the caller knows about a test's primitive.
   enum class Decision : uint8_t { kOpen, kOutside, kInside };
-  /// The same for decisions that the caller has made: `decisions[i]` is that of the list's index i.
+  /// Does the same by decisions that the caller has made: `decisions[i]` is about the test at index
+  /// i.
   void restrict(const CellList& list, std::span<const Decision> decisions, CellList& result);
 
-  /// Groups whose index in the list is marked are opened: their members stand in their places, as
-  /// far as they matter in the cell. `list` comes from a restriction to the cell, and is not
-  /// `result`.
+  /// Expands the groups whose indices in the list are marked: `result` has their members in their
+  /// places, except for those that do not matter in the cell. `list` must come from a restriction
+  /// to the cell, and be another object than `result`.
   void open(const CellList& list, const OperandGroups& groups, std::span<const uint8_t> marked,
             const Box& cell, CellList& result);
 
@@ -85,8 +88,8 @@ class Restrictor {
 
   std::span<const Extent> extents_;
   const OpenClassifier& open_;
-  std::vector<uint32_t> maps_[2];  // per side and number of the old list: what stands for it
-  std::vector<uint32_t> reached_;  // drop_unreached: per number 0 or 1, then the new number
+  std::vector<uint32_t> maps_[2];  // by side and number in the old list: the number in the new list
+  std::vector<uint32_t> reached_;  // for drop_unreached(): by number 0 or 1, then the new number
 };
 
 }  // namespace csgcore

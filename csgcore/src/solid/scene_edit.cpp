@@ -29,7 +29,7 @@ bool all_same_tokens(const Scene& a, const Scene& b) {
   return same_tokens(a.model, b.model) && same_layers(a, b);
 }
 
-/// What is left of a tree where none of the primitives is that `gone` has.
+/// Returns the list of a tree outside of all the primitives in `gone`.
 CellList list_without(const CsgTree& tree, const std::vector<uint32_t>& gone, size_t primitives) {
   CellList result;
   if (tree.empty()) return result;

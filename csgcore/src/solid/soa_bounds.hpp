@@ -1,14 +1,14 @@
-// What is kept of a group's members side by side, for vectors of float.
+// SoA bounds: simple bounds of a group's members in structures of arrays, for vectors of float.
 #pragma once
 
 #include <cstdint>
 
 namespace csgcore {
 
-/// Vectors read so far beyond a row's last entry.
+/// Vectors read up to so many entries beyond the last one of a row.
 constexpr uint32_t kRowPadding = 16;
 
-/// Balls, in units of the world.
+/// Balls, in world units.
 struct BallRows {
   const float* x;
   const float* y;

@@ -22,10 +22,10 @@ Box bounds_of(const CanonicalPrimitives& primitives, const CsgTree& tree) {
   return subtree_boxes(tree.tokens(), [&](uint32_t i) { return primitives[i].bounds; }).back();
 }
 
-/// With a larger share of primitives changed, all is made anew.
+/// If a larger share of the primitives has changed, the solid is made anew.
 constexpr double kMostMoved = 0.1;
 
-/// In parallel where there are many.
+/// Calls work(i) for each i < count, in parallel if there are many.
 template <typename Work>
 void for_each_part(size_t count, Work&& work) {
   constexpr size_t kAtOnce = 1024;

@@ -1,6 +1,6 @@
-// TileCuller::cut_by_face: what a plane face hides that all rays of a tile enter by. Parts that
-// share planes, and plates behind each other that are thinner than a tile's depths, are not told
-// apart by depths; here they are told by their place against the face's plane.
+// TileCuller::cut_by_face: a plane face by which all rays of a tile enter the solid hides what lies
+// behind its plane. Depths cannot separate parts that share planes, or plates one behind the other
+// that are thinner than the range of a tile's depths; the face's plane can.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,23 +14,23 @@
 namespace csgcore {
 namespace {
 
-/// So many primitives that cover the tile are looked at for each of its pixels, and some in any
-/// case: one half of them those whose bounds begin the nearest.
+/// So many primitives that cover the tile are tried for each of its pixels, and kSomeCandidates in
+/// any case. One half of them are those whose bounds begin nearest.
 constexpr double kMostForAPixel = 0.25;
 constexpr size_t kSomeCandidates = 32;
 
-/// Tolerances, along the face's normal: so thick is the primitive behind its face at least, that no
-/// crossing beyond may be together with one at the face; and so far behind lies what is left out,
-/// for the same reason.
+/// In thickness tolerances along the face's normal: the least thickness of the primitive behind its
+/// face, so that no crossing beyond it can coincide with one at the face; and the least distance of
+/// dropped primitives from the face, for the same reason.
 constexpr double kLeastThickness = 16;
 constexpr double kLeastDistance = 4;
 
-/// As a share of the tolerance: no more than that stands out of the face's plane where it is taken
-/// to lie in it. That is a thousand times what is rounded, and at kLeastCosine far from a tolerance
-/// along the ray.
+/// As a share of the thickness tolerance: a primitive counts as lying in the face's plane if it
+/// reaches out of it by no more than this. That is a thousand times the rounding and, at
+/// kLeastCosine, far less than a tolerance along the ray.
 constexpr double kCoplanar = 0x1p-10;
 
-/// Flatter views are not looked at.
+/// Faces that a ray meets at a smaller cosine are not tried.
 constexpr double kLeastCosine = 0x1p-6;
 
 constexpr uint32_t kCorners = 4;
@@ -39,17 +39,18 @@ double latest_of(const double (&t)[kPacketRays]) { return *std::max_element(t, t
 
 }  // namespace
 
-/// The primitives that are enough for the value by their test, and cover the tile.
+/// Finds primitives that cover the tile and whose test, if inside, makes the list true.
 void TileCuller::find_face_candidates(const CellList& list, const Box& tile, size_t most) {
   face_candidates_.clear();
   for (uint32_t i = 0; i < list.count(); ++i) {
-    const uint32_t primitive = list.primitive[i];  // no group, and no complement
+    const uint32_t primitive = list.primitive[i];  // complements have larger numbers than groups
     if (list.if_inside[i] != CellList::kTrue || primitive >= groups_.first_group()) continue;
     const Extent& e = screen_[primitive];
     if (covers(e, tile)) face_candidates_.push_back({i, primitive, nearest_t(e)});
   }
   if (face_candidates_.size() <= most) return;
-  // Half of them the nearest; and, of plates behind each other, which begin alike, some of all.
+  // Half of them are the nearest. The others are spread evenly over all others, since plates one
+  // behind the other may have bounds that begin alike.
   const auto rest = face_candidates_.begin() + static_cast<long>(most / 2);
   std::nth_element(face_candidates_.begin(), rest, face_candidates_.end(),
                    [](const FaceCandidate& a, const FaceCandidate& b) {
@@ -67,8 +68,8 @@ void TileCuller::find_face_candidates(const CellList& list, const Box& tile, siz
   face_candidates_.resize(most);
 }
 
-/// The plane by which all four rays enter the primitive, if there is one, squarely enough, and
-/// enough of the primitive behind it.
+/// Returns the plane by which all four rays enter the primitive, if there is one that they meet
+/// squarely enough and behind which the primitive is thick enough.
 std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
     const RayPacket& rays, uint32_t primitive, const PacketSegments& segments) const {
   alignas(64) double normals[3][kPacketRays];
@@ -80,7 +81,7 @@ std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
   for (uint32_t lane = 0; lane < kCorners; ++lane) {
     if (lane_of(normals, lane) != normal) return std::nullopt;
     const Vec3 direction = lane_of(rays.direction, lane);
-    const double speed = -glm::dot(normal, direction);  // along the normal, per τ
+    const double speed = -glm::dot(normal, direction);  // along the normal, per unit of t
     const double length = segments.end[lane] - segments.start[lane];
     if (!(speed >= kLeastCosine * glm::length(direction))) return std::nullopt;
     if (!(speed * length >= kLeastThickness * thickness_tolerance_)) return std::nullopt;
@@ -89,7 +90,8 @@ std::optional<TileCuller::FacePlane> TileCuller::entered_plane(
   return FacePlane{normal, glm::dot(normal, point)};
 }
 
-/// Whether the primitive or group reaches no further than that along the plane's normal.
+/// Returns whether the primitive or group reaches no further than `limit` beyond the plane, along
+/// its normal.
 bool TileCuller::lies_behind(uint32_t index, const FacePlane& plane, double limit) const {
   const Extent& e = groups_.extents()[index];
   const Vec3 center{e.center[0], e.center[1], e.center[2]};
@@ -97,13 +99,13 @@ bool TileCuller::lies_behind(uint32_t index, const FacePlane& plane, double limi
   if (height > limit) return false;
   const Vec3 half{e.half[0], e.half[1], e.half[2]};
   if (height + glm::dot(glm::abs(plane.normal), half) <= limit) return true;
-  // A box tells little of what is turned against it.
+  // A box fits a rotated primitive badly.
   if (groups_.is_group(index)) return false;
   const Vec3 furthest = furthest_point(primitives_[index], plane.normal) - frame_.pivot;
   return glm::dot(plane.normal, furthest) - plane.offset <= limit;
 }
 
-/// Whether the value is true wherever the test's primitive holds.
+/// Returns whether the list is true wherever the test's primitive holds.
 bool TileCuller::is_enough(const CellList& list, uint32_t index, Restrictor& restrictor) {
   decisions_.assign(list.count(), Decision::kOpen);
   decisions_[index] = Decision::kInside;
@@ -130,8 +132,8 @@ bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor&
     candidate.entry_t =
         are_met ? latest_of(segments.start) : std::numeric_limits<double>::infinity();
   }
-  // The nearest; of those that begin together the last, which is the one that shows. The same
-  // plane is met at depths that differ by rounding.
+  // Take the nearest face; of coincident ones take that of the last primitive, which is shown. The
+  // same plane is met at depths that differ by rounding.
   const auto nearest = std::ranges::min_element(face_candidates_, {}, &FaceCandidate::entry_t);
   if (std::isinf(nearest->entry_t)) return false;
   const double together_t = nearest->entry_t + kCoplanar * thickness_tolerance_;
@@ -151,7 +153,7 @@ bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor&
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t index = list.primitive[i] & kPrimitiveBits;
     if (index == chosen.primitive) continue;
-    // What comes earlier in the file would not be shown where it lies in the plane.
+    // A primitive that comes earlier in the file is not shown where it lies in the plane.
     const double limit = index < chosen.primitive ? in_plane : behind;
     if (!lies_behind(index, *plane, limit)) continue;
     dropped_[i] = Decision::kOutside;

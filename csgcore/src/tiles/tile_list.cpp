@@ -13,28 +13,29 @@
 namespace csgcore {
 namespace {
 
-/// Only the primitives that hold the tile over the longest stretches are tried: each costs a few
-/// passes over the list, and the first mostly settles it.
+/// Only the occluders with the longest stretches are tried: each costs a few passes over the list,
+/// and the first one mostly settles it.
 constexpr size_t kMostCovers = 3;
 
-/// Shorter lists without groups are not searched for what decides nothing: few of them have any.
+/// Lists without groups that are no longer than this are not searched for primitives that decide
+/// nothing: few have any.
 constexpr uint32_t kUndecisiveList = 64;
 
-/// A stretch is taken to be shorter at each end by this share of its depths and of its own length:
+/// A stretch is shortened at each end by this share of its depths and of its own length, which is
 /// far above the rounding of an intersection.
 constexpr double kCoverSlack = 1e-9;
 
-/// A stretch of depth is looked at in so many parts for one that is free.
+/// A stretch is divided into so many parts in the search for a free depth.
 constexpr size_t kDepthParts = 64;
 
-/// So many groups are opened at most to find it.
+/// No more groups than this are expanded to find one.
 constexpr int64_t kMostInTheWay = 16;
 
 bool meets(const Extent& screen, double from_t, double to_t) {
   return nearest_t(screen) <= to_t && furthest_t(screen) >= from_t;
 }
 
-/// Whether it is larger than the tile on the screen.
+/// Returns whether the extent is larger than the tile on the screen.
 bool covers_more_than(const Extent& screen, const Tile& tile) {
   return 2 * screen.half[0] > tile.width && 2 * screen.half[1] > tile.height;
 }
@@ -84,7 +85,7 @@ double TileCuller::slack_of(const Cover& cover) {
          (std::abs(cover.from_t) + std::abs(cover.to_t) + (cover.to_t - cover.from_t));
 }
 
-/// The longest first.
+/// Finds the occluders, the longest ones first. Returns whether there are any.
 bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
   const Box box = box_of(tile, centers_only_);
   covers_.clear();
@@ -130,7 +131,7 @@ bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
   return !covers_.empty();
 }
 
-/// What is certain of each primitive between two depths.
+/// Sets decisions_ to what is certain about each primitive between two depths.
 void TileCuller::decide_within(const CellList& list, double from_t, double to_t) {
   decisions_.resize(list.count());
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -176,9 +177,10 @@ bool TileCuller::covers_at(uint32_t primitive, double from_t, double to_t) const
   });
 }
 
-/// A depth within the stretch at which none of the list is open, the first of as many parts of
-/// equal length as are looked at. If groups alone stand in the way of one, there may be one once
-/// those are opened, of the part where they are the fewest.
+/// Returns a free depth within the stretch: one that no primitive of the list, except occluders,
+/// reaches. It is in the first of kDepthParts parts of equal length that has one. If groups alone
+/// stand in the way, marks those in the part with the fewest to be expanded, unless some are marked
+/// already.
 std::optional<double> TileCuller::free_depth(const CellList& list, double from_t, double to_t) {
   const double scale = kDepthParts / (to_t - from_t);
   struct Parts {
@@ -189,7 +191,8 @@ std::optional<double> TileCuller::free_depth(const CellList& list, double from_t
         static_cast<size_t>(std::max((nearest_t(e) - from_t) * scale, 0.0)),
         static_cast<size_t>(std::min((furthest_t(e) - from_t) * scale, kDepthParts - 1.0))};
   };
-  // Of how many reach into a part; groups count little.
+  // The number of primitives and groups that reach into a part changes by these; a primitive counts
+  // more than all groups.
   constexpr int64_t kPrimitive = int64_t{1} << 32;
   std::array<int64_t, kDepthParts + 1> changes{};
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -220,14 +223,14 @@ std::optional<double> TileCuller::free_depth(const CellList& list, double from_t
   return std::nullopt;
 }
 
-/// Whether all rays end before the depth, of those that the covers hold there.
+/// Returns whether all rays end before the depth, by the occluders that contain the tile there.
 bool TileCuller::all_end_before(const CellList& list, Restrictor& restrictor, double depth) {
   decide_within(list, depth, depth);
   restrictor.restrict(list, decisions_, probe_);
   return probe_.root == (*last_value_ ? CellList::kTrue : CellList::kFalse);
 }
 
-/// Drops what is behind the depth; false if that is nothing.
+/// Drops primitives behind the depth. Returns whether there are any.
 bool TileCuller::drop_behind(const CellList& list, double depth, const Cover& cover) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
@@ -241,7 +244,7 @@ bool TileCuller::drop_behind(const CellList& list, double depth, const Cover& co
   return drops;
 }
 
-/// Of a group, all that it holds and the screen shows.
+/// Notes the reason for a primitive, or for all primitives of a group, that the screen would show.
 void TileCuller::note(uint32_t index, CullReason cull_reason) {
   if (!cull_reasons_.wanted()) return;
   noted_.assign(1, index);

@@ -1,4 +1,4 @@
-// A tile's list, made smaller by what the tile's rays cannot see.
+// Culling: drops primitives that a tile's rays cannot see from the tile's list.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,8 @@
 
 namespace csgcore {
 
-/// Where a tile's rays go through the screen, at any depth: through its pixels' centres alone, or
-/// anywhere in its pixels.
+/// Returns the box of a tile's rays on the screen, at any depth. The rays go through the pixels'
+/// centres only, or through any points of the pixels.
 inline Box box_of(const Tile& tile, bool centers_only) {
   constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
   const double border = centers_only ? 0.0 : 0.5;
@@ -27,10 +27,11 @@ inline Box box_of(const Tile& tile, bool centers_only) {
           {x + tile.width - 1 + border, y + tile.height - 1 + border, kAnyDepth}};
 }
 
-/// Rays through the corners of such a box, in the first four lanes.
+/// Returns the positions of rays through the corners of such a box, in the first four lanes.
 PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box);
 
-/// Why a primitive was never intersected; the largest that any tile saw counts.
+/// The reason why a primitive was not intersected. If tiles have different reasons for it, the
+/// largest counts.
 enum class CullReason : uint8_t {
   kUnknown,
   kOffScreen,
@@ -40,7 +41,7 @@ enum class CullReason : uint8_t {
   kHidden,
   kIntersected
 };
-/// One entry for each primitive; written by all threads. Empty if nobody wants to know.
+/// The cull reasons of all primitives, which all threads write. It is empty if they are not wanted.
 class CullReasons {
  public:
   void resize(size_t primitives) { cull_reasons_ = std::vector<uint8_t>(primitives); }
@@ -59,17 +60,19 @@ class CullReasons {
   std::vector<uint8_t> cull_reasons_;
 };
 
-/// Drops, from the list of a tile, primitives that decide nothing there although its rays may meet
-/// them. A primitive that holds the tile's whole cross-section over a stretch of depth settles
-/// there what the operations make of others:
-/// - where the rest of the list then agrees whatever these others do, those that lie wholly within
-///   the stretch are cancelled, or lie inside the solid;
-/// - where the solid then holds, all that lies behind is hidden.
-/// By convexity the four rays through the tile's corners tell the stretch of a primitive.
+/// Drops primitives from the list of a tile that decide nothing although the tile's rays may meet
+/// them. An *occluder* is a primitive that contains the tile's whole cross-section over a stretch
+/// of depth. Within the stretch it is known to hold, which may settle the list:
+/// - primitives that lie wholly within the stretch, and that the list does not depend on there, are
+///   cancelled or lie inside the solid;
+/// - if all rays of the tile have ended at some depth of the stretch (see `last_value`), all
+///   primitives behind that depth are hidden.
+/// Since primitives are convex, the four rays through the tile's corners give an occluder's
+/// stretch.
 class TileCuller {
  public:
-  /// `last_value`: a ray ends once the solid has that value; none: rays go on.
-  /// `cover_share`: a stretch counts if it is longer than this share of its primitive's depth.
+  /// `last_value`: a ray ends as soon as the solid has this value; none: rays do not end.
+  /// `cover_share`: a stretch counts only if it is longer than this share of its primitive's depth.
   TileCuller(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
              ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
              std::optional<bool> last_value, double cover_share, double thickness_tolerance,
@@ -86,27 +89,30 @@ class TileCuller {
         cull_reasons_(cull_reasons) {}
 
   enum class Outcome : uint8_t {
-    kNothing,     // there are none
-    kSimplified,  // the list without them is in `result`
-    kCut,         // so it is, and what is hidden was dropped: every ray of the tile ends before it
-    kOpenGroups,  // marked() tells of groups that have to be opened first
+    kNothing,     // no primitive can be dropped
+    kSimplified,  // `result` is the list without those that decide nothing
+    kCut,         // so it is, and hidden primitives were dropped: every ray of the tile ends before
+                  // cut_t()
+    kOpenGroups,  // the groups in marked() have to be expanded first
   };
   Outcome cull(const Tile& tile, const CellList& list, Restrictor& restrictor, CellList& result);
-  /// If all rays of the tile enter one primitive by one plane face, and have ended where they do:
-  /// `result` is without what lies behind that plane, or touches it from behind and comes earlier
-  /// in the file. False: there is no such primitive, or nothing behind it. cut_t() is the furthest
-  /// depth of that face.
+  /// Cuts the list by a face, if all rays of the tile enter one primitive through one plane face
+  /// and end there. Then `result` lacks primitives that lie behind that plane, or that come earlier
+  /// in the file and reach no further than into it. Returns false if there is no such face, or no
+  /// primitive behind it. cut_t() is then the largest t at which rays enter by the face, plus a
+  /// slack for rounding.
   bool cut_by_face(const Tile& tile, const CellList& list, Restrictor& restrictor,
                    CellList& result);
-  /// By the list's indices.
+  /// By index in the list.
   std::span<const uint8_t> marked() const { return marked_; }
-  /// After a cut for all of a tile's rays: the depth that all rays of the tile end before.
+  /// After a cut, a t before which all rays of the tile end.
   double cut_t() const { return cut_t_; }
-  /// Whether some primitive covers a part of the tile that smaller tiles may lie in wholly.
+  /// Returns whether some primitive covers a part of the tile, so that it may be an occluder for
+  /// smaller tiles.
   bool is_partly_covered() const { return is_partly_covered_; }
 
  private:
-  /// A primitive that holds the tile's cross-section at every depth between.
+  /// An occluder: a primitive that contains the tile's cross-section at every t in [from_t, to_t].
   struct Cover {
     uint32_t primitive;
     double from_t, to_t;
@@ -116,7 +122,7 @@ class TileCuller {
     uint32_t primitive;
     double entry_t;
   };
-  /// normal · (x − pivot) = offset.
+  /// The plane normal · (x − pivot) = offset, whose normal points towards the eye.
   struct FacePlane {
     Vec3 normal;
     double offset;
@@ -149,14 +155,14 @@ class TileCuller {
 
   using Decision = Restrictor::Decision;
   std::vector<Cover> covers_;
-  // Of the list that is culled:
+  // The state of the list that is being culled:
   bool has_groups_ = false;
   bool is_partly_covered_ = false;
   double cut_t_ = 0;
-  std::vector<Decision> decisions_;  // while a question is asked
+  std::vector<Decision> decisions_;  // for single probes
   std::vector<Decision> dropped_;    // kOutside: the test decides nothing
   std::vector<uint8_t> marked_;
-  CellList indices_;  // the list, with its indices for primitives
+  CellList indices_;  // the list, with indices in place of primitives
   CellList probe_;
   std::vector<uint8_t> decides_;
   std::vector<uint32_t> noted_;

@@ -13,11 +13,11 @@
 namespace csgcore {
 namespace {
 
-/// Of what hides others: at its ends a float is wrong about a part of it that grows as it gets
-/// shorter, by 2^-20 over this share squared.
+/// TileRules::cover_share for renderers in float. They are wrong about a part of an occluder at its
+/// ends, which is 2^-20 over this share squared for the shortest ones.
 constexpr double kCoverShare = 1.0 / 64;
 
-/// What one thread has collected.
+/// The lists that one thread has collected.
 struct Part {
   std::vector<ListedTile> tiles;
   std::vector<BlistTest> tests;
@@ -54,7 +54,7 @@ class ListVisitor final : public TileVisitor {
       for (const ListedTile& tile : part.tiles) entries.push_back({&part, &tile});
       tests += part.tests.size();
     }
-    // Which thread took which tile is chance.
+    // The order must not depend on which thread took which tile.
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
       return std::tie(a.tile->area.y, a.tile->area.x) < std::tie(b.tile->area.y, b.tile->area.x);
     });

@@ -13,35 +13,37 @@
 namespace csgcore {
 namespace {
 
-/// Tiles of so few pixels a side are never divided.
+/// Tiles of this side are never divided.
 constexpr uint32_t kLeastSide_px = 2;
 
-/// Larger tiles are divided by two tasks.
+/// The halves of tiles with more pixels become two tasks.
 constexpr uint32_t kTaskPixels = 64 * 64;
 
-/// Lists longer than the first are culled (TileCuller) at some sizes of tile, since it
-/// takes several passes over the list; lists longer than the second at every size.
+/// Culling (TileCuller) takes several passes over a list. So lists longer than kLongList are culled
+/// at the sizes kSimplifiedPixels of the tile, and lists longer than kVeryLongList at every size.
 constexpr uint32_t kLongList = 24;
 constexpr uint32_t kVeryLongList = 4096;
 constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 
-/// A group is opened where it is so large against the tile: smaller ones are mostly told apart from
-/// the tile as a whole. Later where smaller tiles may show that it is hidden.
+/// A group is expanded if it is at least this share of the tile: smaller ones are mostly separated
+/// from tiles as a whole. The share is larger if smaller tiles may find the group hidden.
 constexpr double kOpenShare = 1.0;
 constexpr double kOpenShareBehind = 4.0;
 
-/// Tiles of so many pixels a side are cut by faces, and lists of so many tests.
+/// Tiles of at most this side with lists of at least so many tests are cut by faces.
 constexpr uint32_t kFaceCutSide_px = 128;
 constexpr uint32_t kLeastFaceCut = 4;
 
-/// What is left of a list that was cut is mostly what is seen; longer ones are worth another look.
+/// A list that was cut has mostly visible primitives left, and is culled again only if it is longer
+/// than this.
 constexpr uint32_t kLongCutList = 256;
 
-/// `is_new`: groups are in the list, or were until just now.
+/// Returns whether the list should be culled now. `is_new`: the list has groups, or some were just
+/// expanded.
 bool is_culled(const Tile& tile, const CellList& list, bool is_new, bool is_cut) {
   if (list.count() <= (is_cut ? kLongCutList : kLongList) && !is_new) return false;
   const uint32_t pixels = tile.width * tile.height;
-  // A division halves a tile, so that about one on the way down is of each size.
+  // A division halves a tile, so that each of the sizes matches one tile on the way down.
   const bool is_time =
       std::any_of(std::begin(kSimplifiedPixels), std::end(kSimplifiedPixels),
                   [&](uint32_t size) { return pixels <= size && 2 * pixels > size; });
@@ -92,7 +94,7 @@ struct TileTracer::Level {
   CellList opened[2];
 };
 
-/// What one task works with.
+/// The working memory of a task.
 struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
       : restrictor(owner.bounds_.extents(), owner.bounds_),
@@ -110,11 +112,11 @@ struct TileTracer::Workspace {
   std::vector<std::unique_ptr<Level>> levels;
   TileList list, fallback_list;
   CellList fallback, fallback_expanded[2];
-  std::vector<uint8_t> marked;  // groups, by index in a list
+  std::vector<uint8_t> marked;  // the groups to be expanded, by index in a list
   uint64_t tiles = 0;
 };
 
-/// A workspace, taken for as long as this lives.
+/// Holds a workspace for as long as it lives.
 class TileTracer::Lease {
  public:
   explicit Lease(TileTracer& owner) : owner_(owner) {
@@ -141,19 +143,21 @@ class TileTracer::Lease {
 
 namespace {
 
-/// Whether any of the list is a group.
+/// Returns whether the list names any group.
 bool has_groups(const OperandGroups& groups, const CellList& list) {
   return std::ranges::any_of(list.primitives(), [&groups](uint32_t entry) {
     return groups.is_group(entry & kPrimitiveBits);
   });
 }
 
-/// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
+/// Returns the value at which rays end, which is the opposite of that at the eye; nothing unless
+/// all rays start with the same value.
 std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
                                     const FrameRays& frame, const TraceParameters& parameters) {
   if (groups.list().is_constant()) return std::nullopt;
   if (frame.view.projection == Projection::kOrthographic) return true;
-  // Rays start up to a few tolerances from the eye: further in the picture's corners.
+  // Rays start within a few tolerances of the eye; the distance is largest in the picture's
+  // corners.
   constexpr double kEyeTolerances = 64;
   const Vec3 reach{kEyeTolerances * parameters.thickness_tolerance};
   const Box& bounds = solid.bounds();
@@ -225,7 +229,7 @@ void TileTracer::visit(const Tile& area, TileVisitor& visitor) {
   divide(area, list, {}, 1, *workspace, visitor);
 }
 
-/// Recursion halves the tile each time.
+/// Divides the tile recursively; each step halves it.
 void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t level,
                         Workspace& workspace, TileVisitor& visitor) {
   if (parameters_.stop.stop_requested() || !visitor.wants(tile)) return;
@@ -250,7 +254,7 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
     cut.t = std::min(cut.t, workspace.culler.cut_t());
     list = &own.in_front;
   }
-  // Groups that are left of a list that was cut are mostly seen.
+  // Groups that are left in a list that was cut are mostly visible.
   cull_list(!cut.fallback && has_groups(groups_, *list));
   const CellList* const closed = list;
   const bool is_behind = !cut.fallback && workspace.culler.is_partly_covered();
@@ -300,8 +304,8 @@ void TileTracer::divide(const Tile& tile, const CellList& given, Cut cut, size_t
   divide(above, own.halves[1], cut, level + 1, workspace, visitor);
 }
 
-/// The list without what decides nothing in the tile, if it is time to look for that. `cuts` is set
-/// where what is hidden was dropped.
+/// Returns the list without primitives that decide nothing in the tile, if is_culled() says that it
+/// is time to look for them. Sets `cuts` if hidden primitives were dropped.
 const CellList* TileTracer::cull(const Tile& tile, const CellList* list, bool is_new, bool is_cut,
                                  Level& level, Workspace& workspace, bool& cuts) {
   while (is_culled(tile, *list, is_new, is_cut)) {
@@ -320,7 +324,7 @@ const CellList* TileTracer::cull(const Tile& tile, const CellList* list, bool is
   return list;
 }
 
-/// The list with the groups opened whose indices in the list are marked.
+/// Returns the list with the marked groups expanded.
 const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
                                         std::span<const uint8_t> marked, CellList (&buffers)[2],
                                         Workspace& workspace) {
@@ -329,8 +333,9 @@ const CellList& TileTracer::open_groups(const Tile& tile, const CellList& list,
   return result;
 }
 
-/// The list with all groups opened that are as wide or as high as `share` of the tile, in one of
-/// the buffers; the list itself if there are none. Of what they hold, what meets the tile is left.
+/// Returns the list with all groups expanded that are as wide or as high as `share` of the tile,
+/// without members that miss the tile. The result is in one of the buffers, or the list itself if
+/// there are no such groups.
 const CellList* TileTracer::open_large_groups(const Tile& tile, const CellList* list, double share,
                                               CellList (&buffers)[2], Workspace& workspace) {
   const double least[] = {0.5 * share * tile.width, 0.5 * share * tile.height};
@@ -376,7 +381,7 @@ class TileTracer::LeafRays final : public TileRays {
   }
 
  private:
-  /// The rays that were to end before what the list has lost, and have not.
+  /// Returns the rays that have not ended before cut_.t, though they should have.
   LaneMask lanes_that_go_on(const PacketHits& hits) const {
     LaneMask lost = ~hits.hits;
     for (LaneMask left = hits.hits; left != 0; left &= left - 1) {
@@ -389,9 +394,10 @@ class TileTracer::LeafRays final : public TileRays {
                          PacketHits& hits) {
     const uint64_t resolved = workspace_.packets.resolved_rays;
     trace_packet(owner_.frame_, rays, lanes, list, owner_.parameters_, workspace_.packets, hits);
-    // The solid was found to hold where the list was cut. Should a ray have gone on all the same,
-    // beyond a piece too thin to exist, what lies behind counts.
-    // Such pieces are the resolver's alone: other rays show where the solid's value changes first.
+    // Culling found that rays end before the cut. But a ray may have gone on beyond a piece that is
+    // too thin to exist, and what lies behind counts then.
+    // Only coincidence resolution passes such pieces: other rays show where the solid's value
+    // changes first.
     const bool is_certain =
         (lanes & ~hits.hits) == 0 && workspace_.packets.resolved_rays == resolved;
     if (!cut_.fallback || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {

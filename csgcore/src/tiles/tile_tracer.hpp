@@ -1,5 +1,5 @@
-// What the rays of each part of the screen can meet: the screen is divided like a kd-tree, and with
-// it the solid's list, down to tiles of a few pixels.
+// Divides the screen like a kd-tree, down to tiles of a few pixels, and restricts the solid's list
+// to each tile on the way: the result is what the tile's rays can meet.
 #pragma once
 
 #include <limits>
@@ -15,17 +15,17 @@
 
 namespace csgcore {
 
-/// A tile of so few pixels a side is traced by two packets, one above the other.
+/// A tile of this side is traced by two packets, one above the other.
 constexpr uint32_t kTileSide_px = 8;
 
-/// A list with what tracing needs to know of it.
+/// A tile's list with the facts about its tests that tracing uses.
 class TileList {
  public:
   void assign(std::span<const CanonicalPrimitive> primitives, const ScreenBounds& bounds,
               const Tile& tile, const CellList& list);
-  /// For rays of any pixels of the tile.
+  /// For rays through any points of the tile.
   const TraceList& trace_list() const { return trace_; }
-  /// For rays through the centres of the block's pixels, which is one of a tile of two.
+  /// For rays through the centres of the pixels of a block of the tile.
   TraceList trace_list(const PacketBlock& block) const;
 
  private:
@@ -36,24 +36,23 @@ class TileList {
   TraceList trace_;
 };
 
-/// Traces packets of one tile. Belongs to one thread.
+/// Traces packets of one tile, in one thread.
 class TileRays {
  public:
   virtual ~TileRays() = default;
 
-  /// What the tile's rays can meet; for those who evaluate it themselves.
+  /// What the tile's rays can meet, for callers that evaluate the list themselves.
   struct Met {
     const CellList& list;
-    /// All rays end before this depth, and the list is without what lies behind it. +∞: it is
-    /// without nothing. Of lists that are cut by faces this is not known
-    /// (TileRules::cuts_by_faces).
+    /// All rays end before this t, and the list may lack primitives behind it. +∞: it lacks none.
+    /// It has no meaning if lists are cut by faces (TileRules::cuts_by_faces).
     double cut_t;
   };
   virtual Met met() = 0;
 
-  /// Rays through any pixels of the tile. Returns the list that the hits' indices refer to.
+  /// Traces rays through any points of the tile. Returns the list that the hits' indices refer to.
   virtual const TraceList& trace(const RayPacket& rays, LaneMask lanes, PacketHits& hits) = 0;
-  /// Those through the centres of a block's pixels.
+  /// Traces rays through the centres of a block's pixels.
   virtual const TraceList& trace(const RayPacket& rays, const PacketBlock& block,
                                  PacketHits& hits) = 0;
 };
@@ -61,35 +60,35 @@ class TileRays {
 /// Traces the rays through the centres of a block's pixels, and stores what they hit.
 void trace_block(const FrameRays& frame, const PacketBlock& block, TileRays& rays, HitSink& sink);
 
-/// What is done with tiles. Called by all threads, for each pixel once.
+/// Receives the tiles of an area. All threads call it; each pixel is in one tile.
 class TileVisitor {
  public:
   virtual ~TileVisitor() = default;
-  /// Whether any pixel of the tile matters; if not, it is not divided further.
+  /// Returns whether any pixel of the tile matters. If not, the tile is skipped.
   virtual bool wants(const Tile&) const { return true; }
-  /// No ray of the tile meets anything.
+  /// Is called for a tile whose rays meet nothing.
   virtual void visit_empty(const Tile& tile) = 0;
   virtual void visit(const Tile& tile, TileRays& rays) = 0;
 };
 
-/// When a tile is divided no further, and what its list may be without. The defaults are the
-/// tracer's.
+/// The rules that end the division of tiles, and that say what their lists may lack. The defaults
+/// are the CPU tracer's.
 struct TileRules {
-  /// Rays go through pixels' centres only.
+  /// True: rays go through pixels' centres only. False: through any points of pixels.
   bool centers_only = true;
-  /// A tile of kTileSide_px is not divided if its list is this short.
+  /// A tile of at most kTileSide_px a side is not divided if its list has at most so many tests.
   uint32_t tile_list = 48;
-  /// Nor is one of a packet; one of 2 pixels a side in any case.
+  /// A tile of at most one packet is not divided if its list has at most so many tests. Tiles of 2
+  /// pixels a side are never divided.
   uint32_t packet_list = std::numeric_limits<uint32_t>::max();
-  /// What is hidden is left out where what hides it is, along every ray, longer than this share of
-  /// its depth on the screen: who computes less exactly than the tracer must not miss it.
+  /// A primitive counts as an occluder only if it is, along every ray, thicker than this share of
+  /// its depth on the screen. So a renderer that is less exact than the tracer does not miss it.
   double cover_share = 0;
-  /// Whether it may be without what is hidden behind a face that all rays meet at depths of their
-  /// own.
+  /// Whether a list may be cut by a face (TileCuller::cut_by_face).
   bool cuts_by_faces = true;
 };
 
-/// One frame's tiles.
+/// Makes the tiles of one frame.
 class TileTracer {
  public:
   struct Counts {
@@ -104,11 +103,11 @@ class TileTracer {
              const TileRules& rules, CullReasons& cull_reasons);
   ~TileTracer();
 
-  /// All tiles of `area`, in parallel if that is more than a few.
+  /// Visits all tiles of `area`, in parallel unless they are few.
   void visit(const Tile& area, TileVisitor& visitor);
 
   Counts counts() const;
-  /// Adds to the cull_reasons what is known of the primitives' places on the screen.
+  /// Adds the reasons that follow from the primitives' bounds on the screen to the cull reasons.
   void note_screen_cull_reasons();
 
  private:
@@ -117,17 +116,17 @@ class TileTracer {
   class Lease;
   class LeafRays;
 
-  /// What a list has lost of what is hidden.
+  /// What a list has lost because it is hidden.
   struct Cut {
-    const CellList* fallback = nullptr;  // the list before; null: it is whole
-    /// All rays end before this depth: TileRays::Met::cut_t, unless cut by a face.
+    const CellList* fallback = nullptr;  // the list before it was cut; null: it was not
+    /// All rays end before this t: TileRays::Met::cut_t.
     double t = std::numeric_limits<double>::infinity();
   };
 
-  /// What rays can get to.
+  /// The operand BVH that has all operands which rays can reach.
   struct Seen {
     const OperandGroups& groups;
-    std::optional<bool> last_value;  // as TileCuller's
+    std::optional<bool> last_value;  // see TileCuller
   };
   static Seen find_seen(const Solid& solid, const FrameRays& frame,
                         const TraceParameters& parameters);

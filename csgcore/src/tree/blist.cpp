@@ -9,18 +9,19 @@ struct Pending {
   bool complement;
   uint32_t operands_left;
   uint32_t if_true, if_false;  // where the whole operation continues
-  uint32_t next;               // where the operand compiled before (which follows it) starts
+  uint32_t next;               // start of the operand compiled before, which follows in the list
   bool is_last_operand;
 };
 
-/// How the operand that is compiled next must continue.
+/// The jump targets of the operand that is compiled next.
 struct Continuation {
   uint32_t if_true, if_false;
   bool complement;
 };
 
-/// Short-circuit rules: a union goes on to its next operand while false, an intersection while
-/// true; a difference is an intersection whose later operands are complemented.
+/// Applies the rules of short-circuit evaluation: a union goes on to its next operand while false,
+/// an intersection while true. A difference is an intersection whose later operands are
+/// complements.
 Continuation continuation_of(const Pending& pending) {
   const uint32_t next_true = pending.is_last_operand ? pending.if_true : pending.next;
   const uint32_t next_false = pending.is_last_operand ? pending.if_false : pending.next;
@@ -44,7 +45,7 @@ Blist compile(std::span<const CsgToken> tokens) {
   for (const CsgToken& token : tokens) position += token.is_primitive;
   list.tests.resize(position);
 
-  // Backwards from the root: every jump leads to what is compiled already.
+  // Compiling backwards from the root, every jump leads to a test that is already there.
   std::vector<Pending> stack;
   for (size_t i = tokens.size(); i-- > 0;) {
     const CsgToken& token = tokens[i];

@@ -52,7 +52,7 @@ void append(std::vector<BlistTest>& tests, const CellList& list) {
 }
 
 bool is_union(const CellList& list) {
-  // The test at index 0 is the last one, which may end either way.
+  // The test at index 0 is the last one, which may have any targets.
   for (uint32_t i = list.count(); i-- > 1;) {
     const bool complement = (list.primitive[i] & CellList::kComplementBit) != 0;
     if ((complement ? list.if_outside[i] : list.if_inside[i]) != CellList::kTrue) return false;

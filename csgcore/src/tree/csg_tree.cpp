@@ -61,15 +61,15 @@ void CsgTreeBuilder::close() {
   assert(!frames_.empty());
   const Frame frame = frames_.back();
   frames_.pop_back();
-  // An operand of something that is empty already contributes nothing.
+  // An operand of an operation that is already empty contributes nothing.
   if (!frames_.empty() && frames_.back().is_empty) tokens_.resize(frame.first_token);
   if (frame.operand_count == 0 || tokens_.size() == frame.first_token) {
     add_operand(Operand::kEmpty);
     return;
   }
   if (frame.operand_count == 1) {
-    // The lone operand takes this node's place. Its own root may now stand directly under an
-    // operation that it can dissolve into.
+    // The lone operand takes this node's place. The operand's own root may now be directly under an
+    // operation into which it can dissolve.
     if (!tokens_.back().is_primitive) {
       const CsgToken root = tokens_.back();
       tokens_.pop_back();

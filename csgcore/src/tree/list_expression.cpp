@@ -4,7 +4,7 @@
 
 namespace csgcore {
 
-/// Makes one block of two, if they are operands of one operation.
+/// Merges the blocks if they are operands of one operation, and returns whether they are.
 bool ListExpression::combine(Block& block, const Block& next) {
   const bool leads_on_if_true = block.if_true == next.entry && block.if_false == next.if_false &&
                                 block.true_jumps == jumps_[next.entry];

@@ -1,4 +1,4 @@
-// How far the parts of a CSG tree reach.
+// Bounding boxes of the subtrees of a CSG tree.
 #pragma once
 
 #include <span>
@@ -16,13 +16,13 @@ inline Box box_of(const Extent& extent) {
   return {center - half, center + half};
 }
 
-/// For each token of a tree in postfix order the box of its subtree: a union's is that of its
-/// operands' boxes, an intersection's their intersection, a difference's that of its first operand.
-/// `box_of(primitive)` is a primitive's.
+/// Returns, for each token of a tree in postfix order, the box of the token's subtree: for a union
+/// the union of the operands' boxes, for an intersection their intersection, for a difference the
+/// first operand's box. `box_of(primitive)` gives the box of a primitive.
 template <typename BoxOf>
 std::vector<Box> subtree_boxes(std::span<const CsgToken> tokens, BoxOf&& box_of) {
   std::vector<Box> boxes(tokens.size());
-  std::vector<size_t> roots;  // of the operands that wait for their operation
+  std::vector<size_t> roots;  // of operands that wait for their operation
   for (size_t i = 0; i < tokens.size(); ++i) {
     const CsgToken& token = tokens[i];
     if (token.is_primitive) {

@@ -1,4 +1,4 @@
-// Small scenes from large ones: what a disagreement between two renderers comes down to.
+// Reduces a scene in which two renderers disagree to a small one.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,26 @@
 
 namespace oracle {
 
-/// Whether the scene shows what is looked for.
+/// Returns whether the scene shows the disagreement that is being looked for.
 using Shows = std::function<bool(const csgcore::Scene&)>;
 
-/// How often a scene may be tried: a few hundred times do for a dozen primitives.
+/// The default limit of tries. A few hundred are enough for a dozen primitives.
 constexpr uint32_t kMostTries = 5000;
 
-/// A scene that still `shows`, as `scene` does, and that no single step makes smaller: no operand,
-/// operation or primitive can be left out, no polyhedron become a simpler one, no number a rounder
-/// one. Only the model is kept; primitives stay in order, their ids become their indices. Gives up
-/// after `most_tries` calls of `shows`, with the smallest scene so far.
+/// Returns a scene that `shows` accepts, as it accepts `scene`, and that no single step makes
+/// smaller: no operand, operation or primitive can be left out, no polyhedron can become a simpler
+/// one, no number a rounder one. Only the model is kept. Primitives keep their order, and their
+/// indices become their ids. After `most_tries` calls of `shows`, returns the smallest scene so
+/// far.
 csgcore::Scene minimise(const csgcore::Scene& scene, const Shows& shows,
                         uint32_t most_tries = kMostTries);
 
-/// The model as statements of C++ that make the same scene, bit for bit, in a variable `scene`: for
-/// a test that is `using namespace csgcore`.
+/// Returns the model as C++ statements that make the same scene, bit for bit, in a variable
+/// `scene`. They are meant for a test with `using namespace csgcore`.
 std::string as_cpp(const csgcore::Scene& scene);
 
-/// The model for OpenSCAD, whose smooth primitives have its default facets. All digits, but a
-/// polyhedron's vertices are rounded.
+/// Returns the model as OpenSCAD code, with all digits, except that a polyhedron's vertices are
+/// rounded. OpenSCAD gives smooth primitives its default facets.
 std::string as_openscad(const csgcore::Scene& scene);
 
 }  // namespace oracle
