@@ -1,7 +1,7 @@
-// Colour of a hit (paper §3.2, step 9).
+// The colour of a hit (paper §3.2, step 9).
 
-uniform vec3 u_front, u_back;      // of what has no colour of its own
-uniform vec3 u_light_position;     // SHADING_PHONG
+uniform vec3 u_front, u_back;      // colours of primitives that have none of their own
+uniform vec3 u_light_position;     // of SHADING_PHONG alone
 
 vec3 unpack_rgb8(uint packed_color) {
   return vec3((uvec3(packed_color) >> uvec3(0u, 8u, 16u)) & 255u) / 255.0;
