@@ -1,12 +1,10 @@
 // Finds where the ray of a pixel enters the solid within its cell or tile (paper §3). PATH selects
 // how the primitives are combined. Every path looks for the first t in (enter, leave].
 
-flat in uvec2 v_list;           // first test; number of tests (PATH_UNION: number of later
-                                // operands)
+flat in uvec2 v_list;           // first test; number of tests (PATH_UNION: of later operands)
 
 #if TILES
-flat in float v_cut_t;          // the solid holds at this t, however thin the piece; +inf: no such
-                                // t is known
+flat in float v_cut_t;          // the solid holds at this t, however thin there; +inf: unknown
 #endif
 uniform float u_tolerance;      // thinner pieces do not exist; along the normal, in world units
 uniform bool u_eye_inside;      // rays start in the solid, and the solid's complement is drawn

@@ -1,4 +1,4 @@
-// The box of a solid, found by looking at it.
+// Finds the box of a solid from pictures of it.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@ namespace frontend {
 /// Draws a view with its measured channels.
 using DrawView = std::function<csgcore::Image(const csgcore::View& view)>;
 
-/// The tight box of what `draw` shows, all of which lies within `around`. It is within 1e-5 of the
-/// size of `around`, but for what is thinner than a 500th of that and may be missed. Empty where
-/// nothing is seen.
+/// Returns the tight box of what `draw` shows, which must lie within `around`. Its error is at most
+/// 1e-5 of the size of `around`, unless parts thinner than a 500th of that size are missed. Empty
+/// if nothing is seen.
 csgcore::Box seen_box(const csgcore::Box& around, const DrawView& draw);
 
 }  // namespace frontend

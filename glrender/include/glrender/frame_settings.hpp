@@ -24,8 +24,7 @@ struct FrameSettings : csgcore::FrameSettings {
   glm::vec3 edge{0.0f};  // colour of the cells' edges, in [0, 1]
   Subject subject = Subject::kSurface;
   Technique technique = Technique::kCells;  // kTiles draws kSurface only
-  unsigned threads = 0;                     // threads that make the tiles' lists; 0: one per
-                                            // processor
+  unsigned threads = 0;                     // for the tiles' lists; 0: all processors
   /// Rays per pixel, ≥ 1. csgcore::sample_offset displaces them, and rgb is their average. The
   /// measured channels are those of the pixel's centre.
   uint32_t samples = 1;
