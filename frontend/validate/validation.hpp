@@ -34,7 +34,7 @@ struct Result {
 /// Compares
 /// - the smooth scene, as it is drawn, with rays in exact arithmetic;
 /// - the scene in facets with CGAL's Nef polyhedra: points, rays, pictures and the volume;
-/// - the smooth scene with CGAL's solid, outside the facets' sagitta.
+/// - the smooth scene with CGAL's solid, up to the facets' sagitta.
 ///
 /// The last two are left out, with a note, if CGAL does not finish in time. The comparisons fill
 /// the time limit, but a first part of every check is always compared. The same settings give the

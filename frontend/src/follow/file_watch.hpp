@@ -28,7 +28,7 @@ class FileWatch {
   using Milliseconds = std::chrono::milliseconds;
 
   // How long a file has to stay unchanged before it counts as complete.
-  /// After closing or renaming: other files of the same save, or new permissions, may follow at once.
+  /// After closing or renaming: other files of the same save, or permissions, may follow at once.
   static constexpr Milliseconds kSettleClosed{3};
   /// After writing without closing: longer than an editor pauses between two writes.
   static constexpr Milliseconds kSettleOpen{40};

@@ -13,13 +13,14 @@ using csgcore::Image;
 using csgcore::Vec3;
 using csgcore::View;
 
-constexpr uint32_t kOverview_px = 512;  // a side of the first look
-constexpr uint32_t kCloseUp_px = 32;    // of those at the pixel that comes out farthest
-constexpr double kCloseUpReach = 1.5;   // pixels around that one's centre: its neighbours, too
-constexpr int kCloseUps = 3;            // each nearer by 32 / 3
+constexpr uint32_t kOverview_px = 512;  // a side of the first picture
+constexpr uint32_t kCloseUp_px = 32;    // a side of the pictures around the farthest pixel
+constexpr double kCloseUpReach = 1.5;   // half their side, in pixels of the picture before: the
+                                        // neighbours are included
+constexpr int kCloseUps = 3;            // each enlarges by 32 / 3
 
-/// Looks at the solid from outside along an axis, the nearest point of it being its farthest that
-/// way.
+/// Returns a view of the solid from outside along an axis. The point nearest to the eye is the
+/// farthest one in that direction.
 View outside_view(const Box& around, int axis, double sign) {
   View view;
   view.projection = csgcore::Projection::kOrthographic;
@@ -28,7 +29,7 @@ View outside_view(const Box& around, int axis, double sign) {
   view.right[(axis + 1) % 3] = sign;
   view.up[(axis + 2) % 3] = 1;
   const Vec3 half = 0.5 * around.size();
-  // With some room, and more than nothing where the box is flat.
+  // The reach has some room, and is not 0 for a flat box.
   const double reach = 1.01 * std::max({half.x, half.y, half.z});
   view.eye = around.center() - reach * view.forward;
   view.half_height = reach;
@@ -36,14 +37,14 @@ View outside_view(const Box& around, int axis, double sign) {
   return view;
 }
 
-/// The pixel whose hit is nearest the eye.
+/// Returns the pixel with the hit nearest to the eye.
 std::optional<std::size_t> nearest_pixel(const Image& image) {
   const auto nearest = std::min_element(image.z.begin(), image.z.end());
   if (nearest == image.z.end() || !std::isfinite(*nearest)) return std::nullopt;
   return static_cast<std::size_t>(nearest - image.z.begin());
 }
 
-/// The solid's farthest coordinate that way.
+/// Returns the solid's farthest coordinate in that direction.
 std::optional<double> farthest(const Box& around, int axis, double sign, const DrawView& draw) {
   View view = outside_view(around, axis, sign);
   std::optional<double> result;
