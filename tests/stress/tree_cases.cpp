@@ -1,4 +1,4 @@
-// Trees of thousands of levels, and random ones with coincidences planted in them.
+// Scenes with trees of thousands of levels, and random trees with planted coincidences.
 #include <cmath>
 #include <iterator>
 #include <random>
