@@ -36,7 +36,7 @@ Affine turned(double radians) {
   return {Mat3{Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1)}, Vec3(0.0)};
 }
 
-/// One of the places on a square of side 20, spread alike for any number of them.
+/// Returns one of the places on a square of side 20, which are spread alike for any number of them.
 Vec3 place(uint32_t i) {
   const auto share = [i](double step) { return std::fmod(step * i, 1.0); };
   return {20 * share(0.754877666), 20 * share(0.569840291), 0};

@@ -90,7 +90,7 @@ class Edits {
     }
   }
 
-  /// The picture of the later scene, all of it anew.
+  /// Draws the later scene, with all of it made anew.
   void draw_whole(Method method, Image& image) {
     made_ = std::make_unique<Made>(later_);
     if (method == Method::kCells) {
@@ -101,7 +101,7 @@ class Edits {
     }
   }
 
-  /// The same from what was made of the earlier one; `image` shows that.
+  /// Draws the later scene from what was made of the earlier one, whose picture `image` is.
   void draw_edit(Method method, Subdivision& subdivision, Image& image) {
     const SceneEdit edit = csgcore::compare(earlier_.scene, later_);
     made_ = std::make_unique<Made>(later_, earlier_, edit);
@@ -123,7 +123,7 @@ class Edits {
     return subdivision.update(made_->solid, edit, edit.model);
   }
 
-  /// For subdivide_…: what both start from.
+  /// Makes what subdivide_… starts from in both cases.
   void make_later() {
     made_ = std::make_unique<Made>(later_, earlier_, csgcore::compare(earlier_.scene, later_));
   }
