@@ -40,7 +40,7 @@ struct Settings {
 struct FrameTimes {
   std::string renderer;   // "cpu", or "gl: " and GL_RENDERER
   std::string technique;  // "tiles" or "cells"
-  /// From a scene in memory, with nothing prepared, to its picture; without `context`.
+  /// The time from a scene in memory, with nothing prepared, to its picture; without `context`.
   Summary first;
   std::optional<Summary> subdivide;  // the part of `first` that subdivides; by cells only
   /// `context`: starting OpenGL, before `first`. `shaders`: how much longer a first frame takes to

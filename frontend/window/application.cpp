@@ -31,7 +31,7 @@ constexpr double kSectionStep = 0.01;
 /// An axis along which that step is shorter than this is seen end-on.
 constexpr double kLeastAxis_px = 0.25;
 
-/// How long to wait for a picture that was ordered before the window is drawn without it.
+/// The longest wait for a picture that was ordered; then the window is drawn without it.
 constexpr std::chrono::milliseconds kShortPainting{50};
 
 /// A reading that takes less is not shown.

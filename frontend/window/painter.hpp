@@ -53,7 +53,7 @@ struct Probe {
   std::shared_ptr<const frontend::FileText> csg;  // the text for the places in the design
 };
 
-/// What is seen at a probe's place.
+/// The point that is seen at a probe's place.
 struct Finding {
   Probe probe;
   bool is_hit = false;

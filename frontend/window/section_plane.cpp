@@ -9,8 +9,8 @@ namespace {
 
 using csgcore::Box;
 
-/// How far the cut-off block reaches beyond the scene, as a share of the scene's size: the plane is
-/// its only face near the scene.
+/// The distance that the cut-off block reaches beyond the scene, as a share of the scene's size:
+/// the plane is its only face near the scene.
 constexpr double kMargin = 1;
 
 /// Returns the block that is cut off; it is flat if the plane is beyond the margin.

@@ -1,8 +1,8 @@
-// What parts cost that share faces, from 10 to 10,000 of them: equal ones, plates that are flush,
-// prisms on one base, bars about one axis, flush pockets, a common part of slabs. `prepare_ms` is
-// once per file, `trace_ms` a frame of 640×480 by two threads; the time that Google Benchmark
-// prints is their sum. At the end stands, for each kind, by which power of their number it grows,
-// at most, from one number to ten times as many. (Issue 19: at most 1.2.)
+// Measures the cost of parts that share faces, from 10 to 10,000 of them: equal ones, plates that
+// are flush, prisms on one base, bars about one axis, flush pockets, an intersection of slabs.
+// `prepare_ms` is once per file, `trace_ms` a frame of 640×480 by two threads; the time that Google
+// Benchmark prints is their sum. At the end it prints for each kind the largest exponent of the
+// growth from one number of parts to ten times as many. (Issue 19: at most 1.2.)
 #include <benchmark/benchmark.h>
 
 #include <cmath>

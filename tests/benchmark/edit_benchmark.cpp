@@ -1,8 +1,9 @@
-// What an edit of one primitive costs, against making everything anew: from the later scene to its
-// picture, by screen tiles and by a kd-tree's cells, and the kd-tree alone. Each iteration edits
-// another primitive of the same design, and does both; before any time is taken, their pictures are
-// compared. `ratio` and `least_ratio` are the edit's median and minimum over those of the whole;
-// the time that Google Benchmark prints is the edit's. (Issue 5: less than half for CS10000.)
+// Measures the cost of an edit of one primitive, compared with making everything anew: from the
+// later scene to its picture, by screen tiles and by a kd-tree's cells, and for the kd-tree alone.
+// Each iteration edits another primitive of the same design, and draws it in both ways; their
+// pictures are compared before any time is taken. `ratio` and `least_ratio` are the edit's median
+// and minimum over those of the whole; the time that Google Benchmark prints is the edit's. (Issue
+// 5: less than half for CS10000.)
 #include <benchmark/benchmark.h>
 
 #include <memory>

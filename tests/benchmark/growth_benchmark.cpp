@@ -1,5 +1,6 @@
-// What parts that cannot be seen cost: 1,000 primitives that can be are joined by up to 99,000 that
-// are off the screen, hidden, inside the solid, cancelled by the operations or between the samples.
+// Measures the cost of parts that cannot be seen: 1,000 primitives that can be seen are joined by
+// up to 99,000 that are off the screen, hidden, inside the solid, cancelled by the operations or
+// between the samples.
 // Before any time is taken, the picture is checked: it must stay the same. Each iteration draws a
 // frame of the 1,000 alone, too: `ratio`, `least_ratio` and `cpu_ratio` compare the medians, the
 // minima and the processor's times of the two, taken at the same time. The time that Google

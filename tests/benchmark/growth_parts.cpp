@@ -54,7 +54,8 @@ bool is_off_body(const Place& place) {
   return std::hypot(p.x, p.y) > body || std::abs(p.z) > body;
 }
 
-/// Holes near a point of the way to the centre: the distance is less than the ball's reach there.
+/// Looks on the way to the centre, up to two reaches before it, for a point about which a ball of
+/// the same reach is in the core.
 bool is_in_shadow(const Place& place) {
   constexpr int kSteps = 200;
   const Vec3 eye = growth_view().eye;

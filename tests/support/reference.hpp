@@ -13,13 +13,12 @@
 //   as passed at the eye, so that rounding does not tear an eye in a face between its sides. The
 //   hit is the first coincidence after which the value differs from that at the eye (at −∞ in
 //   orthographic views).
-// - The changed primitives are those with exactly one crossing that is within the coincidence, or
-//   coincident with its first or last boundary; rounding may or may not make these boundaries. A
-//   decider is a changed primitive without whose change the value would not have changed. The
-//   decider of the lowest index is shown. There may be none, if one of several changes would
-//   suffice. Then only the changes that turn the value its way count (additions that are entered,
-//   subtractions that are left, or the reverse for an eye inside), and of these as many, from the
-//   lowest index, as make the change; among them there is a decider.
+// - A primitive has changed by a coincidence if the ray crosses it exactly once at crossings that
+//   are within the coincidence, or coincident with its first or last boundary. An operation has
+//   turned if its value with all of these changes differs from that without any. From the root of
+//   the tree down, the turn of an operation is due to those operands that have turned the same way
+//   (subtracted operands: the other way). Of the primitives that are reached in this way, the last
+//   in file order is shown.
 //
 // The definition depends only on the solid's function: a primitive that makes no difference where
 // the ray is makes none to the picture, so that culling it changes nothing.

@@ -22,7 +22,7 @@ struct DesignVersion {
   std::string error;
   /// openscad's messages, then the importer's warnings, without the error.
   std::vector<std::string> messages;
-  /// All files that the design is known to be read from, the design first. Files that it asks for
+  /// The files that the design is known to be read from, the design first. Files that it asks for
   /// and that are missing are included.
   std::vector<std::string> files;
   /// The .csg is byte for byte that of the last version that could be read, and `design` is that

@@ -25,7 +25,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
 /// The longest wait for another thread's HoldInterrupts, in ms.
 constexpr int kMostWaits = 5000;
 
-/// Signals that end a program by default, and of which nobody sees more than the number.
+/// Signals that end a program by default. Nothing but their number shows why it was interrupted.
 constexpr int kInterruptions[] = {SIGINT,  SIGTERM, SIGHUP,  SIGALRM, SIGVTALRM, SIGPROF,
                                   SIGUSR1, SIGUSR2, SIGPOLL, SIGPWR,  SIGSTKFLT, SIGXCPU};
 /// Signals that dump core by default, which must still happen.

@@ -128,8 +128,8 @@ class Parser {
 
 Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
     : tree_(tree), sink_(sink), text_(text.data()), lexer_(text, tree.file_name) {
-  // About the averages of OpenSCAD's files, so that the vectors of most files never move. A vector
-  // that is not used in full costs addresses, not memory.
+  // These are about the averages of OpenSCAD's files, so that the vectors of most files never move.
+  // A vector that is not used in full costs addresses, not memory.
   constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
   tree_.nodes.reserve(text.size() / kBytesPerNode);
   if (sink != nullptr) return;

@@ -27,7 +27,8 @@ class FileWatch {
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::milliseconds;
 
-  // How long a file has to stay unchanged before it counts as complete.
+  // A file counts as complete once it has stayed unchanged for one of these times.
+
   /// After closing or renaming: other files of the same save, or permissions, may follow at once.
   static constexpr Milliseconds kSettleClosed{3};
   /// After writing without closing: longer than an editor pauses between two writes.

@@ -134,7 +134,7 @@ struct Correction {
 /// Schoenberg, 1954).
 Correction find_correction(const Mat3& similarity, const Mat3& file, const Mat3& half,
                            bool free_scale) {
-  // How an entry of column c changes with the turns about axis c + 1 and axis c + 2, and with
+  // The derivatives of an entry of column c by the turns about axis c + 1 and axis c + 2, and by
   // growth.
   Mat3 by_next, by_second, by_growth(0.0), per_length;
   const double finest = kFinestShare * largest_entry(half) + kDoubleNoise;

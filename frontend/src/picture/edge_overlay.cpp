@@ -82,7 +82,8 @@ class EdgeFinder {
     return growth >= least - error && growth <= most + error;
   }
 
-  /// Looks at `count` pixels from `first` on, `stride` apart; ray(i) is the direction of the i-th.
+  /// Looks at `count` pixels from `first` on, at distances of `stride`; ray(i) is the direction of
+  /// the i-th.
   template <typename Ray>
   void look_along(std::size_t first, std::size_t stride, std::size_t count, const Vec3& step,
                   Ray ray) {

@@ -62,7 +62,7 @@ class OpenGlMeasurer {
     try {
       measure_all();
     } catch (const frontend::Error& error) {
-      // A failure at the first picture is reported; a renderer that has drawn one can draw all.
+      // OpenGL is left out if it fails at the first picture. If it can draw one, it can draw all.
       if (!frames_.empty()) throw;
       left_out_.add("OpenGL", error.what());
     }
