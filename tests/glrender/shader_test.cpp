@@ -95,7 +95,7 @@ TEST(ShaderTest, EveryVariantCompiles) {
           key.path == Path::kSingle || key.path == Path::kShortList || key.path == Path::kLongList;
       if (key.tiles && (!is_of_tiles || key.conservative_depth)) continue;
       if (!key.tiles && key.path == Path::kLongList) continue;
-      // Their cuts do not depend on either.
+      // The cuts depend neither on the shading nor on measured channels.
       if (!key.cuts.empty() && (key.shading == Shading::kPhong || key.measured)) continue;
       if (variants++ % step != 0) continue;
       ASSERT_NO_THROW(compile_program(key)) << path << " " << bits;
@@ -197,8 +197,7 @@ TEST(ThicknessTest, IsThatBetweenTheNearestPlanes) {
     expect_thickness(make_sphere(0.5, squeezed(x, y, z)), 1e-3);
   }
   expect_thickness(make_frustum(2, 2 + 1e-4, 5, 5, turned), 1e-4);
-  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 3, sheared), 1e-4);  // the shear keeps its caps'
-                                                                     // distance
+  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 3, sheared), 1e-4);  // the caps keep their distance
   expect_thickness(make_frustum(-8, 8, 1e-3, 1e-3, turned), 2e-3);
   expect_thickness(make_frustum(-8, 8, 1, 1, squeezed(1e-3, 1, 1)), 2e-3);
   expect_thickness(make_polyhedron(Polyhedron::box({Vec3(1, 2, 3), Vec3(4, 2 + 1e-5, 7)}), turned),

@@ -194,7 +194,7 @@ TEST_F(Validate, WithoutTimeForCgalByExactRaysAlone) {
     ASSERT_EQ(found["checks"].size(), 2u);
     for (const json& check : found["checks"]) EXPECT_THAT(int(check["compared"]), Ge(1024));
   }
-  // That comparison alone finds an error, too.
+  // These first samples alone find an error, too.
   const Environment planted(kPlanted, "flip:7");
   EXPECT_EQ(run({"--renderer=cpu", "--time-limit=0", example("cs100")}).code, 2);
 }

@@ -12,7 +12,7 @@
 namespace frontend {
 
 /// OpenSCAD's $vpt, $vpr and $vpd. The eye stands at target + R·(0, 0, distance), where R is
-/// OpenSCAD's rotate(rotation_deg), and looks at the target. Lengths are in mm.
+/// OpenSCAD's rotate(rotation_deg), and looks at the target.
 struct Camera {
   csgcore::Vec3 target{0.0};
   csgcore::Vec3 rotation_deg{55, 0, 25};

@@ -1,5 +1,5 @@
-// Time against error: what a user waits for a picture of a file, and how wrong it is, by scadray
-// and by what else would draw it.
+// Measures time against error: how long a user waits for a picture of a file, and how wrong it is,
+// with scadray and with its peers.
 //
 // {"picture": {"width_px", "height_px", "pixels"},
 //  "measures": {KEY: what it counts}: the keys of "error", and a sentence for each,

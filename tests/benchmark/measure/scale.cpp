@@ -1,5 +1,5 @@
-// How times grow: with primitives, with parts that cannot be seen, with pixels, with threads. In
-// memory, without files, by the CPU, in double.
+// Measures how times grow with primitives, parts that cannot be seen, pixels and threads: in memory,
+// without files, by the CPU, in double.
 //
 // {"width_px", "height_px", "threads",
 //  "primitives": [{"family", "title", "rows": [{"primitives", "prepare_ms", "subdivide_ms",

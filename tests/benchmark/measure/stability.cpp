@@ -1,5 +1,5 @@
-// How far scenes can be pushed: the stress suite's kinds of hardness, each as a curve over its
-// parameter, by the CPU in double and by OpenGL in float, against rays in exact arithmetic.
+// Measures how far scenes can be pushed: the stress suite's kinds of hardness, each as a curve over
+// its parameter, by the CPU in double and by OpenGL in float, against rays in exact arithmetic.
 //
 // {"width_px", "height_px", "gl_renderer" (if there is one),
 //  "curves": [{"name", "title": what is drawn, "parameter": what is varied,

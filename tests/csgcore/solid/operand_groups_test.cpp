@@ -77,7 +77,7 @@ bool box_holds(const Extent& extent, const Vec3& point) {
   return true;
 }
 
-/// Returns the value at a point without evaluating what is outside of a group's box.
+/// Returns the value at a point. A group's members are evaluated only if its box holds the point.
 bool value_at(const Solid& solid, const Vec3& point) {
   const OperandGroups& groups = solid.groups();
   const std::function<bool(uint32_t)> inside = [&](uint32_t index) {

@@ -127,7 +127,7 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
   for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
   EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
                                   Shape::kPolyhedron, Shape::kPolyhedron));
-  // Many small polyhedra are too much as well, unless their text is as long.
+  // Many small primitives are too much as well, beyond those that the length of the text allows.
   std::string text;
   for (int i = 0; i < 300; ++i) text += "sphere($fn = " + std::to_string(30 + i) + ");";
   text += "cylinder($fn = 6);";

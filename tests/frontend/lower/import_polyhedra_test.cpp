@@ -143,7 +143,7 @@ TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
                                      {"[1,2,true]", "a list with a boolean"}}) {
     const std::string points =
         "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]," + std::string(point) + "], ";
-    // The points beyond the bad index are ignored.
+    // The points from the bad one on are ignored.
     const std::string late = points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2,4,0],[4,4,9]]);";
     EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: a point is " + std::string(words) +
                                     ", and the faces from there on are left out (it must be a "

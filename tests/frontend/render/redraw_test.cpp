@@ -64,7 +64,7 @@ class Redrawn : public testing::TestWithParam<Way> {
 
   Image redraw(const csgcore::View& view) { return renderer_->redraw(view, settings_, stats_); }
 
-  /// Compares at the end: OpenGL has one context at a time here.
+  /// Keeps a picture, to be compared at the end: OpenGL has one context at a time here.
   void expect_drawn_anew(Image image, const csgcore::View& view) {
     shown_.push_back({scene_, view, settings_, std::move(image)});
   }
