@@ -1,5 +1,5 @@
-// Measures how times grow with primitives, parts that cannot be seen, pixels and threads: in memory,
-// without files, by the CPU, in double.
+// Measures how times grow with primitives, parts that cannot be seen, pixels and threads. Scenes
+// are in memory, without files, and the CPU draws, in double.
 //
 // {"width_px", "height_px", "threads",
 //  "primitives": [{"family", "title", "rows": [{"primitives", "prepare_ms", "subdivide_ms",
