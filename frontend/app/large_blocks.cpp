@@ -1,6 +1,6 @@
-// The program's operator new. A design of a million primitives takes hundreds of MB, page by page
-// of 4 KB: a third of its run is the kernel's, handing these out. In large blocks the kernel is
-// asked for huge pages, where it gives them on request only (its "madvise" setting).
+// The program's operator new, which asks the kernel for huge pages for large blocks, where it gives
+// them on request only (its "madvise" setting). A design of a million primitives takes hundreds of
+// MB; in pages of 4 KB, the kernel spends a third of the run on handing them out.
 #include <sys/mman.h>
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-// Below this a huge page is mostly empty, and clearing it costs more than it saves.
+// In smaller blocks a huge page is mostly empty, and clearing it costs more than it saves.
 constexpr std::size_t kLarge = std::size_t{1} << 19;
 
 void* allocate(std::size_t size, std::size_t alignment) {
-  if (size > PTRDIFF_MAX) return nullptr;  // rounded up it might be nothing
+  if (size > PTRDIFF_MAX) return nullptr;  // rounding it up might overflow to 0
   if (size >= kLarge && alignment <= kHugePage) {
     const std::size_t whole = (size + kHugePage - 1) & ~(kHugePage - 1);
     if (void* const block = std::aligned_alloc(kHugePage, whole)) {
-      madvise(block, whole, MADV_HUGEPAGE);  // a wish: it may fail
+      madvise(block, whole, MADV_HUGEPAGE);  // only a request: it may fail
       return block;
     }
   }

@@ -25,7 +25,7 @@ struct Design {
   frontend::Camera camera;
 };
 
-/// From the camera once around the vertical axis.
+/// Returns views from the camera turned once around the vertical axis.
 std::vector<csgcore::View> turning_views(frontend::Camera camera,
                                          const frontend::CameraOptions& options) {
   constexpr int kSteps = 36;
@@ -43,7 +43,8 @@ class Run {
       : options_(options), progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
   ExitCode execute() {
-    // All are read before the first is measured: a file that cannot be read is found at once.
+    // All files are read before the first is measured, so that one that cannot be read is reported
+    // at once.
     std::vector<Design> designs;
     for (const std::string& input : options_.inputs) designs.push_back(import(input));
     Json files = Json::array();
@@ -72,7 +73,7 @@ class Run {
     std::fprintf(stderr, "%s\n", text.c_str());
   }
 
-  /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
+  /// Imports the model alone: `%` parts do not belong to it, and `#` parts overlay it.
   Design import(const std::string& input) {
     frontend::DesignFileOptions reading;
     reading.import = options_.import;
@@ -112,7 +113,7 @@ class Run {
                       {"height_px", options_.camera.height_px},
                       {"threads", threads > 0 ? threads : std::thread::hardware_concurrency()},
                       {"files", files}};
-    // A file's name need not be UTF-8.
+    // The name of a file need not be UTF-8.
     const std::string text = all.dump(1, ' ', false, Json::error_handler_t::replace);
     std::printf("%s\n", text.c_str());
   }

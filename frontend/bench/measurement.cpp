@@ -34,7 +34,7 @@ std::string name_of(const Method& method) {
          (method.technique == Technique::kCells ? ", cells" : ", tiles");
 }
 
-/// Values of several kinds, of each run one.
+/// The times of the stages, with one entry a run.
 struct Runs {
   std::vector<double> first, context, subdivide, shaders;
 };
@@ -75,7 +75,7 @@ class Measurement {
     return settings;
   }
 
-  /// The first view's, with measured channels.
+  /// Draws the first view, with measured channels.
   Image picture(RenderSettings settings) const {
     settings.measured_channels = true;
     SceneRenderer renderer;
@@ -84,7 +84,7 @@ class Measurement {
     return renderer.draw(views_[0], settings, stats);
   }
 
-  /// The method's picture, if there is one.
+  /// Returns the method's picture, if it can draw one.
   std::optional<Image> try_picture(const Method& method, const Rule& rule) {
     try {
       return picture(settings_of(method, rule));
@@ -96,7 +96,8 @@ class Measurement {
     }
   }
 
-  /// Whether it may be measured. What cells that were dropped cost a picture is not judged.
+  /// Returns whether the method may be measured. Pictures with a threshold are not judged: dropping
+  /// cells may change them.
   bool is_right(const Method& method, const Rule& rule, const Image& image, uint64_t wrong) {
     if (rule.threshold_px > 0) return true;
     const bool right = method.renderer == RendererKind::kCpu ? is_same(image, exact_)
@@ -126,7 +127,7 @@ class Measurement {
 
   void measure_first(const RenderSettings& settings, FrameTimes& times) const {
     Runs runs;
-    draw_first(settings, times, runs);  // what is slower the first time does not count
+    draw_first(settings, times, runs);  // what is slower only the first time does not count
     runs = {};
     const Clock::time_point start = Clock::now();
     while (!settings_.repetitions.enough(runs.first.size(), ms_since(start))) {
@@ -183,7 +184,7 @@ class Measurement {
     result_.rules.push_back(std::move(times));
   }
 
-  /// S is the CPU's, whatever draws.
+  /// S is measured on the CPU, whichever renderer draws.
   void measure_by_cpu(const Rule& rule, RuleTimes& times) {
     const Method method{RendererKind::kCpu, Technique::kCells};
     const RenderSettings settings = settings_of(method, rule);
@@ -216,7 +217,7 @@ class Measurement {
     SceneRenderer renderer;
     renderer.load(scene_);
     RenderStats stats;
-    renderer.draw(views_[0], settings, stats);  // shaders are compiled
+    renderer.draw(views_[0], settings, stats);  // compiles the shaders
     std::vector<double> pass, render, both;
     const Clock::time_point start = Clock::now();
     while (!settings_.repetitions.enough(pass.size(), ms_since(start))) {

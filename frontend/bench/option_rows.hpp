@@ -1,4 +1,4 @@
-// The options of `scadray bench`. Apart from what reads them, for frontend/packaging.
+// The options of `scadray bench`, without the code that reads them, for frontend/packaging.
 #pragma once
 
 #include <span>

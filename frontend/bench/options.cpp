@@ -28,7 +28,7 @@ std::vector<std::string> read_inputs(const Arguments& arguments) {
   return files;
 }
 
-/// Those of the command line, or else scadray's own rule and the paper's.
+/// Returns the rule of the command line, or else scadray's own rule and the paper's.
 std::vector<Rule> read_rules(const Arguments& arguments, const frontend::RenderSettings& given) {
   if (arguments.has("leaf-primitives") || arguments.has("threshold")) {
     return {{given.leaf_primitives, given.threshold_px}};
@@ -46,7 +46,7 @@ Options parse_options(const std::vector<std::string>& words) {
     return options;
   }
   options.inputs = read_inputs(arguments);
-  options.camera.width_px = 640;  // the paper's (§4.1)
+  options.camera.width_px = 640;  // the paper's size (§4.1)
   options.camera.height_px = 480;
   frontend::read_image_size(arguments, options.camera);
   frontend::read_camera(arguments, options.camera);

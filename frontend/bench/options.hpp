@@ -13,7 +13,7 @@ namespace bench {
 
 enum class Action : uint8_t { kMeasure, kHelp, kVersion };
 
-/// Checked: every value is in its documented range.
+/// The checked command line: every value is in its documented range.
 struct Options {
   Action action = Action::kMeasure;
   std::vector<std::string> inputs;  // at least one; "-", at most once: a .csg from standard input
@@ -25,11 +25,10 @@ struct Options {
   bool quiet = false;
 };
 
-/// Throws frontend::Error for anything that is wrong with the arguments (without the program's
-/// name).
+/// Parses the arguments (without the program's name). Throws frontend::Error for any that is wrong.
 Options parse_options(const std::vector<std::string>& arguments);
 
-/// The text of --help.
+/// Returns the text of --help.
 std::string help_text();
 
 }  // namespace bench

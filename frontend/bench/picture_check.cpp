@@ -6,11 +6,11 @@
 namespace bench {
 namespace {
 
-/// Of so many hits one may lie so near to an edge that float shows the other side of it; of a small
-/// picture some (tests/glrender/cpu_agreement_test.cpp).
+/// At most one in this many hits may lie so near to an edge that float shows the other side of it;
+/// in a small picture kEdgePixels may (tests/glrender/cpu_agreement_test.cpp).
 constexpr uint64_t kHitsPerEdgePixel = 2000;
 constexpr uint64_t kEdgePixels = 4;
-/// Unit normals further apart are of two faces.
+/// Unit normals further apart belong to different faces.
 constexpr float kFaceDistance = 0.05f;
 
 }  // namespace

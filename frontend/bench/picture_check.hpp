@@ -1,4 +1,4 @@
-// Pictures of different renderers, held against each other before they are timed.
+// Compares pictures of different renderers before they are timed.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,15 @@
 
 namespace bench {
 
-/// Of pictures with measured channels: pixels that show another face, or a face where the other
-/// picture shows none. Precondition: they have the same size.
+/// Counts the pixels of `image` that show another face than `exact`, or a face where the other
+/// shows none. Precondition: both have the same size, and measured channels.
 uint64_t wrong_pixels(const csgcore::Image& image, const csgcore::Image& exact);
 
-/// Every channel is, bit for bit.
+/// Returns whether every channel is the same, bit for bit.
 bool is_same(const csgcore::Image& a, const csgcore::Image& b);
 
-/// Whether float explains that a picture of so many hits by OpenGL has wrong pixels.
+/// Returns whether the rounding of float explains so many wrong pixels in an OpenGL picture of
+/// `hits` hits.
 bool float_explains(uint64_t wrong_pixels, uint64_t hits);
 
 }  // namespace bench

@@ -14,7 +14,7 @@ std::string grouped(uint64_t number) {
   return text;
 }
 
-/// With three digits at least.
+/// Writes at least three digits.
 std::string ms_text(double ms) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", ms < 1 ? 3 : ms < 10 ? 2 : ms < 100 ? 1 : 0, ms);

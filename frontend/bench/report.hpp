@@ -1,4 +1,4 @@
-// What was measured, as tables for people and as JSON.
+// Writes measurements as tables for people and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,10 +8,11 @@
 
 namespace bench {
 
-/// A file's. Ends with a line break.
+/// Returns the table of one file. It ends with a line break.
 std::string table_of(const std::string& file, const Result& result);
 
-/// A file's, and a rule's; times in ms. frontend/bench/README.md lists the keys.
+/// Returns the JSON of one file, or of one rule; times are in ms. frontend/bench/README.md lists
+/// the keys.
 nlohmann::ordered_json json_of(const std::string& file, const Result& result);
 nlohmann::ordered_json json_of(const RuleTimes& times);
 

@@ -6,7 +6,7 @@
 namespace bench {
 namespace {
 
-/// Between neighbouring values where none stands at the place.
+/// Interpolates between the two values that are nearest to the place.
 double quantile(std::span<const double> sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const size_t below = static_cast<size_t>(place);

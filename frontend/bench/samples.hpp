@@ -1,4 +1,4 @@
-// Repeated measurements of the same work, and what they come to.
+// Repeated measurements of the same work, and their summary.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace bench {
 
-/// Of values of one unit, at least one: the median, the least, the quartiles.
+/// The median, minimum and quartiles of one or more values of one unit.
 struct Summary {
   double median = 0;
   double least = 0;
@@ -15,7 +15,7 @@ struct Summary {
   size_t count = 0;
 };
 Summary summarise(std::vector<double> values);
-/// {"median", "least", "quartiles": [lower, upper], "count"}, for any of nlohmann's types.
+/// Writes {"median", "least", "quartiles": [lower, upper], "count"}, for any of nlohmann's types.
 template <typename Json>
 void to_json(Json& json, const Summary& summary) {
   json = {{"median", summary.median},
@@ -24,8 +24,8 @@ void to_json(Json& json, const Summary& summary) {
           {"count", summary.count}};
 }
 
-/// How often work is repeated: `least` times, and on until it took `long_enough_ms` in all or was
-/// done `most` times.
+/// How often work is repeated: at least `least` times, and then until it has taken `long_enough_ms`
+/// in all or was done `most` times.
 struct Repetitions {
   size_t least = 5;
   size_t most = 50;

@@ -1,4 +1,4 @@
-// What the shells offer: one line of the shell's language for each option.
+// Writes the options' part of the shells' completions: one line of the shell's language per option.
 #include "program.hpp"
 
 namespace packaging {
@@ -16,14 +16,14 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return text;
 }
 
-/// The row's words, each quoted for the shell, with spaces between.
+/// Returns the row's words, each quoted for the shell, separated by spaces.
 std::string quoted_words(const OptionRow& row) {
   std::vector<std::string> quoted;
   for (const std::string& word : row.completion.words()) quoted.push_back(escaped(word, " '\\"));
   return joined(quoted, " ");
 }
 
-/// Text for a place within single quotes of a POSIX shell.
+/// Escapes a text for a place within single quotes of a POSIX shell.
 std::string in_single_quotes(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -39,7 +39,7 @@ std::string lines(const Program& program, LineOf line_of) {
   return text;
 }
 
-/// What zsh's _arguments does for the value.
+/// Returns zsh's _arguments action that completes the option's value.
 std::string zsh_action(const OptionRow& row) {
   switch (row.completion.kind) {
     case Kind::kNothing:
@@ -65,7 +65,8 @@ std::string zsh_line(const OptionRow& row) {
   }
   std::string text;
   for (const std::string& name : names) {
-    // An option and its other spelling exclude each other; one that may be repeated nothing.
+    // An option and its other spelling exclude each other; an option that may be repeated excludes
+    // nothing.
     const std::string before =
         row.takes == Takes::kTexts ? "*" : (names.size() > 1 ? "(" + joined(names, " ") + ")" : "");
     const char* after = row.takes == Takes::kNothing ? "" : (name.size() > 2 ? "=" : "+");
@@ -77,7 +78,7 @@ std::string zsh_line(const OptionRow& row) {
   return text;
 }
 
-/// What the template's function of bash is to offer for the value.
+/// Returns what the bash function of the template offers for the value.
 std::string bash_action(const OptionRow& row) {
   switch (row.completion.kind) {
     case Kind::kNothing:

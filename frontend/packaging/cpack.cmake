@@ -1,6 +1,6 @@
-# `cpack` in the build folder makes three Debian packages (deb.cmake adds what only they have):
-#   scadray           the program and all that belongs to it
-#   scadray-validate  apart because it contains CGAL (GPL-3)
+# `cpack` in the build folder makes three Debian packages (deb.cmake adds files that only packages have):
+#   scadray           the program and everything that belongs to it
+#   scadray-validate  a package of its own, since it contains CGAL (GPL-3)
 #   libscadray-dev    static libraries, headers and the CMake package
 # The components, and so the packages, are named in the install commands; a command that names none
 # belongs to scadray.
@@ -14,9 +14,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
                                                 GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-# The component is what the description is of.
+# Each component has a description of its own.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
-# The project has no address; who gives a package to others sets theirs with -D.
+# The project has no address; whoever distributes a package sets their own with -D.
 if(NOT CPACK_PACKAGE_CONTACT)
   set(CPACK_PACKAGE_CONTACT "scadray contributors <scadray@localhost>")
 endif()
@@ -39,7 +39,7 @@ function(deb_package name section description)
 endfunction()
 
 # libepoxy opens EGL and GL by name when OpenGL is first asked for, which shlibdeps cannot see; the
-# CPU draws where they are not there.
+# CPU draws if they are missing.
 deb_package(scadray graphics "exact ray-traced pictures of OpenSCAD designs
 Draws OpenSCAD's .csg and .scad files by ray tracing the solid itself: round
 primitives are exact surfaces, not meshes. Takes the command lines of openscad

@@ -1,7 +1,7 @@
 // scadray-document PROGRAM VERSION TEMPLATE FILE: writes a manual page, or a shell's completion, of
-// scadray or one of the programs that it runs. TEMPLATE's suffix, before ".in", says which; it has
-// the program's name as @program@, what the option table says as @options@, and so on. Run by the
-// build.
+// scadray or of one of the programs that it runs. TEMPLATE's suffix before ".in" says which. In it,
+// @program@ stands for the program's name, @options@ for the lines from the option table, and so
+// on. The build runs it.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

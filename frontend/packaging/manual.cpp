@@ -1,4 +1,4 @@
-// The options of a manual page, in roff with the man macros.
+// Writes the options of a manual page, in roff with the man macros.
 #include "program.hpp"
 
 namespace packaging {
@@ -7,7 +7,8 @@ namespace {
 using frontend::OptionRow;
 using frontend::Takes;
 
-/// Text as roff prints it: a hyphen that can be copied into a shell, and no line that is a request.
+/// Escapes a text for roff: hyphens stay such that they can be copied into a shell, and no line is
+/// taken for a request.
 std::string roff(const std::string& text) {
   std::string result;
   if (text.starts_with('.') || text.starts_with('\'')) result = "\\&";
@@ -34,7 +35,8 @@ std::string tag_of(const OptionRow& row) {
   }
   if (row.takes == Takes::kNothing) return tag;
   const bool is_short = spellings(row).back().size() == 2;
-  // A value that may be missing stands behind an equals sign, or the next word may be taken for it.
+  // A value that may be missing follows an equals sign; otherwise the next word might be taken for
+  // it.
   const std::string value = (is_short ? " " : "=") + ("\\fI" + roff(row.value_name) + "\\fR");
   return tag + (row.takes == Takes::kOptionalText ? "[" + value + "]" : value);
 }

@@ -1,4 +1,4 @@
-// What the manual page and the completions of a program say of it, made from its option table.
+// Writes the options' part of a program's manual page and completions, from its option table.
 #pragma once
 
 #include <span>
@@ -16,24 +16,25 @@ struct OptionGroup {
 
 struct Program {
   const char* name;
-  const char* subcommands;  // first words that make it run NAME-SUBCOMMAND, with spaces between
+  const char* subcommands;  // names of its subcommands, which run NAME-SUBCOMMAND, separated by
+                            // spaces
   std::vector<OptionGroup> groups;
 };
 
-/// The program's name as a part of a shell function's.
+/// The program's name, in a form that may be part of a shell function's name.
 std::string function_of(const Program& program);
 
-/// The spellings of an option that a user is told: "-q" and "--quiet"; only "-o", although "--o" is
+/// The spellings of an option that users are told: "-q" and "--quiet"; only "-o", although "--o" is
 /// understood, too.
 std::vector<std::string> spellings(const frontend::OptionRow& row);
 
-/// What the option does, in a few words: its help up to the first semicolon.
+/// A short description of the option: its help up to the first semicolon.
 std::string brief_of(const frontend::OptionRow& row);
 
 /// The text with a backslash before each of the characters.
 std::string escaped(const std::string& text, const char* characters);
 
-/// The options' part of each file, in its language.
+/// The options' part of each file, in the file's language.
 std::string manual_options(const Program& program);
 std::string bash_options(const Program& program);
 std::string zsh_options(const Program& program);

@@ -10,7 +10,7 @@
 namespace validation {
 namespace {
 
-/// "rays, 12 s left"
+/// Writes "rays, 12 s left".
 std::string with_estimate(const std::string& stage, double fraction, Clock::time_point start,
                           Clock::time_point deadline) {
   const Clock::time_point now = Clock::now();

@@ -1,4 +1,4 @@
-// What a comparison of many samples adds up to, and the loop over them.
+// Compares many samples, and sums up their verdicts.
 #pragma once
 
 #include <chrono>
@@ -15,15 +15,15 @@ using Json = nlohmann::ordered_json;
 
 enum class Outcome : uint8_t {
   kAgreed,
-  kUndecided,  // differs, or may, within what a tolerance allows
+  kUndecided,  // differs, or may differ, but within a tolerance
   kDisagreed,
 };
 
 struct Verdict {
   Outcome outcome = Outcome::kAgreed;
-  double error = 0;  // ≥ 0, in the unit of its check
-  /// Of a disagreement: "seen" and "expected", and where. Either, or "nearest", may hold a
-  /// "primitive": its index, and later its id.
+  double error = 0;  // ≥ 0, in the check's unit
+  /// For a disagreement: "seen", "expected" and where. These two and "nearest" may hold a
+  /// "primitive": its index, which is later replaced by its id.
   Json details;
 };
 
@@ -32,7 +32,7 @@ constexpr const char* kWithPrimitive[] = {"seen", "expected", "nearest"};
 
 /// One row of the table.
 struct CheckResult {
-  std::string group;  // what is compared with what; rows of a group follow each other
+  std::string group;  // what is compared with what; a group's rows are consecutive
   std::string name;
   uint64_t planned = 0;
   uint64_t compared = 0;  // fewer than planned if time ran out
@@ -45,22 +45,22 @@ struct CheckResult {
   void add(Verdict verdict);
 };
 
-/// More disagreements than this of one check are counted, but not listed.
+/// The most disagreements that a check lists; further ones are only counted.
 constexpr std::size_t kMostListed = 1000;
 
-/// Called with what is done in [0, 1], below 0: not known.
+/// Called with a stage and the fraction of it that is done, in [0, 1]; below 0: unknown.
 using Progress = std::function<void(const std::string& stage, double fraction)>;
 
-/// Judges one sample. Made once a thread.
+/// Judges one sample. Each thread makes its own judge.
 using Judge = std::function<Verdict(uint64_t sample)>;
 
-/// Judges samples 0, 1, … planned − 1, in parallel, until the deadline: a first kLeastSamples in
-/// any case. The result depends on how many are compared alone.
+/// Judges samples 0, 1, … planned − 1 in parallel until the deadline, but the first kLeastSamples
+/// in any case. The result depends only on how many are compared.
 CheckResult run_check(const std::string& group, const std::string& name, uint64_t planned,
                       Clock::time_point deadline, const Progress& progress,
                       const std::function<Judge()>& make_judge);
 
-/// Judged before the time is looked at, and between two looks.
+/// Samples that are judged between two looks at the clock.
 constexpr uint64_t kLeastSamples = 1024;
 
 }  // namespace validation

@@ -30,7 +30,7 @@ class Run {
   ExitCode execute() {
     if (!options_.report.empty()) check_report();
     const csgcore::Scene design = import();
-    // As the picture is drawn: floats and products of three cannot hold every size.
+    // The scene is scaled as for a picture: floats, and products of three, cannot hold every size.
     const int exponent = frontend::scale_exponent(design);
     const csgcore::Scene scene = exponent == 0 ? design : frontend::scaled(design, exponent);
     Result result =
@@ -53,7 +53,7 @@ class Run {
     std::fprintf(stderr, "%s\n", text.c_str());
   }
 
-  /// The model alone: `%` and `#` parts are overlays of it, or no part of it.
+  /// Imports the model alone: `%` parts do not belong to it, and `#` parts overlay it.
   csgcore::Scene import() {
     frontend::DesignFileOptions reading;
     reading.import = options_.import;

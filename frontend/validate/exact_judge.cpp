@@ -37,7 +37,7 @@ class ExactJudge final : public RayJudge {
     return glm::length(seen.position - expected.position) / scene_.size();
   }
 
-  /// Null if there is none that matters.
+  /// Returns the name of the first difference that matters; null if there is none.
   const char* difference_of(const Seen& seen, const ExactHit& expected) const {
     if (seen.hit() != expected.hit()) return "hit or miss";
     if (!seen.hit()) return nullptr;

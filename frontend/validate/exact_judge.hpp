@@ -1,4 +1,4 @@
-// The exact ray oracle as a judge of rays.
+// Judges rays by the exact ray oracle.
 #pragma once
 
 #include "oracle/exact_rays.hpp"

@@ -14,8 +14,8 @@ using csgcore::Vec3;
 
 namespace {
 
-/// Local coordinates are rounded; the shell is so much thicker, as a share of the radius and of the
-/// height: far more than rounding, far less than a sagitta.
+/// The shell is thicker by this share of the radius and of the height, since local coordinates are
+/// rounded: far more than the rounding, far less than a sagitta.
 constexpr double kShellSlack = 1e-9;
 
 }  // namespace
@@ -58,7 +58,7 @@ bool SagittaShell::contains(const Vec3& point_world) const {
 double SagittaShell::depth(const Vec3& point_world) const {
   const auto place = traits_.radial_place(primitive_, to_local(point_world)).value();
   const double length = glm::length(place.part);
-  if (length == 0) return 0;  // an apex
+  if (length == 0) return 0;  // at an apex
   return glm::length(primitive_.local_to_world.linear * place.part) *
          std::abs(place.surface / length - 1);
 }

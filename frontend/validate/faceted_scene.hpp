@@ -1,4 +1,4 @@
-// A scene in OpenSCAD's facets, and how far it may differ from the smooth one.
+// A scene in OpenSCAD's facets, and how far it may differ from the smooth scene.
 #pragma once
 
 #include <optional>
@@ -11,21 +11,22 @@ class PrimitiveTraits;
 
 namespace validation {
 
-/// The scene with each primitive as the convex polyhedron that OpenSCAD makes of it with so many
-/// fragments (≥ 3), index for index. Equal ones share their polyhedron. Nothing if there is no such
-/// polyhedron for one of them.
+/// Returns the scene with each primitive replaced, at the same index, by the convex polyhedron that
+/// OpenSCAD makes of it with `fragments` (≥ 3) fragments. Equal primitives share a polyhedron.
+/// Nothing if one of them has no such polyhedron.
 std::optional<csgcore::Scene> faceted(const csgcore::Scene& scene, int fragments);
 
-/// Where a primitive and its facets may differ: within the smooth surface, and no deeper below it
-/// than the facets' sagitta. In local coordinates, so that affine maps change nothing.
+/// The region in which a primitive and its facets may differ: inside the smooth surface, and no
+/// deeper below it than the facets' sagitta. It is defined in local coordinates, so that affine
+/// maps do not change it.
 class SagittaShell {
  public:
   SagittaShell(const csgcore::Primitive& primitive, int fragments);
 
-  /// False for what is a polyhedron anyway.
+  /// Returns false for a polyhedron, which facets do not change.
   bool contains(const csgcore::Vec3& point_world) const;
-  /// From a point of the shell outwards to the smooth surface, in world units: no less than its
-  /// distance from it. The primitive must not be a polyhedron.
+  /// Returns the way from a point of the shell outwards to the smooth surface, in world units,
+  /// which is no less than its distance. Precondition: the primitive is not a polyhedron.
   double depth(const csgcore::Vec3& point_world) const;
 
  private:

@@ -27,7 +27,7 @@ std::vector<oracle::ConvexPolyhedron> polyhedra_of(const csgcore::Scene& scene) 
   return polyhedra;
 }
 
-/// By how much coordinates so large are rounded, some operations on.
+/// Returns the rounding of the box's coordinates after some operations.
 double coordinate_rounding(const csgcore::Box& box) {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -36,11 +36,11 @@ double coordinate_rounding(const csgcore::Box& box) {
   return 0x1p-50 * largest;
 }
 
-/// The boundary that a ray sees. Crossings of it that are nearer to each other than the tolerance
-/// are one, as in NUMERICS.md §1. A ray that runs in a face sees where it enters that, but rays to
-/// its sides see other things: it is undecided.
+/// The boundary that a ray sees. Crossings of it that are closer than the tolerance count as one,
+/// as in NUMERICS.md §1. A ray that runs in a face sees the boundary where it enters the face; rays
+/// beside it see something else, so that it is undecided.
 struct Sight {
-  std::vector<Crossing> crossings;  // none: nothing is seen
+  std::vector<Crossing> crossings;  // crossings that count as the one that is seen; empty: a miss
   bool hit() const { return !crossings.empty(); }
 };
 
@@ -74,7 +74,7 @@ class NefJudge final : public RayJudge {
     return truth_.solid().planes()[crossing.plane].unit_normal;
   }
 
-  /// From one crossing of the ray to a parameter, along the crossing's normal.
+  /// Returns the distance from a crossing to a parameter of the ray, along the crossing's normal.
   double distance(const Ray& ray, const Crossing& from, double s) const {
     return std::abs((s - parameter(from)) * glm::dot(normal_of(from), ray.direction));
   }
@@ -84,7 +84,7 @@ class NefJudge final : public RayJudge {
     const std::vector<Crossing> all = truth_.solid().crossings(ray);
     Place at_eye = Place::kOutside;
     auto next = all.begin();
-    // What was crossed up to the tolerance has happened at a perspective's eye.
+    // In a perspective view, crossings within the tolerance of the eye count as passed.
     if (projection == Projection::kPerspective) {
       for (; next != all.end() && parameter(*next) <= thickness; ++next) at_eye = next->after;
     }
@@ -103,8 +103,8 @@ class NefJudge final : public RayJudge {
     return sight;
   }
 
-  /// As a share of the size: along the normals, as the tolerance is, so that it does not depend on
-  /// the angle at which the ray meets the surface.
+  /// Returns the error as a share of the size. It is measured along the normals, as the tolerance
+  /// is, so that it does not depend on the angle at which the ray meets the surface.
   double error_of(const Ray& ray, const Seen& seen, const Sight& sight) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Crossing& crossing : sight.crossings) {
@@ -113,12 +113,12 @@ class NefJudge final : public RayJudge {
     return least / truth_.size();
   }
 
-  /// Null if there is none that matters.
+  /// Returns the name of the first difference that matters; null if there is none.
   const char* difference_of(const Ray& ray, const Seen& seen, const Sight& sight) const {
     if (seen.hit() != sight.hit()) return "hit or miss";
     if (!seen.hit()) return nullptr;
-    // The crossing that is shown may be one that the solid does not have, within the tolerance of
-    // the one that it has.
+    // The renderer may show a crossing that the solid does not have, within the tolerance of its
+    // crossing.
     const double rounding = tolerance_.coordinate * glm::length(seen.position);
     const double far = tolerance_.position * truth_.size() + truth_.thickness() + rounding;
     if (!(error_of(ray, seen, sight) * truth_.size() <= far)) return "position";
@@ -150,7 +150,8 @@ class NefJudge final : public RayJudge {
     return std::any_of(a.crossings.begin(), a.crossings.end(), is_near);
   }
 
-  /// Whether a ray or a tolerance that is displaced by what rounding may do sees something else.
+  /// Returns whether a ray or a tolerance that is displaced by the possible rounding sees something
+  /// else.
   bool is_undecided(const SeenRay& ray, const Sight& sight) const {
     const double tau = truth_.thickness(), aside = aside_of(ray.ray);
     const auto differs = [&](const Ray& other, double thickness) {
@@ -165,11 +166,12 @@ class NefJudge final : public RayJudge {
         (differs(moved(ray.ray, 0, 0, aside), tau) || differs(moved(ray.ray, 0, 0, -aside), tau))) {
       return true;
     }
-    // Two surfaces, each displaced.
+    // Both surfaces of a piece may be displaced.
     return differs(ray.ray, tau + 2 * aside) || differs(ray.ray, std::max(0.0, tau - 2 * aside));
   }
 
-  /// No less than the rounding of the origin, or moving it would change nothing.
+  /// Returns the displacement of rays. It is at least the rounding of the origin, below which
+  /// moving the ray would change nothing.
   double aside_of(const Ray& ray) const {
     return std::max({tolerance_.aside * truth_.size(), truth_.displacement(),
                      0x1p-50 * glm::length(ray.origin)});

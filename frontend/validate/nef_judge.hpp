@@ -1,4 +1,4 @@
-// The Nef oracle as a judge: of rays, by the definition of NUMERICS.md §1, and of points.
+// Judges rays, by the definition of NUMERICS.md §1, and points by the Nef oracle.
 #pragma once
 
 #include <vector>
@@ -12,28 +12,30 @@ namespace validation {
 /// A scene of polyhedra, and its solid by CGAL.
 class NefTruth {
  public:
-  /// Of a scene whose primitives are all polyhedra. `size` is the design's (the diagonal of its
-  /// box), `thickness` the tolerance of the regularised operations. Throws std::system_error.
+  /// Builds the solid of a scene whose primitives are all polyhedra. `size` is the design's (the
+  /// diagonal of its box), `thickness` the tolerance of the regularised operations. Throws
+  /// std::system_error.
   NefTruth(const csgcore::Scene& scene, double size, double thickness,
            const oracle::NefLimits& limits);
 
-  /// What became of the building; if it was not built, nothing else may be asked.
+  /// The outcome of the building. If the solid was not built, no other function may be called.
   oracle::NefStatus status() const { return build_.status; }
   const std::string& reason() const { return build_.reason; }
 
   const oracle::NefSolid& solid() const { return *build_.solid; }
   double size() const { return size_; }
   double thickness() const { return thickness_; }
-  /// By how much rounding may displace a surface for a renderer in double, in world units.
+  /// How far rounding may displace a surface for a renderer in double, in world units.
   double displacement() const { return displacement_; }
 
-  /// The primitive whose surface is nearest, and at most its distance.
+  /// The primitive whose surface is nearest, and an upper bound of its distance.
   struct NearSurface {
     uint32_t primitive;
     double distance;
   };
   NearSurface nearest_surface(const csgcore::Vec3& point) const;
-  /// Whether the primitive has a face with that normal, or the opposite one, so near to the point.
+  /// Returns whether the primitive has a face with that normal, or its opposite, within `distance`
+  /// of the point.
   bool has_face_at(uint32_t primitive, const csgcore::Vec3& point, const csgcore::Vec3& normal,
                    double distance) const;
 
@@ -51,8 +53,8 @@ class NefTruth {
 /// The truth must outlive the judge.
 std::unique_ptr<RayJudge> make_nef_judge(const NefTruth& truth, const Tolerance& tolerance);
 
-/// Of a claim that the point is in the solid. The error is the depth at which a wrong point lies
-/// below, or stands above, the nearest surface of a primitive, as a share of the size.
+/// Judges the claim that the point is in the solid (or not). The error is how far a wrong point is
+/// from the nearest surface of a primitive, below or above it, as a share of the size.
 Verdict judge_point(const NefTruth& truth, const csgcore::Vec3& point, bool claimed_inside);
 
 }  // namespace validation

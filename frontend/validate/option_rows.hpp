@@ -1,5 +1,5 @@
-// The options of `scadray validate`. Apart from what reads them, for frontend/packaging: no CGAL
-// here.
+// The options of `scadray validate`, without the code that reads them, for frontend/packaging. This
+// file does not need CGAL.
 #pragma once
 
 #include <span>

@@ -12,7 +12,7 @@ namespace {
 
 using frontend::Arguments;
 
-// A sphere of 200 fragments has 20,002 facets, and takes CGAL a minute alone.
+// A sphere of 200 fragments has 20,002 facets, and alone takes CGAL a minute.
 constexpr int kMostFragments = 200;
 constexpr uint64_t kMostSamples = 1'000'000'000;
 constexpr uint64_t kMostViews = 100;  // their pictures are held in memory

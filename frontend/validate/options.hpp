@@ -12,7 +12,7 @@ namespace validation {
 
 enum class Action : uint8_t { kValidate, kHelp, kVersion };
 
-/// Checked: every value is in its documented range.
+/// The checked command line: every value is in its documented range.
 struct Options {
   Action action = Action::kValidate;
   std::string input;   // "-": a .csg from standard input
@@ -24,11 +24,10 @@ struct Options {
   bool quiet = false;
 };
 
-/// Throws frontend::Error for anything that is wrong with the arguments (without the program's
-/// name).
+/// Parses the arguments (without the program's name). Throws frontend::Error for any that is wrong.
 Options parse_options(const std::vector<std::string>& arguments);
 
-/// The text of --help.
+/// Returns the text of --help.
 std::string help_text();
 
 }  // namespace validation

@@ -15,11 +15,11 @@ using csgcore::CsgTree;
 using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 
-/// Adds a tree's operations to a builder. True if the primitive stands, somewhere in it, below an
-/// odd number of cuts.
+/// Adds a tree's operations to a builder. Returns whether the primitive is cut away: it stands
+/// below an odd number of cuts.
 bool add_tree(const CsgTree& tree, uint32_t primitive, CsgTreeBuilder& builder) {
   const auto tokens = tree.tokens();
-  std::vector<std::size_t> first(tokens.size());  // the token at which the subtree begins
+  std::vector<std::size_t> first(tokens.size());  // the first token of each token's subtree
   std::vector<std::size_t> open;                  // subtrees that no operation has taken yet
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     first[i] = i;
@@ -50,7 +50,7 @@ bool add_tree(const CsgTree& tree, uint32_t primitive, CsgTreeBuilder& builder) 
     } else {
       builder.open(token.op);
       stack.push_back({visit.token, visit.is_cut, true});
-      // The last operand is the first to be pushed.
+      // The last operand is pushed first.
       for (std::size_t n = token.value, end = visit.token; n > 0; --n) {
         const std::size_t operand = end - 1;
         const bool cuts = token.op == Op::kDifference && n > 1;

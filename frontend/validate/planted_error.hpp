@@ -1,4 +1,5 @@
-// A hook for tests: an error in the scene that is drawn, but not in the one that the oracles judge.
+// A hook for tests: plants an error in the scene that is drawn, but not in the one the oracles
+// judge.
 #pragma once
 
 #include <string>
@@ -7,12 +8,12 @@
 
 namespace validation {
 
-/// "flip:K": what the primitive with id K adds is cut away, and what it cuts away is added.
-/// "move:K:DISTANCE": primitive K stands so much further along x, in world units. Throws
-/// frontend::Error for anything else.
+/// "flip:K" cuts away what the primitive with id K adds, and adds what it cuts away.
+/// "move:K:DISTANCE" moves primitive K by DISTANCE along x, in world units. Throws frontend::Error
+/// for any other `error`.
 csgcore::Scene with_planted_error(const csgcore::Scene& scene, const std::string& error);
 
-/// Environment variable that holds one; only tests set it.
+/// The environment variable that holds the error; only tests set it.
 constexpr const char* kPlantedErrorVariable = "SCADRAY_VALIDATE_PLANTED_ERROR";
 
 }  // namespace validation

@@ -1,5 +1,5 @@
-// Random numbers of which each sample has its own, so that they depend neither on threads nor on
-// the standard library.
+// Random numbers with a sequence for each sample, so that they depend neither on threads nor on the
+// standard library.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace validation {
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 class Random {
  public:
-  /// What the numbers are for: each has a sequence of its own.
+  /// The uses of random numbers. Each has sequences of its own.
   enum class Use : uint64_t {
     kRays,
     kViews,
@@ -36,7 +36,7 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// In [0, 1): the upper 53 bits.
+  /// In [0, 1), from the upper 53 bits.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 

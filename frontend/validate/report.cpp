@@ -31,7 +31,8 @@ std::string row_of(const CheckResult& check) {
                           grouped(check.disagreed), check.worst_error > 0 ? error : "0"});
 }
 
-/// "primitives that disagreements name: 5 (123 times), 0 (4 times)", the most often named first.
+/// Writes "primitives that disagreements name: 5 (123 times), 0 (4 times)", the most frequent
+/// first.
 std::string named_primitives(const Result& result) {
   constexpr std::size_t kMostNamed = 5;
   std::map<uint32_t, uint64_t> times;
@@ -107,7 +108,7 @@ std::string report_of(const Result& result, const std::string& file, const Setti
       {"file", file},          {"agrees", result.agrees()},  {"fn", settings.fragments},
       {"seed", settings.seed}, {"scale_exponent", exponent}, {"notes", result.notes},
       {"checks", checks}};
-  // A file's name need not be UTF-8.
+  // The name of a file need not be UTF-8.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

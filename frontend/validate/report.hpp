@@ -1,4 +1,4 @@
-// What a validation found, as a table for people and as JSON.
+// Writes the result of a validation as a table for people and as JSON.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace validation {
 
-/// Ends with a line break. Errors are shares of the design's size; of the volume, of itself.
+/// Returns the table. It ends with a line break. Errors are shares of the design's size; that of
+/// the volume is a share of the volume.
 std::string table_of(const Result& result);
 
-/// With the disagreements of every check; primitives are named by their ids
-/// (csgcore/primitive.hpp), /// coordinates are in the design's units times 2^`exponent`.
+/// Returns the JSON with the disagreements of every check. Primitives are named by their ids
+/// (csgcore/primitive.hpp), and coordinates are in the design's units times 2^`exponent`.
 std::string report_of(const Result& result, const std::string& file, const Settings& settings,
                       int exponent);
 

@@ -15,11 +15,11 @@ using csgcore::View;
 
 namespace {
 
-/// Rays and points come from a box that is larger by this share of its diagonal on each side.
+/// Rays and points are sampled in a box that is larger by this share of its diagonal on each side.
 constexpr double kMargin = 0.02;
 
-/// Pictures are so large that a design's parts show, and no larger: the oracles take microseconds a
-/// pixel.
+/// The pictures' size shows a design's parts and is no larger, since the oracles take microseconds
+/// a pixel.
 constexpr uint32_t kWidth_px = 160, kHeight_px = 120;
 
 csgcore::Box grown(csgcore::Box box) {
@@ -34,7 +34,7 @@ void look_along(const Vec3& forward, View& view) {
   view.up = glm::cross(view.right, forward);
 }
 
-/// Log-uniform in PointSampler's range.
+/// Returns a log-uniform distance in PointSampler's range.
 double random_distance(Random& random, double diagonal) {
   constexpr double kSpan = PointSampler::kFurthest / PointSampler::kNearest;
   return diagonal * PointSampler::kNearest * std::pow(kSpan, random.uniform());
@@ -56,7 +56,7 @@ View random_ray_view(const csgcore::Box& box, uint64_t seed, uint64_t index) {
   Vec3 along = random.point_in(around) - view.eye;
   if (glm::length(along) == 0) along = Vec3(0, 0, 1);
   look_along(glm::normalize(along), view);
-  // The pixel's centre is on the axis; how wide the pixel is matters little.
+  // The only pixel's centre is on the axis, so that the pixel's width matters little.
   constexpr double kHalfPixel = 1e-3;
   const bool is_perspective = view.projection == Projection::kPerspective;
   view.half_height = is_perspective ? kHalfPixel : kHalfPixel * box.diagonal();
@@ -65,7 +65,7 @@ View random_ray_view(const csgcore::Box& box, uint64_t seed, uint64_t index) {
 
 View random_view(const csgcore::Box& box, uint64_t seed, uint64_t index) {
   Random random(seed, Random::Use::kViews, index);
-  constexpr double kDistance = 2;  // of the eye, in diagonals of the box
+  constexpr double kDistance = 2;  // distance of the eye, in diagonals of the box
   View view;
   view.projection = index % 2 == 0 ? Projection::kPerspective : Projection::kOrthographic;
   view.width_px = kWidth_px;
@@ -73,14 +73,14 @@ View random_view(const csgcore::Box& box, uint64_t seed, uint64_t index) {
   look_along(random.direction(), view);
   view.eye = box.center() - kDistance * box.diagonal() * view.forward;
   const bool is_perspective = view.projection == Projection::kPerspective;
-  // The ball about the box touches the edges of the picture, or about.
+  // The ball about the box about touches the edges of the picture.
   view.half_height = is_perspective ? 0.5 / kDistance : 0.5 * box.diagonal();
   return view;
 }
 
 std::vector<uint32_t> scattered_pixels(const View& view) {
-  // Steps of the golden ratio leave no gaps that are larger than others by much (Fibonacci
-  // hashing). A step that is prime to the count visits every pixel.
+  // Steps of the golden ratio leave gaps of similar sizes (Fibonacci hashing). A step that is
+  // coprime with the count visits every pixel.
   const uint64_t count = uint64_t{view.width_px} * view.height_px;
   uint64_t step = static_cast<uint64_t>(0.6180339887498949 * static_cast<double>(count));
   step = std::max<uint64_t>(step, 1);
@@ -99,7 +99,7 @@ PointSampler::PointSampler(const csgcore::Box& box, const csgcore::Mesh& boundar
     std::rotate(triangle.begin(), first, triangle.end());
     triangles_.push_back(triangle);
   }
-  // CGAL's order is by addresses, and so another one in every run.
+  // CGAL's order depends on addresses, and differs in every run.
   std::sort(triangles_.begin(), triangles_.end(), [](const Triangle& a, const Triangle& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), comes_before);
   });
@@ -124,7 +124,7 @@ Vec3 PointSampler::near_surface(uint64_t index) const {
   if (areas_.empty()) return in_box(index);
   Random random(seed_, Random::Use::kPointsNearSurfaces, index);
   const Triangle& corner = pick_triangle(random);
-  // Uniform in the triangle: the square is folded along its diagonal.
+  // Uniform in the triangle: the unit square is folded along its diagonal.
   double u = random.uniform(), v = random.uniform();
   if (u + v > 1) {
     u = 1 - u;

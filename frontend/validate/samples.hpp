@@ -1,4 +1,4 @@
-// The rays, views and points that are compared.
+// Makes the rays, views and points that are compared.
 #pragma once
 
 #include <array>
@@ -11,34 +11,35 @@
 
 namespace validation {
 
-/// A random line or ray through the box, as a view of one pixel: of two, one is orthographic, the
-/// other a perspective from within the box. The box is not empty.
+/// Returns a random line or ray through the box, as a view of one pixel. Half of them are
+/// orthographic, half a perspective from within the box. Precondition: the box is not empty.
 csgcore::View random_ray_view(const csgcore::Box& box, uint64_t seed, uint64_t index);
 
-/// A camera that has the box in its picture, from a random direction. Of two, one is perspective,
-/// the other orthographic.
+/// Returns a camera in a random direction that has the box in its picture. Half of them are
+/// perspective, half orthographic.
 csgcore::View random_view(const csgcore::Box& box, uint64_t seed, uint64_t index);
 
-/// All pixels of a picture in an order in which the first of them lie all over it.
+/// Returns all pixels of a picture, in an order in which the first ones already lie all over it.
 std::vector<uint32_t> scattered_pixels(const csgcore::View& view);
 
-/// Points in and about a solid.
+/// Makes points in and about a solid.
 class PointSampler {
  public:
-  /// `boundary`: the solid's, in triangles; the points do not depend on their order. The box is not
-  /// empty, and holds it.
+  /// `boundary` is the solid's, in triangles; the points do not depend on their order. The box
+  /// contains it and is not empty.
   PointSampler(const csgcore::Box& box, const csgcore::Mesh& boundary, uint64_t seed);
 
-  /// Anywhere in the box.
+  /// Returns a point anywhere in the box.
   csgcore::Vec3 in_box(uint64_t index) const;
-  /// Above or below the boundary; between kFurthest and kNearest of the box's diagonal away, by
-  /// orders of magnitude alike. Anywhere if there is no boundary.
+  /// Returns a point above or below the boundary. Its distance, as a share of the box's diagonal,
+  /// is log-uniform between kNearest and kFurthest. Without a boundary it is anywhere in the box.
   csgcore::Vec3 near_surface(uint64_t index) const;
-  /// The same about an edge of the boundary, in any direction.
+  /// Returns a point that far from an edge of the boundary, in any direction.
   csgcore::Vec3 near_edge(uint64_t index) const;
 
   static constexpr double kFurthest = 1e-2;
-  static constexpr double kNearest = 1e-7;  // 100 times the thickness that does not exist
+  static constexpr double kNearest = 1e-7;  // 100 times the tolerance below which pieces do not
+                                            // exist
 
  private:
   using Triangle = std::array<csgcore::Vec3, 3>;
@@ -46,7 +47,7 @@ class PointSampler {
 
   csgcore::Box box_;
   std::vector<Triangle> triangles_;
-  std::vector<double> areas_;  // of the triangles up to each, it included
+  std::vector<double> areas_;  // cumulative, each triangle included
   uint64_t seed_;
 };
 

@@ -1,4 +1,4 @@
-// A ray, what a renderer sees along it, and the judges of that.
+// A ray, what a renderer sees along it, and the interface of its judges.
 #pragma once
 
 #include <limits>
@@ -12,7 +12,7 @@
 
 namespace validation {
 
-/// In the terms of csgcore::Hits.
+/// A hit or a miss, in the terms of csgcore::Hits.
 struct Seen {
   uint32_t primitive = csgcore::Hits::kMiss;
   double s = std::numeric_limits<double>::infinity();
@@ -29,27 +29,28 @@ struct SeenRay {
   Seen seen;
 };
 
-/// What a renderer may be off by and still be right.
+/// The errors that a renderer may make and still be right.
 struct Tolerance {
   double position;    // as a share of the design's size
   double normal;      // length of the difference of the unit normals
   double coordinate;  // relative rounding of the coordinates
-  /// Where rays so far to the side see another thing, as a share of the size, nothing is decided;
-  /// 0: as far as a renderer in double is off.
+  /// If rays displaced sideways by this share of the design's size see something else, nothing is
+  /// decided. 0: the displacement is the error of a renderer in double.
   double aside;
 };
 
-/// The CPU: positions tell surfaces apart that lie a thickness tolerance apart (NUMERICS.md §1).
+/// For the CPU: positions tell surfaces apart that are a thickness tolerance apart (NUMERICS.md
+/// §1).
 constexpr Tolerance kDoubleTolerance{1e-9, 1e-5, 0x1p-52, 0};
-/// OpenGL computes in float, and agrees but for details below 1e-4 of the scene (NUMERICS.md §5);
-/// half a degree of the normal.
+/// For OpenGL, which computes in float, and agrees except in details below 1e-4 of the scene
+/// (NUMERICS.md §5). The normal may be off by half a degree.
 constexpr Tolerance kFloatTolerance{1e-4, 8.7e-3, 0x1p-22, 1e-4};
 
-/// Judges one ray after the other; one object a thread. Errors are shares of the design's size.
+/// Judges one ray after the other; each thread has its own. Errors are shares of the design's size.
 class RayJudge {
  public:
   virtual ~RayJudge() = default;
-  /// Of a disagreement, `details` say what differs, what was seen and what was expected.
+  /// The details of a disagreement say what differs, what was seen and what was expected.
   virtual Verdict judge(const SeenRay& ray) = 0;
 };
 using MakeRayJudge = std::function<std::unique_ptr<RayJudge>()>;
@@ -58,7 +59,8 @@ Json json_of(const csgcore::Vec3& v);
 Json json_of(const csgcore::Ray& ray, csgcore::Projection projection);
 Json json_of(const Seen& seen);
 
-/// The ray moved to its side, at `angle` (radians) about it, and forward.
+/// Returns the ray moved sideways by `aside`, in the direction `angle` (radians) about it, and
+/// forward.
 csgcore::Ray moved(const csgcore::Ray& ray, double angle, double aside, double forward);
 
 }  // namespace validation

@@ -7,8 +7,8 @@ namespace validation {
 Seen traced_ray(const csgcore::Subdivision& subdivision, const csgcore::View& view) {
   csgcore::Hits hits;
   csgcore::TraceStats stats;
-  // Or a thread that waits for the tracer's tasks might begin with another ray in the meantime, and
-  // nest without end.
+  // Without isolation, a thread that waits for the tracer's tasks might begin with another ray
+  // meanwhile, and nest without end.
   tbb::this_task_arena::isolate([&] { csgcore::trace(subdivision, view, {}, hits, stats); });
   return seen_at(hits, 0);
 }

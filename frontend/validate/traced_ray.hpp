@@ -1,4 +1,4 @@
-// One ray by the CPU tracer, through the cells of a kd-tree.
+// Traces one ray by the CPU, through the cells of a kd-tree.
 #pragma once
 
 #include "csgcore/subdivision.hpp"
@@ -6,7 +6,7 @@
 
 namespace validation {
 
-/// What the only pixel of the view sees.
+/// Returns what the only pixel of the view sees.
 Seen traced_ray(const csgcore::Subdivision& subdivision, const csgcore::View& view);
 
 }  // namespace validation

@@ -27,18 +27,20 @@ constexpr const char* kSmooth = "as drawn, against rays in exact arithmetic";
 constexpr const char* kFaceted = "in facets, against CGAL Nef polyhedra";
 constexpr const char* kSagitta = "as drawn, against CGAL within the facets' sagitta";
 
-/// Shares of the time limit by which the smooth scene's comparison and CGAL's building have to be
-/// done; the rest is for the comparisons with what CGAL has built.
+/// Shares of the time limit at which the smooth scene's comparison and CGAL's building have to be
+/// done. The rest is for comparisons with what CGAL has built.
 constexpr double kSmoothUntil = 0.3, kBuiltUntil = 0.85;
 
-/// A volume's estimate gains little by a ray, and a ray costs little.
+/// Rays for the volume per ray of a comparison: a ray adds little to the estimate, and costs
+/// little.
 constexpr uint64_t kVolumeRays = 10;
 
-/// CGAL takes 7 ms a primitive (cubes that do not touch) to 30 ms (spheres of 8 fragments that do);
-/// what would take too long even at a fraction of that is not begun.
+/// The least time that CGAL takes for a primitive. Measured: 7 ms (cubes that do not touch) to 30
+/// ms (spheres of 8 fragments that do). A scene that would take too long even at a fraction of that
+/// is not begun.
 constexpr double kLeastNefTime_s = 2e-3;
 
-/// A scene made ready for the CPU.
+/// A scene prepared for the CPU.
 class Model {
  public:
   explicit Model(const Scene& scene)
@@ -47,7 +49,7 @@ class Model {
   const csgcore::Solid& solid() const { return solid_; }
   const csgcore::Subdivision& subdivision() const { return subdivision_; }
 
-  /// By the cell that holds it.
+  /// Returns whether the solid contains the point, by the cell that contains it.
   bool contains(const Vec3& point) const {
     const csgcore::Leaf* leaf = subdivision_.find(point);
     if (!leaf) return false;
@@ -65,7 +67,7 @@ class Model {
 /// The pictures of a scene by one renderer.
 struct Pictures {
   std::vector<View> views;
-  std::vector<csgcore::Hits> hits;  // of each view
+  std::vector<csgcore::Hits> hits;  // by view
 };
 
 Pictures pictures_by_cpu(const Model& model, const std::vector<View>& views) {
@@ -77,7 +79,7 @@ Pictures pictures_by_cpu(const Model& model, const std::vector<View>& views) {
   return pictures;
 }
 
-/// Nothing if the settings, or the machine, have the CPU draw.
+/// Returns nothing if, by the settings or for lack of a GPU, the CPU draws.
 std::optional<Pictures> pictures_by_gl(const Scene& scene, const std::vector<View>& views,
                                        frontend::RendererKind renderer) {
   if (renderer == frontend::RendererKind::kCpu) return std::nullopt;
@@ -133,13 +135,13 @@ class Validation {
                         std::chrono::duration<double>(share * settings_.time_limit_s));
   }
 
-  /// Of several checks that are left before the end, each may take as long.
+  /// Returns the deadline of the next check: those that are left share the time equally.
   static Clock::time_point next_deadline(Clock::time_point end, int checks_left) {
     const Clock::time_point now = Clock::now();
     return now + (std::max(end, now) - now) / checks_left;
   }
 
-  /// People know primitives by their place in the file.
+  /// The report names primitives by their place in the file.
   void add(CheckResult check) {
     for (Json& disagreement : check.disagreements) {
       for (const char* what : kWithPrimitive) {
@@ -167,7 +169,7 @@ class Validation {
     }));
   }
 
-  /// The first pixels are those of all views, so that each is judged where time is short.
+  /// The first samples are pixels of all views, so that every view is judged even if time is short.
   void compare_pictures(const char* group, const char* name, const Pictures& pictures,
                         const MakeRayJudge& make_judge, Clock::time_point deadline) {
     if (pictures.views.empty()) return;
@@ -211,7 +213,7 @@ class Validation {
     }
   }
 
-  /// Null, with a note, if CGAL does not get done.
+  /// Returns null, and adds a note, if CGAL does not finish.
   std::unique_ptr<const NefTruth> build_nef() {
     const Clock::time_point deadline = after(kBuiltUntil);
     const double least_s = kLeastNefTime_s * static_cast<double>(scene_.primitives.size());
@@ -332,7 +334,7 @@ class Validation {
                   }));
   }
 
-  /// Undecided is what lies between a smooth surface and its facets: the error is how far below the
+  /// A point between a smooth surface and its facets is undecided; the error is its depth below the
   /// smooth surface.
   Verdict judge_smooth_point(const NefTruth& truth, const std::vector<SagittaShell>& shells,
                              const Vec3& point) const {

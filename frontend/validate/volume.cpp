@@ -19,23 +19,23 @@ using csgcore::Vec3;
 using csgcore::View;
 
 struct Chord {
-  double length = 0;  // within the solid
+  double length = 0;  // length of the chord within the solid
   uint64_t crossings = 0;
 };
 
-/// Straight up from below the solid: from one crossing to the next, each seen from the last.
+/// Traces a ray straight up from below the solid, from one crossing to the next.
 Chord chord_at(const csgcore::Subdivision& subdivision, double x, double y) {
   const csgcore::Box& box = subdivision.solid().bounds();
   View view;
   view.projection = csgcore::Projection::kPerspective;
   view.width_px = view.height_px = 1;
-  view.half_height = 1e-3;  // the centre of the only pixel is on the axis, however wide it is
+  view.half_height = 1e-3;  // the only pixel's centre is on the axis, however wide the pixel is
   view.right = Vec3(1, 0, 0);
   view.up = Vec3(0, -1, 0);
   view.forward = Vec3(0, 0, 1);
   view.eye = Vec3(x, y, box.min.z - box.diagonal());
   Chord chord;
-  // Each primitive is entered and left once at most.
+  // A ray enters and leaves each primitive at most once.
   const uint64_t most_crossings = 2 * subdivision.solid().primitives().size();
   while (chord.crossings < most_crossings) {
     const Seen seen = traced_ray(subdivision, view);
@@ -47,11 +47,11 @@ Chord chord_at(const csgcore::Subdivision& subdivision, double x, double y) {
   return chord;
 }
 
-/// Of one grid.
+/// The estimate of one grid.
 struct Pass {
   double volume = 0;
   double variance = 0;  // of the volume
-  double hidden = 0;    // what the thickness tolerance may hide
+  double hidden = 0;    // volume that the thickness tolerance may hide
 };
 
 Pass trace_grid(const csgcore::Subdivision& subdivision, uint64_t side, uint64_t seed,
@@ -86,7 +86,7 @@ Pass trace_grid(const csgcore::Subdivision& subdivision, uint64_t side, uint64_t
 VolumeEstimate estimate_volume(const csgcore::Subdivision& subdivision, uint64_t seed,
                                uint64_t rays, Clock::time_point deadline,
                                const Progress& progress) {
-  constexpr double kLeastSide = 16;  // fewer squares would not tell the error
+  constexpr double kLeastSide = 16;  // with fewer squares the error could not be told
   constexpr double kStandardErrors = 5;
   const double pairs = static_cast<double>(std::min(rays, kVolumePass)) / 2;
   const auto side = static_cast<uint64_t>(std::max(kLeastSide, std::ceil(std::sqrt(pairs))));
@@ -101,8 +101,8 @@ VolumeEstimate estimate_volume(const csgcore::Subdivision& subdivision, uint64_t
     traced += 2 * side * side;
     progress("volume", static_cast<double>(traced) / static_cast<double>(rays));
   } while (traced < rays && Clock::now() < deadline);
-  // A part that a ray meets with probability p is missed by n of them with probability (1 − p)ⁿ,
-  // less than one in a million from p = 14/n up.
+  // A part that a ray meets with probability p is missed by n rays with probability (1 − p)ⁿ: less
+  // than one in a million for p ≥ 14/n.
   constexpr double kUnseen = 14;
   const Vec3 extent = subdivision.solid().bounds().size();
   const double unseen = kUnseen / static_cast<double>(traced) * extent.x * extent.y * extent.z;

@@ -18,21 +18,23 @@ namespace {
 
 constexpr Size kDefaultSize{1024, 768};
 
-/// Of the display's time for a frame, what a picture's drawing may take; the rest is the window's.
+/// The share of the display's time for a frame that drawing a picture may take; the rest is the
+/// window's.
 constexpr double kDrawingShare = 0.6;
 
-/// ImGui answers an event in the next frame, and lays a new panel out in the one after that.
+/// ImGui answers an event in the next frame, and lays out a new panel in the one after that.
 constexpr int kFramesAfterEvent = 3;
 
-/// How much further, in the design's size, a plane is looked at to see how its axis runs.
+/// The step by which a plane is moved, as a share of the design's size, to see how its axis runs on
+/// the screen.
 constexpr double kSectionStep = 0.01;
-/// Axes that run less than this over that step are seen from their end.
+/// An axis along which that step is shorter than this is seen end-on.
 constexpr double kLeastAxis_px = 0.25;
 
-/// A picture that was ordered is waited for so long before the window is drawn without it.
+/// The longest wait for a picture that was ordered; then the window is drawn without it.
 constexpr std::chrono::milliseconds kShortPainting{50};
 
-/// Only a reading that takes longer is worth a word.
+/// A reading that takes less is not shown.
 constexpr std::chrono::milliseconds kShortReading{150};
 
 std::string file_name(const std::string& path) {
@@ -111,7 +113,7 @@ void Application::wait_for_news() {
   }
 }
 
-/// Whether reading is to be shown, or no longer.
+/// Returns whether the display of the reading has to change.
 bool Application::watch_reading() {
   const bool was_reading =
       std::exchange(is_reading_, follower_.state() == frontend::DesignFollower::State::kReading);
@@ -120,7 +122,7 @@ bool Application::watch_reading() {
   return std::exchange(state_.is_reading, is_long) != is_long;
 }
 
-/// Where the driver does not wait for the display, as a software renderer does not.
+/// Waits for the display if the driver does not, as a software renderer does not.
 void Application::wait_for_display() {
   const auto frame =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_s_));
@@ -174,7 +176,7 @@ void Application::take_version(frontend::DesignVersion version) {
   const bool leaves_picture = !version.design || version.unchanged;
   state_.version = std::move(version);
   show_title();
-  // The picture stands: what there is to say of the version is said with the next frame.
+  // The picture stays, and the next frame shows what there is to say of the version.
   if (leaves_picture) has_new_picture_ = true;
 }
 
@@ -202,7 +204,7 @@ void Application::take_painting(Painting painting) {
   state_.painting = std::move(painting);
 }
 
-/// With the picture on the screen.
+/// Reports the picture that is on the screen.
 void Application::report_picture() {
   double save_to_screen_ms = -1;
   if (state_.version && state_.version->number != reported_version_) {
@@ -259,7 +261,7 @@ void Application::write_picture(const Painting& painting) {
   }
 }
 
-/// All that is known to be read.
+/// Returns all files that are known to be read.
 std::vector<frontend::NamedPath> Application::inputs() const {
   std::vector<frontend::NamedPath> inputs =
       frontend::design_inputs(options_.input, options_.openscad_arguments);
@@ -296,7 +298,7 @@ void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy
   }
 }
 
-/// So far that the plane follows the mouse along its axis, as that is seen.
+/// Moves the plane so that it follows the mouse along its axis, as that is seen.
 void Application::drag_section(double dx_px, double dy_px) {
   const csgcore::Box bounds = state_.bounds();
   if (bounds.empty()) return;
@@ -311,7 +313,8 @@ void Application::drag_section(double dx_px, double dy_px) {
   if (!from || !to) return;
   const double x = to->x_px - from->x_px, y = to->y_px - from->y_px;
   const double length_px = std::hypot(x, y);
-  // Seen along its axis a plane does not move on the screen: then a drag downwards moves it on.
+  // A plane that is seen along its axis does not move on the screen: a drag downwards moves it
+  // forward.
   const double moved_px = length_px >= kLeastAxis_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
   const double position = section.position + step * moved_px / std::max(length_px, kLeastAxis_px);
   section.position = std::clamp(position, bounds.min[section.axis], bounds.max[section.axis]);
@@ -342,11 +345,11 @@ void Application::probe(double x_px, double y_px, bool centers) {
 }
 
 void Application::take_finding(const Finding& finding) {
-  // Of a design that is there no more.
+  // The finding belongs to a design that is gone.
   if (finding.probe.order.design != state_.design) return;
   if (finding.probe.number == centering_) {
     if (finding.is_hit) state_.navigation.look_at(finding.position);
-    state_.points.clear();  // the first of two clicks measured
+    state_.points.clear();  // the first of the two clicks has measured a point
     return;
   }
   if (!finding.is_hit) {

@@ -1,4 +1,4 @@
-// The live window's loop: news of the design, of the painter and of the user in, pictures out.
+// The live window's loop: takes news of the design, the painter and the user, and shows pictures.
 #pragma once
 
 #include <chrono>
@@ -21,10 +21,10 @@ namespace window {
 
 class Application final : private WindowEvents {
  public:
-  /// Opens the window. Throws frontend::Error where none can be opened.
+  /// Opens the window. Throws frontend::Error if none can be opened.
   explicit Application(const frontend::Options& options);
 
-  /// Until the window is closed.
+  /// Returns when the window is closed.
   void run();
 
  private:
@@ -65,24 +65,25 @@ class Application final : private WindowEvents {
   Panels panels_;
   Report report_;
   MotionMeter motion_;
-  const double frame_s_;  // the display's; asking for it takes a round trip to the X server
+  const double frame_s_;  // time of a frame; asking the display for it takes a round trip to the X
+                          // server
   Painter painter_;
   frontend::DesignFollower follower_;
 
-  std::shared_ptr<const frontend::FileText> csg_;  // of the design that is shown
-  PaintOrder ordered_;                             // the last
-  uint64_t centering_ = 0;  // the probe after which the camera turns to what it finds
+  std::shared_ptr<const frontend::FileText> csg_;  // text of the design that is shown
+  PaintOrder ordered_;                             // the last order
+  uint64_t centering_ = 0;  // number of the probe at whose finding the camera will look
   uint64_t probes_ = 0;
-  bool is_moving_ = false;   // since the last order: the camera, by the mouse
-  bool has_camera_ = false;  // chosen by the command line, or by the first design
-  std::string save_path_;    // where the next picture that stands is to be saved; empty: nowhere
-  uint64_t saving_ = 0;      // the order of that; 0: not ordered yet
+  bool is_moving_ = false;   // the mouse has moved the camera since the last order
+  bool has_camera_ = false;  // the command line or the first design has chosen the camera
+  std::string save_path_;    // where to save the next final picture; empty: nowhere
+  uint64_t saving_ = 0;      // number of the order for saving; 0: not ordered yet
   uint64_t reported_version_ = 0;
   bool has_new_picture_ = false;
-  int frames_due_ = 0;  // ImGui's answer to an event takes more than one
+  int frames_due_ = 0;  // frames still to draw: ImGui's answer to an event takes more than one
   Clock::time_point last_frame_{};
-  Clock::time_point awaited_until_{};  // the picture that was ordered
-  bool is_reading_ = false;            // the design, since then
+  Clock::time_point awaited_until_{};  // until when to wait for the picture that was ordered
+  bool is_reading_ = false;            // the design is being read, since reading_since_
   Clock::time_point reading_since_{};
 };
 

@@ -1,6 +1,6 @@
 #include "commands.hpp"
 
-#define GLFW_INCLUDE_NONE  // OpenGL is epoxy's
+#define GLFW_INCLUDE_NONE  // epoxy provides OpenGL
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace window {
 namespace {
 
-// OpenSCAD's keys (frontend/OPENSCAD.md, "Window") where it has them.
+// The keys are OpenSCAD's (frontend/OPENSCAD.md, "Window") where it has them.
 constexpr CommandRow kRows[] = {
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},
@@ -54,7 +54,7 @@ constexpr CommandRow kRows[] = {
     {Command::kHelp, Menu::kHelp, "Mouse and keys", "F1", GLFW_KEY_F1, kNone, false},
 };
 
-/// Further keys, as in OpenSCAD.
+/// Further keys of the same commands, as in OpenSCAD.
 constexpr struct {
   int key;
   uint8_t modifiers;

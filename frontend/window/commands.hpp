@@ -1,5 +1,5 @@
-// Everything that a key or the menu can ask for: one table, from which the keys are read and the
-// menu and the help sheet are made.
+// All commands of the keys and the menu, in one table, from which the keys are read and the menu
+// and the help sheet are made.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ enum class Command : uint8_t {
   kHelp,
 };
 
-/// Of a key.
+/// Modifiers of a key.
 enum Modifiers : uint8_t { kNone = 0, kControl = 1, kShift = 2 };
 
 enum class Menu : uint8_t { kFile, kView, kShow, kSection, kHelp };
@@ -56,14 +56,14 @@ struct CommandRow {
   Menu menu;
   const char* label;
   const char* shortcut;  // as the menu shows it
-  int key;               // of GLFW; 0: none
+  int key;               // GLFW's number; 0: none
   uint8_t modifiers;
-  bool starts_group;  // a line stands before it in the menu
+  bool starts_group;  // the menu has a line before it
 };
 
 std::span<const CommandRow> command_rows();
 
-/// Null where no command has that key.
+/// Returns the command of a key; null if there is none.
 const CommandRow* find_command(int key, uint8_t modifiers);
 
 }  // namespace window

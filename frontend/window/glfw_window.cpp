@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#define GLFW_INCLUDE_NONE  // OpenGL is epoxy's
+#define GLFW_INCLUDE_NONE  // epoxy provides OpenGL
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -20,16 +20,16 @@
 namespace window {
 namespace {
 
-/// A press and a release so near to each other are a click, in units of the screen.
+/// A press and a release at most this far apart are a click, in units of the screen.
 constexpr double kClickReach = 3;
 /// Two clicks within this time are a double click.
 constexpr double kDoubleClick_s = 0.4;
-constexpr double kUnknownRate = 60;  // frames/s where the display does not tell
+constexpr double kUnknownRate = 60;  // frames/s, if the display does not tell
 constexpr float kFontSize = 15;      // units
 constexpr Size kLeastSize{160, 120};
 
-/// With letters beyond ASCII, as file names have them; where it is missing, ImGui's own font
-/// serves.
+/// A font with letters beyond ASCII, which file names may have. Without it ImGui's own font is
+/// used.
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 std::string last_error;  // GLFW's
@@ -43,7 +43,7 @@ uint8_t modifiers_of(int glfw_modifiers) {
   throw frontend::Error("", {}, what + (last_error.empty() ? "" : ": " + last_error), todo);
 }
 
-/// GLFW itself, as long as there is a window.
+/// Holds GLFW itself, as long as there is a window.
 class Library {
  public:
   Library() {
@@ -85,15 +85,15 @@ struct GlfwWindow::Impl {
   Library library;
   GLFWwindow* window = nullptr;
   bool is_active = true;
-  std::vector<int> new_keys;  // that went down since the last frame
-  std::vector<Key> released;  // and are up again
+  std::vector<int> new_keys;  // keys that went down since the last frame
+  std::vector<Key> released;  // those of them that went up again
 
-  // Of the mouse, in units of the screen.
-  int pressed = -1;  // the button that drags
+  // The state of the mouse, in units of the screen.
+  int pressed = -1;  // the button that is held; -1: none
   uint8_t modifiers = 0;
   double cursor_x = 0, cursor_y = 0;
   double press_x = 0, press_y = 0;
-  double last_x = 0, last_y = 0;  // up to which it was dragged
+  double last_x = 0, last_y = 0;  // up to where it was dragged
   bool has_moved = false;
   double last_click_s = -1e9;
 };
@@ -146,7 +146,7 @@ void GlfwWindow::Impl::set_up_imgui() {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // nothing to remember
+  io.IniFilename = nullptr;  // nothing is stored between runs
   io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   float scale = 1, scale_y = 1;
   glfwGetWindowContentScale(window, &scale, &scale_y);
@@ -162,9 +162,9 @@ void GlfwWindow::Impl::set_up_imgui() {
   ImGui::StyleColorsDark();
   ImGui::GetStyle().ScaleAllSizes(scale);
   ImGui::GetStyle().WindowRounding = 4;
-  // Ours stand already, and are called by ImGui's.
+  // ImGui calls the callbacks that are installed already.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
-  // But for keys, which are handed on to it.
+  // The callback for keys is ours alone, and passes them on to ImGui.
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
     of(w).on_key({key, scancode, mods}, action);
   });
@@ -196,7 +196,8 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
     pressed = button;
     modifiers = modifiers_of(glfw_modifiers);
     has_moved = false;
-    // Where it was then, as the events tell; where it is now is further on if they come late.
+    // The place is taken from the events: the cursor's present place is further on if events come
+    // late.
     press_x = last_x = cursor_x;
     press_y = last_y = cursor_y;
     return;
@@ -215,8 +216,8 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   }
 }
 
-/// This ImGui sees what is down in a frame: a key that is let go before its frame is drawn is so
-/// for ImGui after it.
+/// This ImGui sees the keys that are down in a frame. So a key that goes up before its frame is
+/// drawn goes up for ImGui after that frame.
 void GlfwWindow::Impl::on_key(const Key& key, int action) {
   is_active = true;
   if (action != GLFW_RELEASE) {

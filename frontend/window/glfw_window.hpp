@@ -1,4 +1,4 @@
-// The window itself: GLFW, an OpenGL context, Dear ImGui, and what the mouse and the keys do in it.
+// The window itself: GLFW, an OpenGL context, Dear ImGui, and the gestures of mouse and keys.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace window {
 
-/// Told what happens in the window, from within GlfwWindow::wait() and poll(). Places and movements
-/// in pixels of the picture, from its upper left corner.
+/// Receives the window's events, from within GlfwWindow::wait() and poll(). Places and movements
+/// are in pixels of the picture, from its upper left corner.
 class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
   enum class Button : uint8_t { kLeft, kMiddle, kRight };
-  /// With the button held.
+  /// The mouse has moved with the button held.
   virtual void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) = 0;
-  /// A press and a release at the same place.
+  /// The left button was pressed and released at the same place.
   virtual void click(double x_px, double y_px) = 0;
   virtual void double_click(double x_px, double y_px) = 0;
   virtual void wheel(double notches, double x_px, double y_px) = 0;
   virtual void key(int key, uint8_t modifiers) = 0;
 };
 
-/// One at a time. Throws frontend::Error where no window can be opened.
+/// There is one at a time. Throws frontend::Error if no window can be opened.
 class GlfwWindow {
  public:
   GlfwWindow(const std::string& title, Size size, WindowEvents& events);
@@ -34,11 +34,11 @@ class GlfwWindow {
 
   bool is_closing() const;
   void close();
-  /// Of the framebuffer; 0 by 0 while it is an icon.
+  /// The size of the framebuffer; 0 by 0 while the window is an icon.
   Size size() const;
-  /// Pixels of the picture to one unit of ImGui's.
+  /// Pixels of the picture per unit of ImGui.
   double pixels_per_unit() const;
-  /// The display's rate.
+  /// The display's refresh rate.
   double frames_per_second() const;
   void set_title(const std::string& title);
 
@@ -46,13 +46,14 @@ class GlfwWindow {
   void wait();
   void wait(double timeout_s);
   void poll();
-  /// From any thread.
+  /// May be called from any thread.
   static void wake();
-  /// Whether anything happened since the last call: ImGui then needs frames to follow it.
+  /// Returns whether anything has happened since the last call, so that ImGui needs frames to
+  /// follow it.
   bool take_activity();
 
   void begin_frame();
-  /// Draws ImGui's frame over what is in the framebuffer, and shows all.
+  /// Draws ImGui's frame over the contents of the framebuffer, and shows both.
   void end_frame();
 
  private:

@@ -1,4 +1,4 @@
-// The program that `scadray FILE` executes where there is no -o: the live window.
+// The live window: the program that `scadray FILE` executes if there is no -o.
 #include <cstdio>
 
 #include "application.hpp"

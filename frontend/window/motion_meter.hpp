@@ -1,4 +1,4 @@
-// How many pictures a second are shown while something moves.
+// Measures how many pictures a second are shown while something moves.
 #pragma once
 
 #include <chrono>
@@ -10,9 +10,9 @@ class MotionMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// A picture of something that moves is on the screen.
+  /// Counts a picture of a motion, which is on the screen.
   void count(Clock::time_point now) {
-    // Not the time between two motions.
+    // The time between two motions does not count.
     if (pictures_ == 0 || now - last_ > kLongestGap) {
       first_ = now;
       pictures_ = 0;
@@ -21,7 +21,7 @@ class MotionMeter {
     ++pictures_;
   }
 
-  /// Of the last motion; 0 if too little was seen of it.
+  /// The rate of the last motion; 0 if too few of its pictures were seen.
   double frames_per_second() const {
     const double seconds = std::chrono::duration<double>(last_ - first_).count();
     return pictures_ >= kFewest && seconds > 0 ? (pictures_ - 1) / seconds : 0;

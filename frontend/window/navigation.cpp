@@ -8,16 +8,16 @@ namespace {
 
 using csgcore::Vec3;
 
-// OpenSCAD's (frontend/OPENSCAD.md, "Window").
+// OpenSCAD's factors (frontend/OPENSCAD.md, "Window").
 constexpr double kTurn_degPerPixel = 0.7;
-constexpr double kPan = 3 * 0.7;  // distances for a drag across the picture
+constexpr double kPan = 3 * 0.7;  // camera distances per drag across the picture
 constexpr double kZoomOfNotch = 0.9;
 
-/// The camera's distance stays a double with room for the square of a scene's size.
+/// Limits of the camera's distance, so that the square of a scene's size is still a double.
 constexpr double kLeastDistance = 1e-90;
 constexpr double kLargestDistance = 1e90;
 
-/// Into [0, 360), as OpenSCAD shows angles.
+/// Returns the angle in [0, 360), as OpenSCAD shows it.
 double full_turn(double angle_deg) {
   const double rest = std::fmod(angle_deg, 360.0);
   return rest < 0 ? rest + 360 : rest;
@@ -87,7 +87,7 @@ double Navigation::scale_distance(double notches) {
 
 void Navigation::zoom(double notches, double x_px, double y_px, Size size) {
   const csgcore::View now = view(size);
-  // A pixel's size in the plane through the target.
+  // The size of a pixel in the plane through the target.
   const double depth = projection_ == csgcore::Projection::kOrthographic ? 1 : camera_.distance;
   const double unit = 2 * now.half_height * depth / size.height_px;
   const Vec3 offset = now.right * (unit * (x_px - 0.5 * size.width_px)) +

@@ -1,5 +1,4 @@
-// The camera under the mouse and the keys, as OpenSCAD's window moves it (frontend/OPENSCAD.md,
-// "Window").
+// The camera as mouse and keys move it, like OpenSCAD's (frontend/OPENSCAD.md, "Window").
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@ namespace window {
 
 enum class StandardView : uint8_t { kTop, kBottom, kLeft, kRight, kFront, kBack, kDiagonal };
 
-/// Of the picture, in pixels.
+/// The picture's size.
 struct Size {
   uint32_t width_px = 0;
   uint32_t height_px = 0;
@@ -21,7 +20,7 @@ struct Size {
 /// and y downwards; a place in the picture counts from its upper left corner.
 class Navigation {
  public:
-  /// The distance becomes positive: the mouse leads nowhere from where nothing is seen.
+  /// Makes the distance positive: from where nothing is seen, the mouse leads nowhere.
   Navigation(const frontend::Camera& camera, csgcore::Projection projection);
 
   bool operator==(const Navigation&) const = default;
@@ -30,20 +29,19 @@ class Navigation {
   csgcore::Projection projection() const { return projection_; }
   csgcore::View view(Size size) const;
 
-  /// Left drag. `about_y`: with shift.
+  /// Left drag; `about_y` with shift.
   void turn(double dx_px, double dy_px, bool about_y);
   /// Right drag.
   void pan(double dx_px, double dy_px, Size size);
-  /// Middle drag, and right drag with shift: forward and back.
+  /// Middle drag, and right drag with shift: moves forward and back.
   void move_along(double dy_px, Size size);
-  /// The wheel: what lies under the cursor, at the target's depth, stays there. notches > 0:
-  /// nearer.
+  /// The wheel: what is under the cursor, at the target's depth, stays there. notches > 0: nearer.
   void zoom(double notches, double x_px, double y_px, Size size);
-  /// At the picture's middle.
+  /// Zooms at the picture's middle.
   void zoom(double notches) { scale_distance(notches); }
   void look_from(StandardView standard_view);
   void look_at(const csgcore::Vec3& target) { camera_.target = target; }
-  /// The whole box, from where the camera looks now. An empty box changes nothing.
+  /// Shows the whole box from the present direction. An empty box changes nothing.
   void view_all(const csgcore::Box& box);
   void set_projection(csgcore::Projection projection) { projection_ = projection; }
 

@@ -16,21 +16,22 @@ using frontend::Clock;
 using frontend::ms_since;
 using frontend::Show;
 
-/// A moving picture is refined once no other was ordered for this long: longer than between two
-/// events of a mouse that moves.
+/// A moving picture is refined once none was ordered for this long, which is longer than the time
+/// between two events of a moving mouse.
 constexpr std::chrono::milliseconds kRest{80};
 
-/// Of a primitive's text, what is shown.
+/// The most bytes of a primitive's text that are shown.
 constexpr std::size_t kLongestLine = 80;
 
-/// No coarser than one in so many pixels a side: below, nothing could be recognised.
+/// The least share of the picture's width and height: in a coarser picture nothing could be
+/// recognised.
 constexpr double kLeastShare = 1.0 / 6;
-/// Shares this near to 1 are drawn whole: a little late is better than blurred.
+/// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
-/// "line 12: sphere(…)" of the primitive at that place.
+/// Returns "line 12: sphere(…)" of the primitive at that place.
 std::string line_of(std::string_view csg, const frontend::PrimitivePlace& place) {
-  std::size_t start = csg.rfind('\n', place.offset) + 1;  // 0 on the first line
+  std::size_t start = csg.rfind('\n', place.offset) + 1;  // npos + 1 = 0 on the first line
   start = csg.find_first_not_of(" \t", start);
   return "line " + std::to_string(place.line) + ": " +
          std::string(
@@ -84,7 +85,7 @@ std::optional<Finding> Painter::take_finding() {
   return finding;
 }
 
-/// Waits for work. Whether the coarse picture is to be refined: there is none.
+/// Waits for work. Returns true if there is none, and the coarse picture is to be refined.
 bool Painter::waits_for_refinement(std::unique_lock<std::mutex>& lock) {
   const auto has_work = [this] { return is_stopping_ || ordered_ || !probes_.empty(); };
   if (!coarse_) {
@@ -126,7 +127,7 @@ void Painter::run() {
   }
 }
 
-/// Of the picture's sides, so that it takes no longer than a frame.
+/// Returns the share of the picture's width and height that can be drawn within a frame.
 double Painter::affordable_share(const PaintOrder& order) const {
   if (!order.is_moving) return 1;
   const double whole_ms = ms_per_pixel_ * order.size.width_px * order.size.height_px;
@@ -141,7 +142,7 @@ void Painter::paint(PaintOrder order, const std::stop_token& stop) {
   };
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
-  // Of what moves, every picture is shown, however many follow.
+  // While the camera moves, every picture is shown, even if others have been ordered.
   Painting painting = paint_at(order, size, samples, order.is_moving ? std::stop_token() : stop);
   if (!order.is_moving && stop.stop_requested()) return;
   painting.is_final = size == order.size && samples == order.settings.samples;
@@ -209,7 +210,7 @@ Finding Painter::find(const Probe& probe) {
                        ? "section plane"
                        : line_of(probe.csg->view(), probe.order.design->places.at(finding.id));
   } catch (const std::exception&) {
-    // Then there is no picture either, and its error is shown.
+    // There is no picture either in this case, and its error is shown.
   }
   return finding;
 }

@@ -21,7 +21,7 @@
 
 namespace window {
 
-/// A picture that is wanted.
+/// A picture that is to be drawn.
 struct PaintOrder {
   uint64_t number = 0;
   std::shared_ptr<const frontend::ImportedDesign> design;
@@ -30,7 +30,8 @@ struct PaintOrder {
   Size size;
   frontend::RenderSettings settings;
   frontend::Overlays overlays;
-  /// Others follow at the display's rate: it may be coarse, and is refined once none does.
+  /// Other orders follow at the display's rate. The picture may be coarse, and is refined once none
+  /// follows.
   bool is_moving = false;
 };
 
@@ -43,16 +44,16 @@ struct Painting {
   std::string error;  // why there is no picture; then `image` is empty
 };
 
-/// A place in a picture.
+/// A place in a picture, to be examined.
 struct Probe {
   uint64_t number = 0;
   PaintOrder order;
   double x_px = 0;
   double y_px = 0;
-  std::shared_ptr<const frontend::FileText> csg;  // the design's text; the design has its places
+  std::shared_ptr<const frontend::FileText> csg;  // the text for the places in the design
 };
 
-/// What lies there.
+/// The point that is seen at a probe's place.
 struct Finding {
   Probe probe;
   bool is_hit = false;
@@ -64,19 +65,20 @@ struct Finding {
 
 class Painter {
  public:
-  /// `frame_ms`: the time that a picture may take while the camera moves. `on_news` is called from
-  /// the painter's thread whenever one of the two take() has something; it must not block.
+  /// `frame_ms` is the time that a picture may take while the camera moves. `on_news` is called
+  /// from the painter's thread whenever take_painting() or take_finding() has something; it must
+  /// not block.
   Painter(double frame_ms, std::function<void()> on_news);
   ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  // None of these waits.
+  // None of these functions waits.
 
-  /// In place of an order that was not begun yet. A refinement that is under way is given up.
+  /// Replaces an order that was not begun yet. A refinement that is under way is given up.
   void order(PaintOrder order);
   void probe(Probe probe);
-  /// The newest painting, once.
+  /// Returns the newest painting, once.
   std::optional<Painting> take_painting();
   std::optional<Finding> take_finding();
 
@@ -103,14 +105,14 @@ class Painter {
   std::vector<Probe> probes_;
   std::optional<Painting> painted_;
   std::vector<Finding> findings_;
-  std::stop_source outdated_;  // what is being painted, if it is not to be finished
+  std::stop_source outdated_;  // stops what is being painted, unless it is to be finished
 
-  // The thread's own.
+  // Used by the painter's thread alone.
   frontend::SceneRenderer renderer_;
   std::shared_ptr<const frontend::ImportedDesign> loaded_;
   SectionPlane loaded_section_;
-  ScenePointer scene_;       // the loaded design's, cut open
-  double ms_per_pixel_ = 0;  // of the last picture; 0: not known
+  ScenePointer scene_;       // the loaded design's, cut by the section plane
+  double ms_per_pixel_ = 0;  // of the last picture; 0: unknown
   std::optional<PaintOrder> coarse_;
 
   std::thread thread_;

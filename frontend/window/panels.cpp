@@ -26,7 +26,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                       ImGuiWindowFlags_AlwaysAutoResize;
 
-/// OpenSCAD's (frontend/OPENSCAD.md, "Window"), and our own.
+/// The gestures of OpenSCAD (frontend/OPENSCAD.md, "Window"), and our own.
 constexpr const char* kMouse[][2] = {
     {"Left drag", "turn; with shift: about y"},
     {"Right drag", "pan"},
@@ -64,7 +64,7 @@ void colored_text(ImU32 color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-/// Moved to the left where it would leave the window.
+/// Writes a label, moved to the left if it would leave the window.
 void label(ImDrawList& list, ImVec2 at, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   at.x = std::max(4.0f, std::min(at.x, ImGui::GetIO().DisplaySize.x - size.x - 4));
@@ -121,7 +121,7 @@ void Panels::draw_schemes(State& state) {
   }
 }
 
-/// Returns its upper end.
+/// Returns the upper end of the status line.
 float Panels::draw_status(const State& state) const {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   if (!state.shows_status) return size.y;
@@ -130,7 +130,7 @@ float Panels::draw_status(const State& state) const {
   const auto fits = [width](const std::string& text) {
     return ImGui::CalcTextSize(text.c_str()).x <= width;
   };
-  // What there is no shorter way to say is wrapped.
+  // A line that cannot be shortened is wrapped.
   const std::string line = state.notice.empty() ? status_line(state, fits) : state.notice;
   const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, width).y + 2 * padding.y;
   ImGui::SetNextWindowPos({0, size.y - height});
@@ -212,7 +212,7 @@ void Panels::draw_points(const State& state, const csgcore::View& view) const {
     if (!places[i]) continue;
     list.AddCircleFilled(*places[i], 5, kShadowColor);
     list.AddCircleFilled(*places[i], 3.5f, kPointColor);
-    // Above the first point, below the second, so that they leave room between them.
+    // Labels are above the first point and below the second, which leaves room between them.
     const float line = ImGui::GetTextLineHeight() + 4;
     const float top = places[i]->y + (i == 0 ? -2 * line - 8 : 12);
     label(list, {places[i]->x, top}, coordinates(state.points[i].position));

@@ -1,4 +1,5 @@
-// All that lies over the picture: menu, status line, messages, section, measured points, help.
+// Draws everything that lies over the picture: menu, status line, messages, section, measured
+// points, help.
 #pragma once
 
 #include <functional>
@@ -11,11 +12,12 @@ namespace window {
 class Panels {
  public:
   using Run = std::function<void(Command)>;
-  /// `run` is called for what the state cannot do alone; `save` with a path.
+  /// `run` is called for commands that State::apply() does not do; `save` with the path of a
+  /// picture.
   Panels(Run run, std::function<void(const std::string& path)> save)
       : run_(std::move(run)), save_(std::move(save)) {}
 
-  /// Within a frame of ImGui. `view`: of the picture that is shown, in ImGui's units.
+  /// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units.
   void draw(State& state, const csgcore::View& view);
 
  private:

@@ -1,4 +1,4 @@
-// World space → the picture.
+// Projects world space onto the picture.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,14 @@
 
 namespace window {
 
-/// From the picture's upper left corner; a pixel's centre is at ½.
+/// A place counted from the picture's upper left corner; a pixel's centre is at ½.
 struct PicturePoint {
   double x_px;
   double y_px;
 };
 
-/// Where a point is seen; nothing if it lies behind the eye of a perspective view, or in its plane.
+/// Returns where a point is seen; nothing if a perspective view has it behind the eye or in its
+/// plane.
 std::optional<PicturePoint> project(const csgcore::View& view, const csgcore::Vec3& point);
 
 }  // namespace window

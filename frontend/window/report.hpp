@@ -1,4 +1,4 @@
-// What --stats writes of the live window: one line of JSON for each picture that stands.
+// Writes --stats of the live window: one line of JSON for each final picture.
 #pragma once
 
 #include <cstdio>
@@ -11,12 +11,12 @@ namespace window {
 
 class Report {
  public:
-  /// `path` empty: nothing is written; "-": standard output. Throws frontend::Error where the file
-  /// cannot be written.
+  /// With an empty `path` nothing is written; "-" is standard output. Throws frontend::Error if the
+  /// file cannot be written.
   explicit Report(const std::string& path);
 
-  /// Of the picture that is on the screen. `save_to_screen_ms`: since the save that led to it was
-  /// noticed; below 0: none did.
+  /// Reports the picture that is on the screen. `save_to_screen_ms` is the time since the notice of
+  /// the save that led to it; below 0: no save did.
   void write(const State& state, double save_to_screen_ms);
 
  private:

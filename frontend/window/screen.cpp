@@ -39,7 +39,7 @@ void Screen::draw(Size framebuffer) const {
   const auto height = static_cast<GLint>(size_.height_px);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  // An image's first row is its upper one, a framebuffer's its lower.
+  // The first row of an image is the upper one, that of a framebuffer the lower one.
   glBlitFramebuffer(0, 0, width, height, 0, static_cast<GLint>(framebuffer.height_px),
                     static_cast<GLint>(framebuffer.width_px), 0, GL_COLOR_BUFFER_BIT,
                     framebuffer == size_ ? GL_NEAREST : GL_LINEAR);

@@ -1,4 +1,4 @@
-// Puts an image into the window, by OpenGL.
+// Puts an image into the window by OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace window {
 
-/// Needs an OpenGL 3 context, current whenever it is used, and GL_FRAMEBUFFER 0 of the given size.
+/// Precondition of every member: an OpenGL 3 context is current.
 class Screen {
  public:
   Screen();
@@ -17,7 +17,8 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   void load(const csgcore::Image& image);
-  /// The image that was loaded last, stretched over the whole framebuffer.
+  /// Draws the image that was loaded last, stretched over the whole default framebuffer, whose size
+  /// is `framebuffer`.
   void draw(Size framebuffer) const;
 
  private:

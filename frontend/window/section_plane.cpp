@@ -9,11 +9,11 @@ namespace {
 
 using csgcore::Box;
 
-/// How far beyond the scene the block reaches that is cut off, in the scene's own size: the plane
-/// is its only face that comes near the scene.
+/// The distance that the cut-off block reaches beyond the scene, as a share of the scene's size:
+/// the plane is its only face near the scene.
 constexpr double kMargin = 1;
 
-/// Empty where the plane leaves the whole scene.
+/// Returns the block that is cut off; it is flat if the plane is beyond the margin.
 Box cut_off_block(const SectionPlane& plane, const Box& bounds) {
   const csgcore::Vec3 margin(kMargin * bounds.diagonal());
   Box block{bounds.min - margin, bounds.max + margin};

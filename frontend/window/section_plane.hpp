@@ -7,8 +7,8 @@
 
 namespace window {
 
-/// Perpendicular to one of the world's axes. What lies beyond `position` along the axis is cut off;
-/// where it is flipped, what lies before it.
+/// A plane perpendicular to an axis of the world. It cuts off what lies beyond `position` along the
+/// axis; if flipped, what lies before it.
 struct SectionPlane {
   bool is_on = false;
   uint8_t axis = 0;  // 0, 1, 2: x, y, z
@@ -17,12 +17,12 @@ struct SectionPlane {
   bool operator==(const SectionPlane&) const = default;
 };
 
-/// The scene without what the plane, which is on, cuts off: of the model as of the `%` and `#`
-/// parts. `bounds` holds the whole scene. The cut is a primitive behind all others, whose id is
-/// kSectionId.
+/// Returns the scene without what the plane cuts off of the model and of the `%` and `#` parts. The
+/// cut is a primitive after all others, with the id kSectionId. Preconditions: the plane is on, and
+/// `bounds` contains the whole scene.
 csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane,
                         const csgcore::Box& bounds);
 
-constexpr uint32_t kSectionId = 0xFFFFFFFEu;  // no file holds so many primitives
+constexpr uint32_t kSectionId = 0xFFFFFFFEu;  // no file has so many primitives
 
 }  // namespace window

@@ -61,7 +61,7 @@ std::optional<uint8_t> section_axis(Command command) {
   }
 }
 
-/// The switch that a command turns; null: none.
+/// Returns the switch that a command toggles; null if there is none.
 template <typename AnyState>
 auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) {
   switch (command) {
@@ -84,7 +84,7 @@ auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) 
   }
 }
 
-constexpr double kKeyZoom = 1;  // notches of the wheel
+constexpr double kKeyZoom = 1;  // in notches of the wheel
 
 std::string text(const char* format, double value) {
   char buffer[64];
@@ -193,14 +193,15 @@ bool State::is_checked(Command command) const {
 
 namespace {
 
-/// A part of the status line. That of the highest rank is left out first where there is no room.
+/// A part of the status line. If there is no room, the parts with the highest rank are left out
+/// first.
 struct StatusPart {
   std::string words;
   int rank;
-  bool is_time = false;  // of a stage; these stand together
+  bool is_time = false;  // time of a stage; such parts are consecutive
 };
 
-/// A driver's name may be as long as all the rest.
+/// The most characters of a driver's name, which may be as long as all the rest.
 constexpr size_t kShortName = 12;
 
 std::vector<StatusPart> status_parts(const State& state) {

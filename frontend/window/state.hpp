@@ -1,4 +1,4 @@
-// What the window shows: all that its user can change, and what is known of the design.
+// The window's state: what its user can change, and what is known of the design.
 #pragma once
 
 #include <functional>
@@ -16,17 +16,17 @@
 
 namespace window {
 
-/// A point of the surface that was clicked on.
+/// A point of the surface that the user has clicked.
 struct MeasuredPoint {
   csgcore::Vec3 position{0.0};  // world space
   csgcore::Vec3 normal{0.0};    // unit, outward
-  std::string primitive;        // what it is, and its line in the .csg
+  std::string primitive;        // its kind, and its line in the .csg
 };
 
 struct State {
   explicit State(const frontend::Options& options);
 
-  // The user's.
+  // Set by the user.
   Navigation navigation;
   frontend::RenderSettings look;
   frontend::Overlays overlays;
@@ -35,33 +35,33 @@ struct State {
   bool shows_messages = true;
   bool shows_status = true;
   bool shows_help = false;
-  bool asks_for_path = false;  // where to save the picture
+  bool asks_for_path = false;  // shows the dialogue for the path of a picture
   std::string picture_path;
 
-  // The design's.
-  std::string name;                                        // of its file
+  // The design.
+  std::string name;                                        // the file's name
   std::shared_ptr<const frontend::ImportedDesign> design;  // the last that could be read
   std::optional<frontend::DesignVersion> version;          // the newest
   bool is_reading = false;
 
-  // The picture's.
-  std::optional<Painting> painting;  // that is shown, without its image
-  double frames_per_second = 0;      // while the camera moved last
-  std::string notice;                // of what was done last
+  // The picture.
+  std::optional<Painting> painting;  // the one shown, without its image
+  double frames_per_second = 0;      // during the last motion of the camera
+  std::string notice;                // tells the outcome of the last action
 
-  /// Does what needs nothing but this state. Returns whether it was that.
+  /// Does a command that needs nothing but this state. Returns whether it was one.
   bool apply(Command command);
   bool is_checked(Command command) const;
-  /// Of the design; empty without one.
+  /// The design's bounds; empty without a design.
   csgcore::Box bounds() const;
-  /// Turns the section on, across the middle of the design: what is on the eye's side is cut off.
+  /// Turns the section on, across the middle of the design. The side towards the eye is cut off.
   void set_section_axis(uint8_t axis);
 };
 
-/// The status line: what is drawn, how long each stage took, and by what.
+/// Returns the status line: what is drawn, how long each stage took, and by what.
 std::string status_line(const State& state);
-/// Of it what matters most, as much as `fits`: the number of primitives, and that the design is
-/// being read, stay in any case.
+/// Returns the most important parts of the status line that `fits` accepts. The number of
+/// primitives, and that the design is being read, are always kept.
 std::string status_line(const State& state, const std::function<bool(const std::string&)>& fits);
 
 }  // namespace window

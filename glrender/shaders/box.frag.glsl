@@ -1,4 +1,4 @@
-// The cells themselves, as boxes with their edges (paper, figure 5b).
+// Draws the cells themselves, as boxes with their edges (paper, figure 5b).
 
 flat in vec3 v_box_min;
 flat in vec3 v_box_max;
@@ -18,7 +18,7 @@ void main() {
   float t = range.x >= first_t() ? range.x : range.y;
   if (!(range.x <= range.y && t >= first_t())) discard;
   vec3 point = ray.origin + t * ray.direction;
-  // How far the point is from the planes of the box, in pixels; on an edge it is near two of them.
+  // The point's distance from the planes of the box, in pixels; on an edge it is near two of them.
   vec3 gap = min(abs(point - v_box_min), abs(v_box_max - point));
   float depth = u_eye_distance + t;
   vec3 gap_px = gap / (PERSPECTIVE != 0 ? u_pixel_size * depth : u_pixel_size);

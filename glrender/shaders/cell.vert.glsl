@@ -1,5 +1,5 @@
-// The ray-tracing area of a cell (paper §3.1.1): its box, one instance a cell. All coordinates are
-// world axes relative to the view's focus.
+// Rasterises the box of a cell, in which its rays are traced (paper §3.1.1). There is one instance
+// a cell. All coordinates are along world axes, relative to the view's focus.
 
 layout(location = LOCATION_LOW) in vec3 a_box_min;
 layout(location = LOCATION_HIGH) in vec3 a_box_max;
@@ -15,8 +15,8 @@ void main() {
   v_list = a_list;
   bvec3 upper = bvec3((gl_VertexID & 1) != 0, (gl_VertexID & 2) != 0, (gl_VertexID & 4) != 0);
   vec3 corner = mix(a_box_min, a_box_max, upper);
-  // Pushed out by a fraction of a pixel: the rasteriser rounds vertices to its sub-pixel grid, and
-  // no ray that meets the box may be lost by that. The fragment shader clips exactly.
+  // The box is pushed out by a fraction of a pixel: the rasteriser rounds vertices to its sub-pixel
+  // grid, and no ray that meets the box may be lost by that. The fragment shader clips exactly.
   float depth = abs(u_eye_distance + dot(corner, u_forward));
   float pixel = PERSPECTIVE != 0 ? u_pixel_size * depth : u_pixel_size;
   corner += mix(vec3(-1.0), vec3(1.0), upper) * (INFLATION_PX * pixel + u_overlap);
@@ -29,7 +29,8 @@ void main() {
   } else {
     gl_Position = vec4(lateral, u_depth_scale * (u_far - along), 1.0);
   }
-  // What the displaced ray of a pixel meets is drawn into that pixel.
+  // The box is moved by the rays' displacement, so that a pixel is drawn if its displaced ray meets
+  // it.
   gl_Position.xy -= 2.0 * u_displacement / u_viewport * gl_Position.w;
 #if !CLIP_ZERO_TO_ONE
   gl_Position.z = 2.0 * gl_Position.z - gl_Position.w;

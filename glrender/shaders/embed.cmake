@@ -1,5 +1,5 @@
-# Writes OUTPUT, a header with each shader of SHADERS as a string in namespace glrender::shader_source,
-# named after its file: cell.vert.glsl becomes kCellVert.
+# Writes OUTPUT, a header with each shader of SHADERS as a string in namespace glrender::shader_source. A
+# string is named after its file: cell.vert.glsl becomes kCellVert.
 set(text "// Generated from glrender/shaders.\n#pragma once\n#include <string_view>\n\n")
 string(APPEND text "namespace glrender::shader_source {\n")
 foreach(shader IN LISTS SHADERS)

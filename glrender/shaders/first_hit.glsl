@@ -1,13 +1,13 @@
-// Where the ray of a pixel enters the solid within its cell (paper §3). PATH selects how the cell's
-// primitives are combined; every path looks for the first t in (enter, leave].
+// Finds where the ray of a pixel enters the solid within its cell or tile (paper §3). PATH selects
+// how the primitives are combined. Every path looks for the first t in (enter, leave].
 
-flat in uvec2 v_list;           // first test; how many (PATH_UNION: how many come behind it)
+flat in uvec2 v_list;           // first test; number of tests (PATH_UNION: of later operands)
 
 #if TILES
-flat in float v_cut_t;          // the solid holds there, however thin the piece; +inf: nobody knows
+flat in float v_cut_t;          // the solid holds at this t, however thin there; +inf: unknown
 #endif
-uniform float u_tolerance;      // thinnest piece, along the normal, in world units
-uniform bool u_eye_inside;      // rays start in the solid: what is seen is the solid's complement
+uniform float u_tolerance;      // thinner pieces do not exist; along the normal, in world units
+uniform bool u_eye_inside;      // rays start in the solid, and the solid's complement is drawn
 
 // A boundary of the solid on the ray.
 struct Hit {
@@ -27,7 +27,8 @@ Hit end_of(Segment segment, BlistTest test) {
   return Hit(segment.end, test.primitive, segment.end_face, test.complement, 0.0);
 }
 
-// How fast the ray crosses the face, along its normal: what is t long is so many times t thick.
+// Returns how fast the ray crosses the face, along its normal: a length in t times this speed is a
+// thickness.
 float crossing_speed(Ray ray, Hit hit) {
   float speed = abs(dot(normal_at(ray, hit.primitive, hit.t, hit.face), ray.direction));
   return max(speed, GRAZING_COSINE);
@@ -37,16 +38,16 @@ Hit with_speed(Ray ray, Hit hit) {
   return hit;
 }
 
-// Regularised operations (csgcore/NUMERICS.md): a piece of the solid, or a gap in it, thinner than
-// the tolerance does not exist.
+// Regularised operations (csgcore/NUMERICS.md): a piece of the solid, or a gap in it, does not
+// exist if it is no thicker than the tolerance.
 bool too_thin(float length_t, float speed) { return length_t * speed <= u_tolerance; }
 
-// The piece that is shown may be too thin, and just measured too long. Then the pixel is marked, and
-// the CPU looks at it (renderer.cpp).
+// Set if the thickness of the piece that is shown was measured so close to the tolerance that the
+// piece may not exist. The pixel is then marked, and the CPU may draw it anew (renderer.cpp).
 bool doubtful = false;
 
-// Whether a piece that long does not exist, whatever rounding does to its length. What may or may
-// not exist counts as if it did.
+// Returns whether a piece of that length does not exist, however its length was rounded. A doubtful
+// piece counts as existing.
 bool surely_gone(float length_t, float speed) {
   float thickness = length_t * speed;
   if (thickness <= LEAST_DOUBT * u_tolerance) return true;
@@ -54,7 +55,7 @@ bool surely_gone(float length_t, float speed) {
   return false;
 }
 
-// The hit lies in the cell, and the solid does not already hold where the ray enters the cell (step 8).
+// Returns whether the hit lies in the cell and behind the point where the ray enters it (step 8).
 bool starts_within(Hit hit, float enter, float leave) { return hit.t > enter && hit.t <= leave; }
 
 #if PATH == PATH_SINGLE || PATH == PATH_UNION
@@ -65,8 +66,8 @@ Hit hit_of(Ray ray, BlistTest test) {
   return start_of(segment, test);
 }
 
-// Paper §3.2: one primitive or its complement. Step 8 is the condition t > enter: a segment that
-// covers the cell's front extends towards the camera and is drawn by the cell in front.
+// One primitive or its complement (paper §3.2). Step 8 is the condition t > enter: a segment that
+// contains the entry point extends towards the camera, and the cell in front draws it.
 Hit first_hit(Ray ray, float enter, float leave) {
   Hit hit = hit_of(ray, fetch_test(v_list.x));
   return starts_within(hit, enter, leave) ? hit : NO_HIT;
@@ -74,7 +75,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
 
 #elif PATH == PATH_BOTH
 
-// Paper §3.3.4, case 1: segment ∩ segment (figures 7 and 8). The later start, if it comes before
+// Segment ∩ segment (paper §3.3.4, case 1, figures 7 and 8): the later start, if it comes before
 // the earlier end.
 Hit first_hit(Ray ray, float enter, float leave) {
   BlistTest a = fetch_test(v_list.x);
@@ -90,8 +91,8 @@ Hit first_hit(Ray ray, float enter, float leave) {
 
 #elif PATH == PATH_MINUS
 
-// Paper §3.3.4, cases 2 and 3: segment ∩ two half-lines (figures 9 and 10): up to two pieces, what
-// of A lies before B and what lies after it.
+// Segment ∩ two half-lines (paper §3.3.4, cases 2 and 3, figures 9 and 10): up to two pieces, the
+// part of A before B and the part after B.
 Hit first_hit(Ray ray, float enter, float leave) {
   BlistTest a = fetch_test(v_list.x);
   BlistTest b = fetch_test(v_list.x + 1u);
@@ -115,9 +116,9 @@ Hit first_hit(Ray ray, float enter, float leave) {
 
 #elif PATH == PATH_NEITHER
 
-// Paper §3.3.4, case 4 and Algorithm 1 (derived anew, as its subscripts are lost in print): two
-// half-lines ∩ two half-lines. Left boundaries: that of the segment between the two primitives, if
-// they are disjoint on the ray, and that of the half-line behind both.
+// Two half-lines ∩ two half-lines (paper §3.3.4, case 4 and Algorithm 1, derived anew, as its
+// subscripts are lost in print). The left boundaries are those of the segment between the two
+// primitives, if they are disjoint on the ray, and of the half-line behind both.
 Hit first_hit(Ray ray, float enter, float leave) {
   BlistTest a = fetch_test(v_list.x);
   BlistTest b = fetch_test(v_list.x + 1u);
@@ -136,15 +137,16 @@ Hit first_hit(Ray ray, float enter, float leave) {
 #elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
 
 #if PATH == PATH_SHORT_LIST
-// Few primitives: each is intersected once, and the segments are kept.
+// Each primitive is intersected once, and its segment kept.
 Segment kept[SHORT_LIST];
 #endif
 
-// Any function: the Blist is evaluated at t, and with it the next t at which one of
-// the primitives that decided may change its mind; from boundary to boundary until it holds.
+// The value of the Blist at some t, and the next t beyond it at which one of the evaluated
+// primitives may change the value. The ray is followed from boundary to boundary until the Blist
+// holds.
 struct Evaluation {
   bool value;
-  Hit next;   // next.t = +∞: never
+  Hit next;   // next.t = +∞: there is none
 };
 
 Segment segment_of(Ray ray, uint index, uint primitive) {
@@ -173,8 +175,9 @@ Evaluation evaluate(Ray ray, float t) {
   return result;
 }
 
-// Whether the piece that starts there is what the ray ends in. Of a cell, also one that covers its
-// front, and hides what lies behind; of a tile, none that covers the eye.
+// Returns whether the ray ends in the piece that starts at `from`. `covered`: the piece contains
+// the start of the ray. In a cell such a piece may end the ray, since it hides what lies behind; in
+// a tile it may not, unless it never ends.
 bool ends_in(Hit from, float piece_ends, bool covered) {
 #if TILES
   if (covered) return piece_ends == INFINITY;
@@ -193,11 +196,12 @@ Hit first_hit(Ray ray, float enter, float leave) {
     kept[i] = intersect(ray, fetch_test(v_list.x + i).primitive);
   }
 #endif
-  // One loop with one evaluation in it: a software driver runs every loop's body at least once.
-  Hit crossing = NO_HIT;  // the last one
+  // There is one loop with one evaluation in it: a software driver runs every loop's body at least
+  // once.
+  Hit crossing = NO_HIT;  // the last boundary passed
   crossing.t = enter;
-  Hit from = NO_HIT;      // where the piece starts that the ray is in
-  bool covered = false;   // that piece covers the cell's front
+  Hit from = NO_HIT;      // start of the piece that the ray is in; t = +∞: in none
+  bool covered = false;   // that piece contains the start of the ray
   for (bool first = true;; first = false) {
     Evaluation now = evaluate(ray, crossing.t);
     if (now.value) {
@@ -214,7 +218,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
     }
     crossing = now.next;
   }
-  // The start of what covers the front is drawn by the cell before this one (step 8).
+  // The cell in front draws the start of a piece that contains the entry point (step 8).
   return covered ? NO_HIT : from;
 }
 

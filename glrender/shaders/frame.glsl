@@ -1,7 +1,7 @@
-// What all shaders know of the frame. Coordinates are world axes relative to the focus, a point on
-// the view axis near the middle of the scene, subtracted in double on the CPU. A ray is
-// o + t·d, where d has the component 1 along the view axis: t is the depth beyond the focus' plane,
-// and the Z channel is u_eye_distance + t.
+// The uniforms of the frame, which all shaders share. Coordinates are along world axes, relative to
+// the focus, a point on the view axis, which the CPU subtracts in double (frame.hpp). A ray is o +
+// t·d, where d has the component 1 along the view axis: t is the depth beyond the focus' plane, and
+// the Z channel is u_eye_distance + t.
 
 uniform vec3 u_right, u_up, u_forward;
 uniform vec2 u_half_extent;      // tan of the half angles, or half the width and height in world units
@@ -11,4 +11,5 @@ uniform float u_depth_scale;     // window depth = u_depth_scale·(u_far − t) 
 uniform float u_far;             // t of the scene's far end
 uniform float u_overlap;         // Subdivision::overlap
 uniform vec2 u_viewport;         // pixels
-uniform vec2 u_displacement;     // of the rays from the pixels' centres: pixels, y upwards
+uniform vec2 u_displacement;     // displacement of the rays from the pixels' centres, in pixels, y
+                                 // upwards

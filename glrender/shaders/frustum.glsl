@@ -14,7 +14,7 @@ Segment frustum_segment(CanonicalRay ray) {
   } else if (abs(p.z) > 1.0) {
     return NO_SEGMENT;
   }
-  // Re-based again, at the ray's nearest point to the axis within the slab.
+  // The ray is re-based again, at its point nearest to the axis within the slab.
   float lateral2 = dot(d.xy, d.xy);
   float base = lateral2 > 0.0 ? -dot(p.xy, d.xy) / lateral2 : 0.0;
   base = clamp(base, slab_start, slab_end);
@@ -50,8 +50,9 @@ Segment frustum_segment(CanonicalRay ray) {
   return Segment(offset + start, offset + end, 0, 0);
 }
 
-// The point lies on the face, cap or wall, that it is nearer to: no segment need carry which. Nearer by
-// distances in the world, where t was rounded: a plate's cap is far nearer there than its wall.
+// Returns the gradient of the face, cap or wall, that the point is nearer to, so that no segment
+// need carry the face. Distances are compared in the world, where t was rounded: a plate's cap is
+// far nearer there than its wall.
 vec3 frustum_gradient(CanonicalRay ray, vec3 point) {
   float radius = ray.radius_mid + ray.radius_slope * point.z;
   vec3 cap = vec3(0.0, 0.0, point.z < 0.0 ? -1.0 : 1.0);

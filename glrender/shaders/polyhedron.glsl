@@ -2,8 +2,8 @@
 
 uniform samplerBuffer u_polyhedra;  // see polyhedron_texels.hpp
 
-// A face, which is a texel of u_polyhedra, is noted though rounding may put it behind the enclosure's
-// own end.
+// Cuts the segment by the faces. A face's number is its texel in u_polyhedra. It is noted even if
+// rounding puts the face beyond the enclosure's own end.
 Segment polyhedron_cut(CanonicalRay ray, Segment segment) {
   float enters = -INFINITY;
   float leaves = INFINITY;
@@ -13,7 +13,8 @@ Segment polyhedron_cut(CanonicalRay ray, Segment segment) {
     float height = dot(entry.xyz, ray.origin);
     float growth = dot(entry.xyz, ray.direction);
     if (entry.w > 0.0) {
-      // A branch: what holds at both ends holds between them.
+      // A branch. Its bound is linear along the segment: it holds all along if it holds at both
+      // ends.
       float limit = texelFetch(u_polyhedra, ++i).x;
       float reach = height + max(segment.start * growth, segment.end * growth);
       if (reach <= limit) i += int(entry.w);

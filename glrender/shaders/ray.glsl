@@ -1,25 +1,29 @@
-// Rays, segments, and what the ray-primitive intersections of paper §3.2, steps 1 to 4, have in common.
-// Each kind of primitive has a file of its own (sphere.glsl and so on), and answers in one of two ways:
+// Rays, segments, and what the ray-primitive intersections of the kinds (paper §3.2, steps 1 to 4)
+// share. Each kind of primitive has a file of its own (sphere.glsl and so on) and is one of two
+// sorts:
 // - It has a segment on a ray, and a gradient: kind_segment() and kind_gradient().
-// - It is a primitive of another kind, its enclosure, cut by more: kind_cut() and kind_cut_gradient().
-// The functions of the kinds that the scene has are called by name from code that kinds_source()
-// (shader_kinds.hpp) writes.
+// - It is a primitive of another kind, its enclosure, cut further: kind_cut() and
+//   kind_cut_gradient().
+//
+// kinds_source() (shader_kinds.hpp) writes the code that calls these functions by name, for the
+// kinds that the scene has.
 
 const float INFINITY = uintBitsToFloat(0x7F800000u);
-const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // as far as a ray goes
+const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // the largest t of a ray
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
-uniform usamplerBuffer u_surfaces;     // per primitive: colour, flags, id
-uniform usamplerBuffer u_tests;     // primitive and complement bit, if_inside, if_outside
+uniform usamplerBuffer u_surfaces;  // per primitive: colour, flags, id
+uniform usamplerBuffer u_tests;     // per test: primitive and complement bit, if_inside, if_outside
 
 struct Ray {
   vec3 origin, direction;
 };
 
-// Where the ray is inside a primitive: start ≤ t < end. Empty: start = +∞, end = −∞.
+// The part of a ray inside a primitive: start ≤ t < end. It is empty if start = +∞ and end = −∞.
 struct Segment {
   float start, end;
-  int start_face, end_face;  // > 0: the face that the kind's cut has noted; 0: another
+  int start_face, end_face;  // > 0: the face that the kind's cut has noted; 0: a face of the
+                             // enclosure
 };
 
 struct BlistTest {
@@ -37,11 +41,11 @@ Ray pixel_ray() {
   return Ray(lateral, u_forward);
 }
 
-// The first t that is drawn: the eye in perspective; everything in an orthographic picture.
+// The least t that is drawn: the eye's in perspective; orthographic rays have none.
 float first_t() { return PERSPECTIVE != 0 ? -u_eye_distance : -INFINITY; }
 
-// Paper §3.2, "Ray-cell intersection": x = where the ray enters the box, y = where it leaves it;
-// x > y if it misses. Neighbouring cells share the very same plane, and so the very same t.
+// Returns where the ray enters the box (x) and leaves it (y); x > y if it misses (paper §3.2,
+// "Ray-cell intersection"). Neighbouring cells share the very same plane, and so the very same t.
 vec2 box_range(Ray ray, vec3 box_min, vec3 box_max) {
   float enter = -INFINITY;
   float leave = INFINITY;
@@ -66,7 +70,7 @@ BlistTest fetch_test(uint index) {
 }
 
 // The ray in a primitive's canonical space, re-based at `base_t`, where it passes closest to the
-// primitive's centre: from there on the magnitudes are those of the primitive, not of its distance.
+// primitive's centre. From there on magnitudes are of the primitive's size, not of its distance.
 struct CanonicalRay {
   vec3 origin, direction;
   float base_t;
@@ -95,7 +99,7 @@ CanonicalRay canonical_ray(Ray ray, uint primitive) {
   result.is_none = row_z.w == SHAPE_NONE;
   result.faces = int(center.w);
 #if HAS_CUTS
-  // Flat solids are steep in canonical space: there, what passes closest is another point.
+  // A flat solid is steep in canonical space, where another point of the ray is the closest.
   float nearest = -dot(result.origin, result.direction) / dot(result.direction, result.direction);
   result.origin += nearest * result.direction;
   result.base_t += nearest;
@@ -115,15 +119,16 @@ Segment fallback_segment(CanonicalRay ray) {
 
 #if HAS_CUTS
 
-// The part of the enclosure's segment that belongs to the primitive. A kind's cut leaves the segments
-// of other kinds as they are.
+// Returns the part of the enclosure's segment that belongs to the primitive. A kind's cut leaves
+// the segments of other kinds as they are.
 Segment cut_segment(CanonicalRay ray, Segment segment);
-// The canonical gradient of the face if a cut has noted one, else the enclosure's.
+// Returns the canonical gradient of the face if a cut has noted one, else the enclosure's.
 vec3 cut_gradient(int face, vec3 gradient);
 
 Segment intersect(Ray ray, uint primitive) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
-  // Cut before it becomes relative to the focus, where a small primitive's faces are close together.
+  // The segment is cut before it becomes relative to the focus: near the primitive, floats are
+  // finer.
   float base_t = canonical.base_t;
   canonical.base_t = 0.0;
   Segment segment = cut_segment(canonical, fallback_segment(canonical));
@@ -139,8 +144,8 @@ Segment intersect(Ray ray, uint primitive) { return fallback_segment(canonical_r
 
 #endif
 
-// The primitive's own outward unit normal, in world space, where the ray crosses its surface at t, on
-// `face` (see Segment).
+// Returns the outward unit normal of the primitive itself, in world space, where the ray crosses
+// its surface at t, on `face` (see Segment).
 vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
@@ -150,6 +155,6 @@ vec3 normal_at(Ray ray, uint primitive, float t, int face) {
 #endif
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);
-  // At a cone's very apex there is none: it faces the viewer.
+  // The apex of a cone has no normal: it faces the viewer.
   return length2 > 0.0 ? normal * inversesqrt(length2) : -normalize(ray.direction);
 }

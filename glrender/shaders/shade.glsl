@@ -1,8 +1,8 @@
-// Colour of a hit (paper §3.2, step 9).
+// The colour of a hit (paper §3.2, step 9).
 
-uniform vec3 u_front, u_back;      // of what has no colour of its own
-uniform vec4 u_from_within;        // of faces that are seen from within, where a is 1
-uniform vec3 u_light_position;     // SHADING_PHONG
+uniform vec3 u_front, u_back;      // colours of primitives that have none of their own
+uniform vec4 u_from_within;        // the colour of faces that are seen from within, where a is 1
+uniform vec3 u_light_position;     // of SHADING_PHONG alone
 
 // `complement`: the operations take the primitive away here.
 vec3 base_color(uint primitive, bool complement, bool eye_inside) {

@@ -1,7 +1,7 @@
-// Which of the faces that the ray crosses together is seen.
+// Coincidence resolution: selects which of the coincident faces at a hit is shown.
 
-// Faces with too little between them are crossed together, whichever of them rounding puts first:
-// what is seen does not depend on it (no speckle).
+// Faces are coincident on a ray if the pieces between them are too thin to exist. Rounding orders
+// such faces at random, and the face that is shown must not depend on that (speckle).
 #if PATH == PATH_SINGLE
 
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
@@ -11,7 +11,7 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 #elif PATH == PATH_UNION
 
-// In a union the last operand with that face draws it. v_list.y operands come behind this one.
+// In a union the last operand with the face draws it. v_list.y operands are later than this one.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   seen = hit;
   Hit nearest = NO_HIT;
@@ -35,22 +35,24 @@ const uint MOST_SHARED = uint(SHORT_LIST);
 const uint MOST_SHARED = uint(LONG_LIST);
 #endif
 
-// What a test, or all of the list from it on, comes to at the faces that are crossed together:
-// ENDS if it does not hold behind them; HOLDS if it holds before and behind them; else it starts to
-// hold there, and the number says by which test, in file order of the primitives.
+// Says how a test, or the list from that test on, behaves at the coincident faces. ENDS: it does
+// not hold behind them. HOLDS: it holds before and behind them. Any other number: it starts to hold
+// there. The number then encodes the test that starts it, and grows with its primitive's place in
+// the file.
 const uint ENDS = 0u;
 const uint HOLDS = 0xFFFFFFFFu;
 uint starts_by(uint index, uint primitive) { return 1u + primitive * MOST_SHARED + index; }
 uint index_of(uint starting) { return (starting - 1u) % MOST_SHARED; }
 
-// Where the test starts to hold (where it starts not to, if the eye is inside), or ends.
+// Returns where the test starts to hold (`starts`) or ends to. If the eye is inside, it is the
+// test's complement that starts or ends.
 Hit boundary(Segment segment, BlistTest test, bool starts) {
   if ((test.complement == u_eye_inside) == starts) return start_of(segment, test);
   return end_of(segment, test);
 }
 
-// Whether another face than the hit's own may start the solid there (most often none does), and the
-// last in file order of all that start something there.
+// Returns whether a face other than the hit's own may start the solid there (most often none does).
+// `last` is the last in file order of all faces that start a primitive or complement there.
 bool is_shared(Ray ray, Hit hit, out Hit last) {
   bool shared = false;
   last = hit;
@@ -64,7 +66,8 @@ bool is_shared(Ray ray, Hit hit, out Hit last) {
   return shared;
 }
 
-// Along both normals: a flat view takes in walls that stand beside the face that is hit.
+// The distance is measured along both normals: a ray at a flat angle also passes close to walls
+// that stand beside the face that is hit.
 bool together(Ray ray, Hit hit, Hit other) {
   return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
 }
@@ -75,19 +78,20 @@ uint across_test(Ray ray, Hit hit, uint index, BlistTest test) {
   bool ends = together(ray, hit, boundary(segment, test, false));
   if (starts && !ends) return starts_by(index, test.primitive);
   if (ends && !starts) return ENDS;
-  bool inside = !starts && segment.start <= hit.t && hit.t < segment.end;  // not if only grazed
+  bool inside = !starts && segment.start <= hit.t && hit.t < segment.end;  // false if the ray only
+                                                                           // grazes it
   return inside == (test.complement == u_eye_inside) ? HOLDS : ENDS;
 }
 
-uint across[MOST_SHARED];  // from a test on
+uint across[MOST_SHARED];  // by test, for the list from that test on
 
 uint across_target(uint target) {
   if (target < LIST_FALSE) return across[target];
   return (target == LIST_TRUE) != u_eye_inside ? HOLDS : ENDS;
 }
 
-// A union starts by the last operand that does, unless one holds before; an intersection by the last
-// of those that have not held before.
+// A union starts by its last operand that starts, unless one holds before; an intersection by the
+// last of those that have not held before.
 uint either(uint a, uint b) { return max(a, b); }
 uint both(uint a, uint b) {
   if (a == HOLDS || b == ENDS) return b;
@@ -95,7 +99,7 @@ uint both(uint a, uint b) {
   return max(a, b);
 }
 
-// The last in file order of those operands that start the solid (NUMERICS.md, the definition).
+// Shows the last in file order of the operands that start the solid (NUMERICS.md, the definition).
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   Hit last;
   seen = hit;
@@ -104,7 +108,8 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
     seen = last;
     return true;
   }
-  // (if_true and the test) or if_false, from the last test to the first.
+  // The list from a test on is (the test and if_true) or if_false. It is evaluated from the last
+  // test on.
   uint whole = ENDS;
   for (uint i = v_list.y; i-- > 0u;) {
     BlistTest test = fetch_test(v_list.x + i);
@@ -122,7 +127,7 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
 
 #else
 
-// Of a pair, each bounds it: the later one, if that does not end there, too.
+// Both primitives of a pair bound it. The later one is shown, unless it ends there, too.
 bool is_seen(Ray ray, Hit hit, out Hit seen) {
   BlistTest a = fetch_test(v_list.x);
   BlistTest b = fetch_test(v_list.x + 1u);

@@ -1,6 +1,7 @@
 // The sphere: in canonical space the unit ball.
 
-// |origin + s·direction| ≤ 1, about the point nearest to the centre.
+// The part of the ray with |origin + s·direction| ≤ 1, solved about the point nearest to the
+// centre.
 Segment sphere_segment(CanonicalRay ray) {
   float length2 = dot(ray.direction, ray.direction);
   float nearest = -dot(ray.origin, ray.direction) / length2;

@@ -1,10 +1,12 @@
-// A tile of the screen, one instance each: its pixels, and no more. Nothing lies in front of it.
+// Rasterises a tile of the screen, one instance each: exactly its pixels, at the nearest depth.
 
-layout(location = LOCATION_LOW) in vec3 a_low;    // pixels from the upper left corner; cut, as below
+layout(location = LOCATION_LOW) in vec3 a_low;    // x, y: pixels from the upper left corner; z:
+                                                  // v_cut_t
 layout(location = LOCATION_HIGH) in vec3 a_high;  // pixels
 layout(location = LOCATION_LIST) in uvec2 a_list;  // first test, number of tests
 
-flat out float v_cut_t;  // the solid holds at this t for every ray; +inf: nowhere in particular
+flat out float v_cut_t;  // the solid holds at this t on every ray of the tile; +inf: no such t is
+                         // known
 flat out uvec2 v_list;
 
 void main() {

@@ -1,5 +1,5 @@
-// Traces the pixel's ray within its cell (paper §3), or all of it within its tile: first_hit.glsl,
-// shared_faces.glsl.
+// Traces the pixel's ray within its cell (paper §3), or the whole ray of a tile (first_hit.glsl,
+// shared_faces.glsl).
 
 #if !TILES
 flat in vec3 v_box_min;
@@ -17,7 +17,7 @@ layout(depth_less) out float gl_FragDepth;
 #endif
 
 #if BEHIND
-uniform sampler2D u_first;      // o_measured of the picture that this one lies behind
+uniform sampler2D u_first;      // o_measured of the picture in front of this one
 #endif
 
 void main() {
@@ -30,7 +30,8 @@ void main() {
 #if BEHIND
   float enter = max(range.x, texelFetch(u_first, ivec2(gl_FragCoord.xy), 0).w);
 #else
-  // What lies within the tolerance of the eye has been crossed: an eye in a face is on its far side.
+  // Boundaries within the tolerance of the eye count as crossed: an eye in a face is on its far
+  // side.
   float enter = max(range.x, first_t() + u_tolerance);
 #endif
   if (!(enter <= range.y) || enter == INFINITY) discard;
@@ -39,7 +40,7 @@ void main() {
   Hit seen;
   if (!is_seen(ray, hit, seen)) discard;
   vec3 point = ray.origin + seen.t * ray.direction;
-  // Paper §3.2, step 4: a complement's normal is turned round.
+  // A complement's normal is turned round (paper §3.2, step 4).
   vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
   if (seen.complement) normal = -normal;
   vec3 color = u_eye_inside && u_from_within.a != 0.0
@@ -51,7 +52,7 @@ void main() {
   o_id = texelFetch(u_surfaces, int(seen.primitive)).z;
 #endif
 #if !TILES
-  // Of the boundary that lies in the cell, which the face that is seen may not.
+  // The depth is that of the boundary in the cell; the face that is seen may lie outside it.
   float depth = u_depth_scale * (u_far - hit.t);
   if (PERSPECTIVE != 0) depth /= u_eye_distance + hit.t;
   gl_FragDepth = clamp(depth, 0.0, 1.0);

@@ -31,7 +31,8 @@ class BatchQueue {
     error_ = error;
     ready_.notify_one();
   }
-  /// All that has come, as one batch; waits for some; none after close(). Rethrows its error.
+  /// Waits for batches, and returns all that have come, joined into one. After close() it returns
+  /// what is left, and then nothing, or rethrows the error that close() was given.
   std::optional<Batch> pop() {
     std::unique_lock lock(mutex_);
     ready_.wait(lock, [&] { return closed_ || !batches_.empty(); });

@@ -10,8 +10,8 @@
 namespace glrender {
 namespace {
 
-/// libepoxy loads these by name at the first call, and ends the program where it cannot: they are
-/// loaded before, for good.
+/// libepoxy loads these libraries by name at its first call, and ends the program where it cannot.
+/// So they are loaded before that, and never unloaded.
 void load_libraries() {
   const auto can_load = [](const char* name) { return dlopen(name, RTLD_LAZY) != nullptr; };
   if (!can_load("libEGL.so.1")) {
@@ -22,7 +22,7 @@ void load_libraries() {
   }
 }
 
-/// Displays to try, hardware first. A device without a DRM node is Mesa's software rasteriser.
+/// Returns the displays to try, hardware first.
 std::vector<EGLDisplay> candidate_displays() {
   std::vector<EGLDisplay> hardware;
   std::vector<EGLDisplay> software;
@@ -59,7 +59,7 @@ struct HeadlessContext::Impl {
   EGLContext context = EGL_NO_CONTEXT;
   std::string renderer_name;
 
-  /// False, with nothing left over, if this display cannot give an OpenGL 3.3 core context.
+  /// Returns false, with nothing left open, if this display cannot give an OpenGL 3.3 core context.
   bool start(EGLDisplay candidate) {
     if (!eglInitialize(candidate, nullptr, nullptr)) return false;
     display = candidate;

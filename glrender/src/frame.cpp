@@ -7,11 +7,11 @@
 namespace glrender {
 namespace {
 
-/// The nearest depth that the depth buffer tells apart, as a fraction of the furthest. It is a
-/// float that falls as 1/z, so that this costs no precision further away.
+/// The nearest depth that the depth buffer represents, as a fraction of the furthest. The buffer
+/// holds floats that fall as 1/z, so that a small value costs no precision further away.
 constexpr double kNearestDepth = 1e-6;
-/// Where the scene begins nearer than this share of where it ends, errors must shrink towards the
-/// eye, as pixels do: the focus is the eye.
+/// If the scene begins nearer than this fraction of its furthest depth, the focus is the eye:
+/// errors must shrink towards the eye, as pixels do.
 constexpr double kCloseUp = 1.0 / 16;
 /// The far end is moved out by this fraction of the depth range, so that rounding never clamps it.
 constexpr double kFarMargin = 1e-4;

@@ -1,4 +1,4 @@
-// A view made ready for the shaders: everything relative to a focus, in float.
+// A view prepared for the shaders, in float coordinates relative to a focus.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@ namespace glrender {
 
 using csgcore::Vec3;
 
-/// Rays are o + t·d with t = 0 in the plane through the focus, a point on the view axis: in the
-/// middle of the scene's depth range, or at the eye if the scene reaches close to it. What reaches
-/// the GPU is small where it matters, however far the eye or the model's origin is.
+/// The focus is a point on the view axis: in the middle of the scene's depth range, or at the eye
+/// if the scene comes close to the eye. A ray is o + t·d, with t = 0 in the plane through the
+/// focus. So the coordinates that reach the GPU are small, however far away the eye or the model's
+/// origin is.
 struct Frame {
   csgcore::View view;
   Vec3 focus{0.0};
@@ -21,7 +22,7 @@ struct Frame {
   double far_t = 0;
   double pixel_size = 0;  // world units at depth 1 (perspective) or anywhere (orthographic)
   bool visible = false;   // false: the whole scene lies behind the eye
-  /// Of the rays from the pixels' centres: pixels, x to the right, y downwards.
+  /// Displacement of the rays from the pixels' centres, in pixels, x to the right, y downwards.
   std::array<double, 2> displacement_px{};
 
   bool perspective() const { return view.projection == csgcore::Projection::kPerspective; }

@@ -1,4 +1,4 @@
-// Sets of kinds of primitives.
+// A set of kinds of primitives, for which a shader is compiled.
 #pragma once
 
 #include <compare>

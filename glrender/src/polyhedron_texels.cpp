@@ -9,8 +9,8 @@ namespace {
 
 using csgcore::Polyhedron;
 
-/// What floats do to the height of a point in canonical space, which is a sum of some products of
-/// at most 2: a branch's faces are passed over only where they are further away than that.
+/// Bound on the rounding error of a point's height in canonical space, computed in float as a sum
+/// of products of at most 2. A branch's faces are skipped only if they are further away than that.
 constexpr double kBranchSlack = 0x1p-19;
 
 PolyhedronTexels::Texel texel(const csgcore::Vec3& normal, uint32_t skip) {
@@ -26,7 +26,7 @@ uint32_t PolyhedronTexels::first_of(const Polyhedron* polyhedron) {
       first_.try_emplace(polyhedron, static_cast<uint32_t>(texels_.size()));
   if (!is_new) return place->second;
   const std::vector<Polyhedron::Entry>& entries = polyhedron->entries();
-  // Where entry i starts, had the polyhedron no header.
+  // start[i] is the offset of entry i after the polyhedron's header.
   std::vector<uint32_t> start{0};
   for (const Polyhedron::Entry& entry : entries) {
     start.push_back(start.back() + (entry.skip > 0 ? 2 : 1));
@@ -46,7 +46,7 @@ uint32_t PolyhedronTexels::first_of(const Polyhedron* polyhedron) {
 }
 
 uint64_t face_rounds(const Polyhedron* polyhedron) {
-  /// Of a polyhedron with thousands of faces; it grows little with them.
+  /// The measured rounds of a polyhedron with thousands of faces; they grow little with the faces.
   constexpr size_t kOfManyFaces = 256;
   return polyhedron ? std::min(polyhedron->entries().size(), kOfManyFaces) : 0;
 }

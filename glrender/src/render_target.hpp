@@ -1,4 +1,4 @@
-// The framebuffer of a picture and its way back into an Image.
+// The framebuffer of a picture, and its transfer into an Image.
 #pragma once
 
 #include <vector>
@@ -22,13 +22,14 @@ class RenderTarget {
   /// Throws GlError if the driver cannot make pictures of this size.
   explicit RenderTarget(const TargetFormat& format);
 
-  /// Binds it, sets the viewport and clears all channels.
+  /// Binds the framebuffer, sets the viewport and clears all channels.
   void begin(const glm::vec3& background) const;
-  /// Sets what the shaders have marked in `doubtful`, which is as large as the picture, or is made
-  /// so. Throws GlError if anything failed while drawing.
+  /// Returns the picture, and sets the pixels of `doubtful` that the shaders have marked; the
+  /// others stay. `doubtful` is as large as the picture, or is made so. Throws GlError if anything
+  /// failed while drawing.
   csgcore::Image read(const Frame& frame, std::vector<bool>& doubtful) const;
   /// Adds the colours, each in [0, 1], to the pixels of `sum`, in the order of an Image's. An empty
-  /// one starts from 0. Precondition: exact_colors. Marks and throws as read() does.
+  /// `sum` starts from 0. Marks `doubtful` and throws as read() does. Precondition: exact_colors.
   void add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& doubtful) const;
 
   /// The texture of normals and t; 0 without measured channels.
@@ -40,7 +41,7 @@ class RenderTarget {
   void read_measured(const Frame& frame, csgcore::Image& image) const;
   void read_pixels(GLenum attachment, GLenum format, GLenum type, void* data) const;
   size_t pixels() const { return size_t{format_.width_px} * format_.height_px; }
-  /// Where the picture's row y starts in what OpenGL reads, whose rows run upwards.
+  /// Returns where the picture's row y starts in what OpenGL reads, whose rows run upwards.
   size_t row_start(uint32_t y) const {
     return size_t{format_.height_px - 1 - y} * format_.width_px;
   }

@@ -35,19 +35,19 @@ using csgcore::SubdivisionOptions;
 using csgcore::SubdivisionUpdate;
 using csgcore::View;
 
-/// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture, as a
-/// fraction of the scene's largest side (csgcore/NUMERICS.md, "OpenGL"). The two ends of a piece
-/// each carry the rounding of a float t: about 2^-24 of the scene's size, times the few operations
-/// that lead to it. (Measured on coincident faces at several angles: no speckle down to 2^-22, some
-/// at 2^-23.)
+/// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture
+/// (csgcore/NUMERICS.md, "OpenGL"). It is a fraction of the scene's largest side. The two ends of a
+/// piece each carry the rounding of a float t: about 2^-24 of the scene's size, times the few
+/// operations that lead to it. (Measured on coincident faces at several angles: no speckle down to
+/// 2^-22, some at 2^-23.)
 constexpr double kThicknessTolerance = 0x1p-21;
 
-/// Doubtful pixels for each ray of a pixel that any picture may have, at some of its edges: most
-/// that were seen in the examples are 4. Only more of them make a wall.
+/// Doubtful pixels that are left alone, for each ray of a pixel: any picture may have some at its
+/// edges, and at most 4 were seen in the examples. Only a wall has more of them.
 constexpr uint32_t kFewDoubtful = 16;
 
-/// Of the primitives in place, where no cells are made anew: then what polyhedra have left behind
-/// goes.
+/// The most updates of primitives in place, when tiles are drawn. Then all is uploaded anew, which
+/// frees the faces of polyhedra that are gone.
 constexpr uint32_t kMostUpdates = 256;
 
 double thickness_tolerance(const Solid& solid) {
@@ -56,7 +56,7 @@ double thickness_tolerance(const Solid& solid) {
   return kThicknessTolerance * std::max({size.x, size.y, size.z});
 }
 
-/// The pass with its rays where sample i of n lies.
+/// Returns the pass with its rays displaced to where sample i of n lies.
 Pass displaced(Pass pass, uint32_t i, uint32_t n) {
   pass.frame.displacement_px = csgcore::sample_offset(i, n);
   return pass;
@@ -95,7 +95,8 @@ class Renderer::Impl {
 
   void update(const Subdivision& subdivision, const SceneEdit& edit,
               const SubdivisionUpdate& update) {
-    // Cells made anew come now and then: what polyhedra have left behind goes with them.
+    // Cells are made anew now and then. All is uploaded anew with them, which frees the faces of
+    // polyhedra that are gone.
     const bool in_part = edit.keeps_indices() && !update.is_anew;
     follow(subdivision.solid(), edit, in_part);
     if (!in_part || subdivision_ != &subdivision) {
@@ -117,7 +118,7 @@ class Renderer::Impl {
     Image image;
     doubtful_.clear();
     if (settings.samples > 1) draw_samples(pass, image, stats);
-    // Last, as draw_behind() goes on from it.
+    // The pixels' centres are drawn last, since draw_behind() continues from that picture.
     if (settings.samples <= 1 || settings.measured_channels) {
       use_target(view, settings.measured_channels);
       shoot(pass, *target_, stats);
@@ -147,7 +148,7 @@ class Renderer::Impl {
     const Pass pass = make_pass(view, {}, nullptr);
     use_target(view, false);
     double ms = 0;
-    // The first turn compiles what is not compiled yet.
+    // The first turn compiles the shaders; the second is timed.
     for (int turn = 0; turn < 2; ++turn) {
       FrameStats stats;
       begin(pass, *target_);
@@ -206,7 +207,7 @@ class Renderer::Impl {
   }
 
  private:
-  /// Brings what the GPU has of primitives up to date.
+  /// Updates the primitives on the GPU.
   void follow(const Solid& solid, const SceneEdit& edit, bool in_part) {
     solid_ = &solid;
     tolerance_ = thickness_tolerance(solid);
@@ -220,12 +221,12 @@ class Renderer::Impl {
     }
   }
 
-  /// What the frame and its light are fitted to.
+  /// The box to which the frame and its light are fitted.
   const csgcore::Box& scene_box(const FrameSettings& settings) const {
     return settings.scene_box.empty() ? solid_->bounds() : settings.scene_box;
   }
 
-  /// The same with the cells' overlap, which is drawn too.
+  /// The scene's box, enlarged by the cells' overlap, which is drawn too.
   csgcore::Box drawn_box(const FrameSettings& settings) const {
     csgcore::Box box = scene_box(settings);
     if (!box.empty()) box = {box.min - overlap(), box.max + overlap()};
@@ -234,7 +235,8 @@ class Renderer::Impl {
 
   double overlap() const { return csgcore::cell_overlap(solid_->bounds()); }
 
-  /// The rays through the pixels' centres; `first`: the picture that they start behind, if any.
+  /// Returns a pass of the rays through the pixels' centres. `first` is the picture behind which
+  /// they start, or null.
   Pass make_pass(const View& view, const FrameSettings& settings, const RenderTarget* first) const {
     Pass pass;
     pass.frame = make_frame(view, drawn_box(settings));
@@ -243,13 +245,13 @@ class Renderer::Impl {
     pass.overlap = overlap();
     pass.tolerance = tolerance_;
     pass.light_world = csgcore::phong_light(view, scene_box(settings)).position_world;
-    // An orthographic ray comes from infinity, so that it starts outside any solid. Others start
-    // beyond what is too near to be told from the eye.
+    // An orthographic ray comes from infinity, so that it starts outside any solid. A perspective
+    // one starts beyond what is too near to be told from the eye.
     pass.eye_inside =
         pass.frame.perspective() && solid_->contains(view.eye + tolerance_ * view.forward);
     if (first) {
       pass.first = first->measured_texture();
-      // Behind a front, rays start on the other side of it.
+      // Rays that start at a front start on the other side of it.
       pass.eye_inside = !pass.eye_inside;
     }
     return pass;
@@ -276,7 +278,7 @@ class Renderer::Impl {
     traverse_front_to_back(*subdivision_, first_test_, pass.frame, into);
   }
 
-  /// Brings the cells that the pass draws to the GPU; displaced passes draw the same ones.
+  /// Uploads the cells or tiles that the pass draws. Displaced passes draw the same ones.
   void prepare(const Pass& pass, FrameStats& stats) {
     Stopwatch watch;
     if (pass.tiles) {
@@ -315,7 +317,7 @@ class Renderer::Impl {
     buffers_.place(pass.frame);
   }
 
-  /// Draws what was prepared.
+  /// Draws what prepare() has uploaded.
   void shoot(const Pass& pass, const RenderTarget& target, FrameStats& stats) {
     Stopwatch watch;
     begin(pass, target);
@@ -333,8 +335,8 @@ class Renderer::Impl {
     stats.read_ms += watch.lap();
   }
 
-  /// Pixels in which float cannot tell whether a piece is thick enough to exist are drawn by the
-  /// CPU, by the same rule in double: a wall is drawn whole or not at all.
+  /// Draws by the CPU those pixels in which float cannot tell whether a piece is thick enough to
+  /// exist. The CPU applies the same rule in double, so that a wall is drawn whole or not at all.
   void settle_doubts(const Pass& pass, uint32_t samples, Image& image, FrameStats& stats) const {
     const auto doubtful = std::count(doubtful_.begin(), doubtful_.end(), true);
     if (doubtful <= long{kFewDoubtful} * samples) return;
@@ -359,7 +361,7 @@ class Renderer::Impl {
     stats.draw_ms += watch.lap();
   }
 
-  /// Colours averaged over the samples.
+  /// Averages colours over the samples.
   class Average {
    public:
     void add(const RenderTarget& target, std::vector<bool>& doubtful, FrameStats& stats) {
@@ -397,7 +399,7 @@ class Renderer::Impl {
     average.store(view, image);
   }
 
-  /// Each sample lies behind a front of its own.
+  /// Draws each sample behind its own front.
   void draw_samples_behind(const View& view, const FrameSettings& settings, Image& image,
                            FrameStats& stats) {
     const RenderTarget front(format_of(view, true, false));
@@ -435,11 +437,12 @@ class Renderer::Impl {
   csgcore::TileLists lists_;
   std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
-  std::vector<uint64_t> first_test_;  // of the subdivision's leaves, in the buffers
-  uint64_t tests_ = 0;                // that the buffers hold
-  std::vector<bool> doubtful_;        // pixels of the last picture, and of that before it
+  std::vector<uint64_t> first_test_;  // by leaf of the subdivision, in the buffers
+  uint64_t tests_ = 0;                // tests that the buffers hold
+  std::vector<bool> doubtful_;        // pixels of the last picture, and of the front that it lies
+                                      // behind
   uint64_t uploaded_before_ = 0;      // bytes, to buffers that were replaced
-  uint32_t updates_ = 0;              // since they were
+  uint32_t updates_ = 0;              // number of updates in place since then
   double tolerance_;
 };
 

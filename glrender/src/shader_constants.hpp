@@ -1,4 +1,4 @@
-// The constants that C++ and the shaders share; every shader is compiled with a #define of each.
+// The constants that C++ and the shaders share. Every shader is compiled with a #define of each.
 #pragma once
 
 #include <array>
@@ -11,48 +11,49 @@
 
 namespace glrender {
 
-/// How a cell's primitives are combined: one draw call for all cells of a path.
+/// The ways to evaluate a list of primitives, a shader variant each. All cells or tiles of one path
+/// are drawn by one call.
 enum class Path : int {
-  kSingle,     // a primitive or its complement; unions by the depth buffer (paper §3.2, §3.3.3)
-  kUnion,      // the same, of a union whose later operands may have the same face
+  kSingle,     // a primitive or its complement; the depth buffer unites (paper §3.2, §3.3.3)
+  kUnion,      // kSingle within a union whose later operands may have the same face
   kBoth,       // §3.3.4 case 1
   kMinus,      // cases 2 and 3
   kNeither,    // case 4
-  kShortList,  // any function of up to short_list() primitives
-  kLongList,   // the same of up to kLongList primitives, in tiles
-  kList,       // any function
+  kShortList,  // any Blist of up to short_list() primitives
+  kLongList,   // a tile's Blist of up to kLongList primitives
+  kList,       // any Blist
   kBoxes,      // the cells themselves
 };
 constexpr int kPaths = 9;
 
-/// Up to so many primitives a fragment keeps all segments: in cells the default K. Segments
-/// that are cut by faces take a hundred rounds of a loop each (see kMostRounds): it rather keeps
-/// them than finds them again; in tiles, all.
+/// The most primitives for which a fragment keeps all segments: in cells, 8 is the default K.
+/// Finding a segment that faces cut takes some hundred loop rounds (see kMostRounds), so that
+/// longer lists are kept, too. In tiles all lists keep theirs.
 constexpr uint32_t short_list(bool has_cuts, bool tiles) { return has_cuts || tiles ? 32 : 8; }
-/// Longer lists of a tile are refused, as are those of too many rounds.
+/// Longer lists of a tile are refused, as are those that take too many rounds.
 constexpr uint32_t kLongList = 128;
 
-/// In longer unions the operands are not asked whether they share the face that is hit, and the one
-/// that is drawn first keeps it. Of a cell's list beyond kLongList, the last face in file order
-/// that starts anything there is shown.
+/// In longer unions the shaders do not look for operands that share the face that is hit: the
+/// operand that is drawn first keeps it. In a cell's list longer than kLongList, the last face in
+/// file order that starts anything there is shown.
 constexpr uint32_t kSharedFaces = 32;
 
-/// A cell whose function takes more rounds is refused: Mesa's software renderer ends all of a
-/// shader's loops silently after 65,535 rounds of them together, each at least one test, and a
-/// pixel may need two evaluations.
+/// A cell whose Blist takes more rounds is refused. Mesa's software renderer silently ends all of a
+/// shader's loops after 65,535 rounds in total. Each test takes at least one, and a pixel may need
+/// two evaluations.
 constexpr uint64_t kMostRounds = 30000;
-/// The same of a tile, for all evaluations that a ray may need.
+/// The limit for a tile, over all evaluations that a ray may need.
 constexpr uint64_t kMostTileRounds = 60000;
 
 constexpr unsigned kLocationLow = 0;
 constexpr unsigned kLocationHigh = 1;
 constexpr unsigned kLocationList = 2;
 
-/// Texels of the primitive buffer: centre, with the first texel of a polyhedron's faces beside it;
-/// three rows of world_to_canonical, with radius_mid, radius_slope and the enclosure's kind beside
-/// them, as its number in csgcore::Shape, or kShapeNone.
+/// Texels of each primitive in its buffer. The first holds the centre, and in w the first texel of
+/// a polyhedron's faces. The others hold the rows of world_to_canonical, and in w radius_mid,
+/// radius_slope and the enclosure's kind (its number in csgcore::Shape, or kShapeNone).
 constexpr int kPrimitiveTexels = 4;
-constexpr float kShapeNone = -1;  // of what is too thin to exist
+constexpr float kShapeNone = -1;  // marks a primitive that is too thin to exist
 
 /// Texels of surfaces: red and green; blue with flags beside it; the id. Channels are fixed-point
 /// numbers of 16 bits, from 0 to a colour that OpenSCAD's light shows as white in any direction.
@@ -93,15 +94,16 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"PHONG_DIFFUSE", csgcore::kPhongDiffuse, false},
     ShaderConstant{"PHONG_SPECULAR", csgcore::kPhongSpecular, false},
     ShaderConstant{"PHONG_EXPONENT", csgcore::kPhongExponent, false},
-    // Shares of the tolerance between which a measured thickness may be wrong about it. (Walls of
-    // 0.75 tolerances were seen to exist, walls of 1.25 not to, in one pixel of a thousand.)
+    // A thickness measured in float may lie on the wrong side of the tolerance between these
+    // multiples of it. (In one pixel of a thousand, walls of 0.75 tolerances were seen to exist and
+    // walls of 1.25 not to.)
     ShaderConstant{"LEAST_DOUBT", 0.5, false},
     ShaderConstant{"MOST_DOUBT", 1.5, false},
-    // A pixel's share that a cell's outline is pushed out: several steps of the coarsest sub-pixel
-    // grid that OpenGL allows (1/16 pixel).
+    // Pixels by which a cell's box is pushed out: several steps of the coarsest sub-pixel grid that
+    // OpenGL allows (1/16 pixel).
     ShaderConstant{"INFLATION_PX", 0.25, false},
-    // Below this cosine between ray and surface (0.0035°) the tolerance along the ray stops
-    // growing: what is so flat is as thin as an edge, and its normal's own rounding would decide.
+    // Below this cosine between ray and normal (0.0035° from the surface) the tolerance along the
+    // ray stops growing: the rounding of the normal itself would decide there.
     ShaderConstant{"GRAZING_COSINE", 1.0 / 16384, false},
     ShaderConstant{"EDGE_WIDTH_PX", 0.75, false},
 };

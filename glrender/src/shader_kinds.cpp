@@ -18,13 +18,13 @@ struct Kind {
   std::string_view source;
 };
 
-// A kind whose shader is not embedded does not compile here.
+// A kind without an embedded shader is a compile error here.
 #define GLRENDER_KIND(Name) Kind{Shape::k##Name, #Name, shader_source::k##Name},
 constexpr std::array kKinds = {CSGCORE_FOR_EACH_SHAPE(GLRENDER_KIND)};
 #undef GLRENDER_KIND
 static_assert(kKinds.size() <= 32, "a KindSet has 32 bits");
 
-/// "RoundedBox" as the names of its functions start in GLSL: "rounded_box".
+/// Returns the prefix of the kind's functions in GLSL: "rounded_box" for "RoundedBox".
 std::string glsl_name(const Kind& kind) {
   std::string result;
   for (const char c : kind.name) {
@@ -43,8 +43,8 @@ std::vector<Kind> listed(KindSet kinds) {
   return result;
 }
 
-/// Returns from the function of the ray's enclosure. The last kind needs no test, as there is no
-/// other.
+/// Writes code that returns what the function of the ray's enclosure returns. The last kind needs
+/// no comparison, since it is the only one left.
 std::string call_by_enclosure(const std::vector<Kind>& enclosures, std::string_view function,
                               std::string_view arguments, std::string_view without_kinds) {
   if (enclosures.empty()) return "  return " + std::string(without_kinds) + ";\n";

@@ -1,4 +1,4 @@
-// The shaders' code for each kind of primitive, and the code that calls it.
+// Composes the shaders' code for the kinds of primitives.
 #pragma once
 
 #include <string>
@@ -7,11 +7,13 @@
 
 namespace glrender {
 
-/// GLSL that defines what ray.glsl declares of the kinds. It holds the files of these kinds alone
-/// (shaders/sphere.glsl and so on), and code that calls their functions by the kind of a primitive.
+/// Returns GLSL that defines the functions that ray.glsl declares: the files of the given kinds
+/// alone (shaders/sphere.glsl and so on), and code that calls their functions by a primitive's
+/// kind.
 ///
-/// `enclosures` are the kinds that have a segment of their own, as primitives or as what encloses
-/// primitives of another kind; `cuts` are those other kinds, which cut the enclosure's segment.
+/// `enclosures` are the kinds of the scene's enclosures, each of which has a segment of its own.
+/// `cuts` are the kinds of the primitives whose enclosure is of another kind, which cut its
+/// segment.
 std::string kinds_source(KindSet enclosures, KindSet cuts);
 
 }  // namespace glrender

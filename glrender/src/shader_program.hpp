@@ -1,4 +1,4 @@
-// Shader variants: compiled from the embedded sources when first needed.
+// Shader variants, compiled from the embedded sources when first needed.
 #pragma once
 
 #include <map>
@@ -12,18 +12,18 @@
 
 namespace glrender {
 
-/// Everything that a variant is compiled for.
+/// The properties that select a shader variant.
 struct ProgramKey {
   Path path = Path::kSingle;
-  bool tiles = false;  // of the screen, not cells
+  bool tiles = false;  // tiles of the screen, not cells
   Shading shading = Shading::kOpenScad;
   bool perspective = true;
   bool measured = false;
-  KindSet enclosures;  // of the scene's primitives: see kinds_source()
+  KindSet enclosures;  // kinds of the scene's primitives: see kinds_source()
   KindSet cuts;
   bool conservative_depth = false;
   bool clip_zero_to_one = false;
-  bool behind = false;  // Renderer::draw_behind
+  bool behind = false;  // for Renderer::draw_behind
 
   auto operator<=>(const ProgramKey&) const = default;
 };

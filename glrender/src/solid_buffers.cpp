@@ -85,7 +85,7 @@ void TextureBuffer::upload(const void* data, size_t bytes) {
   uploaded_bytes_ += bytes;
 }
 
-/// Copies on the GPU what is there to a larger buffer.
+/// Moves the contents to a larger buffer, by a copy on the GPU.
 void TextureBuffer::grow(size_t bytes) {
   require_room(bytes);
   GLint limit = 0;
@@ -169,14 +169,15 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
   }
   enclosures_ = {};
   for (const CanonicalPrimitive& primitive : primitives) enclosures_.add(primitive.enclosure);
-  // The tolerance goes by the size of the whole.
+  // The tolerance depends on the size of the whole solid, so that any primitive may have become too
+  // thin.
   std::vector<bool> is_too_thin = too_thin(solid, thickness_tolerance);
   for (const uint32_t i : edit.added) is_too_thin_[i] = is_too_thin[i];
   if (is_too_thin != is_too_thin_) placed_at_.reset();
   is_too_thin_ = std::move(is_too_thin);
   std::vector<float> texels;
   for (const uint32_t i : edit.added) {
-    if (!placed_at_) break;  // nothing is there yet
+    if (!placed_at_) break;  // place() uploads them later
     texels.clear();
     append_texels(i, *placed_at_, texels);
     primitives_.update(i * kPrimitiveBytes, texels.data(), kPrimitiveBytes);

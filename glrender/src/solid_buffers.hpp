@@ -1,4 +1,4 @@
-// A solid's primitives as the shaders read them.
+// Holds a solid's primitives and Blists in buffers that the shaders read.
 #pragma once
 
 #include <memory>
@@ -17,18 +17,18 @@ namespace glrender {
 /// A buffer with the texture through which shaders read it.
 class TextureBuffer {
  public:
-  /// `texel_bytes` is the format's; `what` and `todo` are for messages.
+  /// `texel_bytes` is the size of the format's texel; `what` and `todo` are for messages.
   TextureBuffer(GLenum format, size_t texel_bytes, const char* what, const char* todo)
       : format_(format), texel_bytes_(texel_bytes), what_(what), todo_(todo) {}
 
   /// Replaces the contents. Throws GlError if they exceed what the driver can address.
   void upload(const void* data, size_t bytes);
-  /// Replaces, or adds, what starts at this byte, and leaves all before and behind it.
-  /// Precondition: no gap opens. Throws as above.
+  /// Writes `bytes` bytes from `first_byte` on, past the end too, and leaves all others as they
+  /// are. Precondition: first_byte is at most the number of bytes held. Throws as upload() does.
   void update(size_t first_byte, const void* data, size_t bytes);
   void bind(GLuint unit) const;
 
-  /// By all calls so far.
+  /// Bytes uploaded by all calls so far.
   uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
  private:
@@ -41,46 +41,47 @@ class TextureBuffer {
   const char* todo_;
   Buffer buffer_;
   Texture texture_;
-  size_t bytes_ = 0;     // that hold anything
-  size_t capacity_ = 0;  // of the buffer
+  size_t bytes_ = 0;     // bytes in use
+  size_t capacity_ = 0;  // bytes of the buffer
   uint64_t uploaded_bytes_ = 0;
 };
 
-/// Whose functions the shaders read.
+/// Selects the buffer of Blists: the cells' or the tiles'.
 enum class ListsOf : uint8_t { kCells, kTiles };
 
 class SolidBuffers {
  public:
-  /// Texture units 0 up to this one (exclusive) are bind's.
+  /// bind() uses the texture units from 0 up to this one (exclusive).
   static constexpr int kTextureUnits = 4;
 
-  /// Primitives thinner than `thickness_tolerance`, in world units, are left out.
+  /// `solid` must outlive this object. Primitives thinner than `thickness_tolerance`, in world
+  /// units, are left out.
   SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance);
 
-  /// Follows an edit that changed primitives in place: uploads those alone, unless others have
-  /// become too thin, or thick enough. `solid` must outlive this from now on.
+  /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if
+  /// the tolerance now leaves other primitives out. `solid` must outlive this object from now on.
   void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit,
               double thickness_tolerance);
 
   /// Uploads the primitives relative to the frame's focus, unless they are there already.
   void place(const Frame& frame);
-  /// Replaces the functions.
+  /// Replaces the Blists of the cells or of the tiles.
   void upload_tests(std::span<const csgcore::BlistTest> tests, ListsOf of = ListsOf::kCells);
-  /// Adds to the cells', behind so many.
+  /// Adds tests to the cells' Blists, after the `before` tests that are there.
   void add_tests(uint64_t before, std::span<const csgcore::BlistTest> tests);
-  /// All that was uploaded so far, but for the tiles' functions.
+  /// Bytes uploaded so far, without the tiles' Blists.
   uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program, ListsOf of) const;
 
   /// The kinds of the primitives' enclosures.
   KindSet enclosures() const { return enclosures_; }
-  /// The kinds of the primitives whose enclosure is of another kind. A kind stays among them though
-  /// an edit takes its last primitive away.
+  /// The kinds of the primitives whose enclosure is of another kind. A kind stays among them even
+  /// if an edit removes its last primitive.
   KindSet cuts() const { return cuts_; }
 
  private:
-  /// Notes which kinds the primitive needs, and numbers its faces.
+  /// Notes which kinds the primitive needs, and adds its faces to faces_.
   void take_in(const csgcore::CanonicalPrimitive& primitive);
   bool has_faces() const { return !faces_.empty(); }
   void append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels);
@@ -88,9 +89,9 @@ class SolidBuffers {
   const csgcore::Solid* solid_;
   PolyhedronTexels faces_;
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
-      numbered_;  // that faces_ knows by address
+      numbered_;  // keeps alive what faces_ knows by address
   TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_;
-  std::vector<bool> is_too_thin_;  // by primitive
+  std::vector<bool> is_too_thin_;  // by primitive's index
   std::optional<Vec3> placed_at_;
   KindSet enclosures_, cuts_;
 };

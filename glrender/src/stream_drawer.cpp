@@ -7,8 +7,8 @@
 namespace glrender {
 namespace {
 
-/// The corners of a box as one triangle strip, wound counter-clockwise as seen from outside. Corner
-/// i is at the upper end of x, y, z where bits 0, 1, 2 of i are set.
+/// The corners of a box as one triangle strip, wound counter-clockwise as seen from outside. Bits
+/// 0, 1 and 2 of a corner's number say whether it is at the upper end of x, y and z.
 constexpr uint8_t kBoxStrip[] = {3, 7, 1, 5, 4, 7, 6, 3, 2, 1, 0, 4, 2, 6};
 
 }  // namespace
@@ -30,19 +30,19 @@ StreamDrawer::StreamDrawer()
 
 void StreamDrawer::begin(const Pass& pass) const {
   glBindVertexArray(vertex_array_.name());
-  // Tiles lie side by side.
+  // Tiles do not overlap, so that they need no depth test.
   (pass.tiles ? glDisable : glEnable)(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glEnable(GL_DEPTH_CLAMP);
   glEnable(GL_CULL_FACE);
-  // A mirror turns the order of a box's corners on the screen round; tiles lie on the screen.
+  // A mirroring view reverses the winding of a box on the screen. Tiles are wound on the screen.
   const csgcore::View& view = pass.frame.view;
   const bool is_mirrored = glm::dot(glm::cross(view.right, view.up), view.forward) > 0;
   glFrontFace(is_mirrored && !pass.tiles ? GL_CW : GL_CCW);
   if (conservative_depth_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-/// All streams into one buffer, in the order in which draw() takes them.
+/// Writes all streams into one buffer, in the order in which draw() reads them.
 void StreamDrawer::upload(const InstanceStreams& streams) {
   glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(streams.size() * sizeof(Instance)), nullptr,
@@ -93,8 +93,8 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
   key.cuts = buffers.cuts();
   key.clip_zero_to_one = conservative_depth_;
   key.behind = pass.first != 0;
-  // A back face lies behind the hit, so that its depth promises nothing; a box's own face is at
-  // the depth of the fragment, but for rounding.
+  // A hit behind a cell's back face may be nearer than that face, so that its depth promises
+  // nothing. With kBoxes the fragment's depth is the face's own, but for rounding.
   key.conservative_depth = conservative_depth_ && front && path != Path::kBoxes && !pass.tiles;
   const GLuint program = programs_.get(key);
   glUseProgram(program);

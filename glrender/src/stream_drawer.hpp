@@ -1,4 +1,4 @@
-// Instance streams on the GPU, and what a pass over them draws.
+// Draws streams of instances.
 #pragma once
 
 #include "frame.hpp"
@@ -10,16 +10,16 @@
 
 namespace glrender {
 
-/// One pass over the cells or tiles: a ray for each pixel.
+/// One pass over the cells or tiles, with a ray for each pixel.
 struct Pass {
   Frame frame;
   FrameSettings settings;
-  double overlap = 0;       // of the cells: csgcore::cell_overlap
-  double tolerance = 0;     // thinnest piece that exists, world units
+  double overlap = 0;       // see csgcore::cell_overlap
+  double tolerance = 0;     // thinner pieces do not exist; world units
   Vec3 light_world{0.0};    // csgcore::phong_light
-  bool tiles = false;       // of the screen, not cells
-  bool eye_inside = false;  // rays start in the solid: what is seen is its complement
-  GLuint first = 0;         // measured texture of the picture that this one lies behind; 0: none
+  bool tiles = false;       // tiles of the screen, not cells
+  bool eye_inside = false;  // rays start in the solid, and its complement is drawn
+  GLuint first = 0;         // measured texture of the picture in front of this one; 0: none
 };
 
 /// Owns the buffer of instances and the programs.
@@ -27,12 +27,12 @@ class StreamDrawer {
  public:
   StreamDrawer();
 
-  /// Sets the state that the pass needs, in whatever framebuffer is bound.
+  /// Sets the GL state that the pass needs, and leaves the bound framebuffer.
   void begin(const Pass& pass) const;
   /// Replaces the instances.
   void upload(const InstanceStreams& streams);
-  /// Draws the instances, which must be those uploaded, into the framebuffer that is bound: one
-  /// instanced call for each path and side, so that the calls do not grow with the cells.
+  /// Draws the instances, which must be those uploaded, into the bound framebuffer. It takes one
+  /// instanced call for each path and side, however many cells there are.
   void draw(const InstanceStreams& streams, const Pass& pass, const SolidBuffers& buffers,
             FrameStats& stats);
 

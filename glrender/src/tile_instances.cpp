@@ -10,7 +10,7 @@ namespace {
 using csgcore::BlistTest;
 using csgcore::ListedTile;
 
-/// Every segment is found once, and the function evaluated before and behind each of its ends.
+/// Every segment is found once, and the Blist is evaluated before and behind each segment's ends.
 bool is_too_long(const csgcore::Solid& solid, std::span<const BlistTest> tests) {
   const uint64_t evaluations = 2 * tests.size() + 2;
   return rounds(solid, tests) + evaluations * tests.size() > kMostTileRounds;

@@ -10,8 +10,8 @@ namespace glrender {
 /// Throws ListsTooLong.
 [[noreturn]] void refuse_lists();
 
-/// Adds all tiles to the front faces, by the path of their lists. `eye_inside` as in
-/// InstanceSorter; no list is longer than kLongList. Throws ListsTooLong.
+/// Adds all tiles to the front faces, each by the path of its list. `eye_inside` means what it
+/// means in InstanceSorter. Throws ListsTooLong. Precondition: no list is longer than kLongList.
 void add_tiles(const csgcore::TileLists& lists, const Frame& frame, const csgcore::Solid& solid,
                bool eye_inside, InstanceStreams& streams);
 

@@ -45,8 +45,8 @@ uint64_t rounds(const csgcore::Solid& solid, std::span<const BlistTest> tests) {
   return sum;
 }
 
-/// Generous: the back faces serve any cell, front faces only those that the eye is surely outside
-/// of after the vertex shader has pushed them out.
+/// Returns true when in doubt: back faces work for any cell, front faces only for cells that do not
+/// reach the eye once the vertex shader has pushed them out.
 bool InstanceSorter::surrounds_eye(const Box& box) const {
   if (!frame_.perspective()) return false;
   const Vec3 from_eye =
@@ -78,8 +78,8 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uin
   if (boxes_) {
     push(Path::kBoxes, leaf.box, 0, 0);
   } else if (leaf.kind == LeafKind::kUnion && !(eye_inside_ && leaf.test_count > 1)) {
-    // Paper §3.3.3: the depth buffer unites. A primitive is looked for in no more of the cell than
-    // its own box; its complement in all of it.
+    // The depth buffer unites the operands (paper §3.3.3). A primitive is sought only in its own
+    // bounds within the cell; its complement in the whole cell.
     for (uint32_t i = 0; i < leaf.test_count; ++i) {
       Box box = leaf.box;
       if (!tests[i].complement) {
@@ -90,7 +90,7 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uin
       if (eye_inside_) {
         push(Path::kList, box, first_test + i, 1);
       } else {
-        // How many operands behind it may have the same face.
+        // The number of later operands that may have the same face.
         const uint32_t later = leaf.test_count <= kSharedFaces ? leaf.test_count - 1 - i : 0;
         push(later > 0 ? Path::kUnion : Path::kSingle, box, first_test + i, later);
       }
@@ -137,7 +137,7 @@ class Frustum {
  private:
   struct Plane {
     Vec3 outward;
-    double offset;  // outward·x > offset: outside
+    double offset;  // a point x is outside if outward·x > offset
   };
   std::array<Plane, 4> planes_{};
 };

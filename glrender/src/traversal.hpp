@@ -1,4 +1,4 @@
-// The kd-tree in front-to-back order (paper §2.3), as instances for the GPU.
+// Turns the leaves of the kd-tree, front to back (paper §2.3), into instances for the GPU.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct Instance {
   uint32_t test_count;
 };
 
-/// Instances by path, each in front-to-back order. Cells around the eye are drawn by their back
-/// faces, as the front ones lie behind it.
+/// Instances by path, each in front-to-back order. A cell around the eye is drawn by its back
+/// faces, since its front faces lie behind the eye.
 struct InstanceStreams {
   std::array<std::vector<Instance>, kPaths> front_faces;
   std::array<std::vector<Instance>, kPaths> back_faces;
@@ -27,14 +27,14 @@ struct InstanceStreams {
   uint64_t size() const;
 };
 
-/// Loop rounds that the shaders take for one evaluation of the function, about.
+/// Estimates how many loop rounds the shaders take to evaluate the Blist once.
 uint64_t rounds(const csgcore::Solid& solid, std::span<const csgcore::BlistTest> tests);
 
 /// Sorts leaves into streams.
 class InstanceSorter {
  public:
-  /// `eye_inside`: what is drawn is the solid's complement, to which only the general path applies.
-  /// `short_list`: the longest list for Path::kShortList.
+  /// `eye_inside`: the solid's complement is drawn, for which only the general paths work.
+  /// `short_list`: the longest list for Path::kShortList. `boxes`: the cells themselves are drawn.
   InstanceSorter(const Frame& frame, const csgcore::Solid& solid, uint32_t short_list,
                  double overlap, bool eye_inside, bool boxes, InstanceStreams& streams)
       : frame_(frame),
@@ -45,8 +45,8 @@ class InstanceSorter {
         boxes_(boxes),
         streams_(streams) {}
 
-  /// `tests` is the leaf's function, whose place on the GPU starts at `first_test`. Throws
-  /// GlError for a cell of more than kMostRounds.
+  /// Adds a leaf. `tests` is its Blist, which starts at `first_test` on the GPU. Throws GlError if
+  /// the Blist takes more than kMostRounds.
   void add(const csgcore::Leaf& leaf, std::span<const csgcore::BlistTest> tests,
            uint64_t first_test);
 
@@ -63,14 +63,15 @@ class InstanceSorter {
   InstanceStreams& streams_;
 };
 
-/// A subdivision's tests as they go to the GPU: without those of leaves that nothing draws,
-/// which a subdivision with a threshold has dropped.
+/// A subdivision's tests as they go to the GPU. Leaves that are not drawn, such as those that a
+/// threshold has dropped, have none there.
 struct PackedTests {
   std::vector<csgcore::BlistTest> tests;
-  std::vector<uint64_t> first_test;  // by leaf, where its tests start
+  std::vector<uint64_t> first_test;  // by leaf: where its tests start
 };
 
-/// Of the leaves from `first_leaf` on, behind so many tests that are packed already.
+/// Packs the leaves from `first_leaf` on. Their tests will follow `packed_before` tests that are on
+/// the GPU already.
 PackedTests pack_tests(const csgcore::Subdivision& subdivision, size_t first_leaf = 0,
                        uint64_t packed_before = 0);
 

@@ -1,4 +1,4 @@
-// The times of a scene: which there are, and what they are of.
+// Tests which times of a scene are measured, and what they include.
 #include "bench/measurement.hpp"
 
 #include <gmock/gmock.h>
@@ -112,7 +112,7 @@ TEST(Measurement, AnEmptyModelIsNotMeasured) {
   EXPECT_THAT(result.left_out, IsEmpty());
 }
 
-/// Whether OpenGL can be had; or else why not.
+/// Returns why OpenGL is not available; nothing if it is.
 std::optional<std::string> why_no_gl() {
   Settings settings = few(RendererKind::kAuto);
   settings.rules = {Rule{}};
@@ -148,7 +148,7 @@ TEST(Measurement, OfOpenGlAlone) {
   EXPECT_GT(result.rules[1].gl->wrong_pixels, 0u);
 }
 
-// Thinner than what OpenGL draws, thicker than what the CPU leaves out.
+// A wall thinner than OpenGL draws, and thicker than the CPU leaves out.
 TEST(Measurement, AWrongPictureHasNoTimes) {
   if (const auto reason = why_no_gl()) GTEST_SKIP() << *reason;
   const csgcore::Scene scene =

@@ -1,4 +1,4 @@
-// What counts as a wrong picture.
+// Tests which pictures count as wrong.
 #include "bench/picture_check.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(PictureCheck, AnotherPrimitiveOrAnotherFaceIsWrong) {
   image.id[0] = csgcore::kNoPrimitive;
   image.normal[4] = glm::vec3(0, 1, 0);
   EXPECT_EQ(wrong_pixels(image, picture()), 2u);
-  image.id[4] = 8;  // in two ways, and yet one pixel
+  image.id[4] = 8;  // wrong in two ways, but one pixel
   EXPECT_EQ(wrong_pixels(image, picture()), 2u);
 }
 

@@ -1,4 +1,4 @@
-// `scadray bench` as a program: exit status, tables, JSON.
+// Tests `scadray bench` as a program: exit status, tables, JSON.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -33,7 +33,7 @@ std::string example(const std::string& name) {
 std::vector<std::string> keys_of(const json& object) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;  // in the order of the alphabet
+  return keys;  // in alphabetical order
 }
 
 class Bench : public testing::Test {
@@ -47,7 +47,7 @@ class Bench : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read("out"), folder_.read("err")};
   }
 
-  /// Small pictures by the CPU, each once.
+  /// Measures small pictures by the CPU, each once.
   Outcome run_few(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(),
                      {"--renderer=cpu", "--repeat=1", "--time=0", "--imgsize=80,60"});
@@ -189,7 +189,7 @@ TEST_F(Bench, AWrongPictureIsAFailure) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("tiles, cpu"), Not(HasSubstr("gl: "))));
 }
 
-// A file that cannot be read is found before the first is measured.
+// A file that cannot be read is found before the first one is measured.
 TEST_F(Bench, Failures) {
   const auto expect_failure = [&](const std::vector<std::string>& arguments,
                                   const std::string& text) {

@@ -1,8 +1,8 @@
-// What parts cost that share faces, from 10 to 10,000 of them: equal ones, plates that are flush,
-// prisms on one base, bars about one axis, flush pockets, a common part of slabs. `prepare_ms` is
-// once per file, `trace_ms` a frame of 640×480 by two threads; the time that Google Benchmark
-// prints is their sum. At the end stands, for each kind, by which power of their number it grows,
-// at most, from one number to ten times as many. (Issue 19: at most 1.2.)
+// Measures the cost of parts that share faces, from 10 to 10,000 of them: equal ones, plates that
+// are flush, prisms on one base, bars about one axis, flush pockets, an intersection of slabs.
+// `prepare_ms` is once per file, `trace_ms` a frame of 640×480 by two threads; the time that Google
+// Benchmark prints is their sum. At the end it prints for each kind the largest exponent of the
+// growth from one number of parts to ten times as many. (Issue 19: at most 1.2.)
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ Affine turned(double radians) {
   return {Mat3{Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1)}, Vec3(0.0)};
 }
 
-/// One of the places on a square of side 20, spread alike for any number of them.
+/// Returns one of the places on a square of side 20, which are spread alike for any number of them.
 Vec3 place(uint32_t i) {
   const auto share = [i](double step) { return std::fmod(step * i, 1.0); };
   return {20 * share(0.754877666), 20 * share(0.569840291), 0};

@@ -1,8 +1,9 @@
-// What an edit of one primitive costs, against making everything anew: from the later scene to its
-// picture, by screen tiles and by a kd-tree's cells, and the kd-tree alone. Each iteration edits
-// another primitive of the same design, and does both; before any time is taken, their pictures are
-// compared. `ratio` and `least_ratio` are the edit's median and minimum over those of the whole;
-// the time that Google Benchmark prints is the edit's. (Issue 5: less than half for CS10000.)
+// Measures the cost of an edit of one primitive, compared with making everything anew: from the
+// later scene to its picture, by screen tiles and by a kd-tree's cells, and for the kd-tree alone.
+// Each iteration edits another primitive of the same design, and draws it in both ways; their
+// pictures are compared before any time is taken. `ratio` and `least_ratio` are the edit's median
+// and minimum over those of the whole; the time that Google Benchmark prints is the edit's. (Issue
+// 5: less than half for CS10000.)
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -90,7 +91,7 @@ class Edits {
     }
   }
 
-  /// The picture of the later scene, all of it anew.
+  /// Draws the later scene, with all of it made anew.
   void draw_whole(Method method, Image& image) {
     made_ = std::make_unique<Made>(later_);
     if (method == Method::kCells) {
@@ -101,7 +102,7 @@ class Edits {
     }
   }
 
-  /// The same from what was made of the earlier one; `image` shows that.
+  /// Draws the later scene from what was made of the earlier one, whose picture `image` is.
   void draw_edit(Method method, Subdivision& subdivision, Image& image) {
     const SceneEdit edit = csgcore::compare(earlier_.scene, later_);
     made_ = std::make_unique<Made>(later_, earlier_, edit);
@@ -123,7 +124,7 @@ class Edits {
     return subdivision.update(made_->solid, edit, edit.model);
   }
 
-  /// For subdivide_…: what both start from.
+  /// Makes what subdivide_… starts from in both cases.
   void make_later() {
     made_ = std::make_unique<Made>(later_, earlier_, csgcore::compare(earlier_.scene, later_));
   }

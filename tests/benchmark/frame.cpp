@@ -23,8 +23,7 @@ using csgcore::TraceOptions;
 using csgcore::TraceStats;
 using csgcore::View;
 
-/// OpenSCAD's default colours: three that differ, so that pictures tell faces
-/// apart.
+/// OpenSCAD's default colours. They are three different ones, so that pictures tell faces apart.
 FrameSettings cornfield() {
   FrameSettings settings;
   settings.background = glm::vec3{0xff, 0xff, 0xe5} / 255.0f;

@@ -1,5 +1,4 @@
-// What the tracer's benchmarks share: scenes made ready to be drawn, the check of their pictures,
-// and times.
+// Scenes prepared for drawing, the check of their pictures, and times, for the tracer's benchmarks.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -16,14 +15,14 @@
 
 namespace frame_benchmark {
 
-/// How a ray finds what it can meet.
+/// Where a ray's candidate primitives come from.
 enum class Method { kTiles, kCells };
 
 struct Drawing {
   Method method = Method::kTiles;
   unsigned threads = 2;
 };
-/// "tiles/threads=2".
+/// Returns "tiles/threads=2".
 std::string name_of(const Drawing& drawing);
 
 struct PictureSize {
@@ -31,10 +30,10 @@ struct PictureSize {
   uint32_t height_px = 480;
 };
 
-/// OpenSCAD's default camera, which views all of the box (frontend/OPENSCAD.md, "Camera").
+/// Returns OpenSCAD's default camera, which views all of the box (frontend/OPENSCAD.md, "Camera").
 csgcore::View default_view(const csgcore::Box& view_box, const PictureSize& size = {});
 
-/// A scene, made ready once, and the view that it is drawn from.
+/// A scene, prepared once, and its view.
 class Subject {
  public:
   Subject(csgcore::Scene scene, const csgcore::View& view);
@@ -42,13 +41,13 @@ class Subject {
   const csgcore::Scene& scene() const { return scene_; }
   const csgcore::View& view() const { return view_; }
   const csgcore::Solid& solid() const { return solid_; }
-  /// By two threads, at the first call.
+  /// Returns the subdivision, which two threads make at the first call.
   const csgcore::Subdivision& subdivision() const;
-  /// What that took.
+  /// The time that it took.
   double subdivide_ms() const;
 
   csgcore::TraceStats draw(const Drawing& drawing, csgcore::Image& image) const;
-  /// A frame that finds out, too, what was skipped.
+  /// Draws a frame that also finds out what was skipped.
   csgcore::TraceStats count_skipped(const Drawing& drawing) const;
   csgcore::Hits hits() const;
 
@@ -63,19 +62,19 @@ class Subject {
   mutable double subdivide_ms_ = 0;
 };
 
-/// Sees the same primitives at the same places, but for pixels on a silhouette: the grown solid's
-/// larger box moves the rays' origins, and so their last bits.
+/// Returns whether both see the same primitives at the same places, except at silhouettes: the
+/// grown solid's larger box moves the rays' origins, and so changes their last bits.
 bool sees_the_same(const Subject& alone, const Subject& grown);
 
-/// Ends the program, so that no time of a wrong answer is seen.
+/// Ends the program, so that nobody sees a time of a wrong answer.
 [[noreturn]] void give_up(const std::string& what);
 
-/// Holds what the drawing sees at some hundred pixels against the reference, then the whole picture
-/// against the first that was drawn of the subject: all are the same, bit for bit.
+/// Compares what the drawing sees at some hundred pixels with the reference, and then the whole
+/// picture with the first that was drawn of the subject: all must be equal, bit for bit.
 class AnswerCheck {
  public:
   explicit AnswerCheck(const Subject& subject) : subject_(subject) {}
-  /// Gives up if it is wrong.
+  /// Gives up if the drawing is wrong.
   void require_right(const Drawing& drawing);
 
  private:
@@ -83,15 +82,15 @@ class AnswerCheck {
   csgcore::Image first_;
 };
 
-/// What repetitions of the same work took, in ms.
+/// The times of repetitions of the same work, in ms.
 class Times {
  public:
   void measure(const std::function<void()>& work);
   double last() const { return wall_.back(); }
   double least() const;
   double median() const;
-  /// Median of the processor's time of all threads: what other programs on the machine take does
-  /// not count, nor does it tell how well the threads share the work.
+  /// The median of the processor time of all threads. It includes neither the load by other
+  /// programs nor how well the threads share the work.
   double cpu() const;
 
  private:
@@ -100,7 +99,7 @@ class Times {
 
 double time_ms(const std::function<void()>& work);
 
-/// The counters of one frame.
+/// Reports the counters of one frame.
 void report(const csgcore::TraceStats& stats, benchmark::State& state);
 
 }  // namespace frame_benchmark

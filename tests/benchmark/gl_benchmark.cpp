@@ -1,9 +1,9 @@
 // Times a frame of OpenGL's two techniques, frame by frame in turn, by OpenSCAD's default camera:
 //   GALLIUM_DRIVER=llvmpipe gl_benchmark
-// Medians of the frames, in ms: …_ms is the whole without reading it back, of tiles also what the
-// lists and their upload take of it. …_cpu_ms is the processor's time of all threads, reading back
-// included: what other programs take does not count. …_wrong: pixels that are not the CPU's, in hit
-// or miss or by 1e-4 of the model's size.
+// It prints medians of the frames, in ms. …_ms is a whole frame without reading it back, and, for
+// tiles, the part of it that the lists and their upload take. …_cpu_ms is the processor time of all
+// threads, reading back included; it does not depend on other programs. …_wrong counts the pixels
+// that differ from the CPU's, in hit or miss or by 1e-4 of the model's size.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

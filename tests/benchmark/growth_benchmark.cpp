@@ -1,5 +1,6 @@
-// What parts that cannot be seen cost: 1,000 primitives that can be are joined by up to 99,000 that
-// are off the screen, hidden, inside the solid, cancelled by the operations or between the samples.
+// Measures the cost of parts that cannot be seen: 1,000 primitives that can be seen are joined by
+// up to 99,000 that are off the screen, hidden, inside the solid, cancelled by the operations or
+// between the samples.
 // Before any time is taken, the picture is checked: it must stay the same. Each iteration draws a
 // frame of the 1,000 alone, too: `ratio`, `least_ratio` and `cpu_ratio` compare the medians, the
 // minima and the processor's times of the two, taken at the same time. The time that Google
@@ -32,7 +33,7 @@ struct Checked {
   frame_benchmark::AnswerCheck answer;
 };
 
-/// Made once, and kept for as long as benchmarks of the same kind of scene follow.
+/// Returns the scene, which is kept as long as benchmarks of the same kind of scene follow.
 Checked& scene_of(const GrowthScene& growth, uint32_t unseen) {
   static const char* kept = nullptr;
   static std::map<uint32_t, std::unique_ptr<Checked>> scenes;
@@ -99,7 +100,7 @@ void add(const GrowthScene& growth, uint32_t unseen, const Drawing& drawing) {
 
 void add_all() {
   for (const GrowthScene& growth : frame_benchmark::growth_scenes()) {
-    // Against itself: how much of a ratio is noise.
+    // Compares the scene with itself, which shows how much of a ratio is noise.
     for (const uint32_t unseen : {0u, 9'000u, 99'000u}) add(growth, unseen, {Method::kTiles, 2});
     add(growth, 99'000, {Method::kTiles, 1});
     add(growth, 99'000, {Method::kCells, 2});

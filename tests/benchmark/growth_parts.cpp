@@ -14,10 +14,10 @@ using csgcore::Mat3;
 using csgcore::Op;
 using csgcore::View;
 
-/// As those of CSn with n = 2000, of which half are seen.
+/// The radius in CSn with n = 2000, half of whose spheres are seen.
 const double kHole = 20 / std::sqrt(2.0 * kVisiblePrimitives);
 
-/// A rotation whose third column is `axis`.
+/// Returns a rotation whose third column is `axis`.
 Mat3 turned_to(const Vec3& axis) {
   const Vec3 helper = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 x = glm::normalize(glm::cross(helper, axis));
@@ -54,7 +54,8 @@ bool is_off_body(const Place& place) {
   return std::hypot(p.x, p.y) > body || std::abs(p.z) > body;
 }
 
-/// Near some point on the way to its centre: there they are less than the ball's reach apart.
+/// Looks on the way to the centre, up to two reaches before it, for a point about which a ball of
+/// the same reach is in the core.
 bool is_in_shadow(const Place& place) {
   constexpr int kSteps = 200;
   const Vec3 eye = growth_view().eye;

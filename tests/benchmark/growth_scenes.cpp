@@ -15,7 +15,7 @@ using csgcore::View;
 
 // (a) Off the screen.
 
-/// Beside, above and below what the picture shows, and behind the eye.
+/// The parts are beside, above and below what the picture shows, and behind the eye.
 Scene off_screen(uint32_t unseen) {
   Composer composer;
   composer.add_body();
@@ -32,7 +32,7 @@ Scene off_screen(uint32_t unseen) {
   return composer.finish();
 }
 
-/// As if a person had zoomed in: holes in what the picture does not show of the plate.
+/// Holes in those parts of the plate that the picture does not show, as if a person had zoomed in.
 Scene off_screen_holes(uint32_t unseen) {
   constexpr double kPlate = 300;
   Composer composer;
@@ -90,7 +90,7 @@ Scene behind_wall(uint32_t unseen) {
   return composer.finish();
 }
 
-/// Voids that no ray gets to.
+/// Voids that no ray reaches.
 Scene voids(uint32_t unseen) {
   Composer composer;
   composer.open_body();
@@ -114,7 +114,7 @@ Scene inside(uint32_t unseen) {
 
 // (d) Cancelled by the operations.
 
-/// Between the body and the eye, and beside the body.
+/// Parts are subtracted between the body and the eye, and beside the body.
 Scene subtracted_from_nothing(uint32_t unseen) {
   Composer composer;
   composer.open_body();
@@ -126,7 +126,7 @@ Scene subtracted_from_nothing(uint32_t unseen) {
   return composer.finish();
 }
 
-/// In front of the body's left half.
+/// A ball in front of the body's left half.
 Place ball_in_front() { return {on_screen(-0.3, 0, 0.6 * distance_to_body()), 4}; }
 
 void add_union_in(Composer& composer, const Place& ball, uint32_t count) {
@@ -163,14 +163,14 @@ Scene intersected_beside(uint32_t unseen) {
   return intersected_with({on_screen(0.7, 0, 0.6 * distance_to_body()), 4}, unseen);
 }
 
-/// On the screen the two lie over one another.
+/// The two are one behind the other.
 Scene intersected_behind(uint32_t unseen) {
   return intersected_with({on_screen(-0.3, 0, 0.8 * distance_to_body()), 4}, unseen);
 }
 
 // (e) Between the samples.
 
-/// Around pixels' corners, a tenth of a pixel across, in front of the body and beside it.
+/// Parts around pixels' corners, a tenth of a pixel across, in front of the body and beside it.
 Scene between_samples(uint32_t unseen) {
   Composer composer;
   composer.add_body();

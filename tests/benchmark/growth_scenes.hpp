@@ -9,18 +9,18 @@
 
 namespace frame_benchmark {
 
-/// The primitives that make up the visible body of each scene.
+/// The number of primitives of each scene's visible body.
 constexpr uint32_t kVisiblePrimitives = 1000;
 
 struct GrowthScene {
   const char* name;
-  /// The visible body, its primitives first, and so many primitives that growth_view() does not
-  /// show.
+  /// Makes the visible body, whose primitives come first, and `unseen` primitives that
+  /// growth_view() does not show.
   csgcore::Scene (*make)(uint32_t unseen);
 };
 std::span<const GrowthScene> growth_scenes();
 
-/// The view of all of them.
+/// The view of all these scenes.
 const csgcore::View& growth_view();
 
 }  // namespace frame_benchmark

@@ -1,4 +1,4 @@
-// Designs by the names that benchmarks have.
+// Finds designs by the names that benchmarks have.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct Design {
   csgcore::Box view_box;
 };
 
-/// CSn or CCn, in memory; or an example's. Gives up where that cannot be read.
+/// Makes CSn or CCn in memory, or reads an example. Gives up if it cannot be read.
 Design make_design(const std::string& name);
 
 }  // namespace frame_benchmark

@@ -1,4 +1,5 @@
-// How fast a .csg becomes a syntax tree (issue 2: at least 100 MB/s on cs10000.csg), and a scene.
+// Measures how fast a .csg becomes a syntax tree (issue 2: at least 100 MB/s on cs10000.csg), and a
+// scene.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -43,7 +44,7 @@ BENCHMARK(parse_carved_cylinder)
     ->Arg(1'000'000)
     ->Unit(benchmark::kMillisecond);
 
-/// The same text straight to a scene: `parse` and `import` of --stats.
+/// Makes a scene of the same text: `parse` and `import` of --stats.
 void import_carved_cylinder(benchmark::State& state) {
   const int spheres = static_cast<int>(state.range(0));
   const std::string text = carved_cylinder(spheres);
@@ -62,7 +63,7 @@ BENCHMARK(import_carved_cylinder)
     ->Arg(1'000'000)
     ->Unit(benchmark::kMillisecond);
 
-/// Rotations: every number has six digits and a sign or an exponent.
+/// Parses rotations, in which every number has six digits and a sign or an exponent.
 void parse_rotations(benchmark::State& state) {
   std::string text;
   for (int i = 0; i < 10'000; ++i) {

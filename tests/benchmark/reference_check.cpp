@@ -11,8 +11,8 @@ namespace {
 
 using csgcore::Hits;
 
-/// Seen pixels, and seeded ones of any kind: most of a wrong answer's wrong pixels are hits, but
-/// all of them may be missing.
+/// Returns pixels that show something, and seeded ones of any kind: most wrong pixels of a wrong
+/// answer are hits, but all of them may be missing.
 std::vector<size_t> sampled_pixels(const Hits& hits) {
   constexpr size_t kHits = 80;
   constexpr size_t kAny = 40;

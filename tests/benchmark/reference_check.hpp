@@ -1,4 +1,4 @@
-// A picture's hits, held against the tests' reference.
+// Compares a picture's hits with the tests' reference.
 #pragma once
 
 #include "csgcore/scene.hpp"
@@ -7,7 +7,7 @@
 
 namespace frame_benchmark {
 
-/// At some hundred pixels: what the reference knows to be so is so.
+/// Returns whether some hundred pixels show what the reference does, unless that is undecided.
 bool agrees_with_reference(const csgcore::Scene& scene, const csgcore::View& view,
                            const csgcore::Hits& hits);
 

@@ -27,7 +27,7 @@ using csgcore::Vec3;
 
 enum class Model { kSpheres, kCones };
 
-/// Made once: the benchmarks of one model share it.
+/// Returns the solid, which the benchmarks of one model share.
 const Solid& solid_of(Model model, uint32_t n) {
   static std::map<std::pair<Model, uint32_t>, std::unique_ptr<Solid>> solids;
   auto& solid = solids[{model, n}];
@@ -47,7 +47,8 @@ SubdivisionOptions exact(uint32_t leaf_primitives, csgcore::SplitRule split, uns
   return options;
 }
 
-/// The paper's rule for a 640×480 picture that the model fills, OpenSCAD's field of view.
+/// Returns the paper's rule for a 640×480 picture that the model fills, with OpenSCAD's field of
+/// view.
 SubdivisionOptions paper(double threshold_px, unsigned threads) {
   csgcore::View view;
   view.eye = {0, -90, 0};
@@ -68,7 +69,7 @@ bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) 
   });
 }
 
-/// A point in every leaf of a sample.
+/// Checks a point in every leaf of a sample.
 bool is_right(const Subdivision& subdivision) {
   constexpr size_t kSampledLeaves = 2000;
   std::mt19937 random(1);

@@ -35,7 +35,7 @@ struct Checked {
   frame_benchmark::AnswerCheck answer;
 };
 
-/// Made once: the benchmarks of one design share it.
+/// Returns the design, which its benchmarks share.
 Checked& design_of(const std::string& name, const PictureSize& size) {
   static std::map<std::pair<std::string, uint32_t>, std::unique_ptr<Checked>> designs;
   auto& design = designs[{name, size.width_px}];
@@ -49,7 +49,7 @@ struct Run {
   PictureSize size;
   SimdLevel widest = SimdLevel::kAvx512;
   bool fresh_image = false;
-  double bar_ms = 0;  // the issue's, of the median; 0: none
+  double bar_ms = 0;  // the bar for the median; 0: none
 };
 
 void report_times(const Times& times, double bar_ms, benchmark::State& state) {
@@ -82,7 +82,7 @@ void draw_frames(benchmark::State& state, const Run& run) {
   csgcore::limit_simd_level(SimdLevel::kAvx512);
 }
 
-/// What is done once per file, between the import and the first picture.
+/// Does what is done once per file, between the import and the first picture.
 void prepare(benchmark::State& state, const std::string& name) {
   const Scene scene = frame_benchmark::make_design(name).scene;
   Times times;
@@ -136,7 +136,7 @@ void add_fresh_image(const std::string& design) {
   add("fresh_image/" + design + "/" + name_of(run.drawing), run);
 }
 
-/// Those that this machine has.
+/// Adds the levels that this machine has.
 void add_simd_levels(const std::string& design) {
   const std::pair<SimdLevel, const char*> levels[] = {{SimdLevel::kAvx512, "avx512"},
                                                       {SimdLevel::kAvx2, "avx2"},

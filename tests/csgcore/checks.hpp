@@ -1,4 +1,4 @@
-// What the tests of csgcore share: random input, and what holds by definition.
+// Random input, and truths by definition, for the tests of csgcore.
 #pragma once
 
 #include <random>
@@ -13,7 +13,7 @@ namespace csgcore::checks {
 double uniform(std::mt19937& random, double low, double high);
 Vec3 random_point(std::mt19937& random, const Box& box);
 
-/// Of any kind, under a random affine map; often one that keeps balls balls.
+/// Returns a primitive of any kind under a random affine map, which often keeps balls balls.
 Primitive random_primitive(std::mt19937& random,
                            const test_support::SizeRange& range = test_support::SizeRange{});
 
@@ -21,19 +21,21 @@ using test_support::holds;
 using test_support::random_direction;
 using test_support::surface_point;
 
-/// The scene's model, by the definition above and test_support::evaluate_tree.
+/// Returns whether the scene's model contains the point, by the definition above and
+/// test_support::evaluate_tree.
 bool holds(const Scene& scene, const Vec3& point_world);
 
-/// The value of a leaf's function at a point.
+/// Returns the value of a leaf's Blist at a point.
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point_world);
 
 using test_support::scene_of;
 
-/// A view of the box from outside, along `direction` (unit).
+/// Returns a view of the box from outside, along `direction` (unit).
 View view_of(const Box& box, const Vec3& direction, double distance);
 
-/// Fails unless, at random points of each leaf's cell, the leaf's function is the scene's; kinds
-/// are what the enum says; and the leaves' cells make up the root box.
+/// Fails unless, at random points of each leaf's cell, the leaf's Blist equals the scene's
+/// function, the kinds of leaves are what the enum says, and the leaves' cells make up the root
+/// box.
 void expect_correct(const Subdivision& subdivision, const Scene& scene, int points_per_leaf);
 
 }  // namespace csgcore::checks

@@ -15,7 +15,7 @@ Color random_color(std::mt19937& random) {
   return {channel(), channel(), channel(), 1};
 }
 
-/// Of any kind, smaller than what most scenes are.
+/// Returns a primitive of any kind, smaller than most in the scene.
 Primitive new_primitive(std::mt19937& random) {
   Primitive primitive = random_primitive(random, {.most_fragments = 8});
   const double scale = uniform(random, 0.1, 0.8);
@@ -55,7 +55,7 @@ std::vector<size_t> Design::places_of(bool primitives) const {
   return places;
 }
 
-/// Of all that hold the place: so many nodes more.
+/// Resizes all subtrees that contain the place by that many nodes.
 void Design::resize_around(size_t place, int by) {
   for (size_t i = 0; i < place; ++i) {
     if (i + nodes_[i].size > place) nodes_[i].size += static_cast<uint32_t>(by);
@@ -88,7 +88,7 @@ void Design::insert(std::mt19937& random) {
   const auto places = places_of(false);
   if (places.empty()) return;
   const size_t parent = places[pick(random, places.size())];
-  // Before one of the operands, or behind the last.
+  // Gaps before each operand, and after the last.
   std::vector<size_t> gaps{parent + 1};
   while (gaps.back() < parent + nodes_[parent].size) {
     gaps.push_back(gaps.back() + nodes_[gaps.back()].size);

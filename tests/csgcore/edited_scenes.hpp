@@ -1,4 +1,4 @@
-// Designs that are edited: what somebody does to a file between two saves.
+// Designs that are edited as a person edits a file between two saves.
 #pragma once
 
 #include <random>
@@ -14,8 +14,8 @@ class Design {
   /// The scene's model.
   explicit Design(const Scene& scene);
 
-  /// One primitive is replaced, moved a little, inserted into some operation, removed or
-  /// recoloured; or, rarely, an operation becomes another one.
+  /// Makes a random edit: replaces, inserts into some operation, removes or recolours a primitive,
+  /// or moves it a little; or, rarely, exchanges an operation.
   void edit(std::mt19937& random);
   void move(std::mt19937& random);
   void insert(std::mt19937& random);
@@ -23,17 +23,17 @@ class Design {
   void recolor(std::mt19937& random);
   void change_operation(std::mt19937& random);
 
-  /// Ids, and indices, are those in file order.
+  /// Returns the scene, whose ids and indices are in file order.
   Scene scene() const;
-  /// The same as a part of a scene.
+  /// Builds the design as a part of a scene.
   void build(std::vector<Primitive>& primitives, CsgTreeBuilder& builder) const;
 
  private:
-  /// Of a tree in prefix order: each node is followed by its operands.
+  /// A node of a tree in prefix order, in which each node is followed by its operands.
   struct Node {
     bool is_primitive = false;
     Op op = Op::kUnion;
-    uint32_t size = 1;  // nodes of the subtree, this one among them
+    uint32_t size = 1;  // nodes of the subtree, itself included
     Primitive primitive;
   };
   std::vector<size_t> places_of(bool primitives) const;
@@ -43,7 +43,7 @@ class Design {
 };
 
 /// A random tree whose bounds stay the same while most of its parts are edited: it is cut out of a
-/// ball, or stands between two balls far apart.
+/// ball, or is between two balls far from each other.
 Scene framed_tree(uint32_t primitives, uint32_t seed);
 
 }  // namespace csgcore::checks

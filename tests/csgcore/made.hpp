@@ -1,4 +1,4 @@
-// A design's state between two saves, and what is made of it.
+// A design's state between two saves, with what was made of it.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct Made {
       : scene(std::move(anew)),
         primitives(canonical_primitives(scene)),
         solid(primitives, scene.model) {}
-  /// From what was made of the state before.
+  /// Makes the later state from the earlier one.
   Made(Scene later, const Made& earlier, const SceneEdit& edit)
       : scene(std::move(later)),
         primitives(canonical_primitives(scene, *earlier.primitives, edit)),

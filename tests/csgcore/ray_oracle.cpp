@@ -105,7 +105,7 @@ Real RayOracle::outside(const LongRay& ray, Real t) const {
   return result;
 }
 
-/// Where the ray is deepest inside, by golden section.
+/// Returns the t at which the ray is deepest inside, by golden section.
 Real RayOracle::lowest(const LongRay& ray, Real low, Real high) const {
   const Real share = (std::sqrt(Real(5)) - 1) / 2;
   Real left = high - share * (high - low), right = low + share * (high - low);
@@ -150,8 +150,8 @@ Real RayOracle::deepest(const LongRay& ray, const Segment& segment) const {
   return -gap(ray.at(lowest(ray, segment.start, segment.end)));
 }
 
-/// How far from the surface the ray is where it was said to cross it and, so that it is this
-/// crossing and no other, half-way from there to where it does.
+/// Returns how far from the surface the ray is at the computed crossing and, so that it is this
+/// crossing and no other, half-way from there to the expected one.
 Real RayOracle::error_of_end(const LongRay& ray, Real computed, Real expected) const {
   return std::max(std::abs(gap(ray.at(computed))),
                   std::abs(gap(ray.at((computed + expected) / 2))));

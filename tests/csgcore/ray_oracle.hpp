@@ -1,5 +1,5 @@
-// What the packets' arithmetic is held against: one primitive and one ray in extended precision, by
-// search instead of formulas, and how far a double may be off.
+// The judge of the packets' arithmetic: one primitive and one ray in extended precision, by search
+// instead of formulas, and a bound of the error in double.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -26,10 +26,10 @@ struct PivotRay {
   operator LongRay() const { return {LongVec3(origin), LongVec3(direction)}; }
 };
 
-/// kPacketRays of them as a packet.
+/// Makes a packet of kPacketRays rays.
 RayPacket packet_of(std::span<const PivotRay> rays);
 
-/// A primitive among rays.
+/// A primitive that rays are compared with.
 class RayOracle {
  public:
   RayOracle(const Primitive& primitive, const Vec3& pivot);
@@ -40,25 +40,25 @@ class RayOracle {
   };
   Segment segment(const LongRay& ray) const;
 
-  /// Fails if start < end is not the ray's segment, or +∞ and −∞ where there is none, up to
-  /// `error_bound`. Returns by how much it is off, in units of that bound.
+  /// Fails if [start, end) is not the ray's segment, or (+∞, −∞) if it has none, up to
+  /// `error_bound`. Returns the error in units of that bound.
   double expect_segment(const LongRay& ray, double start, double end) const;
 
-  /// How far a surface may seem displaced along its normal, in world units: kRoundings of a double,
-  /// of the coordinates that it is computed from: relative to the pivot and, of a primitive whose
-  /// middle is not its origin, the world's. They are taken to the primitive's canonical space and
-  /// back, which costs the condition of its map.
+  /// Returns how far a surface may seem displaced along its normal, in world units: kRoundings of a
+  /// double of the coordinates from which it is computed. These are relative to the pivot, and, if
+  /// a primitive's middle is not its origin, the world's. Taking them to the primitive's canonical
+  /// space and back costs the condition of its map.
   Real error_bound(const LongRay& ray) const;
 
-  /// How far a point (relative to the pivot) lies outside of the primitive, along the normal there;
-  /// inside of it negative. Exact at the surface, and of the first order next to it.
+  /// Returns how far a point (relative to the pivot) is outside of the primitive, along the normal
+  /// there; negative inside. It is exact at the surface, and of first order near it.
   Real gap(const LongVec3& point) const;
-  /// Fails unless a vector is the outward unit normal at the point, of any side that is there, up
-  /// to how much the normal changes within `reach` of it, and rounding.
+  /// Fails unless `normal` is the outward unit normal at the point of any side there, up to
+  /// rounding and to the change of the normal within `reach`.
   void expect_normal(const LongVec3& point, const Vec3& normal, Real reach) const;
 
  private:
-  /// As test_support::Side, its gradient in the world.
+  /// A test_support::Side whose gradient is in the world.
   struct Side {
     Real outside;
     LongVec3 gradient;
@@ -67,7 +67,7 @@ class RayOracle {
   LongVec3 to_local(const LongVec3& point) const;
   std::vector<Side> sides(const LongVec3& point) const;
   Side nearest(const LongVec3& point) const;
-  /// Negative within the primitive, and convex along any line.
+  /// Negative inside the primitive, and convex along any line.
   Real outside(const LongRay& ray, Real t) const;
   Real lowest(const LongRay& ray, Real low, Real high) const;
   Real crossing(const LongRay& ray, Real inside, Real outside) const;
@@ -78,14 +78,15 @@ class RayOracle {
   const test_support::TestKind& kind_;
   LongMat3 world_to_local_;
   LongVec3 middle_from_pivot_, pivot_from_local_origin_;
-  Real size_;         // world units: no point is further from the primitive's middle
-  Real coordinates_;  // of its middle, if that must be computed
-  Real condition_;  // of its map, by rows: largest row sum of |M|·|M⁻¹|, 1 for any diagonal one
+  Real size_;         // bound of the points' distances from the primitive's middle, in world units
+  Real coordinates_;  // of its middle, if that has to be computed
+  Real condition_;    // of its map, by rows: the largest row sum of |M|·|M⁻¹|, which is 1 for a
+                      // diagonal map
 };
 
-/// Some 20 roundings, of half a unit each, lead to a crossing: centre − pivot, origin − centre, the
-/// inverse's own error, three products and two sums, base and foot, squares and a root. That they
-/// all add up is unlikely: of all that the tests draw the worst are 2 (NUMERICS.md).
+/// About 20 roundings of half a unit each lead to a crossing: centre − pivot, origin − centre, the
+/// inverse's own error, three products and two sums, base and foot, squares and a root. They are
+/// unlikely to add up: the worst of all that the tests draw is 2 (NUMERICS.md).
 constexpr double kRoundings = 4;
 
 }  // namespace csgcore::checks

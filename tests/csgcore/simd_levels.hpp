@@ -1,4 +1,4 @@
-// Every instruction set of this machine, one after the other.
+// Runs a test with every instruction set of this machine.
 #pragma once
 
 #include "base/simd.hpp"
@@ -10,7 +10,8 @@ inline const char* name_of(SimdLevel level) {
   return kNames[static_cast<int>(level)];
 }
 
-/// Calls back with each level that the machine has, the widest first, while that level is in use.
+/// Calls visit(level) for each level that the machine has, the widest first, while that level is in
+/// use.
 template <typename Visit>
 void for_each_simd_level(Visit&& visit) {
   struct Restorer {

@@ -41,7 +41,7 @@ std::vector<PivotRay> SpecialRays::next(RayKind kind) {
   std::vector<PivotRay> rays;
   while (rays.size() < kPacketRays) {
     const PivotRay ray = make(kind);
-    // The line through two points that are one is no line.
+    // Two equal points define no line.
     if (ray.direction != Vec3{0.0}) rays.push_back(ray);
   }
   return rays;
@@ -149,8 +149,8 @@ PivotRay SpecialRays::along_generatrix() {
 }
 
 PivotRay SpecialRays::through_apex() {
-  // Where the wall's lines meet, be it within the primitive or not; of what has no such point, some
-  // point of the axis.
+  // The ray goes through the point where the wall's lines meet, inside the primitive or not; if
+  // there is none, through some point of the axis.
   const double apex = kind_.apex(primitive_).value_or(any_height());
   const Vec3 point{0, 0, apex};
   const double kind = pick(0, 1);

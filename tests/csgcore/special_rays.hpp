@@ -1,4 +1,4 @@
-// Rays that are hard on a primitive.
+// Makes rays that are hard on a primitive.
 #pragma once
 
 #include <random>
@@ -24,14 +24,14 @@ enum class RayKind : uint8_t {
 constexpr int kRayKinds = 9;
 const char* name_of(RayKind kind);
 
-/// Makes rays at a primitive, relative to a pivot. What is special about them (tangent, in a cap's
-/// plane, along a generatrix, …) is so in the primitive's local space, and in the world as far as
-/// the rounding of its map leaves it: exactly under a map of small whole numbers.
+/// Makes rays at a primitive, relative to a pivot. Their special property (tangent, in a cap's
+/// plane, along a generatrix, …) holds in the primitive's local space. In the world it holds up to
+/// the rounding of the primitive's map: exactly under a map of small integers.
 class SpecialRays {
  public:
   SpecialRays(const Primitive& primitive, const Vec3& pivot, std::mt19937& random);
 
-  /// kPacketRays of them.
+  /// Returns kPacketRays rays.
   std::vector<PivotRay> next(RayKind kind);
 
  private:
@@ -49,24 +49,27 @@ class SpecialRays {
   double pick(double low, double high);
   bool chance(double probability) { return pick(0, 1) < probability; }
   Vec3 any_direction();
-  /// A unit vector in the local x-y plane, often an axis.
+  /// Returns a unit vector in the local x-y plane, often an axis.
   Vec3 sideways();
-  /// On the side of `sideways`; with another length, such a share of the way from the axis.
+  /// Returns the surface point on the side of `sideways`; if its length is not 1, a point at that
+  /// share of the way from the axis.
   Vec3 on_surface(const Vec3& sideways, double height) const {
     return kind_.on_surface(primitive_, sideways, height);
   }
-  /// From the lowest point on that side to the highest.
+  /// Returns the vector from the lowest point on that side to the highest.
   Vec3 generatrix(const Vec3& sideways) const {
     return on_surface(sideways, z_max_) - on_surface(sideways, z_min_);
   }
   double any_height() {
     return chance(0.3) ? (chance(0.5) ? z_min_ : z_max_) : pick(z_min_, z_max_);
   }
-  /// So little that its square is 0 in a double, or its inverse infinite; or about a rounding.
+  /// Returns a number so small that its square is 0 in double, or its inverse infinite; or about a
+  /// rounding.
   double trace();
-  /// 0, or a few roundings to a millionth of the size, to either side.
+  /// Returns 0, or a few roundings to a millionth of the size, to either side.
   double near_miss();
-  /// Through a local point, from somewhere on its line; of any length.
+  /// Returns a ray through a local point, with its origin anywhere on the line and a direction of
+  /// any length.
   PivotRay through(const Vec3& point_local, const Vec3& direction_local);
 
   const Primitive primitive_;

@@ -38,14 +38,14 @@ Scene flush() {
   add_all(builder, {0, 3, 4, 5});
   builder.close();
   add_all(builder, {1, 2});
-  builder.open(Op::kDifference);  // what of the second slab the first leaves: its upper half
+  builder.open(Op::kDifference);  // leaves the upper half of the first slab
   add_all(builder, {6, 0, 3, 4, 5});
   builder.close();
   builder.close();
   return finished(std::move(parts), builder);
 }
 
-/// Coaxial walls and nested balls of one radius, each twice, as union, difference, intersection.
+/// Coaxial walls and nested balls of one radius, each twice, as union, difference and intersection.
 Scene twins() {
   std::vector<Primitive> parts = {make_sphere(2),
                                   make_sphere(2),
@@ -63,7 +63,7 @@ Scene twins() {
   builder.open(Op::kIntersection);
   add_all(builder, {0, 1});
   builder.close();
-  builder.open(Op::kDifference);  // nothing
+  builder.open(Op::kDifference);  // leaves nothing
   add_all(builder, {4, 5});
   builder.close();
   add_all(builder, {7, 6});
@@ -71,11 +71,11 @@ Scene twins() {
   return finished(std::move(parts), builder);
 }
 
-/// Balls within a shell, shell and gap both 0.1, 0.5, 2 and 10 times the thinnest piece of a scene
+/// Balls within a shell. Shell and gap both are 0.1, 0.5, 2 and 10 times the tolerance of a scene
 /// of diagonal 20·√3.
 Scene thin() {
   const double thinnest = 1e-9 * 20 * std::sqrt(3.0);
-  // The first is there for the size: it is cut away but for a sliver.
+  // The first ball fixes the size: all but a sliver of it is cut away.
   std::vector<Primitive> parts{make_sphere(10), make_sphere(10, moved({0.1, 0, 0}))};
   CsgTreeBuilder builder;
   builder.open(Op::kUnion);
@@ -116,8 +116,8 @@ Scene repeated() {
   return finished(std::move(parts), builder);
 }
 
-/// A primitive of whole numbers, along an axis, moved by up to three times `jitter`, or not, along
-/// each: many of them share planes, axes and radii.
+/// Returns a primitive of integers along an axis. Along each axis it is moved by up to three times
+/// `jitter`, or not, so that many of them share planes, axes and radii.
 Primitive grid_primitive(std::mt19937& random, double jitter) {
   const auto whole = [&](int low, int high) {
     return double(low + static_cast<int>(random() % static_cast<uint32_t>(high - low + 1)));
@@ -203,7 +203,7 @@ std::vector<NamedScene> trace_scenes() {
       {"Repeated", repeated()},
       {"Spheres", test_support::cylinder_minus_spheres(100)},
       {"Cones", colored(test_support::cylinder_minus_cones(60))}};
-  // All crossings that coincide, and crossings that lie around the thinnest piece apart.
+  // Scenes whose crossings all coincide, and scenes whose crossings are about the tolerance apart.
   for (const uint32_t primitives : {30, 200}) {
     const std::string number = std::to_string(primitives);
     scenes.push_back({"Grid" + number, colored(grid(primitives, 5, 0))});

@@ -15,7 +15,7 @@ constexpr double kAnywhere = -std::numeric_limits<double>::max();
 
 template <typename T>
 bool equal(const std::vector<T>& a, const std::vector<T>& b) {
-  // memcmp takes no null pointer, not even for no bytes.
+  // memcmp takes no null pointer, even for no bytes.
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }

@@ -1,4 +1,4 @@
-// Pictures without tiles, cells or culling of any kind: every ray is traced with the solid's whole
+// Draws pictures without tiles, cells or any culling: every ray is traced with the solid's whole
 // list, by the same evaluation.
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace csgcore::checks {
 
-/// Traces packets with all of a solid.
+/// Traces packets with the whole list of a solid.
 class WholeList {
  public:
-  /// Keeps a reference to the solid.
+  /// The solid must outlive this object.
   WholeList(const Solid& solid, const View& view, Boundary boundary = Boundary::kFirst);
 
   const FrameRays& frame() const { return frame_; }
-  /// The list that hits' indices refer to.
+  /// The list that the indices of hits refer to.
   const TraceList& list() const { return list_; }
   PacketHits trace(const RayPacket& rays, LaneMask lanes);
   Hits picture();

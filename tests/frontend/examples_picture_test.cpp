@@ -1,6 +1,6 @@
-// Every example, drawn as the command draws it, by every renderer, against the brute-force oracle.
-// Prints a table. The bars, at the default settings: the CPU tracer has no wrong pixel, OpenGL at
-// most 1 in 10,000 hits.
+// Tests every example, drawn as the command draws it, with every renderer, against the brute-force
+// oracle. Prints a table. The bars at the default settings: the CPU tracer has no wrong pixel,
+// OpenGL at most 1 in 10,000 hits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pixels that a renderer gets wrong.
+/// The wrong pixels of each renderer.
 struct WrongPixels {
-  uint64_t tiles, cells;  // of the CPU tracer, by screen tiles and by a kd-tree
+  uint64_t tiles, cells;  // by the CPU tracer, with screen tiles and with a kd-tree
   uint64_t gl;
-  uint64_t paper;      // lost or wrong by GL with the paper's own rule
-  uint64_t undecided;  // of the tracer: the oracle's own rounding leaves them open
+  uint64_t paper;      // by GL with the paper's own rule
+  uint64_t undecided;  // by the tracer: the oracle's own rounding leaves them open
 };
 
 csgcore::Image image_of(const stress::Oracle& oracle, const csgcore::Scene& scene) {
@@ -90,7 +90,7 @@ TEST_P(ExamplePictureTest, EqualsTheOracle) {
   // The bar: 1 in 100,000.
   EXPECT_LE(wrong.undecided * 100000, std::max<uint64_t>(gl.hits, 100000));
   EXPECT_LE(wrong.gl * 10000, gl.hits) << gl.first;
-  // What the dropped cells lose (paper, figure 3) is little, but not nothing.
+  // The dropped cells lose little (paper, figure 3), but not nothing.
   EXPECT_LE(wrong.paper * 20, paper.hits);
 }
 

@@ -1,5 +1,5 @@
-// The designs in examples/: how many primitives each has, that its .csg is what OpenSCAD makes of
-// its .scad, and that the paper's models are what the paper says.
+// Tests the designs in examples/: their numbers of primitives, that each .csg is what OpenSCAD
+// makes of the .scad, and that the paper's models agree with the paper.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using csgcore::Vec3;
 
 const std::filesystem::path kExamples = SCADRAY_EXAMPLES_DIR;
 
-/// .csg files of this size and more are exported when needed and not kept beside the design.
+/// .csg files of this size and more are not kept beside the design, but exported when needed.
 constexpr uintmax_t kLargestKeptBytes = 400000;
 
 // The paper's models.
@@ -34,11 +34,11 @@ constexpr double kRadius = 10;
 constexpr double kHeight = 20;
 constexpr double kMaxTiltDeg = 40;
 /// A .csg has 6 significant digits: an error of up to 5e-5 in each coordinate of 10 and more, and
-/// as much again where a rotation's 5e-7 turns a cone's length; a cone's middle is computed from
-/// both.
+/// as much again where a rotation's error of 5e-7 turns a cone's length. A cone's middle is
+/// computed from both.
 constexpr double kRounding = 2e-4;
 
-/// Primitive nodes of each design.
+/// The number of primitive nodes of each design.
 const std::map<std::string, uint32_t> kPrimitives = {
     {"cs100", 101},       {"cs1000", 1001}, {"cs10000", 10001}, {"cc100", 101},
     {"cc200", 201},       {"cc500", 501},   {"cc1000", 1001},   {"r9", 9},
@@ -74,7 +74,7 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-/// The designs of which a .csg is kept.
+/// Returns the designs whose .csg is kept.
 std::vector<std::string> kept_names() {
   std::vector<std::string> names = all_names();
   std::erase(names, "cs10000");
@@ -99,7 +99,7 @@ TEST_P(Example, IsRoundEnoughToCompareWithOpenScad) {
   for (const SyntaxNode& node : tree.nodes) {
     for (const Argument& argument : tree.arguments_of(node)) {
       if (argument.name != "$fn") continue;
-      // Up to 8 it is the polygon that is meant.
+      // Up to 8 fragments the polygon itself is meant.
       EXPECT_THAT(argument.value.number, testing::AnyOf(testing::Le(8), testing::Ge(48)));
     }
   }
@@ -123,19 +123,19 @@ TEST(Examples, AreAllCounted) {
   for (const auto& entry : std::filesystem::directory_iterator(kExamples)) {
     if (entry.path().extension() == ".scad") found.insert(entry.path().stem());
   }
-  found.erase("cut_cylinder");  // the base of the csN and ccN
+  found.erase("cut_cylinder");  // the common base of csN and ccN
   EXPECT_THAT(found, testing::UnorderedElementsAreArray(all_names()));
 }
 
 // --- The paper's CSn and CCn -----------------------------------------------------------------
 
-/// Where a cutter bites, and the surface's outward normal there.
+/// Where a cutter cuts the surface, and the surface's outward normal there.
 struct Bite {
   Vec3 point, normal;
   bool wall = false;
 };
 
-/// The cylinder's surface nearest to a point, which must be on it.
+/// Returns the place on the cylinder's surface nearest to a point, which must be on it.
 Bite bite_at(const Vec3& point) {
   const double across = std::hypot(point.x, point.y);
   Bite bite{point, {0, 0, point.z > 0 ? 1 : -1}};
@@ -158,8 +158,8 @@ double chi_squared(const std::vector<size_t>& counts) {
   return sum / expected;
 }
 
-/// Uniform by area, in 24 patches of equal area: the wall's in 4 sectors of 4 heights, each cap's
-/// in 4 sectors.
+/// Fails unless the bites are uniform by area, in 24 patches of equal area: the wall's in 4 sectors
+/// of 4 heights, each cap's in 4 sectors.
 void expect_uniform(const std::vector<Bite>& bites) {
   std::vector<size_t> patches(24, 0);
   for (const Bite& bite : bites) {
@@ -171,10 +171,10 @@ void expect_uniform(const std::vector<Bite>& bites) {
                                             : 5;
     ++patches[layer * 4 + sector];
   }
-  // 23 degrees of freedom: one fair draw in 10,000 exceeds this.
+  // With 23 degrees of freedom, one fair draw in 10,000 exceeds this.
   constexpr double kChiSquared = 55.5;
   EXPECT_LT(chi_squared(patches), kChiSquared) << testing::PrintToString(patches);
-  // Caps are uniform in the square of the distance from the axis.
+  // In a cap, the square of the distance from the axis is uniform.
   std::vector<size_t> rings(4, 0);
   for (const Bite& bite : bites) {
     if (bite.wall) continue;

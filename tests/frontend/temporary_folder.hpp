@@ -1,4 +1,4 @@
-// A folder of its own for a test, removed at the end.
+// A folder for one test, removed at the end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class TemporaryFolder {
     std::ofstream(*this / name, std::ios::binary) << text;
     return *this / name;
   }
-  /// Writes a program.
+  /// Writes a program and returns its path.
   std::string script(const std::string& name, const std::string& body) const {
     write(name, "#!/bin/sh\n" + body + '\n');
     std::filesystem::permissions(*this / name, std::filesystem::perms::owner_all);
@@ -64,7 +64,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// An environment variable for as long as this object lives.
+/// Sets an environment variable for as long as this object lives.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {

@@ -21,7 +21,8 @@ bool is_within(const SyntaxTree& tree, const Value& value) {
   return size == SIZE_MAX || (value.first <= size && value.count <= size - value.first);
 }
 
-/// Every subtree ends within its parent's, and no node keeps a bit that only the parser uses.
+/// Returns whether every subtree ends within its parent's, and no node keeps a bit that only the
+/// parser uses.
 bool is_nested(const SyntaxTree& tree) {
   std::vector<size_t> ends = {tree.nodes.size()};
   for (size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -54,14 +55,14 @@ std::string fault_of(const SyntaxTree& tree) {
   for (size_t i = 0; i < tree.values.size(); ++i) {
     const Value& value = tree.values[i];
     if (!is_within(tree, value)) return "a value refers out of the tree";
-    // Inner lists are stored first, so whoever walks down a list comes to an end.
+    // Inner lists are stored first, so that walking down a list comes to an end.
     if (value.kind == ValueKind::kList && value.first + value.count > i)
       return "a list holds itself";
   }
   return "";
 }
 
-/// What came of a text: a design, or an error.
+/// The result of a text: a design, or an error.
 struct Outcome {
   frontend::ImportedDesign design;
   std::string error;
@@ -88,7 +89,8 @@ std::string difference_of(const Outcome& by_tree, const Outcome& by_text) {
   return "";
 }
 
-/// Where a start of the text is beyond repair, the text must fail, and at the start's place.
+/// Returns what is wrong, or nothing. If a start of the text is beyond repair, the text must fail,
+/// at the start's place.
 std::string fault_of_starts(std::string_view text) {
   const auto place_of = [](std::string_view part) {
     const std::string error =

@@ -1,6 +1,6 @@
-// Fuzzing without libFuzzer: damages the files of the corpus in ways that depend on nothing but a
-// seed, so that every machine runs the same inputs. SCADRAY_FUZZ_ITERATIONS makes it long,
-// SCADRAY_FUZZ_SEED starts elsewhere (the seed of a failure, for example).
+// Fuzzes without libFuzzer: damages the files of the corpus in ways that depend only on a seed, so
+// that every machine runs the same inputs. SCADRAY_FUZZ_ITERATIONS sets the length,
+// SCADRAY_FUZZ_SEED the first seed (that of a failure, for example).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::vector<std::string> corpus() {
   for (const auto& entry : std::filesystem::directory_iterator(SCADRAY_FUZZ_CORPUS)) {
     paths.push_back(entry.path());
   }
-  std::sort(paths.begin(), paths.end());  // a folder has no order of its own
+  std::sort(paths.begin(), paths.end());  // the order in a folder is not defined
   std::vector<std::string> texts;
   for (const auto& path : paths) {
     std::ifstream file(path, std::ios::binary);
@@ -100,7 +100,8 @@ class Mutator {
   }
 
  private:
-  /// In [0, limit); std::uniform_int_distribution differs from one library to another.
+  /// Returns a number in [0, limit). std::uniform_int_distribution differs from one library to
+  /// another.
   size_t below(size_t limit) { return limit == 0 ? 0 : random_() % limit; }
   const std::string& any_text() { return texts_[below(texts_.size())]; }
 

@@ -17,12 +17,13 @@ using csgcore::Vec3;
 // they are rounded to 2^-25 of its size, and some tens of operations lead from them to the
 // boundary.
 
-/// Along the normal, a share of the model's size: half of GL's own tolerance (kThicknessTolerance).
+/// Along the normal, as a share of the model's size: half of GL's own tolerance
+/// (kThicknessTolerance).
 constexpr double kSurfaceError = 0x1p-22;
-/// Of a number that the picture stores as a float, by itself.
+/// The rounding of a number that the picture stores as a float.
 constexpr double kFloatRounding = 0x1p-24;
-/// Length of the difference of unit normals, times their cosine to the ray: a point that is off by
-/// kSurfaceError, on surfaces with radii down to 2^-10 of the model's size.
+/// The length of the difference of unit normals, times their cosine to the ray: for a point that is
+/// off by kSurfaceError, on surfaces with radii down to 2^-10 of the model's size.
 constexpr double kNormalError = 0x1p-12;
 
 }  // namespace

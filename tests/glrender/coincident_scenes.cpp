@@ -11,7 +11,7 @@ using csgcore::make_sphere;
 using csgcore::Op;
 using csgcore::Primitive;
 
-/// A scene as it is written down: operations opened and closed around primitives.
+/// Writes a scene as text would: operations opened and closed around primitives.
 class SceneWriter {
  public:
   explicit SceneWriter(const Affine& frame) : frame_(frame) {}
@@ -84,12 +84,12 @@ void add_shared_tops(SceneWriter& write, std::vector<NamedScene>& all) {
   all.push_back(write.add(rod(0, 2, 5)).add(rod(2, 4, 5)).add(rod(4, 6, 3)).finish("stack", 2));
   write.open(Op::kDifference).add(rod(0, 2, 5)).add(rod(1, 2, 3)).close();
   all.push_back(write.add(rod(1, 2, 3)).finish("inlay", 2));
-  // Either inlay would do without the other, but neither is the plate, which is cut away there.
+  // Either inlay would do without the other; the plate, which is cut away there, would not.
   write.open(Op::kDifference).add(rod(0, 2, 5)).add(rod(1, 2, 3)).close();
   all.push_back(write.add(rod(1, 2, 3)).add(rod(0, 2, 2)).finish("two inlays", 2));
   for (int i = 0; i < 12; ++i) write.add(beside(rod(0.1 * i, 3, 2), 0.6 * i - 3));
   all.push_back(write.finish("twelve tops", 3));
-  // More than the shaders keep bits for.
+  // More primitives than the shaders keep bits for.
   write.open(Op::kDifference).add(rod(0, 3, 5)).add(rod(1, 3, 3)).close();
   for (int i = 0; i < 40; ++i) write.add(rod(0.02 * i, 3, 3));
   all.push_back(write.finish("forty inlays", 3));
@@ -121,7 +121,7 @@ void add_shells(SceneWriter& write, std::vector<NamedScene>& all) {
     write.open(Op::kDifference).add(make_sphere(radius)).add(make_sphere(radius - 1)).close();
   }
   all.push_back(write.close().finish("shell less shells", 0));
-  // Shells that fill each other, cut open.
+  // Nested shells without gaps between them, cut open.
   write.open(Op::kDifference).open(Op::kUnion);
   for (int radius = 5; radius >= 3; --radius) {
     write.open(Op::kDifference).add(make_sphere(radius)).add(make_sphere(radius - 1)).close();

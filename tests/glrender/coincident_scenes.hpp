@@ -1,4 +1,4 @@
-// Designs whose primitives share faces: where set operations that are not regularised leave skins
+// Designs whose primitives share faces, where set operations that are not regularised leave skins
 // and speckle.
 #pragma once
 
@@ -15,8 +15,8 @@ struct NamedScene {
   csgcore::Scene scene;
 };
 
-/// The whole family, every primitive mapped by `frame`. Models of about 10 units around its origin,
-/// whose shared flat faces are parallel to the frame's xy plane.
+/// Returns the whole family, with every primitive mapped by `frame`. The models are about 10 units
+/// in size around its origin, and their shared flat faces are parallel to its xy plane.
 std::vector<NamedScene> coincident_scenes(const csgcore::Affine& frame);
 
 }  // namespace gl_test

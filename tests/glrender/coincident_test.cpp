@@ -1,4 +1,4 @@
-// Faces that several primitives share, drawn without speckle at any angle: a whole family of
+// Tests that faces of several primitives are drawn without speckle at any angle: a whole family of
 // designs, leaf sizes and views, against the brute-force oracle.
 #include <gtest/gtest.h>
 
@@ -21,11 +21,11 @@ using csgcore::View;
 using gl_test::NamedScene;
 using gl_test::Speckle;
 
-/// A sphere around every scene of the family, about its frame's origin.
+/// The radius of a sphere around every scene of the family, about its frame's origin.
 constexpr double kReach = 12;
 
-/// A view, in the scene's frame, of the plane z = face_z, from an angle above it. Where that is
-/// flat, it is zoomed, so that the face that is seen at that angle fills the picture.
+/// A view, in the scene's frame, of the plane z = face_z from an angle above it. At a flat angle it
+/// is zoomed, so that the face fills the picture.
 struct FaceView {
   double above_deg;
   bool zoomed;
@@ -51,7 +51,7 @@ View view_of(const NamedScene& scene, const Affine& frame, Projection projection
   return view;
 }
 
-/// As a file would turn and move it: nothing of it is exact.
+/// A turn and a shift as in a file: none of its numbers is exact.
 Affine turned() {
   const double tilt = 0.3, turn = 1.7;
   const Mat3 tilted{Vec3{1, 0, 0}, Vec3{0, std::cos(tilt), std::sin(tilt)},
@@ -110,7 +110,7 @@ TEST(CoincidentFacesTest, LeaveNoSpeckle) {
   }
   print("all", family);
   EXPECT_GT(family.hits, 500'000u);
-  // Edges that lie within the rounding of a float of a pixel's ray.
+  // These are edges within a float's rounding of a pixel's ray.
   EXPECT_LE(family.wrong * 1000, family.hits);
 }
 

@@ -1,4 +1,4 @@
-// The OpenGL picture against the CPU tracer's, channel by channel.
+// Tests the OpenGL picture against the CPU tracer's, channel by channel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using csgcore::View;
 using gl_test::LoadedScene;
 
 constexpr gl_test::EdgeLimits kEdges{.face_distance = 0.05};
-/// The tracer takes its samples only where neighbouring pixels show an edge, so that it misses some
-/// of what is smaller than a pixel: one of so many pixels that it blends.
+/// The tracer takes its samples only where neighbouring pixels show an edge, and so misses some
+/// things that are smaller than a pixel: one pixel for this many that it blends.
 constexpr uint64_t kBlendedPerMissed = 20;
 
 struct Pictures {
@@ -30,7 +30,7 @@ struct Case {
   Projection projection;
 };
 
-/// For the test's name, which must not hold an address.
+/// Prints the case for the test's name, which must not contain an address.
 void PrintTo(const Case& one, std::ostream* out) { *out << one.example; }
 
 class CpuAgreementTest : public testing::TestWithParam<std::tuple<Case, gl_test::Way>> {

@@ -1,4 +1,5 @@
-// A renderer that follows edits: the picture of one that was made anew, with few bytes uploaded.
+// Tests a renderer that follows edits: it draws the picture of one that was made anew, with few
+// bytes uploaded.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -35,7 +36,7 @@ struct Made {
   Solid solid;
 };
 
-/// A window: what is loaded follows the scene.
+/// Plays the window, whose renderer follows the scene.
 class Followed {
  public:
   Followed(const Scene& scene, Technique technique)
@@ -50,7 +51,8 @@ class Followed {
 
   Image draw() { return renderer_.draw(view_, settings_, stats_); }
 
-  /// Bytes that it uploads. Fails unless the picture is that of a renderer made anew.
+  /// Returns the bytes that are uploaded. Fails unless the picture equals that of a renderer made
+  /// anew.
   uint64_t follow(const Scene& scene) {
     const uint64_t before = renderer_.uploaded_bytes();
     const SceneEdit edit = csgcore::compare(made_->scene, scene);

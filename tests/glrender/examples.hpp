@@ -1,4 +1,4 @@
-// The example designs as the command would draw them.
+// Reads the example designs, and views them as the command does.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace gl_test {
 /// Imports a .csg, or a .scad whose .csg is too large to be kept beside it.
 frontend::ImportedDesign read_design(const std::filesystem::path& file);
 
-/// The command's view without --camera.
+/// Returns the command's view without --camera.
 csgcore::View default_view(const frontend::ImportedDesign& design, uint32_t width_px,
                            uint32_t height_px);
 

@@ -88,7 +88,7 @@ Image draw(const Scene& scene, const View& view, const Way& way) {
 
 namespace {
 
-/// Whether the oracle shows `id` at the pixel or next to it.
+/// Returns whether the oracle shows `id` at the pixel or next to it.
 bool shown_around(const Image& oracle, uint32_t x, uint32_t y, uint32_t id) {
   for (uint32_t v = y > 0 ? y - 1 : 0; v <= std::min(y + 1, oracle.height_px - 1); ++v) {
     for (uint32_t u = x > 0 ? x - 1 : 0; u <= std::min(x + 1, oracle.width_px - 1); ++u) {
@@ -122,7 +122,7 @@ Speckle speckle(const Image& picture, const Image& oracle) {
 }
 
 Comparison compare(const Image& picture, const Image& oracle, double model_size) {
-  constexpr double kPositionError = 1e-4;  // of the model's size
+  constexpr double kPositionError = 1e-4;  // as a share of the model's size
   const double least_cosine = std::cos(0.5 * std::numbers::pi / 180);
   Comparison result;
   for (size_t i = 0; i < oracle.z.size(); ++i) {
@@ -159,7 +159,7 @@ void expect_right(const Scene& scene, const View& view, const Way& way) {
   const Image oracle = csgcore::reference_render(scene, view);
   const Comparison result = compare(picture, oracle, csgcore::reference_box(scene).diagonal());
   EXPECT_LE(result.wrong() * 10000, std::max<uint64_t>(result.hits, 10000)) << result.first;
-  // At an edge two primitives are equally right, and either normal.
+  // At an edge two primitives are equally right, as are their normals.
   EXPECT_LE(result.id * 1000, std::max<uint64_t>(result.hits, 1000));
   EXPECT_LE(result.normal * 1000, std::max<uint64_t>(result.hits, 1000));
 }

@@ -1,4 +1,4 @@
-// GL pictures held against the brute-force oracle.
+// Compares GL pictures with the brute-force oracle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,33 +15,34 @@
 
 namespace gl_test {
 
-/// The context that all tests of a program share.
+/// Returns the context that all tests of a program share.
 glrender::HeadlessContext& context();
 
-/// A view from the direction given by two angles (degrees: around z, above the xy plane) towards
-/// the centre of the model, `distance` model diagonals away, the model filling most of the picture.
+/// Returns a view from the direction given by two angles (degrees: around z, above the xy plane)
+/// towards the centre of the model, from `distance` model diagonals away. The model fills most of
+/// the picture.
 csgcore::View view_from(const csgcore::Scene& scene, csgcore::Projection projection,
                         double around_deg, double above_deg, double distance = 3);
 
-/// The same for a model with that box.
+/// Returns the same view of a model with that box.
 csgcore::View view_from(const csgcore::Box& box, csgcore::Projection projection, double around_deg,
                         double above_deg, double distance = 3);
 
-/// How a picture is drawn: by cells of these options, or by tiles, which have none.
+/// The way to draw a picture: by cells of these options, or by tiles, which have none.
 struct Way {
   Way(const csgcore::SubdivisionOptions& cells) : options(cells) {}
   csgcore::SubdivisionOptions options;
   glrender::Technique technique = glrender::Technique::kCells;
 };
 Way by_tiles();
-/// For messages: "tiles", "K = 8".
+/// A name for messages: "tiles", "K = 8".
 std::string name_of(const Way& way);
 void PrintTo(const Way& way, std::ostream* out);
-/// Of a test that has a Way for its parameter: "Tiles", "K8".
+/// A name for a test whose parameter is a Way: "Tiles", "K8".
 std::string test_name(const testing::TestParamInfo<Way>& instance);
 
-/// A scene's model, ready to be drawn, with its cells loaded if they are what draws it: by default
-/// with all channels, on black.
+/// A scene's model, ready to be drawn, with its cells loaded if they are drawn. By default it is
+/// drawn with all channels, on black.
 struct LoadedScene {
   LoadedScene(const csgcore::Scene& scene, const Way& way);
   LoadedScene(const LoadedScene&) = delete;  // its members refer to each other
@@ -55,15 +56,15 @@ struct LoadedScene {
   glrender::FrameStats stats;  // of the last frame
 };
 
-/// One frame of it.
+/// Draws one frame of the scene.
 csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view, const Way& way);
 
-/// The default rule at a given K.
+/// The default rule with the given K.
 csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
 
 struct Comparison {
-  uint64_t hits = 0;         // of the oracle
-  uint64_t hit_or_miss = 0;  // pixels that only one of the two hits
+  uint64_t hits = 0;         // hits of the oracle
+  uint64_t hit_or_miss = 0;  // pixels that only one of both hits
   uint64_t position = 0;     // positions further apart than 1e-4 of the model's diagonal
   uint64_t id = 0;           // same position, another primitive
   uint64_t normal = 0;       // same primitive, normals more than 0.5° apart
@@ -71,10 +72,11 @@ struct Comparison {
   uint64_t wrong() const { return hit_or_miss + position; }
 };
 
-/// Pixels that show another primitive than the oracle's picture, or a hit for a miss.
+/// Counts the pixels that show another primitive than the oracle's picture, or a hit for a miss.
 struct Speckle {
-  uint64_t hits = 0;   // of the oracle
-  uint64_t wrong = 0;  // all of them, those at an edge too, where a ray just misses what is right
+  uint64_t hits = 0;   // hits of the oracle
+  uint64_t wrong = 0;  // all such pixels, including those at an edge, whose ray just misses what is
+                       // right
   /// Those that show what the oracle shows in none of the pixels around: no edge excuses them.
   uint64_t speckle = 0;
   Speckle& operator+=(const Speckle& other);
@@ -84,8 +86,8 @@ Speckle speckle(const csgcore::Image& picture, const csgcore::Image& oracle);
 
 Comparison compare(const csgcore::Image& picture, const csgcore::Image& oracle, double model_size);
 
-/// Draws and compares; expects at most 1 wrong pixel in 10,000 hits (issue's bar) and consistent
-/// channels.
+/// Draws and compares. Expects at most 1 wrong pixel in 10,000 hits (the bar) and
+/// consistent channels.
 void expect_right(const csgcore::Scene& scene, const csgcore::View& view, const Way& way);
 
 }  // namespace gl_test

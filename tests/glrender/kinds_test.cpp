@@ -1,5 +1,5 @@
-// Every kind of primitive by OpenGL against the CPU tracer: alone, cut by its own kind, and beside
-// it.
+// Tests every kind of primitive by OpenGL against the CPU tracer: alone, cut by its own kind, and
+// beside it.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -19,7 +19,7 @@ using csgcore::View;
 using gl_test::LoadedScene;
 using test_support::Variant;
 
-/// Faces that are less turned against each other count as one; no variant has such.
+/// Faces whose normals are closer count as one; no variant has such faces.
 constexpr gl_test::EdgeLimits kEdges{.face_distance = 0.05};
 
 class KindsTest : public testing::TestWithParam<std::tuple<Variant, gl_test::Way>> {

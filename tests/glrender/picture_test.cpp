@@ -1,4 +1,4 @@
-// GL pictures against a brute-force evaluation in double per pixel.
+// Tests GL pictures against a brute-force evaluation in double per pixel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,8 @@ using test_support::scene_of;
 
 Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
 
-/// Tiles, or the leaf size of cells, and projection: every test of the suite runs over all of them.
+/// The parameter: tiles, or the leaf size of cells, and the projection. Every test of the suite
+/// runs over all.
 constexpr uint32_t kTiles = 0;
 class PictureTest : public testing::TestWithParam<std::tuple<uint32_t, Projection>> {
  protected:
@@ -115,7 +116,7 @@ TEST_P(PictureTest, EyeInsideTheModelACellAndACut) {
 }
 
 TEST_P(PictureTest, PixelsOnTheMiddlePlanes) {
-  // An odd number of pixels: the middle rays lie exactly in the planes that divide the model.
+  // The number of pixels is odd: the middle rays lie exactly in the planes that divide the model.
   const Scene scene = test_support::cylinder_minus_spheres(60);
   View view = view_from(scene, projection(), 0, 90);
   view.width_px = 241;
@@ -153,7 +154,7 @@ TEST_P(PictureTest, MoreThanKSurfacesThroughOnePointAndCoincidentOnes) {
   const auto result =
       gl_test::compare(draw(equal, view, options()), csgcore::reference_render(equal, view), 8);
   EXPECT_GT(result.hits, 1000u);
-  EXPECT_EQ(result.wrong(), 0u) << result.first;  // any of the twelve may be the one that is hit
+  EXPECT_EQ(result.wrong(), 0u) << result.first;  // any of the twelve may be hit
 }
 
 TEST_P(PictureTest, EmptyAndInvisible) {
@@ -193,7 +194,7 @@ TEST(RendererTest, MeasuredChannelsAgreeWithEachOther) {
   }
 }
 
-/// The colour of the pixel in the middle.
+/// Returns the colour of the pixel in the middle.
 std::array<uint8_t, 3> middle(const Image& image) {
   return image.rgb[size_t{image.height_px / 2} * image.width_px + image.width_px / 2];
 }
@@ -290,10 +291,10 @@ TEST(RendererTest, NorWithTiles) {
   }
 }
 
-/// Of up to 120 balls, each of which is seen somewhere.
+/// Lists of up to 120 balls, each of which is seen somewhere.
 TEST(RendererTest, LongListsOfTiles) {
-  // Neighbours cross at 2° and less: along a seam, where they are within the tolerance of each
-  // other, either of the two may show.
+  // Neighbours cross at 2° and less. Along a seam, where they are within the tolerance of each
+  // other, either of them may show.
   constexpr double kTolerance = 2 * 0x1p-21 * 18;
   for (const int balls : {33, 60, 120}) {
     std::vector<Primitive> primitives{make_frustum(-4, 4, 9, 9), make_frustum(-6, 4, 9, 9)};
@@ -333,7 +334,7 @@ TEST(RendererTest, DrawsWhileSubdividing) {
   EXPECT_GE(loaded.stats.draw_calls, 1u);
 }
 
-/// Cells that the budget did not suffice for are drawn as they are.
+/// Cells that the budget did not suffice to divide are drawn as they are.
 TEST(RendererTest, DrawsCellsThatWereGivenUp) {
   const Scene scene = test_support::stacked_frusta(12);
   const View view = view_from(scene, Projection::kPerspective, 25, 35);
@@ -361,7 +362,8 @@ TEST(RendererTest, AnotherAngleNeedsNoSubdivision) {
   near.half_height /= 4;
   const Image zoomed_oracle = csgcore::reference_render(scene, near);
   const auto zoomed = gl_test::compare(loaded.draw(near), zoomed_oracle, size);
-  // Cells that were dropped for the old view are subdivided on where the new one shows them larger.
+  // Cells that were dropped for the old view are subdivided further if the new view shows them
+  // larger.
   EXPECT_TRUE(loaded.subdivision.refine(near));
   loaded.renderer.load(loaded.subdivision);
   const auto refined = gl_test::compare(loaded.draw(near), zoomed_oracle, size);
@@ -383,7 +385,7 @@ TEST(RendererTest, DrawsWhatLiesBehindAFront) {
     const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
     for (size_t i = 0; i < front.z.size(); ++i) {
       ASSERT_EQ(std::isinf(front.z[i]), std::isinf(behind.z[i])) << i;
-      // Symmetric about z = 0, which is at depth 50.
+      // The model is symmetric about z = 0, which is at depth 50.
       if (!std::isinf(front.z[i])) {
         ASSERT_NEAR(front.z[i] + behind.z[i], 100, 1e-3) << i;
       }

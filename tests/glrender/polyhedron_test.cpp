@@ -1,4 +1,4 @@
-// Convex polyhedra by OpenGL, against the CPU tracer's picture.
+// Tests convex polyhedra by OpenGL against the CPU tracer's picture.
 #include "csgcore/polyhedron.hpp"
 
 #include <gtest/gtest.h>
@@ -31,13 +31,13 @@ using gl_test::leaves_of;
 using gl_test::LoadedScene;
 using gl_test::Way;
 
-/// Normals of faces are theirs but for rounding; those next to the pole of a sphere with 200
-/// fragments are 5e-4 apart.
+/// Normals of faces are exact up to rounding; those next to the pole of a sphere with 200 fragments
+/// are 5e-4 apart.
 constexpr double kOtherFace = 1e-4;
 constexpr gl_test::EdgeLimits kEdges{.face_distance = kOtherFace};
-/// With an edge every few pixels.
+/// For designs with an edge every few pixels.
 constexpr gl_test::EdgeLimits kManyEdges{.face_distance = kOtherFace, .hits_per_edge_pixel = 1000};
-/// Along an axis some of the rays lie in edges.
+/// For views along an axis, where some of the rays lie in edges.
 constexpr gl_test::EdgeLimits kAlongAnAxis{.face_distance = kOtherFace, .hits_per_edge_pixel = 500};
 
 const Way kWays[] = {leaves_of(2), leaves_of(8), gl_test::by_tiles()};
@@ -83,7 +83,7 @@ struct NamedScene {
   Scene scene;
 };
 
-/// For the test's name, which must not hold an address.
+/// Prints the scene for the test's name, which must not contain an address.
 void PrintTo(const NamedScene& one, std::ostream* out) { *out << one.name; }
 
 NamedScene combine(std::string name, Op op, std::vector<Primitive> primitives) {
@@ -214,7 +214,7 @@ TEST(PolyhedronPictureTest, Samples) {
 }
 
 TEST(PolyhedronPictureTest, LongLists) {
-  // Each is needed: their faces or those of their neighbours are all that is left.
+  // Each polyhedron is needed: its faces or those of its neighbours are all that is left.
   std::vector<Primitive> turned, nested;
   for (int i = 0; i < 48; ++i) {
     const double angle = i * std::numbers::pi / 48;
@@ -236,7 +236,7 @@ TEST(PolyhedronPictureTest, LongLists) {
 }
 
 TEST(PolyhedronPictureTest, RefusesWhatAShaderCannotEvaluate) {
-  // Of one place, and of almost one size: equal ones would be one.
+  // The primitives are in one place and of almost one size: equal ones would be merged.
   const auto draw_equal = [](const Primitive& primitive, size_t count) {
     std::vector<Primitive> primitives(count, primitive);
     for (size_t i = 0; i < count; ++i) {

@@ -1,4 +1,5 @@
-// Antialiasing: the pattern of the samples, and that a picture is the average of what they see.
+// Tests antialiasing: the pattern of the samples, and that a picture is the average of what they
+// see.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,17 +45,17 @@ TEST(SamplePatternTest, IsSpreadEvenlyAlongEachSide) {
     }
     for (auto* side : {&x, &y}) {
       std::sort(side->begin(), side->end());
-      side->push_back(side->front() + 1);  // the next pixel's first
+      side->push_back(side->front() + 1);  // the first sample of the next pixel
       double widest = 0;
       for (uint32_t i = 0; i < n; ++i) widest = std::max(widest, (*side)[i + 1] - (*side)[i]);
-      // Of multiples of the golden ratio the widest gap never reaches twice the average.
+      // Among multiples of the golden ratio the widest gap never reaches twice the average.
       EXPECT_LT(widest * n, side == &x ? 1 + 1e-12 : 2.0) << n;
     }
   }
 }
 
-/// `image` holds, but for rounding, the average of the pictures that the samples see one by one: an
-/// orthographic view displaced by a share of a pixel is one from another eye.
+/// Fails unless `image` is, up to rounding, the average of the pictures that the samples see one by
+/// one: an orthographic view displaced by a share of a pixel is one from another eye.
 template <typename Draw>
 void expect_average(const Image& image, const View& view, uint32_t samples, Draw&& draw) {
   std::vector<glm::vec3> sum(image.rgb.size(), glm::vec3(0));
@@ -71,7 +72,7 @@ void expect_average(const Image& image, const View& view, uint32_t samples, Draw
   uint64_t wrong = 0;
   for (size_t p = 0; p < sum.size(); ++p) {
     for (int c = 0; c < 3; ++c) {
-      // Half a level of each sample's own rounding, half of the average's.
+      // Each sample's own rounding is half a level, and that of the average another half.
       wrong += std::abs(sum[p][c] / static_cast<float>(samples) - image.rgb[p][c]) > 1.001f;
     }
   }
@@ -139,7 +140,8 @@ TEST_P(SamplesTest, EachLieBehindAFrontOfTheirOwn) {
 }
 
 TEST_P(SamplesTest, CoverAPixelAsAFaceDoesInPerspective) {
-  // A disc that faces the eye has one colour, so that a pixel's tells how many samples see it.
+  // A disc that faces the eye has one colour, so that a pixel's colour tells how many samples see
+  // it.
   constexpr double kRadius = 5;
   Scene scene;
   scene.primitives.push_back(csgcore::make_frustum(-1, 0, kRadius, kRadius));
@@ -159,7 +161,7 @@ TEST_P(SamplesTest, CoverAPixelAsAFaceDoesInPerspective) {
   for (uint32_t y = 0; y < view.height_px; ++y) {
     for (uint32_t x = 0; x < view.width_px; ++x) {
       uint32_t seen = 0;
-      bool at_rim = false;  // of what is so near it float tells no side
+      bool at_rim = false;  // so near to the rim that float cannot tell the side
       for (uint32_t i = 0; i < samples(); ++i) {
         const auto offset = sample_offset(i, samples());
         const csgcore::Ray ray = csgcore::pixel_ray(view, x + offset[0], y + offset[1]);

@@ -1,4 +1,4 @@
-// Every shader variant compiles, and GL objects have one owner.
+// Tests that every shader variant compiles, and that GL objects have one owner.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -41,7 +41,7 @@ bool compiles(csgcore::Shape enclosure, KindSet cuts) {
   }
 }
 
-/// Kinds by which of the two ways of ray.glsl they answer in, as their shaders say.
+/// The kinds of either sort of ray.glsl, as their shaders say.
 struct Roles {
   std::vector<csgcore::Shape> enclosures, cuts;
 };
@@ -65,12 +65,12 @@ TEST(ShaderTest, EveryKindHasASegmentOrCutsOne) {
   }
 }
 
-/// Every set of kinds that a scene may have. Of a minute's worth, every fifth but in a full run:
-/// five shares no factor with what a bit or a path repeats by.
+/// Compiles every set of kinds that a scene may have. That takes a minute, so that a sample has
+/// every fifth: five shares no factor with the periods of the bits and paths.
 TEST(ShaderTest, EveryVariantCompiles) {
   HeadlessContext context;
   const Roles roles = find_roles();
-  // The sets of enclosures, and whether all cuts are there or none.
+  // The sets of enclosures, each with all cuts and without any.
   const int sets = 1 << roles.enclosures.size();
   const int step = test_support::full_run() ? 1 : 5;
   int variants = 0;
@@ -95,7 +95,7 @@ TEST(ShaderTest, EveryVariantCompiles) {
           key.path == Path::kSingle || key.path == Path::kShortList || key.path == Path::kLongList;
       if (key.tiles && (!is_of_tiles || key.conservative_depth)) continue;
       if (!key.tiles && key.path == Path::kLongList) continue;
-      // Their faces have to do with neither.
+      // The cuts depend neither on the shading nor on measured channels.
       if (!key.cuts.empty() && (key.shading == Shading::kPhong || key.measured)) continue;
       if (variants++ % step != 0) continue;
       ASSERT_NO_THROW(compile_program(key)) << path << " " << bits;
@@ -133,10 +133,10 @@ TEST(PolyhedronTexelsTest, HoldEveryFaceOnce) {
   EXPECT_EQ(all.texels().size(), size);
   EXPECT_EQ(all.texels()[0][0], 0);
   for (const auto& [polyhedron, first] : {std::pair(ball, 1u), std::pair(box, first_of_box)}) {
-    // By the texels alone, every entry that csgcore lists, and every place that its branches end
-    // at.
+    // Reads by the texels alone every entry that csgcore lists, and every place at which its
+    // branches end.
     uint32_t texel = first + 1;
-    std::vector<std::pair<uint32_t, uint32_t>> branches;  // the texel after, the entry after
+    std::vector<std::pair<uint32_t, uint32_t>> branches;  // the texel after it, the entry after it
     const auto& entries = polyhedron->entries();
     for (uint32_t i = 0; i < entries.size(); ++i) {
       for (const auto& [texel_after, entry_after] : branches) {
@@ -197,7 +197,7 @@ TEST(ThicknessTest, IsThatBetweenTheNearestPlanes) {
     expect_thickness(make_sphere(0.5, squeezed(x, y, z)), 1e-3);
   }
   expect_thickness(make_frustum(2, 2 + 1e-4, 5, 5, turned), 1e-4);
-  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 3, sheared), 1e-4);  // its caps stay as far apart
+  expect_thickness(make_frustum(2, 2 + 1e-4, 5, 3, sheared), 1e-4);  // the caps keep their distance
   expect_thickness(make_frustum(-8, 8, 1e-3, 1e-3, turned), 2e-3);
   expect_thickness(make_frustum(-8, 8, 1, 1, squeezed(1e-3, 1, 1)), 2e-3);
   expect_thickness(make_polyhedron(Polyhedron::box({Vec3(1, 2, 3), Vec3(4, 2 + 1e-5, 7)}), turned),

@@ -1,5 +1,5 @@
-// Which of several faces in one place is shown: the last in file order of those that make the solid
-// start there (csgcore/NUMERICS.md §1).
+// Tests which of several coincident faces is shown: the last in file order of those that make the
+// solid start there (csgcore/NUMERICS.md §1).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Part any(std::vector<Part> operands) { return {std::move(operands), Op::kUnion};
 Part all(std::vector<Part> operands) { return {std::move(operands), Op::kIntersection}; }
 Part less(std::vector<Part> operands) { return {std::move(operands), Op::kDifference}; }
 
-/// Numbers the primitives in file order.
+/// Adds the part, and numbers its primitives in file order.
 void add(const Part& part, Scene& scene, CsgTreeBuilder& tree) {
   if (part.operands.empty()) {
     const auto index = static_cast<uint32_t>(scene.primitives.size());
@@ -76,7 +76,7 @@ struct SharedFace {
 const Part kWide = rod(0, 2, 5), kNarrow = rod(0, 2, 3), kLid = rod(1, 2, 3), kLow = rod(0, 1, 3),
            kHigh = rod(0, 4, 3), kAbove = rod(2, 4, 3), kPin = rod(0, 2, 1);
 
-/// Seen from above, where the solid starts at the face.
+/// Designs seen from above, where the solid starts at the face.
 std::vector<SharedFace> tops() {
   return {
       {"union", any({kWide, kNarrow}), 1},
@@ -102,7 +102,7 @@ std::vector<SharedFace> tops() {
   };
 }
 
-/// Seen from within, where the solid ends at the face.
+/// Designs seen from inside, where the solid ends at the face.
 std::vector<SharedFace> ceilings() {
   return {
       {"union", any({kWide, kNarrow}), 1},
@@ -164,7 +164,7 @@ TEST_P(ShownFaceTest, IsTheLastThatEndsTheSolidAroundTheEye) {
   }
 }
 
-/// More than a shader keeps anything of: the last face that starts there, and no speckle.
+/// A list longer than a shader keeps: the last face that starts there is shown, without speckle.
 TEST(LongListTest, ShowsTheLastFaceOfAll) {
   Part part = any({less({rod(0, 3, 5), rod(1, 3, 3)})});
   for (int i = 0; i < 140; ++i) part.operands.push_back(rod(0.005 * i, 3, 3));

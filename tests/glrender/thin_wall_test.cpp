@@ -1,5 +1,5 @@
-// Walls about as thick as the thinnest piece that exists for OpenGL: each is drawn whole or not at
-// all, though floats tell its thickness no better than to a third of that.
+// Tests walls about as thick as OpenGL's tolerance. Each is drawn whole or not at all, although
+// floats tell its thickness no better than to a third of the tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,10 +34,9 @@ using gl_test::LoadedScene;
 using gl_test::Way;
 using test_support::scene_of;
 
-/// Of the largest side: renderer.cpp.
+/// A share of the largest side, as in renderer.cpp.
 constexpr double kThicknessTolerance = 0x1p-21;
-/// Of pixels whose measured thickness is far off, so many in a picture are left as they are; and
-/// some lie at a silhouette.
+/// Doubtful pixels that are left as they are in a picture, and some at a silhouette.
 constexpr uint64_t kFewPixels = 16;
 constexpr double kEdges = 0.003;
 
@@ -53,7 +52,7 @@ Primitive box(const Vec3& min, const Vec3& max) {
   return make_polyhedron(Polyhedron::box({min, max}));
 }
 
-/// Beside which the walls stand in a list of several primitives.
+/// A pin beside which the walls are in a list of several primitives.
 Primitive pin() { return make_frustum(0, 1, 0.1, 0.1); }
 
 const Wall kWalls[] = {
@@ -122,7 +121,7 @@ View small_view(Projection projection, double above_deg) {
   return view;
 }
 
-/// GL's own tolerance for a solid.
+/// Returns GL's own tolerance for a solid.
 double tolerance_of(const csgcore::Solid& solid) {
   const Vec3 size = solid.bounds().size();
   return kThicknessTolerance * std::max({size.x, size.y, size.z});
@@ -150,7 +149,7 @@ TEST_P(ThinWallTest, IsDrawnWholeOrNotAtAll) {
                                             ? std::vector<double>{80, 60, 40, 20, 10}
                                             : std::vector<double>{60, 30};
   for (const Affine& frame : {Affine{}, turned()}) {
-    // The tolerance goes by the box along the axes.
+    // The tolerance depends on the box along the axes.
     const csgcore::Solid solid(csgcore::canonical_primitives(under(wall.make(1e-3), frame)),
                                wall.make(1e-3).model);
     const double tolerance = tolerance_of(solid) / 10;
@@ -183,8 +182,8 @@ TEST_P(ThinWallTest, IsDrawnWholeOrNotAtAll) {
   }
 }
 
-/// In every channel, in front and behind, with one ray a pixel and with several: what the CPU draws
-/// by the same tolerance.
+/// Every channel, in front and behind, with one ray a pixel and with several, equals what the CPU
+/// draws with the same tolerance.
 TEST(ThinWallChannelsTest, AreTheCpus) {
   for (const double share : {0.97, 1.03}) {
     for (const Way& way : {Way(gl_test::leaves_of(8)), gl_test::by_tiles()}) {
@@ -225,8 +224,8 @@ TEST(ThinWallChannelsTest, AreTheCpus) {
   }
 }
 
-/// A plate's cap is shown as one, up to its rim, and a needle's wall up to its ends: in canonical
-/// space, where both are as wide as long, float misplaces a point by more than a share of that.
+/// A plate's cap has its normal up to the rim, and a needle's wall up to its ends. In canonical
+/// space both are as wide as long, so that float misplaces a point by more than the thin side.
 TEST(ThinNormalsTest, PlatesAndNeedlesHaveTheirNormals) {
   for (const double thickness : {1e-5, 1e-4}) {
     const Scene plate = scene_of(Op::kUnion, {make_frustum(0, thickness, 5, 5)});

@@ -1,6 +1,6 @@
-// The exact ray oracle against the long-double reference of tests/support: two formulations of one
-// definition. They may differ only where a ray is undecided. And of every kind of primitive the
-// exact twin against csgcore's own crossings.
+// Tests the exact ray oracle against the long-double reference of tests/support, two formulations
+// of one definition. They may differ only where a ray is undecided. It also tests the exact twin of
+// every kind of primitive against csgcore's own crossings.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ using csgcore::Scene;
 using csgcore::Vec3;
 using csgcore::View;
 
-/// Towards the middle of the box, from `distance` diagonals away along a direction.
+/// Returns a view towards the middle of the box, from `distance` diagonals away in a direction.
 View view_of(const Scene& scene, const Vec3& towards_eye, double distance, Projection projection) {
   const csgcore::Box box = csgcore::reference_box(scene);
   View view;
@@ -61,8 +61,7 @@ void expect_agreement(const Scene& scene, const View& view, Agreement& sum) {
     sum.hits += hit.hit();
     if (same) {
       if (hit.hit()) {
-        // Positions and parameters are the same to the rounding of doubles, at any angle but a
-        // grazing one.
+        // Positions and parameters agree to the rounding of doubles, except at grazing angles.
         const double squarely = std::abs(glm::dot(hit.normal, glm::normalize(ray.direction)));
         const double rounding = 1e-14 * (glm::length(hit.position) + prepared.size());
         ASSERT_LE(double(glm::length(position - expected[i].position)) * squarely, rounding);
@@ -91,7 +90,7 @@ TEST(ExactAgreement, WithTheReferenceOnRandomTrees) {
   }
   EXPECT_GT(sum.hits, sum.rays / 20);
   EXPECT_EQ(sum.undecided, 0u);
-  // Next to no crossing of random solids needs more than doubles.
+  // Almost no crossing of random solids needs more than doubles.
   EXPECT_GT(sum.counts.segments, sum.rays);
   EXPECT_LT(sum.counts.exact_segments, sum.counts.segments / 100);
   EXPECT_LT(sum.counts.exact_comparisons, sum.counts.comparisons / 10000);
@@ -103,7 +102,7 @@ TEST(ExactAgreement, WithTheReferenceOnRandomTrees) {
               (unsigned long long)sum.counts.exact_comparisons);
 }
 
-/// Some primitives of a variant, one cut by another beside a third.
+/// Some primitives of a variant: one is cut by another, beside a third.
 Scene scene_of(const test_support::Variant& variant, std::mt19937& random) {
   test_support::Sizes sizes(random, {.low = 0.5, .high = 2, .most_fragments = 12});
   Scene scene;
@@ -126,7 +125,7 @@ Scene scene_of(const test_support::Variant& variant, std::mt19937& random) {
   return scene;
 }
 
-/// What csgcore's rays show, against the exact twins.
+/// Compares what csgcore's rays show with the exact twins.
 void expect_hits_of_csgcore(const Scene& scene, const View& view) {
   const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
   csgcore::Hits hits;

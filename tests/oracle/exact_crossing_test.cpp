@@ -1,4 +1,5 @@
-// Single crossings: their order, where doubles cannot tell it, and which of them bound a segment.
+// Tests single crossings: their order where doubles cannot tell it, and which of them bound a
+// segment.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +29,7 @@ std::vector<uint32_t> all_planes(const Target<Number>& target) {
   return planes;
 }
 
-/// A primitive on a ray; the ray is relative to the world's origin, and moved by the parameter 0.
+/// A primitive on a ray, which is relative to the world's origin and moved by the parameter 0.
 class Met {
  public:
   Met(const Primitive& primitive, const Vec3& origin, const Vec3& direction)
@@ -58,8 +59,8 @@ ExactRoot rational(double value) { return quotient(Exact(value), Exact(1)); }
 
 // --- Order ---
 
-/// Convergents p/q of √2 by Pell's numbers, as long as both are whole doubles: p² − 2q² = ±1, so
-/// that p/q lies 1/(2√2 q²) off, down to 1e-31.
+/// Convergents p/q of √2 by Pell's numbers, as long as both are doubles: p² − 2q² = ±1, so that p/q
+/// is off by 1/(2√2 q²), down to 1e-31.
 struct Convergent {
   double p, q;
 };
@@ -79,7 +80,7 @@ TEST(ExactOrder, TellsRootsThatAre1e31Apart) {
     EXPECT_EQ(compare(root, rational(p)), below ? 1 : -1) << p;
     EXPECT_EQ(compare(rational(p), root), below ? -1 : 1) << p;
     EXPECT_EQ(compare({0, -q, 2, 1}, rational(-p)), below ? -1 : 1) << p;
-    // √2·q against √(2 + 2⁻¹⁰⁰)·q and p.
+    // Compares √2·q with √(2 + 2⁻¹⁰⁰)·q and with p.
     const Exact more = Exact(2) + Exact(0x1p-100);
     EXPECT_EQ(compare(root, {0, q, more, 1}), -1);
     EXPECT_EQ(compare({p, q, 2, 1}, {p, q, more, 1}), -1);
@@ -90,13 +91,14 @@ TEST(ExactOrder, TellsRootsThatAre1e31Apart) {
 }
 
 TEST(ExactOrder, EqualNumbersOfDifferentRadicands) {
-  // 1 + √8 = 1 + 2√2, over different denominators; and both against what is not quite that.
+  // 1 + √8 = 1 + 2√2, over different denominators; both are compared with a number that is slightly
+  // different.
   const ExactRoot a{1, 1, 8, 1}, b{3, 6, 2, 3}, c{5, 1, 200, 5};
   EXPECT_EQ(compare(a, b), 0);
   EXPECT_EQ(compare(b, c), 0);
   EXPECT_EQ(compare(a, {Exact(1) + Exact(0x1p-200), 1, 8, 1}), -1);
   EXPECT_EQ(compare({Exact(1) + Exact(0x1p-200), 1, 8, 1}, b), 1);
-  // A root of a square, and √0.
+  // The root of a square, and √0.
   EXPECT_EQ(compare({1, 1, 9, 2}, rational(2)), 0);
   EXPECT_EQ(compare({4, 1, 0, 2}, rational(2)), 0);
   EXPECT_EQ(compare({4, -1, 0, 2}, {4, 1, 0, 2}), 0);
@@ -104,7 +106,7 @@ TEST(ExactOrder, EqualNumbersOfDifferentRadicands) {
 }
 
 TEST(ExactOrder, AWallAndACap1e31Apart) {
-  // At half its radius from the axis the ball 1.5q is entered at x = −q√2; a cap lies at −p.
+  // At half its radius from the axis the ball 1.5q is entered at x = −q√2; a cap is at −p.
   bool below = true;
   for (const auto& [p, q] : convergents()) {
     const Vec3 origin{0, q / 2, 0};
@@ -120,7 +122,7 @@ TEST(ExactOrder, AWallAndACap1e31Apart) {
 
 TEST(ExactOrder, CapsThatAre2To100Apart) {
   const auto top_at = [](double offset) {
-    // The middle's height counts as well: z is 1 + offset, which no double is.
+    // The middle's height counts as well: z is 1 + offset, which is not a double.
     const Primitive rod = make_frustum(-1, offset, 2, 2, {Mat3(1.0), {0, 0, 1}});
     return Met(rod, {0.25, 0.5, 7}, {0.1, -0.3, -1}).entry();
   };
@@ -130,8 +132,8 @@ TEST(ExactOrder, CapsThatAre2To100Apart) {
 }
 
 TEST(ExactOrder, TangentBallsShareACrossing) {
-  // 3-4-5: the balls 5 about 0 and 10 about (9, 12, 0) touch in (3, 4, 0), on the ray through both
-  // middles, and on no other.
+  // By the 3-4-5 triangle, the balls 5 about 0 and 10 about (9, 12, 0) touch in (3, 4, 0), on the
+  // ray through both middles, and on no other.
   const Primitive small = make_sphere(5), large = make_sphere(10, {Mat3(1.0), {9, 12, 0}});
   const Vec3 towards{3, 4, 0};
   EXPECT_EQ(
@@ -142,8 +144,8 @@ TEST(ExactOrder, TangentBallsShareACrossing) {
 }
 
 TEST(ExactOrder, RationalRotationsOfTheSameSolid) {
-  // 5 times a rotation by the 3-4-5 triangle about the axis: the same cylinder, ball and cone as
-  // without, by other numbers. The third is off by one in the last digit of its matrix.
+  // 5 times a rotation by the 3-4-5 triangle about the axis: the cylinder, ball and cone stay the
+  // same, with other numbers. The third matrix is off by one in its last digit.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-4, 4);
   const Mat3 turned{Vec3{3, 4, 0}, Vec3{-4, 3, 0}, Vec3{0, 0, 5}};
@@ -182,14 +184,15 @@ TEST(ExactSegment, TangentsHaveNone) {
   EXPECT_TRUE(Met(ball, {3, 4, 0}, {-4, std::nextafter(3.0, 0.0), 0}).ends());
   const Primitive rod = make_frustum(0, 1, 5, 5);
   EXPECT_FALSE(Met(rod, {3, 4, 0.5}, {-4, 3, 0}).ends());
-  // In a cap's plane, along a generatrix of a cylinder and of a cone: within the closed solid.
+  // Rays in a cap's plane, and along a generatrix of a cylinder and of a cone, are inside the
+  // closed solid.
   EXPECT_TRUE(Met(rod, {-9, 0, 1}, kX).ends());
   EXPECT_FALSE(Met(rod, {-9, 0, std::nextafter(1.0, 2.0)}, kX).ends());
   EXPECT_TRUE(Met(rod, {3, 4, 9}, kDown).ends());
   EXPECT_FALSE(Met(rod, {3, std::nextafter(4.0, 5.0), 9}, kDown).ends());
   const Primitive cone = make_frustum(0, 5, 5, 0);
   EXPECT_TRUE(Met(cone, {3, 4, 0}, {-3, -4, 5}).ends());
-  // Beside the generatrix, in the plane that touches the cone there.
+  // A ray beside the generatrix, in the plane that touches the cone there.
   EXPECT_FALSE(Met(cone, {3 + 0x1p-49, 4 - 0.75 * 0x1p-49, 0}, {-3, -4, 5}).ends());
 }
 
@@ -197,7 +200,7 @@ TEST(ExactSegment, ApexesAndRimsBelongToTheCap) {
   const Primitive cone = make_frustum(0, 5, 5, 0, {Mat3(1.0), {0, 0, 0x1p-80}});
   for (const Vec3 direction : {Vec3(0, 0, -1), Vec3(0.1, 0.3, -1), Vec3(0.125, 0.5, -4)}) {
     const Met met(cone, -direction + Vec3(0, 0, 5), direction);
-    // The ray passes 2⁻⁸⁰ beneath the apex: beside it, unless along the axis.
+    // The ray passes 2⁻⁸⁰ below the apex: it misses the cone, unless it is along the axis.
     ASSERT_TRUE(met.ends());
     EXPECT_EQ(met.ends()->begin, direction.x == 0 ? Surface::kTop : Surface::kWall);
     EXPECT_EQ(met.ends()->end, Surface::kBottom);
@@ -209,14 +212,14 @@ TEST(ExactSegment, ApexesAndRimsBelongToTheCap) {
   const Met rim(make_frustum(0, 1, 5, 5), {3 + 1, 4, 2}, {-1, 0, -1});
   ASSERT_TRUE(rim.ends());
   EXPECT_EQ(rim.ends()->begin, Surface::kTop);
-  // Past the apex only the other nappe lies.
+  // Past the apex there is only the other nappe.
   EXPECT_FALSE(Met(make_frustum(0, 5, 5, 0), {0, 0, 5}, {1, 0, 0.25}).ends());
   EXPECT_FALSE(Met(make_frustum(0, 5, 5, 0), {-1, 0, 6}, {1, 0, 1}).ends());
 }
 
 TEST(ExactSegment, IntervalsEncloseWhatIsExact) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> number(-0.4, 0.4);  // in the unit
+  std::uniform_real_distribution<double> number(-0.4, 0.4);  // inside the unit
   std::vector<Primitive> primitives;
   test_support::Sizes sizes(random, {.low = 1, .high = 4, .most_fragments = 12});
   for (const test_support::Variant& variant : test_support::all_variants()) {
@@ -290,7 +293,7 @@ TEST(ExactPolyhedron, AnEdgeOrAVertexBelongsToTheLowestFace) {
   ASSERT_TRUE(edges.ends());
   EXPECT_EQ(edges.ends()->begin, face(2));
   EXPECT_EQ(edges.ends()->end, face(3));
-  // Beside the edge, by less than doubles tell.
+  // Rays beside the edge, by less than doubles can tell.
   const Met beside(cube({Mat3(1.0), {0, 0, 0x1p-200}}), {0.25, 2, 2}, {0, -1, -1});
   ASSERT_TRUE(beside.ends());
   EXPECT_EQ(beside.ends()->begin, face(2));
@@ -306,7 +309,7 @@ TEST(ExactPolyhedron, WhatTouchesHasNoLength) {
   EXPECT_FALSE(Met(cube(), {0, 2, 0}, {1, -1, 0}).ends());  // an edge
   EXPECT_TRUE(Met(cube(), {0, std::nextafter(2.0, 0.0), 0}, {1, -1, 0}).ends());
   EXPECT_FALSE(Met(cube(), {-1, 3, 1}, {1, -1, 0.5}).ends());  // a vertex
-  // In a face, and in an edge: within the closed solid.
+  // Rays in a face, and in an edge, are inside the closed solid.
   EXPECT_TRUE(Met(cube(), {-3, 1, 0}, kX).ends());
   EXPECT_TRUE(Met(cube(), {-3, 1, -1}, kX).ends());
   EXPECT_FALSE(Met(cube(), {-3, std::nextafter(1.0, 2.0), 0}, kX).ends());
@@ -314,8 +317,8 @@ TEST(ExactPolyhedron, WhatTouchesHasNoLength) {
 }
 
 TEST(ExactPolyhedron, AFaceOfItsOwnFrame) {
-  // 3-4-5: half of a cube of 10, turned by its matrix, and by its half-spaces' normals, which are
-  // of different lengths; one goes through the origin.
+  // By the 3-4-5 triangle: half of a cube of 10, turned by its matrix, and by its half-spaces'
+  // normals. The normals have different lengths, and one half-space goes through the origin.
   const Mat3 turned{Vec3{3, 4, 0}, Vec3{-4, 3, 0}, Vec3{0, 0, 5}};
   std::vector<csgcore::HalfSpace> faces{{{3, 4, 0}, 25},
                                         {{-48, -64, 0}, 16 * 25},
@@ -345,7 +348,7 @@ TEST(ExactPolyhedron, AFaceOfItsOwnFrame) {
   EXPECT_GT(met, 100);
 }
 
-/// A ray that is relative to the world's origin, in both arithmetics.
+/// A ray relative to the world's origin, in both arithmetics.
 struct BothRays {
   BothRays(const Vec3& origin, const Vec3& direction) {
     for (int i = 0; i < 3; ++i) {
@@ -357,8 +360,8 @@ struct BothRays {
   NearRay<Interval> enclosed;
 };
 
-/// Through two points of a solid, the middles of up to four of its vertices each (often one, or two
-/// neighbours): through its edges and vertices and within its faces, but for rounding.
+/// A ray through two points of a solid, each the middle of up to four of its vertices (often one,
+/// or two neighbours). So it goes through edges and vertices, and along faces, up to rounding.
 BothRays special_ray(const Primitive& primitive, std::mt19937& random) {
   const std::vector<Vec3>& vertices = primitive.polyhedron->vertices();
   const auto point = [&] {

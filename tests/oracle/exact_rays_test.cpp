@@ -1,4 +1,4 @@
-// What the exact ray oracle answers: hits, eyes, thicknesses, doubts.
+// Tests the answers of the exact ray oracle: hits, eyes, thicknesses, doubts.
 #include "oracle/exact_rays.hpp"
 
 #include <gtest/gtest.h>
@@ -45,10 +45,10 @@ TEST(ExactRays, HitsWhatIsThere) {
   const Scene scene = scene_of(Op::kDifference, {ball(2), ball(1, {0, 0, 2})});
   const ExactHit cut = hit_of(scene, kDown);
   EXPECT_EQ(cut.primitive, 1u);
-  EXPECT_EQ(cut.s.lower, 9);  // a double: no interval is left
+  EXPECT_EQ(cut.s.lower, 9);  // a double, so that the interval is a point
   EXPECT_EQ(cut.s.upper, 9);
   EXPECT_EQ(cut.position, Vec3(0, 0, 1));
-  EXPECT_EQ(cut.normal, Vec3(0, 0, 1));  // outward of the solid: into the cut
+  EXPECT_EQ(cut.normal, Vec3(0, 0, 1));  // out of the solid: into the cut
   const ExactHit wall = hit_of(scene, {{1.5, 0, 10}, {0, 0, -2}});
   EXPECT_EQ(wall.primitive, 0u);
   EXPECT_NEAR(wall.s.lower, (10 - std::sqrt(1.75)) / 2, 1e-15);
@@ -62,8 +62,8 @@ TEST(ExactRays, HitsWhatIsThere) {
 }
 
 TEST(ExactRays, ParametersAreTightToTheLastPlace) {
-  // The ball 1.5q is entered at −q√2, half its radius from the axis, which lies within 1/(2√2 q) of
-  // −p where p² − 2q² = ±1: next to p, on the side that only 100 digits of mantissa tell.
+  // The ball 1.5q is entered at −q√2, half its radius from the axis. That is within 1/(2√2 q) of −p
+  // where p² − 2q² = ±1: next to p, on the side that only 100 digits of mantissa tell.
   double p = 1, q = 1;
   for (int sign = -1; p < 0x1p50; sign = -sign) {  // of p² − 2q²
     const ExactHit hit = hit_of(scene_of(Op::kUnion, {ball(1.5 * q)}), {{0, q / 2, 0}, {1, 0, 0}});
@@ -79,7 +79,7 @@ TEST(ExactRays, ParametersAreTightToTheLastPlace) {
 }
 
 TEST(ExactRays, FarEyesAndFarModels) {
-  // From 2⁴⁰ away, at a model as far from the origin: s and the position are exact.
+  // From 2⁴⁰ away, at a model as far from the origin, s and the position are exact.
   const Vec3 far{0x1p40, -0x1p41, 0x1p42};
   const Scene scene = scene_of(Op::kUnion, {ball(0.5, far), rod(0, 1, 0.25, far)});
   const ExactHit hit = hit_of(scene, {far + Vec3(0.125, 0, 0x1p40), {0, 0, -1}}, kFromEye);
@@ -145,11 +145,12 @@ TEST(ExactRays, AnEdgeIsOfTheLowestFace) {
 // --- Crossings that are equal ---
 
 TEST(ExactRays, TangentBallsAndEqualCaps) {
-  // Through the point where two balls touch the ray passes from one into the other.
+  // Through the point where two balls touch, the ray passes from one into the other.
   const Scene tangent = scene_of(Op::kUnion, {ball(5), ball(10, {9, 12, 0})});
   const Ray along{{-6, -8, 0}, {3, 4, 0}};
   EXPECT_EQ(hit_of(tangent, along).s.lower, 1);
   EXPECT_EQ(hit_of(tangent, {{0, 0, 0}, {3, 4, 0}}, kFromEye).s.lower, 5);  // out of the larger
+                                                                            // ball
   // A flush hole is open; a shared face leaves no skin.
   const Scene flush = scene_of(Op::kDifference, {rod(0, 2, 5), rod(0, 2, 3)});
   EXPECT_FALSE(hit_of(flush, {{1, 1, 9}, {0, 0, -1}}).hit());
@@ -189,13 +190,13 @@ TEST(ExactRays, APrimitiveThatIsBothAddedAndCut) {
   EXPECT_EQ(added.normal, Vec3(0, 0, -1));
   EXPECT_EQ(inside.primitive, 2u);
   EXPECT_EQ(inside.s.lower, 0.5);
-  EXPECT_EQ(inside.normal, Vec3(0, 0, 1));  // outward: into the gap
+  EXPECT_EQ(inside.normal, Vec3(0, 0, 1));  // out of the solid: into the gap
 }
 
 // --- The eye and τ ---
 
-/// Blocks that reach from x = z + offset to 8, for an eye at the origin that looks along x. The
-/// offset may be as small as it likes: z + offset is exact. Two balls fix the box.
+/// Blocks that reach from x = z + offset to 8, for an eye at the origin that looks along x. z +
+/// offset is exact, however small the offset is. Two balls fix the box.
 Scene block_from(double z, double offset) {
   const Mat3 z_to_x{Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}};
   return scene_of(Op::kUnion, {ball(1, {-20, 9, 9}), ball(1, {20, -9, -9}),
@@ -210,16 +211,17 @@ TEST(ExactRays, TheEyeIsDecidedByTheLastBit) {
     EXPECT_EQ(ExactScene(scene).thickness(), tolerance);
     return hit_of(scene, ray, kFromEye).s;
   };
-  EXPECT_NEAR(first_s(0).lower, 8, 1e-6);  // at τ it is behind the eye, which is inside
+  EXPECT_NEAR(first_s(0).lower, 8, 1e-6);  // at τ the block is behind the eye, which is inside
   EXPECT_NEAR(first_s(-0x1p-130).lower, 8, 1e-6);
   EXPECT_EQ(first_s(0x1p-130).lower, tolerance);
   EXPECT_EQ(first_s(0x1p-130).upper, next(tolerance));
-  // Without an eye there is no behind.
+  // Without an eye nothing is behind it.
   EXPECT_EQ(hit_of(block_from(tolerance, 0), ray, kWholeLine).s.upper, tolerance);
 }
 
 TEST(ExactRays, WallsOfToleranceAreThereOrNot) {
-  // A lid over a cavity, from above; leaning by 60°, too: its thickness is that along the normal.
+  // A lid over a cavity, seen from above, and leaning by 60°: thickness is measured along the
+  // normal.
   const double size = ExactScene(scene_of(Op::kUnion, {rod(-1, 1, 1)})).size();
   EXPECT_NEAR(size, std::sqrt(12.0), 1e-15);
   const double tolerance = 1e-9 * size;
@@ -236,9 +238,9 @@ TEST(ExactRays, WallsOfToleranceAreThereOrNot) {
 }
 
 TEST(ExactRays, TheOrderOfCrossings1e31ApartDecides) {
-  // Two sheets of 0.7 τ each, one on the other, over a gap and a block. Where they overlap by 2⁻¹⁰⁰
-  // they are one, thicker than τ, and the lower one is entered near its face and not left there;
-  // where 2⁻¹⁰⁰ is between them, all four faces are one coincidence.
+  // Two sheets of 0.7 τ each, one on the other, over a gap and a block. If they overlap by 2⁻¹⁰⁰
+  // they are one, thicker than τ, and the lower one is entered near its face and not left there. If
+  // they are 2⁻¹⁰⁰ apart, all four faces are one coincidence.
   const double tolerance = ExactScene(scene_of(Op::kUnion, {rod(-1, 1, 1)})).thickness();
   const double seam = 1 - 0.7 * tolerance;
   const auto first = [&](double gap, bool upper_first) {
@@ -255,9 +257,8 @@ TEST(ExactRays, TheOrderOfCrossings1e31ApartDecides) {
 }
 
 TEST(ExactRays, LikePrimitivesThatAreALastBitApart) {
-  // A skin of 1.4 τ, and halfway through it 1 − 2, two equal rods of which one stands 2⁻⁶⁰ higher,
-  // or two boxes of one frame. Where 1 does, the gap between them makes one coincidence of the
-  // skin.
+  // A skin of 1.4 τ, and halfway through it 1 − 2, two equal rods or boxes of one frame, of which
+  // one is 2⁻⁶⁰ higher. If 1 is higher, the gap between them makes one coincidence of the skin.
   const Primitive aside = ball(1, {3, 3, -3});
   const double tolerance =
       ExactScene(scene_of(Op::kUnion, {rod(-1e-9, 1e-9, 1), aside})).thickness();
@@ -291,7 +292,7 @@ TEST(ExactRays, NormalsOfTinyPrimitives) {
   const Scene scene = scene_of(Op::kUnion, {ball(radius, at), ball(1, {5, 5, 5})});
   const ExactHit hit = hit_of(scene, {at + Vec3(0.6 * radius, 0, 1), {0, 0, -1}});
   EXPECT_EQ(hit.primitive, 0u);
-  // As exact as the ray's own place beside the ball.
+  // The result is as exact as the ray's own place beside the ball.
   const double x = (at.x + 0.6 * radius - at.x) / radius;
   EXPECT_NEAR(hit.normal.x, x, 1e-15);
   EXPECT_NEAR(hit.normal.z, std::sqrt(1 - x * x), 1e-15);
@@ -309,7 +310,7 @@ TEST(ExactRays, DoubtNearSilhouettes) {
   EXPECT_EQ(at(1), Doubt::kSilhouette);
   EXPECT_EQ(at(1 - 2 * step), Doubt::kNone);
   EXPECT_EQ(at(1 + 2 * step), Doubt::kNone);
-  // Where nothing depends on it a silhouette leaves no doubt: inside something larger.
+  // A silhouette inside something larger does not matter, and leaves no doubt.
   const Scene covered = scene_of(Op::kUnion, {rod(-1, 1, 1), rod(-2, 2, 3)});
   EXPECT_EQ(doubt_of(covered, {{1, 0, 5}, {0, 0, -1}}), Doubt::kNone);
   EXPECT_EQ(doubt_of(covered, {{0, 3, 5}, {0, 0, -1}}), Doubt::kSilhouette);
@@ -318,7 +319,7 @@ TEST(ExactRays, DoubtNearSilhouettes) {
 TEST(ExactRays, DoubtAtEdgesOfPolyhedra) {
   const Scene scene = scene_of(Op::kUnion, {block(Vec3(-1), Vec3(1))});
   const double step = ExactScene(scene).displacement();
-  // Past the edge, and over an edge at which one face follows the other.
+  // Rays past the edge, and over an edge where one face follows the other.
   const auto beside = [&](double x) { return doubt_of(scene, {{x, 0, 5}, {0, 0, -1}}); };
   const auto over = [&](double x) { return doubt_of(scene, {{x, -2, 5}, {0, 0.6, -1}}); };
   const auto across = [&](double x) { return doubt_of(scene, {{3 + x, 0.1, 3}, {-1, 0, -1}}); };
@@ -373,7 +374,7 @@ TEST(ExactRays, CountsWhereIntervalsDidNotSuffice) {
   EXPECT_EQ(counts(apart).exact_segments, 0u);
   EXPECT_EQ(counts(shared).exact_segments, 20u);
   EXPECT_GE(counts(shared).exact_comparisons, 20u);
-  EXPECT_EQ(counts(twice).exact_comparisons, 0u);  // the same numbers need none
+  EXPECT_EQ(counts(twice).exact_comparisons, 0u);  // equal numbers need none
   EXPECT_EQ(counts(shared).unsettled_thicknesses, 0u);
 }
 

@@ -1,4 +1,4 @@
-// What is left of large scenes, and how it is printed.
+// Tests what minimising leaves of large scenes, and how it is printed.
 #include "oracle/minimise.hpp"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ using csgcore::Vec3;
 using csgcore::reference_test::scene_of;
 
 TEST(Minimise, KeepsWhatItTakes) {
-  // A difference of two primitives, the second of which is a cone far up.
+  // Accepts a difference of two primitives, the second of which is a cone far up.
   const auto shows = [](const Scene& scene) {
     for (size_t i = 2; i < scene.model.tokens().size(); ++i) {
       const auto tokens = scene.model.tokens().subspan(i - 2, 3);

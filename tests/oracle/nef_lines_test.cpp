@@ -1,5 +1,5 @@
-// Lines and points against the Nef oracle's solids: closed forms, degenerate lines, and random
-// trees against an evaluation in rationals that knows half-spaces only.
+// Tests lines and points against the Nef oracle's solids: closed forms, degenerate lines, and
+// random trees against an evaluation in rationals that knows only half-spaces.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ using csgcore::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// "in 1, out 2" with the exact parameters; "on" where the line runs in the boundary, "~" before
-/// what is not simple.
+/// Returns "in 1, out 2" with the exact parameters; "on" means that the line runs in the boundary,
+/// and "~" precedes a crossing that is not simple.
 std::string text_of(const NefSolid& solid, const Ray& line) {
   std::string text;
   for (const Crossing& crossing : solid.crossings(line)) {
@@ -40,11 +40,11 @@ TEST(NefLines, OfABox) {
   EXPECT_EQ(text_of(*solid, {Vec3(1, 1, -3), z}), "in 3, out 9");
   EXPECT_EQ(text_of(*solid, {Vec3(1, 1, -3), -3.0 * z}), "in -3, out -1");
   EXPECT_EQ(text_of(*solid, {Vec3(1, 0.5, 0), Vec3(0.5, 0.25, 2)}), "in 0, out 3");
-  // In the diagonal plane of the lid's two triangles.
+  // The line is in the diagonal plane of the lid's two triangles.
   EXPECT_EQ(text_of(*solid, {Vec3(2, 1, -1), z}), "in 1, out 7");
   EXPECT_EQ(text_of(*solid, {Vec3(5, 1, 0), z}), "");
   EXPECT_EQ(text_of(*solid, {Vec3(1, 1, -3), Vec3(0, 0, 3)}), "in 1, out 3");
-  // Exactly at a third.
+  // The crossing is exactly at a third.
   EXPECT_EQ(text_of(*solid, {Vec3(1, 1, -1), Vec3(0, 0.125, 3)}), "in 1/3, out 7/3");
 }
 
@@ -57,7 +57,7 @@ TEST(NefLines, ThroughEdgesAndVerticesAndInFaces) {
   EXPECT_EQ(text_of(*solid, {Vec3(-1, 1, 1), Vec3(1, 0, -1)}), "");               // touches an edge
   EXPECT_EQ(text_of(*solid, {Vec3(1, 0, -1), z}), "~on 1, ~out 5");               // in a face
   EXPECT_EQ(text_of(*solid, {Vec3(0, 0, -1), z}), "~on 1, ~out 5");               // in an edge
-  // In a face's plane and beside it; then from a face into the solid.
+  // Lines in a face's plane and beside it; then from a face into the solid.
   EXPECT_EQ(text_of(*solid, {Vec3(5, 0, -1), z}), "");
   const auto step =
       build(scene_of(Op::kUnion, {box(Vec3(0), Vec3(4)), box(Vec3(0, 0, 4), Vec3(8))}));
@@ -65,7 +65,7 @@ TEST(NefLines, ThroughEdgesAndVerticesAndInFaces) {
 }
 
 TEST(NefLines, OfSolidsThatTouch) {
-  // Two boxes share an edge; four, a vertex.
+  // Two boxes share an edge; four share a vertex.
   const auto edge =
       build(scene_of(Op::kUnion, {box(Vec3(0), Vec3(1)), box(Vec3(1, 1, 0), Vec3(2, 2, 1))}));
   EXPECT_EQ(text_of(*edge, {Vec3(-0.5, -0.5, 0.5), Vec3(1, 1, 0)}), "~in 1/2, ~out 5/2");
@@ -80,12 +80,12 @@ TEST(NefLines, OfSolidsThatTouch) {
   EXPECT_EQ(apex->volume(), 64 + Rational(4, 3));
 }
 
-// A point's place is found along a line. Here the first that is tried touches a vertex.
+// The place of a point is found along a line. The first line that is tried here touches a vertex.
 TEST(NefLines, LocatePastAVertex) {
   std::minstd_rand random;
   Vec3 first;
   for (int axis = 0; axis < 3; ++axis) first[axis] = 0.25 + static_cast<double>(random()) * 0x1p-31;
-  for (int octant = 1; octant < 7; ++octant) {  // not those that the line runs into or out of
+  for (int octant = 1; octant < 7; ++octant) {  // all but those that the line runs into or out of
     csgcore::Box corner;
     corner.merge(first);
     Vec3 far;
@@ -105,7 +105,7 @@ TEST(NefLines, OfACavity) {
     builder.primitive(0);
     builder.primitive(1);
     builder.close();
-    builder.primitive(2);  // floats within
+    builder.primitive(2);  // inside, touching nothing
     return NefScene{builder.finish(),
                     {box(Vec3(0), Vec3(10)), box(Vec3(1), Vec3(9)), box(Vec3(4), Vec3(5))}};
   }();
@@ -123,7 +123,7 @@ TEST(NefLines, OfACavity) {
 TEST(NefLines, FirstHit) {
   const auto solid = build(
       scene_of(Op::kDifference, {box(Vec3(0), Vec3(4)), box(Vec3(-1, -1, 1), Vec3(5, 5, 2))}));
-  const Ray ray{Vec3(1, 1.5, 0.5), Vec3(0, 0, 1)};  // from within
+  const Ray ray{Vec3(1, 1.5, 0.5), Vec3(0, 0, 1)};  // from inside
   const auto hit = [&](double from) -> double {
     const std::optional<Crossing> crossing = solid->first_hit(ray, from);
     return crossing ? solid->exact_parameter(ray, *crossing).get_d() : kInfinity;
@@ -152,7 +152,7 @@ TEST(NefLines, BoundsEncloseTheParameter) {
       EXPECT_LE(Rational(crossing.s_lower), s);
       EXPECT_GE(Rational(crossing.s_upper), s);
       EXPECT_LE(crossing.s_upper - crossing.s_lower, 1e-13 * crossing.s_upper);
-      // Whether the crossing lies beyond a double within them takes the exact parameter.
+      // Only the exact parameter tells on which side of a double within its bounds the crossing is.
       for (double from = crossing.s_lower; from <= crossing.s_upper;
            from = std::nextafter(from, kInfinity)) {
         const std::optional<Crossing> hit = solid->first_hit(ray, from);
@@ -170,7 +170,7 @@ Rational dot(const RationalVector& a, const RationalVector& b) {
 
 RationalVector exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// M⁻¹·v by Cramer's rule.
+/// Returns M⁻¹·v by Cramer's rule.
 RationalVector solve(const csgcore::Mat3& m, const RationalVector& v) {
   const auto determinant = [](const RationalVector& a, const RationalVector& b,
                               const RationalVector& c) -> Rational {
@@ -182,7 +182,8 @@ RationalVector solve(const csgcore::Mat3& m, const RationalVector& v) {
   return {determinant(v, y, z) / whole, determinant(x, v, z) / whole, determinant(x, y, v) / whole};
 }
 
-/// A line in a polyhedron: enter < s < leave, none if enter ≥ leave; or in its boundary.
+/// The part of a line in a polyhedron: enter < s < leave, empty if enter ≥ leave; or it runs in the
+/// boundary.
 struct Segment {
   Rational enter, leave;
   bool is_in_face = false;
@@ -210,7 +211,7 @@ Segment segment_of(const ConvexPolyhedron& polyhedron, const Ray& line) {
   return segment;
 }
 
-/// Checks every stretch of the line between two crossings of any polyhedron's.
+/// Checks the parts of the line between the crossings of all polyhedra.
 void expect_agrees(const NefScene& scene, const NefSolid& solid, const Ray& line,
                    const std::string& name) {
   std::vector<Segment> segments;
@@ -240,7 +241,7 @@ void expect_agrees(const NefScene& scene, const NefSolid& solid, const Ray& line
     for (uint32_t p = 0; p < segments.size(); ++p) {
       is_in_face = is_in_face || (covers(p) && segments[p].is_in_face);
     }
-    if (is_in_face) continue;  // what the solid is there, the line does not tell
+    if (is_in_face) continue;  // the line does not tell what the solid is there
     const auto after = std::upper_bound(parameters.begin(), parameters.end(), middle);
     const Place place = after == parameters.begin()
                             ? Place::kOutside
@@ -266,7 +267,7 @@ TEST(NefLines, OfRandomTrees) {
         line.origin[axis] = uniform(random);
         line.direction[axis] = uniform(random);
       }
-      // Half the lines run along an axis or a diagonal through points that shapes have in common.
+      // Half the lines run along an axis or a diagonal through points that shapes share.
       if (i % 2 == 0) {
         for (int axis = 0; axis < 3; ++axis) {
           line.origin[axis] = std::round(line.origin[axis]);
@@ -279,7 +280,7 @@ TEST(NefLines, OfRandomTrees) {
       if (HasFailure()) return;
     }
   }
-  EXPECT_GT(hits, trees * lines / 4);  // else the trees are empty
+  EXPECT_GT(hits, trees * lines / 4);  // otherwise the trees are empty
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// OpenSCAD's own meshes against the Nef oracle's solids of the same trees.
+// Tests OpenSCAD's own meshes against the Nef oracle's solids of the same trees.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace oracle {
 namespace {
 
-/// How far OpenSCAD's vertices may be off: it snaps them to a grid of 2⁻²⁰ and writes six digits of
+/// The error of OpenSCAD's vertices: it snaps them to a grid of 2⁻²⁰, and writes six digits of
 /// coordinates below 10.
 constexpr double kVertexError = 0x1p-20 + 5e-6;
 

@@ -16,7 +16,7 @@ double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// All digits, so that OpenSCAD reads the same double.
+/// Writes all digits, so that OpenSCAD reads the same double.
 std::string text_of(double number) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", number);
@@ -33,7 +33,7 @@ std::string text_of(const Affine& map) {
   return text + "[0,0,0,1]]) ";
 }
 
-/// Half of them shifts by whole numbers, so that faces coincide.
+/// Half of the maps shift by integers, so that faces coincide.
 Affine random_map(std::mt19937& random) {
   Affine map;
   if (random() % 2 == 0) {
@@ -115,7 +115,7 @@ RandomScene random_scene(uint32_t count, uint32_t seed) {
     --depth;
   };
   for (uint32_t i = 0; i < count; ++i) {
-    // Mostly unions: a deep tree of the others is soon empty.
+    // Most are unions: a deep tree of other operations is soon empty.
     if (depth < 3 && random() % 2 == 0) {
       constexpr Op kOps[] = {Op::kUnion, Op::kUnion, Op::kIntersection, Op::kDifference};
       const Op op = kOps[random() % 4];

@@ -24,16 +24,16 @@ ConvexPolyhedron frustum(double z_min, double z_max, double r_bottom, double r_t
                          const csgcore::Affine& local_to_world = {});
 csgcore::Affine shift(const csgcore::Vec3& by);
 
-/// One operation over all.
+/// One operation over all polyhedra.
 NefScene scene_of(csgcore::Op op, std::vector<ConvexPolyhedron> polyhedra);
 
-/// Fails, and gives an empty solid, unless it is built.
+/// Builds the solid. On failure it fails the test, and returns an empty solid.
 std::unique_ptr<const NefSolid> build(const NefScene& scene);
 
 using test_support::volume_of;
 
 /// A tree over `count` boxes, spheres and frusta of up to 8 fragments under random affine maps,
-/// some of which have planes in common, and the same design for OpenSCAD.
+/// some of which share planes, and the same design for OpenSCAD.
 struct RandomScene {
   NefScene scene;
   std::string scad;

@@ -1,4 +1,4 @@
-// The Nef oracle's solids: volumes, areas, boundaries, files and limits.
+// Tests the Nef oracle's solids: volumes, areas, boundaries, files and limits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(NefSolid, VolumesAreExact) {
   const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
   EXPECT_EQ(build(lone(unit))->volume(), 1);
   EXPECT_EQ(build(lone(box(Vec3(-1, 0, 2), Vec3(2, 0.5, 6))))->volume(), 6);
-  // Sheared and mirrored: |det|. 0.1 is the double next to it.
+  // A sheared and mirrored map: |det|. 0.1 stands for the double next to it.
   const Affine map{Mat3(Vec3(-2, 0, 0), Vec3(5, 3, 0), Vec3(0.1, 7, 0.1)), Vec3(9, 8, 7)};
   EXPECT_EQ(build(lone(box(Vec3(0), Vec3(1), map)))->volume(), Rational(6) * Rational(0.1));
   // Octahedron, in half-spaces that meet four by four.
@@ -44,8 +44,8 @@ TEST(NefSolid, VolumesAreExact) {
   EXPECT_EQ(build(scene_of(Op::kDifference, {unit, half_beside}))->volume(), Rational(7, 8));
 }
 
-// A point within is sought with some of many planes at first; here one of the others leaves none of
-// the middle.
+// At first a point inside is sought with some of many planes; here another plane cuts away the
+// middle.
 TEST(NefSolid, OfManyPlanes) {
   ConvexPolyhedron whole = sphere(3.7, 24), cut = whole, rest = whole;
   cut.half_spaces.push_back({{1, 0, 0}, -2.5});
@@ -60,7 +60,7 @@ TEST(NefSolid, FacetedPrimitivesHaveTheMeshesVolume) {
     const auto ball = build(lone(sphere(3.7, fragments)));
     const double expected = volume_of(csgcore::sphere_mesh(3.7, fragments));
     EXPECT_NEAR(ball->volume().get_d(), expected, 1e-13 * expected) << fragments;
-    // Trapezoids and two caps, exactly plane: no facet falls apart into triangles.
+    // Trapezoids and two caps, exactly plane: no facet is split into triangles.
     const auto rings = static_cast<size_t>(csgcore::ring_count(fragments));
     EXPECT_EQ(ball->planes().size(), (rings - 1) * static_cast<size_t>(fragments) + 2);
     EXPECT_EQ(ball->mesh().vertices.size(), rings * static_cast<size_t>(fragments));
@@ -88,7 +88,7 @@ TEST(NefSolid, OfASceneWithPolyhedra) {
   EXPECT_LT(NefSolid::build(scene, 4).solid->volume(), build(same)->volume());
 }
 
-// What the exact ray oracle bounds polyhedra by.
+// The vertices by which the exact ray oracle bounds polyhedra.
 TEST(NefSolid, PolyhedraHaveTheirVertices) {
   using csgcore::Polyhedron;
   std::vector<std::shared_ptr<const Polyhedron>> solids{
@@ -117,7 +117,7 @@ TEST(NefSolid, PolyhedraHaveTheirVertices) {
 TEST(NefSolid, Regularised) {
   const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
   const ConvexPolyhedron beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
-  // A shared face leaves no skin, and is nothing by itself.
+  // A shared face leaves no skin, and their common part is empty.
   const auto both = build(scene_of(Op::kUnion, {unit, beside}));
   EXPECT_EQ(both->volume(), 2);
   EXPECT_DOUBLE_EQ(both->area(), 10);
@@ -126,7 +126,7 @@ TEST(NefSolid, Regularised) {
   EXPECT_TRUE(build(scene_of(Op::kIntersection, {unit, beside}))->empty());
   EXPECT_EQ(build(scene_of(Op::kDifference, {unit, beside}))->area(), 6);
 
-  // What is cut off and put back leaves no crack.
+  // A part that is cut off and put back leaves no crack.
   csgcore::CsgTreeBuilder builder;
   builder.open(Op::kDifference);
   builder.primitive(0);
@@ -143,17 +143,17 @@ TEST(NefSolid, Regularised) {
       build(scene_of(Op::kDifference, {unit, box(Vec3(0.25, 0.25, 0), Vec3(0.75, 0.75, 1))}));
   EXPECT_EQ(hole->volume(), Rational(3, 4));
   EXPECT_EQ(hole->area(), 6 - 2 * 0.25 + 4 * 0.5);
-  // Faces 1e-30 apart are apart.
+  // Faces 1e-30 apart do not coincide.
   const auto gap = build(scene_of(
       Op::kUnion, {box(Vec3(-1, 0, 0), Vec3(0, 1, 1)), box(Vec3(1e-30, 0, 0), Vec3(1, 1, 1))}));
   EXPECT_EQ(gap->area(), 12);
 }
 
-// An edge of the solid that lies within a facet, or enters it from its border: the facet is on both
-// of its sides, and its cycle runs along it to and fro.
+// An edge of the solid that is inside a facet, or enters it from its border: the facet is on both
+// of its sides, and its cycle runs along the edge in both directions.
 TEST(NefSolid, RidgesInAFacet) {
   const ConvexPolyhedron block = box(Vec3(0), Vec3(4));
-  // A prism along y, of a square of diagonal 2 that stands on its corner.
+  // A prism along y, with the section of a square of diagonal 2 that stands on its corner.
   const auto prism = [](double y_min, double y_max, double x, double z) {
     return frustum(y_min, y_max, 1, 1, 4,
                    {Mat3(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0)), Vec3(x, 0, z)});
@@ -179,7 +179,7 @@ TEST(NefSolid, RidgesInAFacet) {
   expect("a cross", without({prism(1, 3, 2, 3), across}), 64 - Rational(16, 3));
   expect("a T", without({prism(2, 3, 2, 3), across}), 64 - Rational(14, 3));
   expect("a vertex", without({frustum(2, 4, 1, 0, 4, shift(Vec3(2, 2, 0)))}), 64 - Rational(4, 3));
-  // Of a box that only touches: its edge runs over the vertex, and is an edge of no solid.
+  // A box that only touches: its edge passes the vertex, and is no edge of the solid.
   expect("a vertex below an edge",
          without({box(Vec3(2, 0, 4), Vec3(4, 4, 6)), frustum(2, 4, 1, 0, 4, shift(Vec3(2, 2, 0)))}),
          64 - Rational(4, 3));
@@ -205,7 +205,7 @@ TEST(NefSolid, SmallestBox) {
   const csgcore::Box bounds = both->bounds();
   EXPECT_EQ(bounds.min, Vec3(0));
   EXPECT_EQ(bounds.max.y, 1);
-  // 3 + the double 0.1 is no double: rounded outwards.
+  // 3 + the double 0.1 is not a double: it is rounded outwards.
   EXPECT_GT(Rational(bounds.max.x), Rational(3) + Rational(0.1));
   EXPECT_LT(Rational(std::nextafter(bounds.max.x, 0)), Rational(3) + Rational(0.1));
 }
@@ -280,7 +280,7 @@ TEST(NefSolid, Files) {
   EXPECT_NEAR(six_times / 6, cut->volume().get_d(), 1e-14);
 }
 
-/// What takes minutes.
+/// A scene that takes minutes.
 NefScene large_scene() {
   std::vector<ConvexPolyhedron> balls;
   for (int i = 0; i < 30; ++i) {
@@ -316,7 +316,7 @@ TEST(NefSolid, CanBeCancelled) {
 
 TEST(NefSolid, RefusesWhatIsNoSolid) {
   ConvexPolyhedron wedge = box(Vec3(0), Vec3(1));
-  wedge.half_spaces.pop_back();  // goes on forever
+  wedge.half_spaces.pop_back();  // now it is unbounded
   ConvexPolyhedron nothing = box(Vec3(0), Vec3(1));
   nothing.half_spaces.push_back({{1, 0, 0}, -1});
   ConvexPolyhedron flat = box(Vec3(0), Vec3(1));

@@ -1,5 +1,5 @@
-// The recorded command lines (command_lines), called with openscad and with scadray: the pictures
-// must be the same up to what single pixels at edges may differ by.
+// Runs the recorded command lines (command_lines) with openscad and with scadray. The pictures must
+// be equal, apart from single pixels at edges.
 #include <gtest/gtest.h>
 #include <spng.h>
 
@@ -19,14 +19,14 @@ namespace {
 
 using frontend::TemporaryFolder;
 
-// What beside OpenSCAD's picture a drop-in replacement may be off by.
+// How much a drop-in replacement's picture may differ from OpenSCAD's.
 constexpr double kMostDiffering = 0.005;  // of all pixels
 constexpr int kTolerance = 24;            // of 255, in any channel
 
 const std::string kPlugins = SCADRAY_PLUGINS_DIR;
 const std::string kExamples = SCADRAY_EXAMPLES_DIR;
 
-/// Designs of which scadray draws every node.
+/// Returns designs of which scadray draws every node.
 std::vector<std::string> designs() {
   return {kPlugins + "/modifiers.scad",    kPlugins + "/colors.scad",
           kExamples + "/nut_trap.scad",    kExamples + "/three_spheres.scad",
@@ -48,7 +48,7 @@ struct Picture {
   std::vector<std::array<uint8_t, 3>> pixels;
 };
 
-/// Empty where there is no PNG.
+/// Returns an empty picture if there is no PNG.
 Picture read_png(const std::string& path) {
   Picture picture;
   std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -68,8 +68,8 @@ Picture read_png(const std::string& path) {
   return picture;
 }
 
-/// The share of the pixels that differ in any channel by more than the tolerance; all of them where
-/// the sizes do.
+/// Returns the share of the pixels that differ in any channel by more than the tolerance; 1 if the
+/// sizes differ.
 double differing_share(const Picture& a, const Picture& b) {
   if (a.width == 0 || a.width != b.width || a.height != b.height) return 1;
   std::size_t count = 0;
@@ -83,7 +83,7 @@ double differing_share(const Picture& a, const Picture& b) {
   return static_cast<double>(count) / static_cast<double>(a.pixels.size());
 }
 
-/// One recorded line for one design.
+/// One recorded line with one design.
 struct Call {
   std::string line, design;
   std::size_t number;
@@ -93,7 +93,7 @@ struct Call {
   }
 };
 
-/// A sample takes every line with one design, and every design with some lines.
+/// Returns the calls. A sample runs every line with one design, and every design with some lines.
 std::vector<Call> calls() {
   const std::vector<std::string> lines = command_lines();
   const std::vector<std::string> all = designs();
@@ -110,8 +110,8 @@ std::vector<Call> calls() {
 
 std::string quoted(const std::string& text) { return '\'' + text + '\''; }
 
-/// A script that runs all lines with `program` in place of openscad, each in a folder where the
-/// designs are, and says which fail.
+/// Returns a script that runs all lines with `program` in place of openscad, each in a folder with
+/// the designs, and names those that fail.
 std::string script(const std::vector<Call>& calls, const char* name, const std::string& program) {
   std::string text = "cd \"$(dirname \"$0\")\" || exit 1\nstatus=0\n";
   for (const Call& call : calls) {

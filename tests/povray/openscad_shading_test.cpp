@@ -1,4 +1,5 @@
-// The scenes that the benchmark gives POV-Ray: OpenSCAD's shading, and primitives told apart.
+// Tests the scenes that the benchmark gives POV-Ray: OpenSCAD's shading, and primitives told apart
+// by colour.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ using csgcore::View;
 const csgcore::ReferenceColors kPaleColors{
     .background = {1, 1, 0.9}, .front = {0.5, 0.4, 0.2}, .back = {0.6, 0.8, 0.3}};
 
-/// Along −z, from above.
+/// Looks along −z, from above.
 View from_above(double half_height) {
   View view;
   view.eye = {0, 0, 50};
@@ -82,7 +83,7 @@ TEST_F(PovRayScenes, HaveAColourForEachOfThousands) {
 }
 
 #ifdef SCADRAY_HAS_RENDER
-/// In cubes, polyhedra, cylinders and colours.
+/// Scenes with cubes, polyhedra, cylinders and colours.
 TEST_F(PovRayScenes, AreThoseThatScadrayDraws) {
   const std::string path = SCADRAY_EXAMPLES_DIR "/bracket.csg";
   std::ifstream file(path, std::ios::binary);
@@ -118,9 +119,9 @@ TEST_F(PovRayScenes, AreThoseThatScadrayDraws) {
     }
   }
   EXPECT_GT(hits, ids.size() / 10);
-  // Edges that run through a pixel's centre; none was seen.
+  // An edge may run through a pixel's centre; none was seen to.
   EXPECT_LE(other_colour, hits / 1000);
-  // And faces that parts share, of which POV-Ray shows the first.
+  // Of faces that parts share, POV-Ray shows the first.
   EXPECT_LE(other_primitive, hits / 100);
 }
 #endif

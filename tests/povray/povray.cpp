@@ -29,10 +29,10 @@ using csgcore::Shape;
 using csgcore::Vec3;
 using csgcore::View;
 
-/// One step of 8 bits, twice: what a surface's ambient part must reach to be no miss.
+/// Two steps of 8 bits, which a surface's ambient part must exceed to be told from a miss.
 constexpr double kBrighterThanBlack = 2.0 / 255;
 
-/// A polyhedron's bounds, beyond its rounded vertices: a share of its size.
+/// The margin of a polyhedron's bounds beyond its rounded vertices, as a share of its size.
 constexpr double kBoundsMargin = 1e-6;
 
 std::string number(double value) {
@@ -59,8 +59,8 @@ Vec3 base_color(const Primitive& p, bool subtracted, const ReferenceColors& colo
   return subtracted ? colors.back : colors.front;
 }
 
-/// A face is a plane, whose inside is what lies behind it. POV-Ray does not see that they are
-/// bounded.
+/// A face becomes a plane, whose inside is what lies behind it. POV-Ray cannot tell that the faces
+/// bound a solid.
 std::string convex(const csgcore::Polyhedron& polyhedron) {
   csgcore::Box box;
   for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
@@ -102,7 +102,7 @@ const char* keyword(Op op) {
   return "";
 }
 
-/// A colour for each primitive.
+/// Returns a colour for each primitive.
 std::vector<Vec3> base_colors(const Scene& scene, const ReferenceColors& colors) {
   const std::vector<bool> subtracted = csgcore::subtracted_primitives(scene);
   std::vector<Vec3> result;
@@ -135,7 +135,8 @@ std::string camera_text(const Scene& scene, const View& view) {
   const bool orthographic = view.projection == csgcore::Projection::kOrthographic;
   Vec3 location = view.eye;
   if (orthographic) {
-    // POV-Ray sees only what lies in front of the camera: step back before the whole model.
+    // POV-Ray sees only what is in front of the camera, so that the camera steps back until the
+    // whole model is.
     const csgcore::Box box = csgcore::reference_box(scene);
     if (!box.empty()) {
       const double depth = glm::dot(box.center() - view.eye, view.forward);
@@ -154,7 +155,7 @@ std::string header_text(const Vec3& background, const std::string& finish) {
          vector(background) + " }\n#declare Lit = finish { " + finish + " }\n";
 }
 
-/// A folder that goes with its contents.
+/// A folder that is removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -174,7 +175,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Runs a program with its messages going to `log`; true if it exits 0.
+/// Runs a program with its messages going to `log`; returns whether it exits with 0.
 bool run(std::vector<std::string> arguments, const std::filesystem::path& log) {
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -196,7 +197,7 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The next number of a PPM's header, past comments.
+/// Reads the next number of a PPM's header, and skips comments.
 uint32_t header_number(std::istream& in) {
   while ((in >> std::ws).peek() == '#') {
     in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
@@ -206,7 +207,7 @@ uint32_t header_number(std::istream& in) {
   return number;
 }
 
-/// A binary PPM of 8 bits.
+/// Reads a binary PPM of 8 bits.
 Pixels read_ppm(const std::string& bytes, uint32_t width_px, uint32_t height_px) {
   std::istringstream in(bytes);
   std::string magic;
@@ -246,7 +247,7 @@ std::string scene_text(const Scene& scene, const View& view, const csgcore::Phon
 
 std::string openscad_scene_text(const Scene& scene, const View& view,
                                 const ReferenceColors& colors) {
-  // |n·l| is what two lights give, from either side.
+  // Two lights give |n·l|, from either side.
   const Vec3 to_light = view.up - view.right - view.forward;
   std::string lights;
   for (const double side : {1.0, -1.0}) {

@@ -38,8 +38,8 @@ using csgcore::View;
 constexpr double kEdgePx = 1.0 / 50;
 /// 8-bit levels by which colours may differ: two roundings, and POV-Ray's single-precision colours.
 constexpr int kLevels = 2;
-/// OpenGL's float arithmetic may decide this share of the hits otherwise, at edges
-/// only. POV-Ray and the reference, in double and better, have been seen to agree in every pixel.
+/// OpenGL's float arithmetic may decide this share of the hits differently, at edges only. POV-Ray
+/// and the reference, in double and better, were seen to agree in every pixel.
 constexpr double kWrongShare = 1e-4;
 
 const ReferenceColors kColors{
@@ -74,7 +74,7 @@ View look_at(Projection projection, const Vec3& target, double distance, double 
   return view;
 }
 
-/// The whole model.
+/// Views the whole model.
 View overview(const Scene& scene, Projection projection) {
   const Box box = csgcore::reference_box(scene);
   const double radius = box.diagonal() / 2;
@@ -117,7 +117,8 @@ const Case kCases[] = {
     {"cc1000", "cc1000", false, Projection::kPerspective, false},
 };
 
-/// The picture that phong.hpp defines, by brute force, its rays moved by a part of a pixel.
+/// Draws the picture that phong.hpp defines, by brute force, with its rays moved by a part of a
+/// pixel.
 Image reference(const Scene& scene, View view, const PhongLight& light, double right_px,
                 double down_px) {
   const double step = 2 * view.half_height / view.height_px;
@@ -135,7 +136,7 @@ bool differ(const std::array<uint8_t, 3>& a, const std::array<uint8_t, 3>& b) {
   return false;
 }
 
-/// A picture as the comparison sees it.
+/// A picture in the form that the comparison uses.
 struct Picture {
   Pixels rgb;
   std::vector<bool> hit;
@@ -153,7 +154,7 @@ Picture picture_of(Pixels rgb) {
   return picture;
 }
 
-/// A scene seen by a camera, and what the reference says of it.
+/// A scene seen by a camera, and the reference's picture of it.
 class Judged {
  public:
   Judged(const Case& c, Scene scene_in) : scene(std::move(scene_in)) {
@@ -255,7 +256,7 @@ TEST_P(PovRay, Agrees) {
   ASSERT_TRUE(may_be_told_from_black(judged.scene, kColors));
   const Picture povray = judged.povray();
 
-  // The judge itself: POV-Ray against the formulas of phong.hpp, traced by the reference.
+  // The judge itself is compared: POV-Ray with the formulas of phong.hpp, traced by the reference.
   const Difference truth = compare(povray, judged.truth, judged);
   std::cout << GetParam().name << ", reference: " << truth << "\n";
   EXPECT_GT(truth.hits, povray.rgb.size() / 50) << "the picture must show something";
@@ -268,7 +269,7 @@ TEST_P(PovRay, Agrees) {
     const Difference ours = compare(scadray(judged, renderer), povray, judged);
     std::cout << GetParam().name << ", scadray, " << name << ": " << ours << "\n";
     EXPECT_EQ(ours.unexcused_hit_or_miss + ours.unexcused_colour, 0u) << name;
-    // In double, as the reference is: no more than it.
+    // In double, as in the reference, no pixel may differ beyond that.
     const double limit = renderer == RendererKind::kCpu
                              ? double(truth.hit_or_miss + truth.colour)
                              : std::ceil(kWrongShare * double(truth.hits));

@@ -13,7 +13,7 @@ bool is_of_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$';
 }
 
-/// Past the string that begins there.
+/// Returns the position after the string that begins there.
 std::size_t string_end(std::string_view text, std::size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at) {
     if (text[at] == '\\') ++at;
@@ -21,7 +21,7 @@ std::size_t string_end(std::string_view text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// Past blanks and comments, and a byte order mark.
+/// Returns the position after blanks and comments, and after a byte order mark.
 std::size_t next_word(std::string_view text, std::size_t at) {
   for (;;) {
     while (at < text.size() && is_blank(text[at])) ++at;
@@ -39,8 +39,8 @@ std::size_t next_word(std::string_view text, std::size_t at) {
   }
 }
 
-/// Modifiers, a name and its arguments in brackets, without blanks outside strings; empty if there
-/// are none. Moves on past them.
+/// Takes modifiers, a name and its arguments in brackets, without blanks outside strings, and moves
+/// `at` on; empty if there are none.
 std::string take_head(std::string_view text, std::size_t& at) {
   std::string head;
   while (at < text.size() && std::string_view("#%*!").find(text[at]) != std::string_view::npos) {
@@ -73,7 +73,7 @@ std::string take_head(std::string_view text, std::size_t& at) {
 
 std::optional<Design> parse(std::string_view text) {
   Design design;
-  std::vector<bool> is_single;  // of each open node: it has one child and no braces
+  std::vector<bool> is_single;  // by open node: it has one child and no braces
   const auto end_subtree = [&] {
     while (!is_single.empty() && is_single.back()) {
       design.push_back({Kind::kClose, {}});

@@ -1,5 +1,5 @@
-// A .csg as a flat row of tokens, so that subtrees are ranges of it: cheap to cut, copy and move,
-// however deep they are.
+// A .csg as a flat row of tokens. Subtrees are ranges of it, so that they are cheap to cut, copy
+// and move, however deep they are.
 #pragma once
 
 #include <cstddef>
@@ -22,19 +22,20 @@ struct Token {
   std::string head;  // modifiers, name and arguments; empty: kClose
 };
 
-/// Blocks are balanced.
+/// A design; its blocks are balanced.
 using Design = std::vector<Token>;
 
-/// Nothing if the text is no row of nodes with balanced brackets. Names and arguments are not
-/// looked at; comments and blanks between them are left out.
+/// Returns nothing if the text is not a row of nodes with balanced brackets. Names and arguments
+/// are not examined; comments and blanks between them are dropped.
 std::optional<Design> parse(std::string_view text);
 
 std::string text_of(const Design& design);
 
-/// Past the last token of the subtree that begins with the token, which is no kClose.
+/// Returns the index after the last token of the subtree that begins with the token, which must not
+/// be kClose.
 std::size_t subtree_end(const Design& design, std::size_t begin);
 
-/// Where a number stands in a head: not as a part of a name or a string.
+/// The place of a number in a head, not within a name or a string.
 struct NumberPlace {
   std::size_t begin, length;
 };

@@ -9,7 +9,7 @@
 namespace slow_search {
 namespace {
 
-/// Six digits, as a .csg has.
+/// Writes six digits, as in a .csg.
 std::string text_of(double number) {
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%g", number);
@@ -39,7 +39,7 @@ std::string moved(double x, double y, double z, const std::string& child) {
                child);
 }
 
-/// About an axis, 0 for x.
+/// Turns about an axis, 0 for x.
 std::string turned(int axis, double angle_deg, const std::string& child) {
   const double c = std::cos(angle_deg * std::numbers::pi / 180);
   const double s = std::sin(angle_deg * std::numbers::pi / 180);
@@ -250,7 +250,7 @@ std::string holes(Random& random, int count) {
   return block("difference()", text);
 }
 
-/// Each level's part is cut out of all that is deeper, or what is deeper out of the part.
+/// Each level's part is cut out of everything deeper, or everything deeper out of the part.
 std::string deep_differences(Random& random, int count) {
   std::string text = cube(40, 40, 40);
   for (int i = 0; i < count; ++i) {

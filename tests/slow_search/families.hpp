@@ -1,4 +1,4 @@
-// Designs to start from: kinds of designs that renderers find hard.
+// The designs to start from: kinds of designs that renderers find hard.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace slow_search {
 
 struct Family {
   const char* name;
-  /// About `count` primitives, as .csg text.
+  /// Makes about `count` primitives, as .csg text.
   std::string (*make)(Random& random, int count);
 };
 

@@ -18,10 +18,11 @@ namespace fs = std::filesystem;
 
 volatile sig_atomic_t is_interrupted = 0;
 
-/// A picture may take no more memory than this; what tries fails, or is ended by a signal.
+/// The most memory that a picture may take. A program that tries to take more fails, or is ended by
+/// a signal.
 [[maybe_unused]] constexpr rlim_t kMostMemory = rlim_t{8} << 30;
 
-/// The value in "--name=value".
+/// Parses the value in "--name=value".
 double number_of(const std::string& option) {
   const char* const text = option.c_str() + option.find('=') + 1;
   char* end = nullptr;
@@ -89,7 +90,7 @@ int main(int count, char** words) {
   struct sigaction action {};
   action.sa_handler = [](int) { is_interrupted = 1; };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes
+#if !defined(__SANITIZE_ADDRESS__)  // it reserves terabytes
   const rlimit memory{kMostMemory, kMostMemory};
   setrlimit(RLIMIT_AS, &memory);
 #endif

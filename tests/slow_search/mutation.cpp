@@ -71,7 +71,7 @@ class Mutator {
     }
   }
 
-  /// The place of a token that begins a subtree; size() if there is none.
+  /// Returns the place of a token that begins a subtree; size() if there is none.
   std::size_t any_begin(const Design& design) {
     std::vector<std::size_t> begins;
     for (std::size_t i = 0; i < design.size(); ++i) {
@@ -80,7 +80,8 @@ class Mutator {
     return begins.empty() ? design.size() : begins[random_.below(begins.size())];
   }
 
-  /// Small subtrees are the most frequent: one in three is taken for the one that holds it.
+  /// Small subtrees are the most frequent, so that one in three is replaced by the subtree around
+  /// it.
   Range any_subtree(const Design& design) {
     std::size_t begin = any_begin(design);
     while (begin > 0 && design[begin - 1].kind == Kind::kOpen && random_.one_in(3)) --begin;
@@ -102,7 +103,7 @@ class Mutator {
                   design_.begin() + static_cast<std::ptrdiff_t>(range.second));
   }
 
-  /// So often in all, each copy further along by the same step, which is often 0.
+  /// Repeats a subtree `times` times in all, each copy shifted by the same step, which is often 0.
   void repeat(std::size_t times) {
     const Range range = any_subtree(design_);
     const Design part = part_of(design_, range);
@@ -132,7 +133,7 @@ class Mutator {
 
   void remove() { erase(any_subtree(design_)); }
 
-  /// Leaves the children of a node that has any.
+  /// Replaces a node by its children, if it has any.
   void unwrap() {
     const Range range = any_subtree(design_);
     if (range.first == range.second || design_[range.first].kind != Kind::kOpen) return;
@@ -214,8 +215,8 @@ class Mutator {
     }
   }
 
-  /// Changes one number of one node, or of every node of the same name: sizes change together, or
-  /// one by one.
+  /// Changes one number of one node, or of all nodes of the same name, so that sizes change
+  /// together, or one by one.
   void change_numbers() {
     const std::size_t at = any_begin(design_);
     if (at == design_.size()) return;

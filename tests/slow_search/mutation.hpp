@@ -1,4 +1,4 @@
-// Changes of designs, by structure.
+// Changes the structure of designs.
 #pragma once
 
 #include "design.hpp"
@@ -6,7 +6,7 @@
 
 namespace slow_search {
 
-/// No design grows beyond this many bytes of text.
+/// The most bytes of text of a design.
 constexpr std::size_t kMostBytes = 200'000;
 
 /// The design after one to four changes: a subtree duplicated, repeated with a shift, removed,

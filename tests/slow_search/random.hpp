@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine: std's distributions differ from one library to
-// another.
+// Random numbers that are the same on every machine: distributions of std differ from one library
+// to another.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@ class Random {
  public:
   explicit Random(uint64_t seed) : engine_(seed) {}
 
-  /// In [0, limit); 0 if that is empty.
+  /// Returns a number in [0, limit); 0 if that is empty.
   std::size_t below(std::size_t limit) {
     return limit == 0 ? 0 : static_cast<std::size_t>(engine_() % limit);
   }
-  /// In [first, last].
+  /// Returns a number in [first, last].
   int from_to(int first, int last) {
     return first + static_cast<int>(below(static_cast<std::size_t>(last - first + 1)));
   }
-  /// In [low, high).
+  /// Returns a number in [low, high).
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }

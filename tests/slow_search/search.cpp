@@ -47,12 +47,12 @@ std::string text_of_file(const fs::path& path) {
   return text.str();
 }
 
-/// `cube(1);` is drawn within this, on any machine.
+/// The limit for `cube(1);` on any machine.
 constexpr double kBaseLimit_s = 30;
 
 struct Timing {
   double median_ms = 0;
-  double cpu_ms = 0;  // the least: others' load only adds to it
+  double cpu_ms = 0;  // the least: load by others only adds to it
   double peak_mb = 0;
   std::string end;  // as in Found
 };
@@ -61,7 +61,7 @@ class Timer {
  public:
   explicit Timer(const fs::path& program) : program_(program) {}
 
-  /// Nothing if the design is refused, or if its first picture takes less than `least_ms`.
+  /// Returns nothing if the design is refused, or if its first picture takes less than `least_ms`.
   std::optional<Timing> time(const std::string& text, double least_ms, double limit_s) {
     constexpr std::size_t kRuns = 3;
     const fs::path design = folder_.path() / "design.csg";
@@ -140,7 +140,7 @@ class Search {
     return candidates;
   }
 
-  /// Halves the count where the text gets too large.
+  /// Makes a design of the family, and halves the count if the text gets too large.
   Candidate made(const Family& family, int count) {
     for (;;) {
       const std::optional<Design> design = parse(family.make(random_, count));

@@ -1,5 +1,5 @@
-// The search for slow designs: that what it makes is a design, the same for the same seed, and that
-// it ends and leaves nothing behind. No time is asserted.
+// Tests the search for slow designs: it makes designs, the same for the same seed, and it ends and
+// leaves nothing behind. No time is asserted.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -39,7 +39,7 @@ std::string text_of_file(const fs::path& path) {
   return text.str();
 }
 
-/// By the parser of the program; nothing if it refuses the text.
+/// Parses with the program's parser; nothing if it refuses the text.
 std::optional<std::vector<frontend::NodeKind>> kinds_of(const std::string& text) {
   std::vector<frontend::NodeKind> kinds;
   try {
@@ -98,7 +98,7 @@ TEST(Families, AreDesigns) {
   }
 }
 
-/// A row of mutations, each of the last.
+/// Returns a row of mutations, each of the one before.
 std::vector<std::string> mutations(uint64_t seed, int count) {
   Random random(seed);
   std::vector<std::string> texts;
@@ -134,7 +134,7 @@ TEST(Archive, KeepsTheSlowestPerByteOfAFamilyAndSize) {
   };
   add("a", 1000, 100);
   add("a", 900, 80);  // slower per byte only than nothing
-  add("a", 600, 90);  // slower per byte, of a size like that
+  add("a", 600, 90);  // slower per byte, of a similar size
   add("a", 5000, 300);
   add("b", 1000, 1);
   EXPECT_DOUBLE_EQ(archive.least_excess_ms("a", 800), 120);
@@ -146,7 +146,7 @@ TEST(Archive, KeepsTheSlowestPerByteOfAFamilyAndSize) {
 
 class SlowSearch : public testing::Test {
  protected:
-  /// Starts the program, its standard output in a file.
+  /// Starts the program, with its standard output in a file.
   pid_t start(std::vector<std::string> words) {
     words.insert(words.begin(), SLOW_SEARCH_PROGRAM);
     const pid_t child = fork();
@@ -167,7 +167,7 @@ class SlowSearch : public testing::Test {
   }
   int run(const std::vector<std::string>& words) { return finish(start(words)); }
 
-  /// Temporary files of the search lie here.
+  /// Fails if the search has left temporary files.
   void expect_nothing_left() { EXPECT_TRUE(fs::is_empty(folder_ / "tmp")); }
 
   TemporaryFolder folder_;
@@ -193,7 +193,7 @@ TEST_F(SlowSearch, WritesDesignsAndATable) {
   expect_nothing_left();
 }
 
-// Stand-ins draw cube(1); and then misbehave.
+// Returns a stand-in for scadray, which draws cube(1); and then misbehaves.
 std::string stand_in(const std::string& misbehaviour) {
   return "for last; do :; done\ncase $(cat \"$last\") in 'cube(1);') exit 0;; esac\n" +
          misbehaviour;
@@ -207,7 +207,7 @@ TEST_F(SlowSearch, EndsWhatHangsAndItsChildren) {
   std::istringstream pids(folder_.read("pids"));
   int count = 0;
   for (pid_t pid = 0; pids >> pid; ++count) {
-    // Killed, it may be there as a zombie until init has looked at it.
+    // A killed process may be a zombie until init has reaped it.
     const std::string stat = text_of_file("/proc/" + std::to_string(pid) + "/stat");
     EXPECT_TRUE(stat.empty() || stat.find(") Z ") != std::string::npos) << stat;
   }

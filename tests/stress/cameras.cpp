@@ -8,7 +8,7 @@
 namespace stress {
 namespace {
 
-/// Half of what a picture shows in height, as a share of the box's diagonal.
+/// Half of the height of what a picture shows, as a share of the box's diagonal.
 constexpr double kHalfHeight = 0.55;
 
 void set_lens(View& view, PictureSize size, Projection projection, double model, double distance) {

@@ -1,4 +1,4 @@
-// The named scenes of the stress suite, in families, each with the cameras that it is seen from.
+// The named scenes of the stress suite, in families, each with its cameras.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,11 @@ struct Camera {
   View view;
 };
 
-/// Three cameras for a scene.
+/// Makes three cameras for a scene.
 using Cameras = std::function<std::vector<Camera>(const Scene&, PictureSize)>;
 
-/// From 25° around and 35° above in perspective, exactly from above without, and in perspective
-/// from near the ground, close by.
+/// Returns a perspective view from 25° around and 35° above, an orthographic view exactly from
+/// above, and a perspective view from near the ground, close by.
 std::vector<Camera> default_cameras(const Scene& scene, PictureSize size);
 
 struct Case {
@@ -40,24 +40,24 @@ struct Case {
   std::function<Scene()> make;
   Cameras cameras = default_cameras;
   bool only_full_run = false;
-  /// Lengths whose squares a float cannot hold: GL needs them scaled (frontend::render).
+  /// Squares of its lengths are beyond a float: GL needs the scene scaled (frontend::render).
   bool beyond_float = false;
 };
 
 struct Family {
   std::string name;
   std::vector<Case> cases;
-  /// Faces coincide all over: GL's bar is speckle.
+  /// Faces coincide everywhere: GL's bar is on speckle.
   bool is_coincident = false;
 };
 
-/// What GoogleTest prints of a family.
+/// Prints a family for GoogleTest.
 inline void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
 
 /// All families, in the order of the table.
 const std::vector<Family>& families();
 
-/// The families, by the file that makes them.
+/// The families, each made by the file of that name.
 std::vector<Family> coincident_families();
 std::vector<Family> thin_families();
 std::vector<Family> far_families();
@@ -69,16 +69,17 @@ std::vector<Family> design_families();
 
 // --- Cameras ---
 
-/// The model's box, or a box about the origin if it is empty.
+/// Returns the model's box, or a box about the origin if the model is empty.
 Box camera_box(const Scene& scene);
 
-/// From the direction given by two angles (degrees: around z, above the xy plane) towards the
-/// middle of the box, `distance` diagonals away, the box filling most of the picture's height.
+/// Returns a view from the direction given by two angles (degrees: around z, above the xy plane)
+/// towards the middle of the box, from `distance` diagonals away. The box fills most of the
+/// picture's height.
 View view_around(const Box& box, PictureSize size, Projection projection, double around_deg,
                  double above_deg, double distance);
 
-/// Exactly along −x, −y or −z (axis 0, 1, 2) towards the middle of the box: every component of the
-/// view's axes is 0, 1 or −1.
+/// Returns a view exactly along −x, −y or −z (axis 0, 1, 2) towards the middle of the box: every
+/// component of the view's axes is 0, 1 or −1.
 View view_along(const Box& box, PictureSize size, Projection projection, int axis, double distance);
 
 }  // namespace stress

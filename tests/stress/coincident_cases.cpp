@@ -1,4 +1,5 @@
-// Faces that two primitives share: caps, walls, whole shells; and the same seen at grazing angles.
+// Scenes with faces that two primitives share: caps, walls, whole shells; and the same seen at
+// grazing angles.
 #include <cmath>
 
 #include "cases.hpp"
@@ -10,7 +11,7 @@ Part through_hole() { return rod(0, 10, 8) - rod(0, 10, 5); }
 Part inlay() { return (rod(0, 10, 8) - rod(6, 10, 5)) + rod(6, 10, 5); }
 Part tower() { return all_of({rod(0, 10, 8), rod(10, 20, 8), rod(-7, 0, 3)}); }
 
-/// Discs of one top plane, side by side and over each other, every third one cut out again.
+/// Discs with a common top plane, side by side and overlapping, every third one cut out again.
 Part discs_in_one_plane() {
   Part result = rod(0, 2, 9);
   for (int i = 0; i < 12; ++i) {
@@ -21,8 +22,8 @@ Part discs_in_one_plane() {
   return result;
 }
 
-/// One plate whose hole is given in a frame that is composed the other way round, so that planes
-/// and axes agree to a double's rounding only.
+/// A plate whose hole is given in a frame that is composed in the other order, so that planes and
+/// axes agree only to a double's rounding.
 Part turned_frames() {
   const Affine first = turn(17, 29, 0), second = turn(0, 0, 43);
   const Part plate = rod(0, 4, 9).under(csgcore::compose(first, second));
@@ -31,17 +32,17 @@ Part turned_frames() {
   return (plate - hole - plug) + plug;
 }
 
-/// Two discs that touch side by side, both flush with what they stand in.
+/// Two discs that touch side by side, both flush with the part that they are in.
 Part touching_discs() {
   return (rod(0, 5, 10) - rod(3, 5, 4, {-4, 0, 0}) - rod(3, 5, 4, {4, 0, 0})) +
          rod(4, 5, 4, {-4, 0, 0});
 }
 
-/// Plugs, one in the other, flush with the plate around the hole: where they are seen, the plate's
-/// own top is cut away.
+/// Plugs, one inside the other, flush with the plate around the hole: where they are seen, the
+/// plate's own top is cut away.
 Part two_plugs_in_a_hole() { return (rod(0, 4, 9) - rod(1, 4, 5)) + rod(1, 4, 5) + rod(0, 4, 3); }
 
-/// Two plugs as before, where a top of theirs is in common with something that stands aside.
+/// Two such plugs, one of whose tops is intersected with a part that is elsewhere.
 Part beside_a_common_part() {
   return rod(0, 4, 9) * rod(0, 4, 9, {15, 0, 0}) + rod(1, 4, 5) + rod(0, 4, 3);
 }
@@ -101,14 +102,14 @@ Family coaxial_walls() {
 
 Part equal_balls(Op op, int count) { return Part::combined(op, std::vector<Part>(count, ball(4))); }
 
-/// Added and taken away in turns, added last.
+/// Parts are added and taken away in turns, and added last.
 Part in_turns() {
   Part result = ball(5);
   for (int i = 0; i < 9; ++i) result = i % 2 ? result + ball(5) : result - ball(5);
   return result + ball(5);
 }
 
-/// Shells in shells, each of equal pairs, opened at the side.
+/// Nested shells, each of equal pairs, opened at the side.
 Part onion() {
   Part result = ball(10) + ball(10);
   for (int i = 9; i > 3; --i) {
@@ -118,7 +119,7 @@ Part onion() {
   return result - rod(-11, 11, 8, {9, 0, 0});
 }
 
-/// Equal cones, turned about their axis, less as many equal shorter ones.
+/// Equal cones, turned about their axis, minus as many equal shorter ones.
 Part many_equal_cones() {
   std::vector<Part> cones, cuts;
   for (int i = 0; i < 40; ++i) {
@@ -138,8 +139,8 @@ Family nested_equal_shells() {
           true};
 }
 
-/// 0.1° and 0.001° above and below the plane of the model's top, close and far, so that the plane
-/// stays in the picture.
+/// Cameras 0.1° and 0.001° above and below the plane of the model's top, close and far, with the
+/// plane in the picture.
 std::vector<Camera> grazing_cameras(const Scene& scene, PictureSize size) {
   const Box box = camera_box(scene);
   const auto above_top = [&](Projection projection, double above_deg, double distance) {
@@ -166,8 +167,8 @@ Family grazing() {
           true};
 }
 
-/// Differences of no thickness, or less than the tolerance: nothing is left, or what is left has no
-/// skin.
+/// Differences without thickness, or thinner than the tolerance: nothing is left, or the rest has
+/// no skin.
 Family zero_thickness() {
   const auto grown = [](double share) { return rod(0, 10 * (1 + share), 6 * (1 + share)); };
   return {

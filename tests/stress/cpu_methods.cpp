@@ -37,7 +37,7 @@ Method kd_tree(const std::string& name, const SubdivisionOptions& options) {
           }};
 }
 
-/// The paper's rule, but with no cell dropped: then its picture is exact too.
+/// The paper's rule, but with no cell dropped: then its picture is exact, too.
 SubdivisionOptions paper_without_threshold() {
   SubdivisionOptions options = SubdivisionOptions::paper(1, View{});
   options.threshold_px = 0;

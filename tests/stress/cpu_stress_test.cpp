@@ -1,4 +1,4 @@
-// The CPU tracer against the exact ray oracle, on the whole stress suite and on the examples.
+// Tests the CPU tracer against the exact ray oracle, on the whole stress suite and on the examples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,12 +17,12 @@ using stress::Family;
 using stress::Line;
 using stress::Tally;
 
-/// The bars: pixels that are undecided, per hit; median error of
-/// positions, in model sizes, beyond what the rounding of the coordinates does.
+/// The bars: undecided pixels per hit; and the median error of positions, in model sizes,
+/// beyond the rounding of the coordinates.
 constexpr double kMostUndecided = 1e-5;
 constexpr double kMedianPosition = 1e-13;
 
-/// Lines of all families, for the table's last rows.
+/// The lines of all families, for the table's last rows.
 std::vector<Line>& all_lines() {
   static std::vector<Line> lines;
   return lines;
@@ -71,7 +71,7 @@ bool same_bits(const Hits& a, const Hits& b) {
          equal(a.primitive, b.primitive);
 }
 
-/// Draws by one thread and by two; `source` is a Solid or a Subdivision.
+/// Draws with one thread and with two; `source` is a Solid or a Subdivision.
 template <typename Source>
 void expect_same_by_threads(const Source& source, const csgcore::View& view) {
   csgcore::TraceOptions one, two;
@@ -121,7 +121,7 @@ std::vector<std::filesystem::path> example_files() {
 TEST(CpuExamplesTest, EqualTheOracle) {
   Family examples{"examples", {}};
   for (const std::filesystem::path& file : example_files()) {
-    // The sample has one of each kind, the full run all.
+    // The sample has one example of each kind, the full run all.
     const std::string name = file.stem().string();
     const bool is_large = name.size() > 5 && name.ends_with("00");
     examples.cases.push_back({name, [file] { return stress::import_design_file(file); },

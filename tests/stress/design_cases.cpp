@@ -1,5 +1,5 @@
-// Designs as OpenSCAD exports them, with 6 digits to a number: faces that coincide in the design
-// are flush again once the importer has healed them.
+// Designs as OpenSCAD exports them, with 6 digits to a number. Faces that coincide in the design do
+// so again once the importer has healed them.
 #include <string>
 
 #include "cases.hpp"

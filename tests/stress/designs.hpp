@@ -6,7 +6,7 @@
 
 namespace stress {
 
-/// A .csg, or a .scad as OpenSCAD exports it.
+/// Imports a .csg, or a .scad as OpenSCAD exports it.
 csgcore::Scene import_design_file(const std::filesystem::path& file);
 
 }  // namespace stress

@@ -1,4 +1,4 @@
-// A pixel that two see differently, as small as it can be shown.
+// Reports a pixel on which two renderers disagree, in the smallest scene that shows it.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace stress {
 
-/// The smallest scene that still `shows` it (see oracle::minimise), and the view and the pixel, for
-/// a regression test and for OpenSCAD.
+/// Returns the smallest scene that still `shows` the disagreement (see oracle::minimise), with the
+/// view and the pixel, for a regression test and for OpenSCAD.
 std::string minimised(const Scene& scene, const View& view, size_t pixel,
                       const oracle::Shows& shows, uint32_t most_tries = oracle::kMostTries);
 

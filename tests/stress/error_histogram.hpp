@@ -1,4 +1,4 @@
-// Many errors in little memory.
+// Counts many errors in little memory.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class ErrorHistogram {
   }
   uint64_t count() const { return count_; }
   double largest() const { return largest_; }
-  /// 0 of none, and where it is below 2^kLowest.
+  /// 0 if there are none, or if it is below 2^kLowest.
   double median() const {
     uint64_t below = 0;
     for (size_t i = 0; i < kBins; ++i) {

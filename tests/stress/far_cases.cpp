@@ -1,4 +1,5 @@
-// Eyes far away, models far from the origin, huge and tiny ones, and maps that shear and mirror.
+// Scenes with eyes far away, models far from the origin, huge and tiny models, and maps that shear
+// and mirror.
 #include <cmath>
 #include <random>
 
@@ -8,7 +9,7 @@
 namespace stress {
 namespace {
 
-/// A drilled and filled block whose faces coincide all over, and a rough side.
+/// A drilled and filled block whose faces coincide everywhere, with a rough side.
 Part block() {
   const Part body = rod(0, 10, 8) - rod(4, 10, 5) - rod(0, 4, 2);
   const Part plug = rod(4, 10, 2.5, {2, 0, 0});
@@ -22,7 +23,7 @@ Part block() {
   return (body + plug) - all_of(bites);
 }
 
-/// With thirds for lengths, so that nothing but rounding is left of a coordinate far out.
+/// A block with thirds for lengths, so that a coordinate far out is all rounding.
 Part fractional_block() {
   const Part body = rod(0, 10 / 3.0, 8 / 3.0) - rod(4 / 3.0, 10 / 3.0, 5 / 3.0);
   return (body + rod(4 / 3.0, 10 / 3.0, 1 / 3.0, {1 / 3.0, 0, 0})) + ball(2 / 3.0, {0, 3, 3});

@@ -1,6 +1,6 @@
-// The OpenGL renderer against the exact ray oracle, on the whole stress suite. Floats cannot hold
-// it all: the bar is on speckle where faces coincide, the rest is measured, and held
-// to what was measured.
+// Measures the OpenGL renderer against the exact ray oracle, on the whole stress suite. Floats
+// cannot represent all of it: the bar is on speckle where faces coincide. The rest is measured, and
+// must not become worse.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -41,7 +41,7 @@ stress::Method gl_method(uint32_t leaf_primitives) {
           }};
 }
 
-/// Cells where tiles have lists that are too long, as the command does.
+/// Tiles, or, if their lists are too long, cells, as in the command.
 stress::Method gl_tiles() {
   return {"tiles", [](const csgcore::Scene& scene, const Solid& solid) -> stress::Drawer {
             const auto renderer = std::make_shared<glrender::Renderer>(gl_test::context(), solid);
@@ -59,36 +59,36 @@ stress::Method gl_tiles() {
           }};
 }
 
-/// Wrong pixels per hit that a family may have: the 1 in 10,000, or half as many again as
-/// were measured (the larger of the sample and the full run, on llvmpipe) where floats cannot do
-/// better.
+/// The wrong pixels per hit that a family may have: the 1 in 10,000, or, where floats
+/// cannot do better, 1.5 times the measured share (the larger of the sample's and the full run's,
+/// on llvmpipe).
 double most_wrong(const std::string& family) {
   static const std::map<std::string, double> kMeasured{
-      {"tangent", 2e-4},               // which of two surfaces that touch
+      {"tangent", 2e-4},               // which of two surfaces that touch is hit
       {"needles", 7e-4},               // silhouettes at 1e-6 of the length
       {"plates", 5e-3},                // edges of 1e-6
       {"apexes", 1e-3},                // an apex that a ray just passes
       {"random_lattice", 0.015},       // eyes in faces
-      {"far_models", 0.04},            // what is 1e-6 of the model
+      {"far_models", 0.04},            // parts of 1e-6 of the model
       {"sheared_and_mirrored", 0.04},  // a map of condition 1e5
-      {"pencils", 0.09},               // which of hundreds
+      {"pencils", 0.09},               // which of hundreds is hit
       {"eye_in_a_face", 0.13},
-      {"prisms", 5e-4},                 // a wall that touches others from within
+      {"prisms", 5e-4},                 // a wall that touches others from inside
       {"lattice_of_polyhedra", 0.011},  // eyes in faces
       {"scaled_polyhedra", 3e-3},       // a map of condition 1e5
       {"eyes_in_polyhedra", 0.034},     // an eye in an edge
-      {"shells", 0.2},                  // of 1e-7
+      {"shells", 0.2},                  // shells of 1e-7
       {"thin_polyhedra", 0.55},         // a plate and a shell of 1e-7
       {"zero_thickness", 0.4},          // a skin of 1e-6
       {"scales", 0.6},                  // a ball of 1e-9
-      {"tolerance", 0.7},               // all of it is beneath a float
+      {"tolerance", 0.7},               // all of it is below a float's precision
   };
   const auto found = kMeasured.find(family);
   return found == kMeasured.end() ? 1e-4 : found->second;
 }
 
-/// Speckle pixels per hit that a family may have whose faces coincide: the bar, or half as
-/// many again as were measured.
+/// The speckle pixels per hit that a family with coincident faces may have: the bar, or 1.5
+/// times the measured share.
 double most_speckle(const std::string& family) {
   static const std::map<std::string, double> kMeasured{
       {"prisms", 4e-4},                // along the lines in which a wall touches others
@@ -118,8 +118,8 @@ TEST_P(GlStressTest, IsMeasuredAgainstTheOracle) {
 INSTANTIATE_TEST_SUITE_P(, GlStressTest, testing::ValuesIn(stress::families()),
                          [](const auto& instance) { return instance.param.name; });
 
-/// The trees of random_trees_test. Half of them have faces that coincide but for the rounding of
-/// their maps: closer than floats tell, so that another face than the decider's may show.
+/// The trees of random_trees_test. Half of them have faces that coincide up to the rounding of
+/// their maps, which is finer than floats, so that another face than the decider's may show.
 TEST(GlRandomTrees, AreMeasuredAgainstTheOracle) {
   constexpr double kMostWrong = 1e-3;
   constexpr stress::PictureSize kPicture{32, 32};

@@ -15,16 +15,16 @@ using oracle::ExactHit;
 
 namespace {
 
-/// The oracle takes its time over doubts: in a picture that is all wrong, enough were asked.
+/// The oracle takes long to judge doubts; in a picture that is all wrong, this many are enough.
 constexpr uint64_t kMostQuestions = 500;
 
-constexpr size_t kMostListed = 20;  // undecided pixels of a picture
+constexpr size_t kMostListed = 20;  // undecided pixels listed per picture
 
 struct Errors {
   double position, normal, s;
 };
 
-/// nan for nan.
+/// Returns nan for nan.
 double distance(double x, const Bounds& bounds) {
   return x < bounds.lower ? bounds.lower - x : x > bounds.upper ? x - bounds.upper : x - x;
 }
@@ -34,7 +34,7 @@ Errors errors_of(const ExactHit& expected, const Hits& picture, size_t i) {
           glm::length(picture.normal[i] - expected.normal), distance(picture.s[i], expected.s)};
 }
 
-/// What rounding does to the coordinates of a point.
+/// Returns the rounding of a point's coordinates.
 double rounding(const Vec3& point, const Tolerance& tolerance) {
   return tolerance.coordinate * glm::length(point);
 }

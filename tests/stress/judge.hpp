@@ -1,4 +1,4 @@
-// A renderer's picture held against the exact ray oracle, pixel by pixel.
+// Judges a renderer's picture by the exact ray oracle, pixel by pixel.
 #pragma once
 
 #include <cstdint>
@@ -14,49 +14,49 @@
 
 namespace stress {
 
-/// What a pixel may be off by and still be right.
+/// The errors that a pixel may have and still be right.
 struct Tolerance {
   double position;    // as a share of the model's size
   double normal;      // length of the difference of the unit normals
   double coordinate;  // relative rounding of the picture's coordinates
 };
 
-/// The tracer: positions tell surfaces apart that are a tolerance (thickness_tolerance) apart;
-/// normals are there to tell a wrong side or a wrong face.
+/// For the tracer: positions tell surfaces apart that are a tolerance (thickness_tolerance) apart;
+/// normals tell a wrong side or a wrong face.
 constexpr Tolerance kDoubleTolerance{oracle::kExactPositionError, oracle::kExactNormalError,
                                      0x1p-52};
-/// GL: as tests/glrender judges it (half a degree).
+/// For GL, as in tests/glrender (half a degree).
 constexpr Tolerance kFloatTolerance{1e-4, 8.7e-3, 0x1p-22};
 
 enum class Verdict : uint8_t {
   kRight,
-  kWrongHit,        // hit for miss, or the other way round
-  kWrongPrimitive,  // of another primitive, whatever the position
+  kWrongHit,        // a hit for a miss, or a miss for a hit
+  kWrongPrimitive,  // another primitive, whatever the position
   kWrongPosition,
   kWrongNormal,
 };
 constexpr size_t kVerdicts = 5;
 
-/// A pixel, held against what the exact ray sees of the scene.
+/// Compares a pixel with what the exact ray sees of the scene.
 Verdict verdict_of(const oracle::ExactHit& expected, const csgcore::Hits& picture, size_t pixel,
                    const Tolerance& tolerance, const oracle::ExactScene& scene);
 
 const char* name_of(oracle::Doubt doubt);
 
 /// Sums over pixels. A pixel that is not right is undecided if there is a doubt (ExactRays::doubt),
-/// and else wrong.
+/// and wrong otherwise.
 struct Tally {
   uint64_t pixels = 0;
-  uint64_t hits = 0;  // of the oracle
+  uint64_t hits = 0;  // hits of the oracle
   uint64_t wrong[kVerdicts] = {};
   uint64_t undecided = 0;
-  /// Wrong pixels that at least three of their four direct neighbours give away: those are right,
-  /// and show the primitive (or the miss) that this pixel ought to show.
+  /// Wrong pixels with at least three of their four direct neighbours right and showing the
+  /// primitive (or the miss) that this pixel ought to show.
   uint64_t speckle = 0;
-  /// Of the right hits: as shares of the model's size; and lengths of differences of unit normals.
+  /// Of right hits: as shares of the model's size, and as lengths of differences of unit normals.
   ErrorHistogram position_errors, normal_errors;
-  /// What the rounding of the picture's coordinates alone does to positions, at most, as a share of
-  /// the model's size.
+  /// The largest error of positions that the rounding of the picture's coordinates alone explains,
+  /// as a share of the model's size.
   double position_rounding = 0;
   std::string first_wrong;
   std::vector<std::string> undecided_pixels;  // the first ones of each picture
@@ -65,7 +65,7 @@ struct Tally {
   void add(const Tally& other);
 };
 
-/// The exact picture, with what can be asked about single pixels. Scene and view must outlive it.
+/// The exact picture, and questions about single pixels. Scene and view must outlive this object.
 class Oracle {
  public:
   Oracle(const csgcore::Scene& scene, const csgcore::View& view);
@@ -75,7 +75,7 @@ class Oracle {
   double model_size() const { return scene_.size(); }
   const oracle::ExactScene& scene() const { return scene_; }
   uint64_t hits() const;
-  /// Remembers what it was asked before.
+  /// Caches its answers.
   oracle::Doubt doubt(size_t pixel);
 
  private:

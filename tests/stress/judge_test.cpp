@@ -1,4 +1,4 @@
-// The judge itself: what it lets pass, and what it calls wrong, undecided and speckle.
+// Tests the judge itself: what it accepts, and what it calls wrong, undecided and speckle.
 #include "judge.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,8 @@ TEST_F(JudgeTest, SpeckleIsWhatItsNeighboursGiveAway) {
   EXPECT_EQ(judged().speckle, 1u);
   picture_.primitive[kMiddle] = 1;
   EXPECT_EQ(judged().speckle, 1u);
-  // With one wrong neighbour three are left, which will do; with two they are not enough.
+  // With one wrong neighbour three right ones are left, which suffice; with two wrong ones they do
+  // not.
   miss(pixel(17, 12));
   EXPECT_EQ(judged().speckle, 2u);
   miss(pixel(16, 11));
@@ -112,7 +113,7 @@ TEST_F(JudgeTest, SpeckleIsWhatItsNeighboursGiveAway) {
 }
 
 TEST_F(JudgeTest, AWrongPixelOnAnEdgeIsNoSpeckle) {
-  // The outermost hit of the middle row: above, below and inwards lie hits, outwards a miss; a
+  // The outermost hit of the middle row has hits above, below and inwards, and a miss outwards. A
   // corner of the silhouette has two of each.
   int edges = 0;
   for (uint32_t y = 1; y + 1 < kHeight; ++y) {
@@ -132,7 +133,7 @@ TEST_F(JudgeTest, AWrongPixelOnAnEdgeIsNoSpeckle) {
 }
 
 TEST(JudgeUndecidedTest, IsWhereThereIsADoubt) {
-  // Of the four rows of pixels that see the rod the topmost passes its lid by less than the
+  // Of the four rows of pixels that see the rod, the topmost passes its lid by less than the
   // displacement.
   const Scene scene = rod(-1, 0.75 + 3e-12, 8).scene();
   View view = view_along(Box{Vec3{-16.0}, Vec3{16.0}}, {64, 64}, Projection::kOrthographic, 0, 2);

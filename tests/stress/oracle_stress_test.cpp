@@ -1,5 +1,5 @@
-// The two oracles against each other on the whole stress suite: exact arithmetic, and long double
-// in a formulation of its own. They may differ only where a ray is undecided.
+// Tests the two oracles against each other on the whole stress suite: exact arithmetic, and long
+// double in a formulation of its own. They may differ only where a ray is undecided.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -35,8 +35,8 @@ TEST_P(OracleStressTest, AgreesWithTheReference) {
       const csgcore::Reference reference(scene, view);
       const std::vector<ReferenceHit> expected = reference.picture();
       const std::vector<ExactHit> picture = oracle::exact_picture(exact, view, &counts);
-      // Far from the origin the rounding of coordinates shows: in the reference's box, and in exact
-      // positions.
+      // Far from the origin the rounding of coordinates matters, in the reference's box and in
+      // exact positions.
       EXPECT_NEAR(exact.size(), reference.model_size(), 4 * exact.displacement());
       const double far = oracle::kExactPositionError * exact.size() + exact.displacement();
       for (size_t i = 0; i < picture.size(); ++i) {

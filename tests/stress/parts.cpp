@@ -61,7 +61,7 @@ void Nest::wrap(Op op, const Part& other) {
 }
 
 Scene Nest::scene() const {
-  // The innermost part comes first, so all operations open before it, the outermost first.
+  // The innermost part comes first, so that all operations open before it, the outermost one first.
   Part whole;
   for (size_t i = ops_.size(); i-- > 0;) {
     whole.steps_.push_back({Part::Step::Kind::kOpen, ops_[i], 0});

@@ -1,4 +1,4 @@
-// Solids put together from parts, for the scenes of the stress suite.
+// Composes solids of parts, for the scenes of the stress suite.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ using csgcore::Primitive;
 using csgcore::Scene;
 using csgcore::Vec3;
 
-/// A solid: primitives, and what a CsgTreeBuilder is told about them, in order. Parts may nest to
-/// any depth: nothing here recurses.
+/// A solid: its primitives, and the calls that build it with a CsgTreeBuilder, in order. Parts may
+/// nest to any depth, since no function recurses.
 class Part {
  public:
   Part() = default;
@@ -25,7 +25,7 @@ class Part {
   /// The same solid under a further map.
   Part under(const Affine& map) const;
   Part at(const Vec3& offset) const { return under({Mat3{1.0}, offset}); }
-  /// The model of a scene; ids are the primitives' indices.
+  /// Returns a scene with this model; ids are the primitives' indices.
   Scene scene() const;
   size_t primitive_count() const { return primitives_.size(); }
 
@@ -42,11 +42,11 @@ class Part {
   friend class Nest;
 };
 
-/// A part that grows outwards, each step an operation around what there is, in constant time.
+/// A part that grows outwards in constant time a step: each step puts an operation around the part.
 class Nest {
  public:
   explicit Nest(const Part& innermost) : part_(innermost) {}
-  /// What there is, with `other`, as the operands of `op` in this order.
+  /// Makes the part so far and `other` the operands of `op`, in this order.
   void wrap(Op op, const Part& other);
   Scene scene() const;
 
@@ -70,11 +70,11 @@ Part brick(const Vec3& min, const Vec3& max);
 Part cube(double size, const Vec3& at = Vec3{0.0});  // centred
 Part prism(double z_min, double z_max, double radius, int fragments, const Vec3& at = Vec3{0.0});
 Part faceted_ball(double radius, int fragments, const Vec3& at = Vec3{0.0});
-/// About the origin; its outermost coordinate is φ·`scale`, and eight of its vertices are the
-/// corners of the cube of ±`scale`.
+/// A dodecahedron about the origin. Its outermost coordinate is φ·`scale`, and eight of its
+/// vertices are the corners of the cube of ±`scale`.
 Part dodecahedron(double scale);
 
-/// Rotations about the axes, in this order, as OpenSCAD's rotate([x, y, z]) has them; rounded.
+/// Rotations about the axes, in this order, as in OpenSCAD's rotate([x, y, z]); rounded.
 Mat3 turned(double x_deg, double y_deg, double z_deg);
 Affine turn(double x_deg, double y_deg, double z_deg);
 

@@ -1,5 +1,5 @@
-// Convex polyhedra: cubes and prisms with faces, edges and vertices in common, with one another and
-// with what is round; thin, huge, tiny and sheared ones; and facets by the thousand.
+// Scenes of convex polyhedra: cubes and prisms that share faces, edges and vertices with one
+// another and with round parts; thin, huge, tiny and sheared ones; and thousands of facets.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -23,7 +23,7 @@ Part checkerboard() {
   return all_of(cubes);
 }
 
-/// 27 cubes that are one, less those at its corners.
+/// 27 cubes that form one, minus those at its corners.
 Part cube_of_cubes() {
   std::vector<Part> cubes, corners;
   for (int i = 0; i < 27; ++i) {
@@ -41,13 +41,13 @@ Part nested_cubes(int count) {
   return result + cube(10) - cube(12, {6, 6, 6});
 }
 
-/// A drilled and filled block whose caps lie in its faces.
+/// A drilled and filled block, with the caps of the cylinders in its faces.
 Part drilled() {
   const Part body = brick({-8, -8, 0}, {8, 8, 10});
   return (body - rod(0, 10, 5) - rod(6, 10, 3, {5, 5, 0})) + rod(2, 10, 3) + cube(2, {0, 0, 11});
 }
 
-/// One block whose pocket and plug are given in frames that are composed the other way round.
+/// A block whose pocket and plug are given in frames that are composed in the other order.
 Part turned_box_frames() {
   const Affine first = turn(17, 29, 0), second = turn(0, 0, 43);
   const Part body = brick({-8, -8, 0}, {8, 8, 4}).under(csgcore::compose(first, second));
@@ -56,7 +56,7 @@ Part turned_box_frames() {
   return (body - pocket) + plug;
 }
 
-/// Whole quarters of a turn about an axis, in matrices that are rounded.
+/// Quarter turns about an axis, in matrices that are rounded.
 Part quarter_turns() {
   Part result = cube(10);
   for (int i = 1; i < 4; ++i) {
@@ -100,7 +100,7 @@ Part nut_trap() {
   return (brick({-8, -8, 0}, {8, 8, 10}) - trap - rod(0, 10, 2)) + nut.at({0, 0, -1});
 }
 
-/// Prisms of six sides about one axis, by sixths of a turn.
+/// Six-sided prisms about one axis, turned by sixths of a turn.
 Part sixths_of_a_turn() {
   Part result = prism(0, 4, 6, 6);
   for (int i = 1; i < 6; ++i) {
@@ -110,7 +110,7 @@ Part sixths_of_a_turn() {
   return result.under(turn(21, 33, 0));
 }
 
-/// A bar that is as wide as the hexagon is across its flats, and the triangles in the hexagon.
+/// A bar as wide as the hexagon is across its flats, and the triangles in the hexagon.
 Part across_flats() {
   const double half = 4 * std::sqrt(0.75);
   const Part bar = brick({-9, -half, 0}, {9, half, 3});
@@ -146,7 +146,7 @@ Family prisms() {
 
 // --- Thin ones ---
 
-/// Close to the middle, so that pictures are some widths wide.
+/// Cameras close to the middle, so that pictures are some widths wide.
 Cameras close_up(double width) {
   return [width](const Scene& scene, PictureSize size) {
     const Vec3 middle = camera_box(scene).center();
@@ -222,7 +222,7 @@ Family scaled_polyhedra() {
          const Mat3 mirror{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
          return (faceted_block() + faceted_block().under({mirror, Vec3{0.0}})).scene();
        }});
-  // Local numbers and the matrix take each other back.
+  // The local numbers and the matrix cancel each other.
   family.cases.push_back({"1e12_times_1e-12", [] {
                             const Part huge =
                                 brick(Vec3{-5e12}, Vec3{5e12}) - cube(6e12, Vec3{5e12});
@@ -248,7 +248,7 @@ Part octahedron(double radius) {
   return csgcore::make_polyhedron(csgcore::Polyhedron::from(mesh));
 }
 
-/// No row or diagonal of pixels runs along an edge.
+/// Cameras for which no row or diagonal of pixels runs along an edge.
 std::vector<Camera> cameras_off_edges(const Scene& scene, PictureSize size) {
   const Box box = camera_box(scene);
   return {{"oblique", view_around(box, size, Projection::kPerspective, 25, 35, 3)},
@@ -290,7 +290,7 @@ Family facets() {
 
 // --- Eyes ---
 
-/// Of a cube of ±5.
+/// Eyes in faces of a cube of ±5.
 std::vector<Camera> eyes_in_faces(const Scene& scene, PictureSize size) {
   const auto looking_around = [&](double around_deg, double above_deg, const Vec3& eye) {
     View view =

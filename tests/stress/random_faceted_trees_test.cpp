@@ -1,4 +1,4 @@
-// The CPU tracer, the exact ray oracle and csgcore's membership on random trees of polyhedra
+// Tests the CPU tracer, the exact ray oracle and csgcore's membership on random trees of polyhedra
 // against Nef polyhedra. The full run has 1,000 trees.
 #include <gtest/gtest.h>
 
@@ -32,22 +32,23 @@ constexpr int kPoints = 200;
 constexpr uint32_t kParts = 10;
 constexpr int kAnyFragments = 3;  // nothing is smooth
 
-/// A Nef polyhedron takes a tenth of a second.
+/// Limits the steps of minimising: a Nef polyhedron takes a tenth of a second.
 constexpr uint32_t kMostNefTries = 500;
 
-/// Of a part's rays: in the full run 48 of all 320,000, where faces coincide but for rounding.
+/// The undecided rays that a part may have. In the full run 48 of all 320,000 are, where faces
+/// coincide up to rounding.
 constexpr uint64_t kMostUndecided = 30;
 
 uint32_t trees_of_a_part() { return test_support::full_run() ? 100 : 2; }
 
-/// What a ray meets. Not of which primitive: of faces that coincide but for rounding, Nef has the
+/// What a ray meets, without the primitive: of faces that coincide up to rounding, Nef has the
 /// outermost.
 struct Seen {
   bool hit = false;
   Vec3 position{0.0}, normal{0.0};
 };
 
-/// A scene as a Nef polyhedron, and what it takes to compare rays with it.
+/// A scene as a Nef polyhedron, and the comparison of rays with it.
 class NefJudge {
  public:
   explicit NefJudge(const Scene& scene)
@@ -70,8 +71,8 @@ class NefJudge {
            glm::length(seen.normal - plane.unit_normal) <= oracle::kExactNormalError;
   }
 
-  /// Where crossings lie nearer to one another than about τ, of which Nef knows nothing, or where
-  /// the exact ray oracle is in doubt.
+  /// Returns whether crossings are closer than about τ, which Nef does not know, or the exact ray
+  /// oracle is in doubt.
   bool is_undecided(const Ray& ray, csgcore::Projection projection) {
     if (rays_.doubt(ray, projection) != oracle::Doubt::kNone) return true;
     const std::vector<Crossing> crossings = nef_->crossings(ray);
@@ -112,7 +113,7 @@ Hits traced(const Solid& solid, const View& view) {
   return picture;
 }
 
-/// A pixel that the tracer, or the exact oracle, sees otherwise than Nef.
+/// Returns whether the tracer or the exact oracle disagrees with Nef about a pixel.
 bool is_wrong(const Scene& scene, const View& view, size_t pixel) {
   NefJudge judge(scene);
   if (!judge.is_built()) return false;
@@ -149,9 +150,9 @@ void judge_rays(const Scene& scene, const Solid& solid, const View& view, NefJud
   }
 }
 
-/// Within the box, and where a ray has met a surface, just before and behind it.
+/// Returns points within the box and, where a ray has met a surface, just before and behind it.
 std::vector<Vec3> random_points(const Solid& solid, const View& view, uint32_t seed) {
-  /// How near the surface, as a share of the size: well beyond rounding.
+  /// The distance from the surface, as a share of the size: well beyond rounding.
   constexpr double kNear = 1e-6;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-0.1, 1.1);

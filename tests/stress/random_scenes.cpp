@@ -20,11 +20,11 @@ double uniform(Random& random, double low, double high) {
 
 bool by_chance(Random& random, double share) { return uniform(random, 0, 1) < share; }
 
-/// Often whole, so that sizes are equal.
+/// Sizes are often integers, so that some are equal.
 constexpr test_support::SizeRange kSizes{
     .low = 1, .high = 4, .even_share = 0.6, .step = 1, .most_fragments = 8};
 
-/// In its own frame, which is to be a place in the world.
+/// Returns a primitive in its own frame, which is to be a place in the world.
 Primitive random_primitive(Random& random, bool only_polyhedra) {
   test_support::Sizes sizes(random, kSizes);
   if (!only_polyhedra) return test_support::random_primitive(sizes, {});
@@ -38,8 +38,8 @@ Vec3 whole_offset(Random& random) {
   return offset;
 }
 
-/// Shares planes with what stands in the frame, or an axis: shifted by whole numbers, or turned
-/// about z so that hexagons, squares and cubes come to lie on themselves, but for rounding.
+/// Returns a frame that shares planes or an axis with `frame`: shifted by integers, or turned about
+/// z so that hexagons, squares and cubes coincide with themselves, up to rounding.
 Affine related(const Affine& frame, Random& random) {
   switch (random() % 4) {
     case 0:
@@ -75,7 +75,7 @@ std::vector<Primitive> random_primitives(Random& random, bool only_polyhedra) {
   return primitives;
 }
 
-/// Operations open and close at random between the primitives; intersections are rarer, as deep
+/// Operations open and close at random between the primitives. Intersections are rarer, since deep
 /// ones are mostly empty.
 csgcore::CsgTree random_tree(Random& random, uint32_t primitives) {
   constexpr Op kOps[] = {Op::kUnion,      Op::kUnion,       Op::kUnion,      Op::kUnion,

@@ -1,5 +1,5 @@
-// The CPU tracer on thousands of random trees against the exact ray oracle. The full run has 10,000
-// trees of 1,024 rays each; as a fuzzer, SCADRAY_TEST_TREES says how many.
+// Tests the CPU tracer on thousands of random trees against the exact ray oracle. The full run has
+// 10,000 trees of 1,024 rays each; SCADRAY_TEST_TREES sets another number, for fuzzing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,10 +26,10 @@ using stress::Scene;
 using stress::Verdict;
 using stress::View;
 
-/// Even, so that no row of pixels lies in the middle of a symmetric scene.
+/// Even, so that no row of pixels is in the middle of a symmetric scene.
 constexpr stress::PictureSize kPicture{32, 32};
 constexpr uint32_t kParts = 10;          // so that they run side by side
-constexpr double kMostUndecided = 1e-5;  // of the rays; a sample of fewer may have one
+constexpr double kMostUndecided = 1e-5;  // a share of the rays; in a smaller sample one ray may be
 
 uint32_t trees_of_a_part() {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
@@ -63,7 +63,7 @@ struct Sums {
   oracle::ExactCounts exact;
 };
 
-/// Empty, or what is wrong.
+/// Returns what is wrong; empty if nothing is.
 std::string judge_tree(const Scene& scene, const View& view, const std::vector<Method>& methods,
                        Sums& sums) {
   const ExactScene exact(scene);
@@ -141,7 +141,7 @@ TEST(RandomTreesPlanted, AWrongSignIsFoundAndMinimised) {
         judge_tree(scene, stress::random_view(scene, kPicture, seed), {wrong}, sums);
     if (report.empty()) continue;
     ++found;
-    // What is left is one sphere that is wrong by itself.
+    // One sphere is left, which is wrong by itself.
     EXPECT_THAT(report, testing::StartsWith("by planted, pixel"));
     EXPECT_THAT(report, testing::HasSubstr("scene.primitives = {\n    make_sphere("));
     EXPECT_THAT(report, testing::HasSubstr("builder.primitive(0);\nscene.model"));

@@ -1,4 +1,5 @@
-// Points and lines where surfaces are singular or many of them meet, and rays exactly in faces.
+// Scenes with points and lines where surfaces are singular or many of them meet, and rays exactly
+// in faces.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
@@ -14,7 +15,7 @@ Vec3 random_direction(std::mt19937& random) {
   return {r * std::cos(a), r * std::sin(a), z};
 }
 
-/// Balls of one radius whose surfaces all go through the origin, cut from a plate.
+/// Balls of one radius, whose surfaces all contain the origin, cut from a plate.
 Part balls_through_a_point() {
   std::mt19937 random(11);
   std::vector<Part> balls;
@@ -22,7 +23,7 @@ Part balls_through_a_point() {
   return rod(-1, 0.2, 3) - all_of(balls);
 }
 
-/// Rods about one axis, of all lengths and radii, added and cut in turns.
+/// Rods about one axis, of many lengths and radii, added and cut in turns.
 Part rods_about_a_line() {
   Part result = rod(0, 10, 6);
   for (int i = 0; i < 150; ++i) {
@@ -33,7 +34,7 @@ Part rods_about_a_line() {
   return result;
 }
 
-/// Half-open fans of plates: their faces all hold the x axis.
+/// Half-open fans of plates, whose faces all contain the x axis.
 Part plates_through_a_line() {
   std::vector<Part> plates;
   for (int i = 0; i < 100; ++i) {
@@ -70,8 +71,8 @@ Family pencils() {
            {"rods_through_a_point", [] { return rods_through_a_point().scene(); }}}};
 }
 
-/// Orthographic, with pixel rays at the multiples of 1/2 (at the least), exactly: the height is a
-/// power of two.
+/// An orthographic view whose pixel rays are exactly at multiples of 1/2 (or finer): the height is
+/// a power of two.
 View on_the_grid(PictureSize size, int axis) {
   View view = view_along(Box{Vec3{-16.0}, Vec3{16.0}}, size, Projection::kOrthographic, axis, 2);
   const uint32_t height = size.height_px < 128 ? 64 : 512;
@@ -89,8 +90,8 @@ std::vector<Camera> grid_cameras(const Scene&, PictureSize size) {
           {"along z", on_the_grid(size, 2)}};
 }
 
-/// Perspective from a height z of the model, along the horizon: an odd number of pixels has rays
-/// exactly level.
+/// A perspective view from height z of the model, along the horizon. The number of pixels is odd,
+/// so that some rays are exactly level.
 View level_at(const Scene& scene, PictureSize size, int axis, double z, double distance) {
   PictureSize odd = size;
   odd.width_px |= 1;
@@ -137,7 +138,7 @@ Family axis_rays() {
 
 Part double_cone() { return cone(-8, 0, 5, 0) + cone(0, 8, 0, 5); }
 
-/// An apex at the eye's level, looked at from aside and from straight above.
+/// Cameras that look at an apex at the eye's level, from the side and from straight above.
 std::vector<Camera> apex_cameras(const Scene& scene, PictureSize size) {
   const Box box = camera_box(scene);
   View down = view_along(box, size, Projection::kPerspective, 2, 2);
@@ -174,7 +175,7 @@ Family apexes() {
         apex_cameras}}};
 }
 
-/// From within the model's box.
+/// Cameras inside the model's box.
 Cameras inside(const Vec3& eye) {
   return [eye](const Scene& scene, PictureSize size) {
     std::vector<Camera> cameras = default_cameras(scene, size);
@@ -209,7 +210,7 @@ Family empty_and_full() {
             }}}};
 }
 
-/// From a point of a face, to all sides of it: level, up and down, and askew.
+/// Cameras at a point of a face, in all directions: level, up, down and askew.
 Cameras in_a_face(const Vec3& eye) {
   return [eye](const Scene& scene, PictureSize size) {
     const Box box = camera_box(scene);
@@ -229,7 +230,7 @@ Cameras in_a_face(const Vec3& eye) {
 Family eye_in_a_face() {
   const auto block = [] { return (rod(0, 10, 8) - ball(2, {0, 0, 10})).scene(); };
   const auto pair = [] { return (rod(0, 10, 8) + rod(10, 20, 8) + ball(3, {20, 0, 12})).scene(); };
-  // A plane with no exact middle, in a turned frame.
+  // A plane in a turned frame, with no exact middle.
   const auto turned_block = [] {
     return (rod(0, 10 / 3.0, 5) + ball(2, {0, 4, 6})).under(turn(20, 30, 40)).scene();
   };

@@ -7,7 +7,7 @@
 namespace stress {
 namespace {
 
-/// Tallies of one case: by method, over its cameras.
+/// Returns the tallies of one case: by method, over its cameras.
 std::vector<Line> run_case(const Family& family, const Case& one,
                            const std::vector<Method>& methods, const Tolerance& tolerance) {
   const Scene scene = one.make();
@@ -76,7 +76,7 @@ void print_line(const Line& line) {
 
 namespace {
 
-/// Where the line's wrong pixels begin, and which are undecided.
+/// Prints the first wrong pixel of the line, and its undecided ones.
 void print_pixels(const Tally& tally) {
   if (!tally.first_wrong.empty()) std::printf("    wrong %s\n", tally.first_wrong.c_str());
   constexpr size_t kMostPrinted = 8;

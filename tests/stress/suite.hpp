@@ -21,10 +21,10 @@ struct Method {
   std::function<Drawer(const Scene&, const csgcore::Solid&)> prepare;
 };
 
-/// 640×480 where SCADRAY_TEST_FULL=1, else small.
+/// Returns 640×480 if SCADRAY_TEST_FULL=1, and a small size otherwise.
 PictureSize picture_size();
 
-/// The cases of a family that this run draws.
+/// Returns the cases of a family that this run draws.
 std::vector<const Case*> cases_to_run(const Family& family);
 
 struct Line {
@@ -33,12 +33,12 @@ struct Line {
   Tally tally;
 };
 
-/// All lines of the family, in the order of its cases and, within a case, of the methods; its
-/// totals by method at the end are printed only.
+/// Returns all lines of the family, in the order of its cases and, within a case, of the methods.
+/// Its totals by method are only printed, at the end.
 std::vector<Line> run_family(const Family& family, const std::vector<Method>& methods,
                              const Tolerance& tolerance);
 
-/// Totals by method of all lines.
+/// Returns the totals of all lines by method.
 std::vector<Line> totals(const std::vector<Line>& lines, const std::string& name);
 
 void print_header();

@@ -1,4 +1,4 @@
-// Surfaces that touch, and solids that are thin in one or two directions.
+// Scenes with surfaces that touch, and with solids that are thin in one or two directions.
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -27,7 +27,7 @@ Part row_of_balls() {
   return result - rod(-3, 3, 2, {10, -4, 0});
 }
 
-/// A ball that touches wall, floor and lid of its case from within, cut open.
+/// A ball that touches the wall, floor and lid of its case from inside, cut open.
 Part ball_in_its_case() {
   return (rod(-5, 5, 5) - ball(5) - rod(-6, 6, 5, {5, 0, 0})) +
          (ball(5) - rod(-6, 6, 5, {5, 0, 0}));
@@ -57,9 +57,9 @@ Family tangent() {
             }}}};
 }
 
-/// A ball and a cup with walls of that share of the model's size, cut open.
+/// A ball and a cup with walls of `share` of the model's size, cut open.
 Scene shells_of(double share) {
-  const double wall = share * 12;  // the model's diagonal, about
+  const double wall = share * 12;  // about the model's diagonal
   const Part bowl = ball(3) - ball(3 - wall) - rod(-4, 4, 3, {-3, 0, 0});
   const Part cup = rod(0, 4, 2, {0, 6, 0}) - rod(wall, 4, 2 - wall, {0, 6, 0});
   return (bowl + cup).scene();
@@ -79,7 +79,7 @@ Family thin_shells() {
   return family;
 }
 
-/// Thin rods to all sides, through the middle of the model or about it.
+/// Thin rods in all directions, through the middle of the model or about it.
 std::vector<Part> needles(int count, double radius, double length) {
   std::mt19937 random(7);
   std::vector<Part> parts;
@@ -96,7 +96,7 @@ Family needle_family() {
   return {"needles",
           {{"one_of_1e6_to_1", [] { return rod(-500, 500, 1e-3).under(turn(0, 41, 17)).scene(); },
             [](const Scene& scene, PictureSize size) {
-              // Close to its middle, or nothing would be seen of it.
+              // The cameras are close to its middle, since nothing of it would be seen otherwise.
               std::vector<Camera> cameras = default_cameras(scene, size);
               cameras[0].view.half_height = 1e-6;
               cameras[1].view.half_height = 3e-3;

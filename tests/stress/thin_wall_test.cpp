@@ -1,4 +1,5 @@
-// A wall of 1e-6 of the model's size, given in one frame or built in memory, is drawn whole.
+// Tests that a wall of 1e-6 of the model's size, given in one frame or built in memory, is drawn
+// whole.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -23,7 +24,8 @@ Scene imported(const std::string& csg) {
   return frontend::import_design(frontend::parse(csg, "wall.csg")).scene;
 }
 
-/// Expects every pixel of `thin` to show what `filled`, the same without its inside, shows.
+/// Expects that every pixel of `thin` shows what `filled`, the same solid without its cavity,
+/// shows.
 void expect_whole(const Scene& thin, const Scene& filled, const stress::Method& method) {
   SCOPED_TRACE(method.name);
   const Solid thin_solid(csgcore::canonical_primitives(thin), thin.model);
@@ -56,7 +58,7 @@ TEST_P(ThinWallTest, InMemory) {
   expect_whole((cup - inside).scene(), cup.scene());
   const stress::Affine askew{stress::turned(20, 30, 40), {1, 2, 3}};
   expect_whole((cup - inside).under(askew).scene(), cup.under(askew).scene());
-  // A plate is nothing but wall: all of its disc is there.
+  // A plate is all wall: its whole disc is drawn.
   const Part plate = rod(0, kWall, 0.5), disc = rod(-0.1, kWall, 0.5);
   const stress::View above = stress::default_cameras(plate.scene(), {320, 240})[1].view;
   const auto hits = [&](const Part& part) {
@@ -72,7 +74,7 @@ TEST_P(ThinWallTest, InOneFrameOfAFile) {
       "multmatrix([[0.813798, -0.44097, 0.378522, 1], [0.469846, 0.882564, 0.0180283, 2], "
       "[-0.34202, 0.163176, 0.925417, 3], [0, 0, 0, 1]]) ";
   const std::string filled = "cylinder($fn = 0, h = 0.7, r1 = 0.35, r2 = 0.35, center = false);";
-  // 0.699998 and 0.349999 are not 0.7 and 0.35, whatever frame they stand in.
+  // 0.699998 and 0.349999 differ from 0.7 and 0.35 in any frame.
   const std::string inside =
       "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1e-06], [0, 0, 0, 1]]) "
       "cylinder($fn = 0, h = 0.699998, r1 = 0.349999, r2 = 0.349999, center = false);";

@@ -1,5 +1,5 @@
-// Pieces, gaps and wedges about as thick as the tolerance: what exists and what doesn't is to be
-// decided exactly as the reference does.
+// Scenes with pieces, gaps and wedges about as thick as the tolerance: which of them exist has to
+// be decided exactly as by the reference.
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -13,12 +13,13 @@ namespace {
 
 constexpr std::array<double, 8> kShares{0.2, 0.7, 0.99, 1.01, 1.3, 2, 7, 50};  // tolerances
 
-/// The tolerance of models whose box is that of the part, to all the digits that matter.
+/// Returns the tolerance of a model that has the part's box, to all digits that matter.
 double tolerance_of(const Part& part) {
   return csgcore::thickness_tolerance(csgcore::reference_box(part.scene()));
 }
 
-/// Side by side on a base that gives the model its size: `make` of each share's thickness.
+/// Puts the results of `make`, one for the thickness of each share, side by side on a base that
+/// fixes the model's size.
 template <typename Make>
 Scene side_by_side(Make&& make) {
   const Part base = rod(-3, -2, 10);
@@ -36,19 +37,19 @@ Scene skins() {
   return side_by_side([](double thickness) { return rod(-1, 1, 2) - rod(-2, 1 - thickness, 3); });
 }
 
-/// A sheet on a block, which comes first.
+/// A sheet on a block; the block comes first in the file.
 Scene sheets() {
   return side_by_side([](double thickness) { return rod(-1, 1, 2) + rod(1, 1 + thickness, 1); });
 }
 
-/// The same on two blocks in one, neither of which is seen without the other being so, too.
+/// The same on two coincident blocks, each of which is seen wherever the other is.
 Scene sheets_on_pairs() {
   return side_by_side([](double thickness) {
     return rod(1, 1 + thickness, 1) + (rod(-1, 1, 2) + rod(-1, 1, 1.5));
   });
 }
 
-/// What is left of a ball less the same ball, a bit smaller or moved a bit.
+/// What a ball leaves of an equal ball, if it is a bit smaller or moved a bit.
 Scene shells() {
   return side_by_side([](double thickness) { return ball(2) - ball(2 - thickness); });
 }
@@ -58,7 +59,7 @@ Scene crescents() {
   });
 }
 
-/// A gap down to the floor, which is seen through it or not.
+/// A gap down to the floor, which exists if the floor is seen through it.
 Scene gaps() {
   return side_by_side([](double thickness) {
     return rod(-1, 1, 2) - (rod(-2, 2, 1) - rod(-3, 3, 1 - thickness)) - rod(-1, 0, 1.9);
@@ -74,8 +75,8 @@ Scene chains() {
   });
 }
 
-/// Blocks whose tops cross at angles (rad) of some tolerances per length, so that about the line
-/// where they cross the two are one.
+/// Blocks whose tops cross at angles (rad) of some tolerances per length, so that they coincide
+/// near the line where they cross.
 Scene wedges() {
   std::vector<Part> parts;
   int i = 0;
@@ -91,11 +92,11 @@ Scene wedges() {
   return all_of(parts).scene();
 }
 
-/// A rod and the plate that it is stuck in, the rod first.
+/// A rod and the plate that it is stuck in; the rod comes first.
 Part rod_in_a_plate() { return rod(-0.5, 2, 1) + rod(-1, 0, 10); }
 
-/// The last of the plate before the rod, at so flat an angle that the foot of the rod's wall lies
-/// within the tolerance of the plate, by the plate's normal; but not by the wall's.
+/// Sees the last of the plate before the rod, at so flat an angle that the foot of the rod's wall
+/// is within the tolerance of the plate along the plate's normal, but not along the wall's.
 std::vector<Camera> foot_cameras(const Scene& scene, PictureSize size) {
   const double tolerance = csgcore::thickness_tolerance(csgcore::reference_box(scene));
   std::vector<Camera> cameras;
@@ -114,7 +115,7 @@ std::vector<Camera> foot_cameras(const Scene& scene, PictureSize size) {
   return cameras;
 }
 
-/// One needle, of r tolerances, that stands in the middle of a plate.
+/// A needle, `share` tolerances in radius, in the middle of a plate.
 Case hair(double share) {
   const auto make = [share] {
     const Part plate = rod(-1, 0, 10);

@@ -1,4 +1,4 @@
-// Trees of thousands of levels, and random ones with coincidences planted in them.
+// Scenes with trees of thousands of levels, and random trees with planted coincidences.
 #include <cmath>
 #include <iterator>
 #include <random>
@@ -87,12 +87,12 @@ void plant(const Primitive& a, Primitive& b, std::mt19937& random) {
         b.local_to_world = csgcore::compose(a.local_to_world, turn(20, 30, 40));
       }
       break;
-    case 3:  // one top plane, the axes apart
+    case 3:  // one top plane, parallel axes
       b.local_to_world = a.local_to_world;
       if (both_frusta) b.z_max = a.z_max, b.z_min = std::min(b.z_min, a.z_max - 1);
       b.local_to_world.translation = a.local_to_world.point({1.5, -0.5, 0});
       break;
-    default:  // one wall, another length
+    default:  // one wall, with other lengths
       if (both_frusta) {
         const double slope = (a.r_top - a.r_bottom) / (a.z_max - a.z_min);
         const double middle = 0.5 * a.z_min + 0.5 * a.z_max;
@@ -106,7 +106,7 @@ void plant(const Primitive& a, Primitive& b, std::mt19937& random) {
   b.id = id;
 }
 
-/// A random tree, with every second primitive made to share a face with one before it.
+/// A random tree, in which every second primitive shares a face with an earlier one.
 Scene random_with_coincidences(uint32_t primitives, uint32_t seed) {
   Scene scene = test_support::random_tree(primitives, seed);
   std::mt19937 random(seed);
@@ -130,7 +130,7 @@ Part lattice_polyhedron(std::mt19937& random) {
   return brick({x, y, z}, {x + whole(random, 1, 4), y + whole(random, 1, 4), z + height});
 }
 
-/// Everything in whole numbers and right angles, so that caps, walls and axes coincide all over.
+/// All sizes are integers and all angles right, so that caps, walls and axes coincide everywhere.
 Part lattice_primitive(std::mt19937& random, bool with_polyhedra) {
   const auto shape = [&]() -> Part {
     if (with_polyhedra && whole(random, 0, 2) > 0) return lattice_polyhedron(random);
@@ -167,7 +167,7 @@ Scene lattice_tree(uint32_t seed, bool with_polyhedra) {
   return (seed % 2 ? tree : tree.under(turn(whole(random, 0, 359), 20, 50))).scene();
 }
 
-/// From aside, along an axis, and from a point of the lattice, often one in a face.
+/// Cameras from the side, along an axis, and at a point of the lattice, often in a face.
 std::vector<Camera> lattice_cameras(const Scene& scene, PictureSize size) {
   const Box box = camera_box(scene);
   std::mt19937 random(uint32_t(scene.primitives.size()));
@@ -182,8 +182,8 @@ std::vector<Camera> lattice_cameras(const Scene& scene, PictureSize size) {
       {"from the lattice", within}};
 }
 
-/// An eye of the lattice lies in planes with edges, and diagonals of pixels run in these. This one
-/// is in planes across its view only.
+/// An eye at a point of the lattice lies in planes with edges, along which diagonals of pixels run.
+/// The eye of these cameras lies only in planes across its view.
 std::vector<Camera> lattice_cameras_off_edges(const Scene& scene, PictureSize size) {
   std::vector<Camera> cameras = lattice_cameras(scene, size);
   View& within = cameras.back().view;
@@ -203,7 +203,7 @@ Family lattice_family(const char* name, bool with_polyhedra) {
   return family;
 }
 
-/// (Other trees than random_trees_test's.)
+/// (The trees differ from random_trees_test's.)
 Family random_polyhedra_family() {
   constexpr uint32_t kFirstSeed = 1000001;
   Family family{"random_polyhedra", {}};

@@ -1,4 +1,4 @@
-// An evaluation of trees that shares nothing with csgcore's or its oracles'.
+// Evaluates trees by code that shares nothing with csgcore or its oracles.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,8 @@
 
 namespace test_support {
 
-/// The value of a tree in postfix order where `inside` tells what each primitive holds.
+/// Returns the value of a tree in postfix order; `inside` tells whether the point is in a
+/// primitive.
 bool evaluate_tree(std::span<const csgcore::CsgToken> tokens,
                    const std::function<bool(uint32_t)>& inside);
 

@@ -1,5 +1,5 @@
-// The convention of tests/run: a test that has a long version runs it where the environment says
-// SCADRAY_TEST_FULL=1, and a sample of some seconds otherwise.
+// The convention of tests/run: a test with a long version runs that version if the environment has
+// SCADRAY_TEST_FULL=1, and else a sample of some seconds.
 #pragma once
 
 #include <cstdlib>

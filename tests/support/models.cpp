@@ -28,7 +28,7 @@ struct SurfacePoint {
   Vec3 position, normal;
 };
 
-/// Uniform by area over the cylinder's wall and caps.
+/// A point of the cylinder's wall or caps, uniform by area.
 SurfacePoint surface_point(std::mt19937& random) {
   const double wall = 2 * kRadius * kHeight;  // both areas over π
   const double cap = kRadius * kRadius;
@@ -151,7 +151,7 @@ Scene random_tree(uint32_t primitives, uint32_t seed) {
   Scene scene;
   csgcore::CsgTreeBuilder tree;
   const Op ops[] = {Op::kUnion, Op::kIntersection, Op::kDifference};
-  // Operations open and close at random between the primitives; an intersection is rarer, as deep
+  // Operations open and close at random between the primitives. Intersections are rarer, since deep
   // ones are mostly empty.
   int depth = 0;
   for (uint32_t i = 0; i < primitives; ++i) {

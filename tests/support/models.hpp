@@ -18,21 +18,21 @@ csgcore::Scene cylinder_minus_spheres(uint32_t n, uint32_t seed = 1);
 /// base radius 26/√n, height 4 times that, two thirds of it inside, tilted by up to 40°.
 csgcore::Scene cylinder_minus_cones(uint32_t n, uint32_t seed = 1);
 
-/// A vase turned of rings that are stacked on each other: each a frustum minus a thinner one, all
-/// of them coaxial. Neighbours share rims and faces, which no cell separates.
+/// A turned vase of stacked rings, each a frustum minus a thinner one, all of them coaxial.
+/// Neighbours share rims and faces, which no cell separates.
 csgcore::Scene stacked_frusta(uint32_t rings);
 
 /// A random tree of `primitives` spheres, cylinders and cones under random affine maps (sheared,
 /// mirrored, unevenly scaled), within about [-10, 10]³.
 csgcore::Scene random_tree(uint32_t primitives, uint32_t seed);
 
-/// The same of primitives of all kinds, which cannot stay the same when a kind is added.
+/// A random tree like random_tree(), of primitives of all kinds. It changes when a kind is added.
 csgcore::Scene random_tree_of_all_kinds(uint32_t primitives, uint32_t seed);
 
 /// One operation over the primitives, whose ids are their indices.
 csgcore::Scene scene_of(csgcore::Op op, std::vector<csgcore::Primitive> primitives);
 
-/// The convex solid of 8 triangles between three skewed axes, from −scale to scale about.
+/// The convex solid of 8 triangles between three skewed axes, from about −scale to scale.
 std::shared_ptr<const csgcore::Polyhedron> octahedron(double scale = 1);
 
 /// A random affine map of moderate condition.

@@ -21,7 +21,7 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-/// What OpenSCAD writes of the design, and what it says.
+/// The file and the messages that OpenSCAD writes for the design.
 struct Export {
   std::string text;  // empty for an empty design
   std::string said;
@@ -33,7 +33,7 @@ Export export_of(const std::string& scad, const std::string& format) {
   if (file < 0) throw std::runtime_error("no temporary file");
   const bool written = write(file, scad.data(), scad.size()) == static_cast<ssize_t>(scad.size());
   close(file);
-  // Whether an empty design is what it found, only its messages tell.
+  // Only the messages tell whether OpenSCAD found an empty design.
   const std::string messages = path + std::string(".log");
   Export result;
   if (written) {
@@ -89,7 +89,7 @@ csgcore::Mesh openscad_triangles(const std::string& scad) {
     const auto corner = static_cast<uint32_t>(mesh.vertices.size() - 1);
     if (corner % 3 == 2) mesh.faces.push_back({corner - 2, corner - 1, corner});
   }
-  // Where an edge or a vertex alone is left, the mesh is there and has no triangles.
+  // If only an edge or a vertex is left, the mesh exists and has no triangles.
   if (!text.empty() && !text.starts_with("solid"))
     throw std::runtime_error("openscad: no ASCII STL");
   return mesh;

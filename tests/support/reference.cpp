@@ -20,8 +20,8 @@ using reference::HalfSpace;
 using reference::RaySetup;
 using reference::RayWalk;
 
-/// Pixels per side of the blocks for which the tree is first reduced to what their rays can meet,
-/// and of the blocks within these for which the primitives are sorted out once more.
+/// Pixels per side of the blocks for which the tree is reduced to what their rays can meet, and of
+/// the blocks within these for which the primitives are culled once more.
 constexpr uint32_t kBlockPx = 16;
 constexpr uint32_t kSmallBlockPx = 4;
 
@@ -29,8 +29,8 @@ struct PixelRange {
   uint32_t begin, end;
 };
 
-/// The half-space on the side of growing pixel coordinates of the line x = `px` (or y = `px`), or,
-/// if `below`, on the other.
+/// Returns the half-space of growing pixel coordinates beyond the line x = `px` (or y = `px`), or,
+/// if `below`, the opposite one.
 HalfSpace half_space(const View& view, bool vertical, double px, bool below) {
   const double size = vertical ? view.height_px : view.width_px;
   const double offset = (2 * px - size) / view.height_px * view.half_height;
@@ -40,7 +40,7 @@ HalfSpace half_space(const View& view, bool vertical, double px, bool below) {
   return {view.eye, sign * (axis - offset * view.forward)};
 }
 
-/// Those of the items whose primitives the rays of a range of rows or columns can meet.
+/// Returns those items whose primitives the rays of a range of rows or columns can meet.
 template <typename PrimitiveOf>
 std::vector<uint32_t> cull(std::span<const uint32_t> items, PrimitiveOf&& primitive_of,
                            const View& view, bool vertical, PixelRange range) {
@@ -142,7 +142,7 @@ double Reference::model_size() const { return impl_->setup().model_size; }
 
 namespace {
 
-/// All rays of one pixel, without culling.
+/// Traces all rays of one pixel, without culling.
 class Probe {
  public:
   explicit Probe(const RaySetup& setup)

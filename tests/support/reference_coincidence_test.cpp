@@ -1,4 +1,4 @@
-// What the reference defines where crossings coincide.
+// Tests which primitive the reference shows where crossings coincide.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,11 +22,11 @@ TEST(ReferenceCoincidence, ShowsTheLastThatTurnsTheValue) {
   const Primitive wide = rod(0, 2, 5), narrow = rod(0, 2, 3), above = rod(2, 4, 3);
   EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {wide, narrow}), down(9)).primitive, 1u);
   EXPECT_EQ(middle_hit(scene_of(Op::kIntersection, {narrow, wide}), down(9)).primitive, 1u);
-  // Leaving what is cut away and entering what it is cut from: both turn the value.
+  // The ray leaves what is cut away, and enters what it is cut from: both turn the value.
   const ReferenceHit touching = middle_hit(scene_of(Op::kDifference, {wide, above}), down(9));
   EXPECT_EQ(touching.primitive, 1u);
   EXPECT_EQ(touching.normal.z, 1);
-  // An inlay: plate − hole ∪ plug. Plate and hole cancel each other, the plug alone turns the
+  // An inlay, plate − hole ∪ plug: plate and hole cancel each other, and only the plug turns the
   // value.
   const Scene inlay = scene_of({wide, rod(1, 2, 3), rod(1, 2, 3)}, [](CsgTreeBuilder& builder) {
     builder.open(Op::kUnion);
@@ -42,7 +42,8 @@ TEST(ReferenceCoincidence, ShowsTheLastThatTurnsTheValue) {
 
 TEST(ReferenceCoincidence, WhatChangesAgainstTheValueIsNotShown) {
   EXPECT_EQ(middle_hit(scene_of(Op::kUnion, {rod(0, 2, 5), rod(0, 2, 3)}), down(9)).primitive, 1u);
-  // Entering a cut changes too, but not the value's way: what is cut there is not seen.
+  // Entering a cut is a change, too, but not in the value's direction, so that the cut is not
+  // shown.
   const Scene beside_a_cut = scene_of({rod(0, 2, 5), rod(0, 2, 5), rod(-1, 1, 2), rod(-1, 2, 1)},
                                       [](CsgTreeBuilder& builder) {  // (2 − 3) ∪ 0 ∪ 1
                                         builder.open(Op::kUnion);
@@ -55,21 +56,21 @@ TEST(ReferenceCoincidence, WhatChangesAgainstTheValueIsNotShown) {
                                         builder.close();
                                       });
   EXPECT_EQ(middle_hit(beside_a_cut, down(9)).primitive, 1u);
-  // From inside the common part of two equal balls: both are left.
+  // Seen from inside the common part of two equal balls, both of which are left.
   const ReferenceHit leaving =
       middle_hit(scene_of(Op::kIntersection, {ball(2), ball(2)}), down(0.5));
   EXPECT_EQ(leaving.primitive, 1u);
   EXPECT_EQ(leaving.normal.z, -1);
-  // From inside a block, into two equal cuts at once.
+  // Seen from inside a block, into two equal cuts at once.
   const ReferenceHit into_cuts =
       middle_hit(scene_of(Op::kDifference, {rod(-9, 9, 9), ball(2), ball(2)}), down(5));
   EXPECT_EQ(into_cuts.primitive, 2u);
   EXPECT_EQ(into_cuts.s, 3);
-  EXPECT_EQ(into_cuts.normal.z, -1);  // outward of the solid: into the cut
+  EXPECT_EQ(into_cuts.normal.z, -1);  // out of the solid: into the cut
 }
 
 TEST(ReferenceCoincidence, APrimitiveWithinAClusterIsNeverShown) {
-  // A sheet thinner than the tolerance lies on the block; it comes first, and alone.
+  // A sheet thinner than the tolerance lies on the block. It comes first, and alone.
   const Scene scene = scene_of(Op::kUnion, {rod(1, 1 + 1e-10, 5), rod(0, 1, 5)});
   const ReferenceHit hit = middle_hit(scene, down(9));
   EXPECT_EQ(hit.primitive, 1u);
@@ -93,7 +94,7 @@ TEST(ReferenceCoincidence, ClustersAreChainsOfBoundaries) {
 TEST(ReferenceCoincidence, WhatMakesNoDifferenceLinksNothingAndIsNotShown) {
   const double t = kReferenceThickness * std::sqrt(12.0);
   const Primitive block = rod(-1, 1, 1), aside = ball(0.1, {0.9, 0, 0});
-  // A skin of 1.4 tolerances, and half-way through it a face that is not there: its primitive is
+  // A skin of 1.4 tolerances, and half-way through it a face that does not exist: its primitive is
   // cut with one that does not reach so far.
   const Scene skin = scene_of({block, rod(-2, 1 - 1.4 * t, 2), rod(-1, 1 - 0.7 * t, 1), aside},
                               [](CsgTreeBuilder& builder) {
@@ -109,7 +110,7 @@ TEST(ReferenceCoincidence, WhatMakesNoDifferenceLinksNothingAndIsNotShown) {
                                 builder.close();
                               });
   EXPECT_EQ(middle_hit(skin, down(9)).primitive, 0u);
-  // Two plugs with flush tops, where the plate, whose top it is too, is cut away.
+  // Two plugs flush with the top of the plate, where the plate is cut away.
   const Scene plugs = scene_of({block, rod(0, 2, 0.9), rod(0, 1, 0.5), rod(-1, 1, 0.5)},
                                [](CsgTreeBuilder& builder) {
                                  builder.open(Op::kUnion);
@@ -126,9 +127,9 @@ TEST(ReferenceCoincidence, WhatMakesNoDifferenceLinksNothingAndIsNotShown) {
 }
 
 TEST(ReferenceCoincidence, CullingChangesNothing) {
-  // Blocks of pixels that primitive 2 reaches and others that it doesn't, for which the tree is
-  // reduced to what lies there: primitive 3, which is in common with it only, is flush with the
-  // others everywhere.
+  // The picture has blocks of pixels that primitive 2 reaches and others that it does not, for
+  // which the tree is reduced. Primitive 3, which is intersected with primitive 2, is flush with
+  // the others everywhere.
   const Scene scene =
       scene_of({rod(0, 1, 0.9), rod(-1, 1, 0.8), rod(-1, 1, 0.5, {1, 0, 0}), rod(-1, 1, 1)},
                [](CsgTreeBuilder& builder) {
@@ -159,8 +160,8 @@ TEST(ReferenceCoincidence, CullingChangesNothing) {
 }
 
 TEST(ReferenceCoincidence, ThicknessIsMeasuredAlongTheSteeperNormal) {
-  // A ray that sinks by 1 in 100 meets a wall and, a bit further on, a top: by the top's own normal
-  // they lie 100 times as near as by the wall's.
+  // A ray that sinks by 1 in 100 meets a wall and, a bit further on, a top. Along the top's normal
+  // their distance is a hundredth of that along the wall's.
   const auto first_seen = [](double gap_in_tolerances) {
     const double size = 10, tolerance = kReferenceThickness * size;
     View view;
@@ -169,13 +170,13 @@ TEST(ReferenceCoincidence, ThicknessIsMeasuredAlongTheSteeperNormal) {
     view.right = {0, -1, 0};
     view.up = glm::cross(view.right, view.forward);
     view.width_px = view.height_px = 1;
-    // The top is met at x = gap; the wall stands at x = 0 there.
+    // The ray meets the top at x = gap; the wall is at x = 0 there.
     Scene scene = scene_of(Op::kUnion, {rod(-1, 1, 1, {1, 0, 0}), rod(-1, 0, 3)});
     return Reference(scene, view).at(0, 0).primitive;
   };
-  EXPECT_EQ(first_seen(0.3), 1u);  // together: the last of the two
-  EXPECT_EQ(first_seen(3), 0u);    // not: the wall, which comes first
-  EXPECT_EQ(first_seen(60), 0u);   // by the top's normal, 0.6
+  EXPECT_EQ(first_seen(0.3), 1u);  // coincident: the last of the two is shown
+  EXPECT_EQ(first_seen(3), 0u);    // not coincident: the wall comes first
+  EXPECT_EQ(first_seen(60), 0u);   // 0.6 tolerances along the top's normal
 }
 
 TEST(ReferenceCoincidence, AShellIsWholeOrNotAtAll) {
@@ -198,7 +199,8 @@ TEST(ReferenceCoincidence, AShellIsWholeOrNotAtAll) {
 }
 
 TEST(ReferenceCoincidence, AnEyeInAFaceSeesBothSidesOfIt) {
-  // Two blocks, one on the other, and the eye between them; one block, and the eye on it.
+  // `two`: two blocks, one on the other, with the eye between them. `one`: one block with the eye
+  // on it.
   const Scene two = scene_of(Op::kUnion, {rod(-1, 0, 1), rod(0, 1, 1)});
   const Scene one = scene_of(Op::kUnion, {rod(-1, 0, 1), rod(0.5, 1, 0.2)});
   View up = down(0);
@@ -211,8 +213,8 @@ TEST(ReferenceCoincidence, AnEyeInAFaceSeesBothSidesOfIt) {
     EXPECT_EQ(middle_hit(two, view).normal.z, -1);
     EXPECT_EQ(middle_hit(two, up).primitive, 1u);
     EXPECT_EQ(middle_hit(two, up).normal.z, 1);
-    EXPECT_EQ(middle_hit(one, view).normal.z, -1);  // from within
-    EXPECT_EQ(middle_hit(one, up).primitive, 1u);   // from without
+    EXPECT_EQ(middle_hit(one, view).normal.z, -1);  // from inside
+    EXPECT_EQ(middle_hit(one, up).primitive, 1u);   // from outside
     EXPECT_EQ(middle_hit(one, up).normal.z, -1);
   }
 }

@@ -1,4 +1,4 @@
-// How exact the reference is, its single rays, and its tree.
+// Tests the reference's precision, its single rays, and its tree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST(ReferencePrecision, FarEyesAndFarModels) {
     View far_view = view;
     const Vec3 offset{0x1p40, -0x1p41, 0x1p42};
     for (Primitive& p : far.primitives) p.local_to_world.translation += offset;
-    far_view.eye = view.eye + offset;  // exact: whole numbers
+    far_view.eye = view.eye + offset;  // exact: integers
     const std::vector<ReferenceHit> a = Reference(near, view).picture();
     const std::vector<ReferenceHit> b = Reference(far, far_view).picture();
     int hits = 0;
@@ -41,7 +41,7 @@ TEST(ReferencePrecision, FarEyesAndFarModels) {
       if (!a[i].hit()) continue;
       ++hits;
       ASSERT_LT(glm::length(a[i].normal - b[i].normal), 1e-15L);
-      // On its surface, to extended precision, however far the eye.
+      // The hit is on the surface, to extended precision, however far away the eye is.
       const LongVec3& p = a[i].position;
       const Real off = a[i].primitive == 1
                            ? glm::length(p - LongVec3(0, 0, 1)) - 0.5L
@@ -53,7 +53,7 @@ TEST(ReferencePrecision, FarEyesAndFarModels) {
 }
 
 TEST(ReferencePrecision, Needles) {
-  // 1e7 times as long as thick, from the side at 45°: the wall is where it ought to be.
+  // A rod 1e7 times as long as thick, seen at 45° from the side: the wall is in its place.
   const Scene scene = scene_of(Op::kUnion, {rod(-5e5, 5e5, 0.05)});
   View view = down(9, Projection::kOrthographic);
   view.eye = {3e5, 0, 4e5};
@@ -108,11 +108,11 @@ TEST(ReferenceRays, UndecidedIsWhereNeighboursAtTheDisplacementDiffer) {
   EXPECT_TRUE(undecided(-0.5));
   EXPECT_FALSE(undecided(2));
   EXPECT_FALSE(undecided(-2));
-  // Within a face there is nothing to decide; where two rods touch there is.
+  // Inside a face nothing is undecided; where two rods touch, the ray is.
   const Scene edge = scene_of(Op::kUnion, {rod(-1, 0, 1, {0, -1, 0}), rod(-1, 0, 1, {0, 1, 0})});
   EXPECT_FALSE(Reference(edge, view).undecided(1, 0));
   EXPECT_TRUE(Reference(edge, view).undecided(1, 1));
-  // A face as far from the eye as the tolerance may be before or behind it.
+  // The face is at the tolerance from the eye, so that rounding may put it before or behind that.
   const Scene block = scene_of(Op::kUnion, {rod(-1, 1, 1)});
   const double tolerance = kReferenceThickness * Reference(block, down(1)).model_size();
   EXPECT_FALSE(Reference(block, down(1)).undecided(1, 1));

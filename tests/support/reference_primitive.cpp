@@ -12,8 +12,8 @@ namespace {
 
 using test_support::test_kind_of;
 
-/// Planes cull a primitive only when it is clear of them by this share of its distance from the
-/// plane's origin and of its size, and by the rounding of the coordinates, so that culling never
+/// Planes cull a primitive only if it is clear of them by this share of its distance from the
+/// plane's origin and of its size, plus the rounding of the coordinates, so that culling never
 /// changes a hit.
 constexpr double kCullingSlack = 1e-9;
 constexpr double kCoordinateSlack = 16 * std::numeric_limits<double>::epsilon();

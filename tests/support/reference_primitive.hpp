@@ -1,4 +1,5 @@
-// One primitive against one ray and against planes, for the reference: in extended precision.
+// Intersects one primitive with one ray, and compares it with planes, in extended precision, for
+// the reference.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -26,10 +27,10 @@ class RayTarget {
 
   std::shared_ptr<const LocalSolid> solid_;
   LongMat3 world_to_local_;
-  LongVec3 middle_to_pivot_;  // from the point that the local solid is relative to, in the world
+  LongVec3 middle_to_pivot_;  // from the point that the local solid is relative to; in the world
 };
 
-/// a + s·d − b, exact up to one rounding of the result, whatever cancels.
+/// Returns a + s·d − b, exact up to one rounding of the result, whatever cancels.
 LongVec3 exact_offset(const Vec3& a, double s, const Vec3& d, const Vec3& b);
 
 /// A half-space dot(x − point, normal) ≥ 0; `normal` of any length.
@@ -37,10 +38,11 @@ struct HalfSpace {
   Vec3 point, normal;
 };
 
-/// max over the primitive of dot(x − point, normal).
+/// Returns the maximum over the primitive of dot(x − point, normal).
 double furthest(const Primitive& primitive, const HalfSpace& half_space);
 
-/// False only if the primitive has no point in the half-space, in spite of all rounding.
+/// Returns false only if the primitive certainly has no point in the half-space, however it is
+/// rounded.
 bool reaches(const Primitive& primitive, const HalfSpace& half_space);
 
 }  // namespace csgcore::reference

@@ -1,4 +1,4 @@
-// What the reference knows of a scene without any ray.
+// Computes what the reference knows of a scene without rays.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -44,8 +44,8 @@ Box reference_box(const Scene& scene) {
 }
 
 std::vector<bool> subtracted_primitives(const Scene& scene) {
-  // From the last token backwards a postfix tree is met from the root down, last operand first, so
-  // a stack of what each open operation still expects gives every primitive's depth.
+  // Read backwards, a postfix tree comes from the root down, with the last operand first. So a
+  // stack of the operands that each open operation still expects gives every primitive's depth.
   struct Open {
     uint32_t operands_left;
     bool difference, subtracted;

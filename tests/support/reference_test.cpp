@@ -1,4 +1,4 @@
-// The oracle itself against hand-computed hits and against point membership.
+// Tests the oracle itself against hits computed by hand and against point membership.
 #include "reference.hpp"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ Scene scene_of(Op op, std::vector<Primitive> primitives) {
   return scene;
 }
 
-/// From (0, 0, height) straight down; y is up in the picture.
+/// Looks from (0, 0, height) straight down; y is up in the picture.
 View from_above(double height, Projection projection = Projection::kPerspective) {
   View view;
   view.projection = projection;
@@ -58,7 +58,7 @@ View from_above(double height, Projection projection = Projection::kPerspective)
   return view;
 }
 
-/// Columns of `#` for a hit along the middle row.
+/// Returns the middle row as text: `#` is a hit.
 std::string middle_row(const Image& image) {
   std::string row;
   for (uint32_t x = 0; x < image.width_px; ++x) {
@@ -75,7 +75,8 @@ TEST(Reference, SphereFromOutside) {
   EXPECT_FLOAT_EQ(image.position[kCenter].z, 1);
   EXPECT_EQ(image.id[kCenter], 7u);
   EXPECT_EQ(image.rgb[kCenter][0], 255);
-  // Tangent of the silhouette's angle is 1/√24; a pixel is 1/65 wide: 26.5 pixels of radius / 2.
+  // The tangent of the silhouette's angle is 1/√24, and a pixel is 1/65 wide: half of the radius is
+  // 26.5 pixels.
   const double radius_px = 65 / std::sqrt(24.0);
   const std::string row = middle_row(image);
   EXPECT_EQ(std::count(row.begin(), row.end(), '#'), 2 * std::floor(radius_px) + 1);
@@ -120,7 +121,8 @@ TEST(Reference, ConeAlongAndAcrossItsAxis) {
   const Scene scene = scene_of(Op::kUnion, {frustum(0, 2, 1, 0)});
   const Image above = reference_render(scene, from_above(5, Projection::kOrthographic));
   EXPECT_FLOAT_EQ(above.z[kCenter], 3);
-  // 8 pixels to the right x = 8·4/65; the cone is 2·(1 − x) high there and its normal (2, 0, 1)/√5.
+  // 8 pixels to the right, x = 8·4/65; there the cone is 2·(1 − x) high and its normal is (2, 0,
+  // 1)/√5.
   const double x = 8 * 4.0 / 65;
   EXPECT_NEAR(above.position[kCenter + 8].z, 2 * (1 - x), 1e-6);
   EXPECT_NEAR(above.normal[kCenter + 8].x, 2 / std::sqrt(5.0), 1e-6);
@@ -149,7 +151,7 @@ TEST(Reference, CoincidentFacesLeaveNoSkin) {
   EXPECT_NE(ring.id[kCenter + 10], kNoPrimitive);
   const Image nothing = reference_render(scene_of(Op::kDifference, {outer, outer}), view);
   EXPECT_THAT(nothing.id, testing::Each(kNoPrimitive));
-  // A shell that is there: thicker than the tolerance.
+  // This shell is thicker than the tolerance, and so exists.
   inner.local_to_world.translation = Vec3(0, 0, -1e-6);
   const Image shell = reference_render(scene_of(Op::kDifference, {outer, inner}), view);
   EXPECT_EQ(shell.id[kCenter], 0u);
@@ -191,7 +193,7 @@ TEST(Reference, PhongColoursOfFrontAndCutFaces) {
   const PhongLight light{view.eye};
   const ReferenceColors colors{.background = {0, 0, 1}, .front = {1, 0, 0}, .back = {0, 0.5, 0}};
   reference_shade_phong(image, scene, view, light, colors);
-  // Light, eye and normal in line: 0.2 + 0.7 of the colour, and 0.3.
+  // Light, eye and normal are in line: 0.2 + 0.7 of the colour, plus 0.3.
   EXPECT_THAT(image.rgb[kCenter], testing::ElementsAre(77, 191, 77));
   EXPECT_THAT(image.rgb[0], testing::ElementsAre(0, 0, 255));
   scene.primitives[1].color = Color{1, 1, 1, 1};
@@ -242,7 +244,7 @@ class RandomScene {
   double number(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  void add(int levels) {  // a bounded depth of our own, not an input's nesting
+  void add(int levels) {  // its depth is bounded by the test, not by an input's nesting
     if (levels == 0 || number(0, 1) < 0.2) return leaf();
     builder_.open(Op(random_() % 3));
     const int operands = 2 + int(random_() % 3);
@@ -269,12 +271,12 @@ class RandomScene {
   Scene scene_;
 };
 
-/// Around the hit membership changes from outside to inside (or back, the eye being inside), and
-/// nowhere before it.
+/// At the hit membership changes from outside to inside (or back, if the eye is inside), and
+/// nowhere before.
 void check_pixel(const Scene& scene, const Vec3& origin, const Vec3& direction, double from,
                  double z, bool eye_inside) {
-  constexpr double kFar = 8;       // beyond every scene's end
-  constexpr double kNudge = 1e-5;  // around the hit; float's rounding of z is 1e-6
+  constexpr double kFar = 8;       // beyond the end of every scene
+  constexpr double kNudge = 1e-5;  // distance from the hit; float's rounding of z is 1e-6
   constexpr int kSteps = 300;
   const double end = std::isinf(z) ? kFar : z - kNudge;
   for (int i = 0; i < kSteps; ++i) {
@@ -308,7 +310,7 @@ TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
       inside += eye_inside;
     }
   }
-  EXPECT_GT(hits, 150);  // the test has seen something
+  EXPECT_GT(hits, 150);  // the scenes must have been hit
   EXPECT_GT(inside, 20);
 }
 

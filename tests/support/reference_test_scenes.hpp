@@ -17,7 +17,7 @@ inline Primitive ball(double radius, Vec3 at = Vec3(0.0)) {
   return make_sphere(radius, {Mat3(1.0), at});
 }
 
-/// `build` gets a builder whose primitives are those given, by index.
+/// `build` is given a builder for the primitives, which it names by index.
 inline Scene scene_of(std::vector<Primitive> primitives,
                       const std::function<void(CsgTreeBuilder&)>& build) {
   Scene scene;
@@ -37,7 +37,7 @@ inline Scene scene_of(Op op, std::vector<Primitive> primitives) {
   });
 }
 
-/// Straight down from (0, 0, height); 3×3 pixels, of which the middle one's ray is the z axis.
+/// Looks straight down from (0, 0, height), with 3×3 pixels; the middle one's ray is the z axis.
 inline View down(double height, Projection projection = Projection::kPerspective) {
   View view;
   view.projection = projection;

@@ -57,7 +57,7 @@ void CountingTree::change(uint32_t index) {
 uint32_t CountingTree::turning_slot(const std::vector<uint8_t>& changed) const {
   struct Turn {
     bool before, behind;
-    uint32_t slot;  // if they differ
+    uint32_t slot;  // to which the change is due, if the values differ
   };
   std::vector<uint32_t> slot_of(nodes_.size(), kNone);
   for (uint32_t slot = 0; slot < first_leaf_.size(); ++slot) {
@@ -74,7 +74,7 @@ uint32_t CountingTree::turning_slot(const std::vector<uint8_t>& changed) const {
       continue;
     }
     const size_t first = stack.size() - node.operands;
-    // An intersection holds unless an operand fails; a union is the negation of an intersection of
+    // An intersection holds unless an operand fails. A union is the negation of an intersection of
     // negations, a difference an intersection with negations.
     const bool negated = node.op == Op::kUnion;
     Turn turn{true, true, kNone};
@@ -109,7 +109,7 @@ std::vector<uint32_t> primitives_of(std::span<const CsgToken> tokens) {
 
 std::vector<CsgToken> reduce(std::span<const CsgToken> tokens, const std::vector<uint8_t>& alive) {
   std::vector<CsgToken> out;
-  std::vector<size_t> starts;  // where each operand on the stack begins in `out`
+  std::vector<size_t> starts;  // where the operands on the stack begin in `out`
   for (const CsgToken& token : tokens) {
     if (token.is_primitive) {
       starts.push_back(out.size());
@@ -128,7 +128,7 @@ std::vector<CsgToken> reduce(std::span<const CsgToken> tokens, const std::vector
     if (!empty && operands > 1) out.push_back({false, token.op, operands});
     starts.resize(first + 1);
   }
-  // What is left on the stack is the tree itself.
+  // The tree itself remains on the stack.
   return out;
 }
 

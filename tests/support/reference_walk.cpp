@@ -9,9 +9,9 @@ namespace csgcore::reference {
 
 namespace {
 
-/// See Reference::displacement. A point near the model is rounded, in each of its coordinates, to
-/// the spacing of the doubles there; so are the middle of a primitive and the point of a ray that
-/// is held against it.
+/// See Reference::displacement. Each coordinate of a point near the model is rounded to the spacing
+/// of the doubles there; so are the middle of a primitive and the point of a ray that is compared
+/// with it.
 Real displacement_of(const Box& box) {
   constexpr Real kSpacing = std::numeric_limits<double>::epsilon();
   Real coordinates = 0;
@@ -88,7 +88,7 @@ void RayWalk::pass_until(size_t count) {
   while (passed_ > count) tree_.flip(crossings_[--passed_].slot);
 }
 
-/// The first crossing, not before `from`, that changes the solid's value.
+/// Returns the first crossing from `from` on that changes the solid's value.
 size_t RayWalk::next_boundary(size_t from) {
   pass_until(from);
   const bool value = tree_.value();
@@ -124,24 +124,24 @@ LongVec3 RayWalk::normal(const Crossing& crossing) const {
   return target(crossing).normal(*ray_, crossing.t, crossing.surface);
 }
 
-/// How squarely the ray meets the surface: thickness per unit of t.
+/// Returns how squarely the ray meets the surface: the thickness per unit of t.
 Real RayWalk::steepness(const Crossing& crossing) const {
   return std::abs(glm::dot(normal(crossing), ray_->direction));
 }
 
 bool RayWalk::together(const Crossing& a, const Crossing& b) const {
   const Real gap = std::abs(b.t - a.t);
-  // No surface is met more squarely than |d|: what is that near needs no normals.
+  // No surface is met more squarely than |d|, so that crossings this near need no normals.
   if (gap * glm::length(ray_->direction) < setup_.thickness) return true;
   return gap * steepness(a) < setup_.thickness && gap * steepness(b) < setup_.thickness;
 }
 
-/// The crossings by which a coincidence changes the primitives. The tree is left as it is after all
-/// of them.
+/// Collects the crossings by which a coincidence changes the primitives. The tree is left as it is
+/// after all of them.
 void RayWalk::collect_changes(const Coincidence& coincidence) {
   const auto place = [this](size_t i) { return crossings_.begin() + long(i); };
   changed_.assign(place(coincidence.first), place(coincidence.last + 1));
-  // No crossing is together with the first or the last one that lies further from it than so.
+  // No crossing further than this from the first or the last one is coincident with it.
   const Crossing &first = crossings_[coincidence.first], &last = crossings_[coincidence.last];
   const Real before = setup_.thickness / steepness(first);
   const Real after = setup_.thickness / steepness(last);
@@ -159,7 +159,7 @@ void RayWalk::collect_changes(const Coincidence& coincidence) {
   drop_what_came_back();
 }
 
-/// What is both entered and left has not changed.
+/// Drops the primitives that are both entered and left, which have not changed.
 void RayWalk::drop_what_came_back() {
   std::stable_sort(changed_.begin(), changed_.end(),
                    [](const Crossing& a, const Crossing& b) { return a.slot < b.slot; });
@@ -174,7 +174,7 @@ void RayWalk::drop_what_came_back() {
   changed_.resize(kept);
 }
 
-/// The crossing that is seen of a coincidence which turns the value.
+/// Returns the crossing that a coincidence which turns the value shows.
 const RayWalk::Crossing& RayWalk::shown(const Coincidence& coincidence) {
   collect_changes(coincidence);
   if (changed_.size() == 1) return changed_.front();

@@ -1,4 +1,4 @@
-// One ray through a scene, by the reference's definition (see reference.hpp).
+// Traces one ray through a scene, by the reference's definition (reference.hpp).
 #pragma once
 
 #include <span>
@@ -12,28 +12,28 @@
 
 namespace csgcore::reference {
 
-/// What rays need of a scene and a view, both of which must outlive it.
+/// What all rays need of a scene and a view, both of which must outlive this object.
 struct RaySetup {
   RaySetup(const Scene& rays_scene, const View& rays_view);
 
   const Scene& scene;
   const View& view;
   double model_size;
-  Vec3 pivot{0.0};     // near the model
-  double pivot_s = 0;  // there, about
+  Vec3 pivot{0.0};     // a point near the model
+  double pivot_s = 0;  // about the s of the pivot
   Real thickness;      // the tolerance
   Real displacement;   // see Reference::displacement
-  /// Nothing is seen up to there, by the t of near_ray.
+  /// The t of near_ray up to which nothing is seen.
   Real first_t;
-  std::vector<RayTarget> targets;  // by the primitives' index
-  std::vector<bool> subtracted;    // likewise
+  std::vector<RayTarget> targets;  // by primitive's index
+  std::vector<bool> subtracted;    // by primitive's index
 };
 
-/// The definition's ray (csgcore::pixel_ray: in double, by the formula of view.hpp), near the
-/// model.
+/// Returns the definition's ray (csgcore::pixel_ray, in double by the formula of view.hpp), with
+/// its origin near the model.
 NearRay near_ray(const RaySetup& setup, double x_px, double y_px);
 
-/// One ray after the other, through a tree or the part of it that makes a difference to them.
+/// Traces one ray after the other through a tree, or through the part of it that concerns them.
 class RayWalk {
  public:
   RayWalk(const RaySetup& setup, std::span<const CsgToken> tokens) : setup_(setup), tree_(tokens) {}
@@ -41,23 +41,22 @@ class RayWalk {
   /// The primitives' indices, by their slots in the tree.
   std::span<const uint32_t> slots() const { return tree_.slots(); }
 
-  /// `candidates`: slots that hold all primitives that the ray can meet.
+  /// `candidates` contains the slots of all primitives that the ray can meet.
   ReferenceHit hit(const NearRay& ray, std::span<const uint32_t> candidates);
 
  private:
-  /// Where the ray crosses a primitive's surface.
+  /// A crossing of the ray with a primitive's surface.
   struct Crossing {
     Real t;
     uint32_t slot;
     Surface surface;
     bool enters;
   };
-  /// Boundaries of the solid by which its value may turn: crossings [first, last], the first and
-  /// the last of which are boundaries themselves. Other boundaries lie before `begin` or not before
-  /// `end`.
+  /// Boundaries of the solid that may together turn its value: crossings [first, last], whose first
+  /// and last are boundaries. No other boundary is in [begin, end).
   struct Coincidence {
     size_t begin, first, last, end;
-    bool turns;  // the value after it is another than before it
+    bool turns;  // the values before and after it differ
   };
 
   void collect(std::span<const uint32_t> candidates);
@@ -78,10 +77,11 @@ class RayWalk {
   ReferenceHit describe(const Crossing& crossing) const;
 
   const RaySetup& setup_;
-  CountingTree tree_;                // that of a point after the first passed_ crossings
-  std::vector<Crossing> crossings_;  // of the ray, by t
+  CountingTree tree_;                // its point is behind the first passed_ crossings
+  std::vector<Crossing> crossings_;  // sorted by t
   size_t passed_ = 0;
-  std::vector<Crossing> changed_;     // by a coincidence, in order of the primitives
+  std::vector<Crossing> changed_;     // the crossings of a coincidence that change primitives,
+                                      // sorted by primitive
   std::vector<uint8_t> has_changed_;  // by slot
   const NearRay* ray_ = nullptr;
 };

@@ -15,7 +15,7 @@ class Maker {
 
   std::string design() {
     const int count = 2 + below(5);
-    // A large part that others reach into, or any.
+    // Starts with a large part that others reach into, or with any part.
     std::string text = below(3) > 0 ? host() : part();
     if (below(2) == 0) return operation("difference", text + parts(count - 1));
     for (int left = count - 1; left > 0;) {
@@ -30,7 +30,8 @@ class Maker {
   }
 
  private:
-  /// In [0, limit); std::uniform_int_distribution differs from one library to another.
+  /// Returns a number in [0, limit). std::uniform_int_distribution differs from one library to
+  /// another.
   int below(int limit) { return static_cast<int>(random_() % static_cast<uint32_t>(limit)); }
   int from_to(int first, int last) { return first + below(last - first + 1); }
 
@@ -71,7 +72,8 @@ class Maker {
         const int top = below(3) > 0 ? r : from_to(0, 3);
         return map + cylinder(from_to(1, 4), r, top, false);
       }
-      case 2: {  // by its half height a prism's edge lies in a face, its axis along that
+      case 2: {  // lowered by half its height, so that an edge of a prism is in a face, and its
+                 // axis along it
         const int r = from_to(1, 3);
         return map + cylinder(2 * from_to(1, 3), r, r, true);
       }
@@ -80,7 +82,7 @@ class Maker {
     }
   }
 
-  /// With a vertex at (r, 0), and most with one at each axis.
+  /// Has a vertex at (r, 0), and mostly one at each half-axis.
   std::string cylinder(int h, int r_bottom, int r_top, bool center) {
     constexpr int kFragments[] = {3, 4, 4, 6, 8, 8};
     return "cylinder($fn = " + std::to_string(kFragments[below(std::size(kFragments))]) +
@@ -89,7 +91,7 @@ class Maker {
   }
 
   std::string polyhedron(int size) {
-    // Faces run clockwise seen from outside.
+    // Faces are clockwise seen from outside.
     constexpr const char* kFaces[] = {
         "[[1, 2, 0], [3, 1, 0], [2, 3, 0], [3, 2, 1]]",                      // a cube's corner
         "[[2, 1, 0], [4, 5, 3], [1, 4, 3, 0], [2, 5, 4, 1], [3, 5, 2, 0]]",  // a roof
@@ -113,7 +115,8 @@ class Maker {
     return text + "], faces = " + kFaces[kind] + ", convexity = 1);\n";
   }
 
-  /// By whole numbers: turned by right angles or mirrored, and some turned by 45° and stretched.
+  /// Places a part at integers, turned by right angles or mirrored; some are turned by 45° and
+  /// stretched.
   std::string place() {
     std::array<int, 3> axes = {0, 1, 2};
     for (int i = 2; i > 0; --i) std::swap(axes[i], axes[below(i + 1)]);

@@ -1,5 +1,5 @@
 // Random designs whose parts touch each other: faces in faces, rims in caps, edges and vertices in
-// faces and on edges, from outside and from within.
+// faces and on edges, from outside and from inside.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace validation {
 
-/// Makes a design of 2 to 6 boxes, prisms, pyramids and convex polyhedra on a grid of whole
-/// numbers, which is a .csg and a .scad. The seed decides it.
+/// Makes a design, both a .csg and a .scad, of 2 to 6 boxes, prisms, pyramids and convex polyhedra
+/// on a grid of integers. It depends on the seed alone.
 std::string contact_design(uint32_t seed);
 
 }  // namespace validation

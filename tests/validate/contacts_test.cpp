@@ -1,5 +1,5 @@
-// The Nef oracle's solids of designs with coplanar contacts against cells in rationals, OpenSCAD's
-// meshes, and what `scadray validate` says of them. The full run has 400 designs.
+// Tests the Nef oracle's solids of designs with coplanar contacts against cells in rationals,
+// OpenSCAD's meshes, and the answers of `scadray validate`. The full run has 400 designs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<ConvexPolyhedron> polyhedra_of(const Scene& scene) {
   return polyhedra;
 }
 
-/// On the grid that the designs lie on, or beside it, or anywhere.
+/// Returns a point on the designs' grid, beside it, or anywhere.
 Vec3 random_point(std::mt19937& random) {
   constexpr double kBeside = 0x1p-20;
   Vec3 point;
@@ -76,7 +76,7 @@ TEST(CoplanarContacts, NefEqualsExactCells) {
     for (int i = 0; i < kPoints; ++i) {
       const Vec3 point = random_point(random);
       const std::optional<bool> is_inside = cells.contains(point);
-      if (!is_inside) continue;  // in the solid's boundary, or in a face that it does not have
+      if (!is_inside) continue;  // on the solid's boundary, or in a face that it does not have
       ++points;
       points_inside += *is_inside;
       EXPECT_EQ(nef.solid->locate(point), *is_inside ? Place::kInside : Place::kOutside)

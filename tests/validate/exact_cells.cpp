@@ -23,7 +23,7 @@ RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// n·M⁻¹·(x − t) ≤ o in world coordinates, multiplied by |det M|.
+/// Returns n·M⁻¹·(x − t) ≤ o in world coordinates, multiplied by |det M|.
 std::vector<RationalHalfSpace> half_spaces_in_world(const ConvexPolyhedron& polyhedron) {
   const csgcore::Mat3& m = polyhedron.local_to_world.linear;
   const RationalPoint columns[] = {exact(m[0]), exact(m[1]), exact(m[2])};
@@ -43,7 +43,7 @@ std::vector<RationalHalfSpace> half_spaces_in_world(const ConvexPolyhedron& poly
   return result;
 }
 
-/// A convex solid by its faces, counterclockwise seen from outside; none: it is empty.
+/// The faces of a convex solid, counterclockwise seen from outside; it is empty if it has none.
 using Faces = std::vector<std::vector<RationalPoint>>;
 
 Faces whole_box() {
@@ -63,7 +63,7 @@ Faces whole_box() {
   return faces;
 }
 
-/// The part of the solid within the half-space.
+/// Returns the part of the solid within the half-space.
 Faces cut(const Faces& solid, const RationalHalfSpace& half_space) {
   const auto height = [&](const RationalPoint& p) -> Rational {
     return dot(half_space.normal, p) - half_space.offset;
@@ -81,7 +81,7 @@ Faces cut(const Faces& solid, const RationalHalfSpace& half_space) {
   if (is_within) return solid;
   if (is_outside) return {};
   Faces result;
-  // Where a face is cut, its edge in the plane is the new face's, the other way round.
+  // Where a face is cut, its edge in the plane belongs, reversed, to the new face.
   std::map<RationalPoint, RationalPoint> next_in_plane;
   for (std::size_t f = 0; f < solid.size(); ++f) {
     std::vector<RationalPoint> part;
@@ -141,8 +141,8 @@ bool ExactCells::value(uint32_t inside) const {
 }
 
 // The indicator function of the solid is a polynomial of those of the polyhedra, and a product of
-// those is the one of an intersection: its coefficients are the tree's values, by the Möbius
-// transform.
+// these is the indicator of an intersection. The coefficients are the Möbius transform of the
+// tree's values.
 Rational ExactCells::volume() const {
   const uint32_t subsets = 1u << polyhedra_.size();
   std::vector<int> coefficients(subsets);

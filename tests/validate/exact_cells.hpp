@@ -1,5 +1,5 @@
-// The solid of a tree over convex polyhedra by cutting boxes in rationals: an oracle of the Nef
-// oracle, with which it shares neither CGAL nor the polyhedra's vertices.
+// Computes the solid of a tree over convex polyhedra by cutting boxes in rationals: an oracle for
+// the Nef oracle, with which it shares neither CGAL nor the polyhedra's vertices.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace test_support {
 using oracle::Rational;
 using RationalPoint = std::array<Rational, 3>;
 
-/// normal·x ≤ offset within.
+/// normal·x ≤ offset inside.
 struct RationalHalfSpace {
   RationalPoint normal;
   Rational offset;
@@ -27,13 +27,15 @@ class ExactCells {
   static constexpr double kReach = 1000;
   static constexpr std::size_t kMostPolyhedra = 10;
 
-  /// The regularised solid's, by inclusion and exclusion over all intersections of polyhedra.
+  /// The volume of the regularised solid, by inclusion and exclusion over all intersections of
+  /// polyhedra.
   Rational volume() const;
-  /// Nothing where the point lies on a polyhedron's boundary.
+  /// Returns nothing if the point is on a polyhedron's boundary.
   std::optional<bool> contains(const csgcore::Vec3& point) const;
 
  private:
-  bool value(uint32_t inside) const;  // of the tree, where bit i says whether i holds the point
+  bool value(uint32_t inside) const;  // of the tree; bit i tells whether polyhedron i contains the
+                                      // point
 
   const csgcore::CsgTree& tree_;
   std::vector<std::vector<RationalHalfSpace>> polyhedra_;

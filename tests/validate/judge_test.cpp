@@ -1,4 +1,4 @@
-// The judges of rays and points, on what is known about simple solids.
+// Tests the judges of rays and points on simple solids.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ constexpr double kSize = 10, kThickness = 1e-8;
 
 NefTruth truth_of(const Scene& scene) { return NefTruth(scene, kSize, kThickness, {}); }
 
-/// Upwards, from z = −5.
+/// A ray upwards from z = −5.
 Ray upwards(double x, double y) { return {{x, y, -5}, {0, 0, 1}}; }
 
 Seen seen_upwards(const Ray& ray, uint32_t primitive, double z) {
@@ -46,7 +46,7 @@ std::string text_of(const Verdict& verdict) {
   return verdict.details["differs_in"];
 }
 
-/// Of a ray upwards that sees the primitive at that height, or nothing.
+/// Judges a ray upwards that sees the primitive at that height, or nothing.
 template <typename Truth>
 class Upwards {
  public:
@@ -93,7 +93,7 @@ TEST(NefJudge, AnEdgeWithinRoundingIsUndecided) {
   Upwards ray(truth, make_nef_judge(truth, kDoubleTolerance));
   EXPECT_EQ(ray.misses(1e-13, 1), "undecided");
   EXPECT_EQ(ray.sees(0, -1e-13, 1, 0), "undecided");
-  EXPECT_EQ(ray.misses(0, 1), "undecided");  // runs in a face
+  EXPECT_EQ(ray.misses(0, 1), "undecided");  // it runs in a face
   EXPECT_EQ(ray.misses(1e-10, 1), "hit or miss");
   EXPECT_EQ(ray.sees(0, -1e-10, 1, 0), "hit or miss");
 }
@@ -102,7 +102,7 @@ TEST(NefJudge, AnEdgeWithinRoundingIsUndecided) {
 TEST(NefJudge, KnowsTheThicknessThatDoesNotExist) {
   const double thin = 0.9 * kThickness, thick = 1.1 * kThickness;
   const auto check = [](double gap) {
-    // A plate floats above the box; a skin lies before it, below.
+    // A plate is above the box; a skin is below it, where rays come first.
     return union_of({box(Vec3(0), Vec3(2)), box({0, 0, -1}, {1, 1, -1 + gap})});
   };
   const Scene with_skin = check(thin), with_plate = check(thick);
@@ -113,7 +113,7 @@ TEST(NefJudge, KnowsTheThicknessThatDoesNotExist) {
   Upwards onto(plate, make_nef_judge(plate, kDoubleTolerance));
   EXPECT_EQ(onto.sees(0, 0.5, 0.5, 0), "position");
   EXPECT_EQ(onto.sees(1, 0.5, 0.5, -1), "agreed");
-  // What lies in front of another surface by less may stand for it.
+  // A surface that is in front of another by less may be shown in its place.
   const Scene flush = union_of({box(Vec3(0), Vec3(2)), box({0, 0, 1e-14}, {1, 1, 3})});
   const NefTruth faces = truth_of(flush);
   Upwards at(faces, make_nef_judge(faces, kDoubleTolerance));
@@ -133,7 +133,7 @@ TEST(NefJudge, APerspectiveSeesWhatLiesAhead) {
   EXPECT_EQ(verdict({1, 1, 1}, {}), "hit or miss");
   EXPECT_EQ(verdict({1, 1, 3}, {}), "agreed");
   EXPECT_EQ(verdict({1, 1, 3}, {0, -3, {1, 1, 0}, {0, 0, -1}}), "hit or miss");
-  // An eye in a face stands behind it.
+  // An eye in a face is behind it.
   EXPECT_EQ(verdict({1, 1, 0}, {0, 2, {1, 1, 2}, {0, 0, 1}}), "agreed");
 }
 
@@ -152,7 +152,7 @@ TEST(NefJudge, OfPoints) {
 }
 
 TEST(ExactJudge, TellsWhatDiffers) {
-  // The diagonal of its box is 10, about.
+  // The diagonal of its box is about 10.
   const Scene scene = union_of({csgcore::make_frustum(0, 8, 2, 2), csgcore::make_sphere(1)});
   const oracle::ExactScene exact(scene);
   Upwards ray(exact, make_exact_judge(exact, kDoubleTolerance));
@@ -170,8 +170,8 @@ TEST(ExactJudge, TellsWhatDiffers) {
   EXPECT_EQ(rough.misses(2 - 1e-2, 0), "hit or miss");
 }
 
-// What differs between smooth primitives and their facets lies in the shell, and the shell is no
-// thicker than it need be.
+// The shell contains all points at which smooth primitives and their facets differ, and is no
+// thicker than needed.
 TEST(SagittaShell, HoldsWhatFacetsCutOff) {
   csgcore::Affine map;
   map.linear = {{2, 0.5, 0}, {0, 1, 0.25}, {0.5, 0, -3}};  // sheared, and a mirror

@@ -1,4 +1,4 @@
-// `scadray validate` as a program: exit status, table, report, interruption.
+// Tests `scadray validate` as a program: exit status, table, report, interruption.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -44,7 +44,7 @@ class Validate : public testing::Test {
   /// Starts `scadray validate` with files as standard output and error.
   pid_t start(std::vector<std::string> arguments, const std::string& program = SCADRAY_PROGRAM) {
     arguments.insert(arguments.begin(), {program, "validate"});
-    // Opened before it may be interrupted.
+    // The files are opened before it may be interrupted.
     const int out = open((folder_ / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int err = open((folder_ / "err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const pid_t child = fork();
@@ -72,7 +72,7 @@ class Validate : public testing::Test {
 
   Outcome run(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
 
-  /// With samples that take a moment.
+  /// Runs with samples that take a moment.
   Outcome run_few(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"--renderer=cpu", "--points=500", "--rays=500",
                                          "--views=1", "--time-limit=1000"});
@@ -85,7 +85,7 @@ class Validate : public testing::Test {
   std::string report_ = "--report=" + folder_ / "report.json";
 };
 
-/// The table's row, its numbers compared with each other.
+/// Checks the table's row, whose numbers must be consistent.
 void expect_row(const std::string& table, const std::string& name, uint64_t compared) {
   const std::size_t at = table.find("\n  " + name + "  ");
   ASSERT_NE(at, std::string::npos) << name << " in\n" << table;
@@ -153,7 +153,7 @@ TEST_F(Validate, AFlippedSignIsFoundAndNamed) {
   EXPECT_EQ(pixel["pixel"].size(), 2u) << pixel;
 }
 
-// 6e-9 of the design's size, seen by rays only.
+// The move is 6e-9 of the design's size, which only rays see.
 TEST_F(Validate, APrimitiveThatIsMovedEverSoLittleIsFoundAndNamed) {
   const Environment planted(kPlanted, "move:3:1e-6");
   const Outcome outcome = run_few({example("r9")});
@@ -162,7 +162,7 @@ TEST_F(Validate, APrimitiveThatIsMovedEverSoLittleIsFoundAndNamed) {
   EXPECT_THAT(outcome.out, HasSubstr("first disagreement, rays (in facets"));
 }
 
-// A node that is empty has an id, but is no primitive of the scene.
+// An empty node has an id, but is not a primitive of the scene.
 TEST_F(Validate, PrimitivesAreNamedByTheirIds) {
   const Environment planted(kPlanted, "move:2:0.1");
   const Outcome outcome = run_few({folder_.write("a.csg",
@@ -194,7 +194,7 @@ TEST_F(Validate, WithoutTimeForCgalByExactRaysAlone) {
     ASSERT_EQ(found["checks"].size(), 2u);
     for (const json& check : found["checks"]) EXPECT_THAT(int(check["compared"]), Ge(1024));
   }
-  // And that alone finds an error, too.
+  // These first samples alone find an error, too.
   const Environment planted(kPlanted, "flip:7");
   EXPECT_EQ(run({"--renderer=cpu", "--time-limit=0", example("cs100")}).code, 2);
 }
@@ -220,7 +220,7 @@ TEST_F(Validate, SaysThatNotAllWasCompared) {
 }
 
 TEST_F(Validate, TheSameWhateverTheThreads) {
-  // With an error, so that there is something to differ in.
+  // The error makes results that may differ.
   const Environment planted(kPlanted, "flip:5");
   const auto report_of = [&](const char* seed, const char* threads) {
     run_few({report_, seed, threads, example("r9")});
@@ -245,7 +245,7 @@ TEST_F(Validate, ASolidThatTheOperationsLeaveNothingOf) {
   EXPECT_THAT(outcome.out, HasSubstr("in facets"));
 }
 
-// Beyond what floats, and products of three doubles, can hold.
+// Sizes beyond what floats, and products of three doubles, can represent.
 TEST_F(Validate, VeryLargeAndVerySmallDesigns) {
   for (const char* size : {"1e-85", "1e85"}) {
     const std::string csg = std::string("multmatrix([[") + size + ",0,0,0],[0," + size +
@@ -321,11 +321,11 @@ TEST_F(Validate, ExportsAScad) {
   EXPECT_THAT(outcome.out, HasSubstr("in facets"));
 }
 
-// Also while CGAL works in a process of its own, which ends with it.
+// Also while CGAL works in a process of its own, which ends as well.
 TEST_F(Validate, AnInterruptionEndsItWithinASecond) {
   folder_.write("report.json", "old");
   for (const int after_ms : {20, 1500}) {
-    int held[2];  // by all processes that are started here
+    int held[2];  // held open by all processes that this one starts
     ASSERT_EQ(pipe(held), 0);
     const pid_t child =
         start({"--renderer=cpu", "--time-limit=1000", "--fn=100", report_, example("cs100")});
@@ -338,7 +338,7 @@ TEST_F(Validate, AnInterruptionEndsItWithinASecond) {
     pollfd all_ended{held[0], POLLIN, 0};
     EXPECT_EQ(poll(&all_ended, 1, 1000), 1) << "a process goes on";
     close(held[0]);
-    if (after_ms > 1000) {  // before it has begun it may not know what to say
+    if (after_ms > 1000) {  // before it has begun it may have nothing to say
       EXPECT_EQ(outcome.err, "error: interrupted\n");
     }
     EXPECT_NE(outcome.code, 0);
@@ -357,7 +357,7 @@ TEST_F(Validate, WithoutTheProgramTheErrorSaysSo) {
   EXPECT_THAT(outcome.err, HasSubstr("SCADRAY_ORACLE"));
   folder_.write("scadray-validate", "");
   EXPECT_THAT(finish(start({example("r9")}, alone)).err, HasSubstr("cannot be run"));
-  // A link elsewhere finds the program beside the file that it leads to.
+  // A link in another folder leads to the program, which finds its subcommand beside itself.
   std::filesystem::create_symlink(SCADRAY_PROGRAM, folder_ / "link");
   EXPECT_EQ(finish(start({"--help"}, folder_ / "link")).code, 0);
 }

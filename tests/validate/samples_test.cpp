@@ -1,4 +1,4 @@
-// Random rays, views and points; errors that are planted.
+// Tests random rays, views and points, and planted errors.
 #include "samples.hpp"
 
 #include <gmock/gmock.h>
@@ -82,7 +82,7 @@ TEST(Samples, PixelsAreAllVisitedAndScattered) {
     view.width_px = width;
     view.height_px = 120;
     std::vector<uint32_t> pixels = scattered_pixels(view);
-    // The first ones lie in every eighth of the picture, and evenly.
+    // The first pixels are spread evenly over all eighths of the picture.
     std::vector<int> eighths(8, 0);
     for (size_t i = 0; i < pixels.size() / 2; ++i) ++eighths[8 * pixels[i] / pixels.size()];
     const auto [least, most] = std::minmax_element(eighths.begin(), eighths.end());
@@ -97,7 +97,7 @@ TEST(Samples, PixelsAreAllVisitedAndScattered) {
 TEST(Samples, PointsNearSurfacesAndEdges) {
   const PointSampler points(kBox, csgcore::box_mesh(kBox), 1);
   const double diagonal = kBox.diagonal();
-  const auto height = [](const Vec3& p) {  // above the surface, in the largest of its coordinates
+  const auto height = [](const Vec3& p) {  // height above the surface, in the largest coordinate
     const Vec3 above = glm::max(kBox.min - p, p - kBox.max);
     return std::max({above.x, above.y, above.z});
   };
@@ -114,11 +114,11 @@ TEST(Samples, PointsNearSurfacesAndEdges) {
   EXPECT_NEAR(inside, 1000, 150);
   EXPECT_GT(near_edge_inside, 300);
   EXPECT_NEAR(tiny, 1200, 150);  // 3 of 5 orders of magnitude
-  // Without a boundary, anywhere.
+  // Without a boundary the points are anywhere.
   EXPECT_EQ(PointSampler(kBox, {}, 1).near_edge(4), points.in_box(4));
 }
 
-/// 0 − (1 ∪ (2 − 3)), boxes along x: 0 is [0, 8], i from 2 on is [i, i + 2] of half the height.
+/// 0 − (1 ∪ (2 − 3)), boxes along x: 0 is [0, 8]; from 2 on, i is [i, i + 2] with half the height.
 csgcore::Scene nested() {
   csgcore::Scene scene;
   const auto add = [&](double x_min, double x_max, double height) {
@@ -143,7 +143,7 @@ csgcore::Scene nested() {
   return scene;
 }
 
-/// Where the scene is solid at z = ½, in steps along x.
+/// Shows where the scene is solid at z = ½, in steps along x.
 std::string profile(const csgcore::Scene& scene) {
   const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
   std::string text;

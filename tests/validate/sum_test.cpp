@@ -1,4 +1,4 @@
-// What comparisons add up to: the loop over samples, the volume, the table.
+// Tests how comparisons are summed up: the loop over samples, the volume, the table.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ TEST(Volume, OfKnownSolids) {
       6, 0.05);
 }
 
-// With a box that the solid fills, every ray tells the same.
+// The solid fills its box, so that all rays agree.
 TEST(Volume, OfABox) {
   const VolumeEstimate estimate =
       volume_of({csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(1), {2, 3, 4}}))},
@@ -133,7 +133,7 @@ TEST(Volume, MoreRaysMakeABetterBound) {
   EXPECT_LT(late.rays, 3 * kVolumePass / 2);
 }
 
-// The bound is that of a needle that no ray meets, too.
+// The bound includes a needle that no ray meets.
 TEST(Volume, OfNeedlesThatRaysMiss) {
   const VolumeEstimate estimate =
       volume_of({csgcore::make_frustum(0, 10, 1e-4, 1e-4),

@@ -1,4 +1,4 @@
-// The table of commands: keys, and the texts that the menu and the help sheet show of them.
+// Tests the table of commands: keys, and the texts for the menu and the help sheet.
 #include "commands.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -13,7 +13,7 @@
 namespace window {
 namespace {
 
-/// What a shortcut's text says, by itself.
+/// Parses the text of a shortcut, independently of the table.
 std::pair<int, uint8_t> key_of(std::string text) {
   uint8_t modifiers = kNone;
   const auto take = [&](const std::string& prefix, uint8_t modifier) {

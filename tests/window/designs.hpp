@@ -1,11 +1,11 @@
-// Small designs of the window's tests.
+// Small designs for the window's tests.
 #pragma once
 
 #include <string>
 
 namespace window_test {
 
-/// Of two primitives, unlike from every side.
+/// Two primitives that look different from every side.
 inline const std::string kBlock = R"(difference() {
 	cube(size = [10, 20, 30], center = true);
 	multmatrix([[1, 0, 0, 5], [0, 1, 0, 10], [0, 0, 1, 15], [0, 0, 0, 1]]) {
@@ -18,7 +18,7 @@ inline const std::string kBlock = R"(difference() {
 constexpr double kBallRadius = 10;
 inline const std::string kBall = "sphere($fn = 0, $fa = 12, $fs = 2, r = 10);\n";
 
-/// So many spheres in a row.
+/// A row of `count` spheres.
 inline std::string row_of(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) {

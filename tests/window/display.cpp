@@ -10,8 +10,8 @@
 namespace window_test {
 namespace {
 
-/// Windows without a frame, beside which xdotool would look for them, in the upper left corner; the
-/// usual key of the close button.
+/// Windows have no frame, beside which xdotool would look for them, and are in the upper left
+/// corner. The close button has its usual key.
 constexpr const char* kManagerSettings = R"(<?xml version="1.0" encoding="UTF-8"?>
 <openbox_config xmlns="http://openbox.org/3.4/rc">
   <theme><keepBorder>no</keepBorder></theme>
@@ -31,7 +31,7 @@ Display::Display() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   ProcessSetup setup;
-  // A server that stays when its last client goes; pictures without the pointer.
+  // A server that stays when its last client goes, and whose pictures are without the pointer.
   setup.words = {"Xvfb",     "-displayfd", "3",         "-screen", "0",      "1280x1024x24",
                  "-noreset", "-nocursor",  "-nolisten", "tcp",     "-fbdir", folder_.path()};
   setup.errors = folder_ / "errors";
@@ -69,7 +69,7 @@ void Display::start_window_manager() {
   manager_ = std::make_unique<Process>(setup);
   const bool is_there = wait_until([this] {
     ProcessSetup question;
-    question.words = {"xdotool", "get_desktop"};  // which a window manager keeps
+    question.words = {"xdotool", "get_desktop"};  // a window manager keeps it
     question.environment["DISPLAY"] = name_;
     return Process(question).wait() == 0;
   });

@@ -1,5 +1,4 @@
-// An X display of its own for a test, without a screen (Xvfb), and the hand at its mouse and keys
-// (xdotool).
+// An X display for one test, without a screen (Xvfb), with its mouse and keys driven by xdotool.
 #pragma once
 
 #include <memory>
@@ -12,16 +11,16 @@
 
 namespace window_test {
 
-/// Its screen is 1280×1024 pixels. Throws std::runtime_error if it does not start.
+/// A display with a screen of 1280×1024 pixels. Throws std::runtime_error if it does not start.
 class Display {
  public:
   Display();
 
-  /// The value of the environment's DISPLAY.
+  /// The value for the variable DISPLAY.
   const std::string& name() const { return name_; }
-  /// All that the screen shows now; the mouse's pointer is not drawn.
+  /// Returns all that the screen shows now, without the mouse's pointer.
   Picture screenshot() const;
-  /// A command of xdotool's, or several; its output.
+  /// Runs one or several commands of xdotool, and returns the output.
   std::string drive(std::vector<std::string> words) const;
   /// Starts openbox, and waits until it manages windows.
   void start_window_manager();

@@ -1,4 +1,4 @@
-// The window as one of many: sized, put away, left alone, closed.
+// Tests the window among others: resized, iconified, left alone, closed.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -76,7 +76,7 @@ TEST_F(Ending, ByKeys) {
   }
 }
 
-/// A program in openscad's part that never ends, and one that it starts itself.
+/// A program in openscad's place that never ends, with another one that it starts.
 class EndingDuringAnExport : public LiveWindow {
  protected:
   void start() {
@@ -115,7 +115,7 @@ TEST_F(EndingDuringAnExport, ByAKill) {
 
 TEST_F(EndingDuringAnExport, ByAKey) {
   start();
-  window_id();  // it is open
+  window_id();  // waits until it is open
   key("ctrl+q");
   EXPECT_EQ(program().wait(), 0);
   EXPECT_EQ(errors(), "");
@@ -129,8 +129,8 @@ TEST_F(Idle, TakesNoTime) {
   std::cout << "over " << time.count() << " s\n";
   open(folder_.write("a.csg", kBlock));
   next();
-  // After ImGui's last frames and the finer picture, which come late where the machine does much
-  // else. A hundredth of a processor: a tick is one of a second.
+  // Measured after ImGui's last frames and the finer picture, which come late on a busy machine.
+  // The bar is a hundredth of a processor: one tick a second.
   const pid_t pid = program().pid();
   EXPECT_TRUE(wait_until([&] {
     const long before = used_ticks(pid);

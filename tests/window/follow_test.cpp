@@ -1,4 +1,5 @@
-// The window beside an editor: what a save, a broken one and an included file make of its picture.
+// Tests the window beside an editor: how a save, a broken save and an included file change its
+// picture.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -58,7 +59,7 @@ TEST_F(Following, ASaveThatChangesNothing) {
   expect_shown(before);
 }
 
-/// Over the last good picture.
+/// The error is shown over the last good picture.
 constexpr Area kAboveTheError{0, 30, kWidth, 120};
 
 TEST_F(Following, MissingValidBrokenValid) {
@@ -80,7 +81,7 @@ TEST_F(Following, MissingValidBrokenValid) {
   EXPECT_THAT(broken["error"].get<std::string>(), StartsWith(design + ":2:"));
   EXPECT_EQ(broken["primitives"], 2);
   EXPECT_EQ(title(), "a.scad - error - scadray");
-  wait_until_other(good);  // it says so
+  wait_until_other(good);  // the window says so
   expect_shown(good, kAboveTheError);
 
   folder_.write("a.scad", "difference() { cube(10); sphere(8); sphere(9); }\n");

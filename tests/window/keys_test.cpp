@@ -1,4 +1,4 @@
-// Keys in the window.
+// Tests the keys of the window.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -92,14 +92,14 @@ TEST_F(Keys, HelpComesAndGoes) {
 
 class Saving : public Keys {
  protected:
-  /// Into the path that the dialogue proposes, or another one.
+  /// Saves to the path that the dialogue proposes, or to another one.
   void save(const std::string& path = "") {
     const Picture before = shown();
     key("ctrl+s");
     wait_until_settled(before);
     if (!path.empty()) display().drive({"key", "ctrl+a", "type", path});
   }
-  /// Down and up at once, before the next frame.
+  /// Presses and releases a key at once, before the next frame.
   void enter(const std::string& name) {
     key("Return");
     EXPECT_TRUE(wait_until([&] { return folder_.has(name); }));
@@ -114,12 +114,12 @@ TEST_F(Saving, WritesThePictureOfTheCommand) {
 }
 
 TEST_F(Saving, DoesNotOverwriteTheDesign) {
-  const std::string design = folder_.write("a.png", kBlock);  // which it proposes
+  const std::string design = folder_.write("a.png", kBlock);  // the path that it proposes
   open(design);
   next();
   save();
   key("Return");
-  next();  // when it would have been written
+  next();  // it would have been written by then
   EXPECT_EQ(folder_.read("a.png"), kBlock);
 }
 
@@ -138,7 +138,7 @@ TEST_F(Saving, WritesMeasurements) {
   EXPECT_TRUE(folder_.read("b.exr") == folder_.read("wanted.exr"));
 }
 
-/// The block without what lies on one side of a plane across x.
+/// The block without the part on one side of a plane across x.
 std::string cut_block(double position, bool keeps_lower) {
   const double from = keeps_lower ? position : -100 + position;
   return "difference() {\n" + kBlock + "multmatrix([[1, 0, 0, " + number_text(from) +
@@ -152,7 +152,7 @@ TEST_F(Keys, SectionPlane) {
   const json cut = next();
   EXPECT_TRUE(cut["section_on"]);
   EXPECT_EQ(cut["section_position"], 0);
-  // Beside the plane's panel.
+  // The area beside the plane's panel.
   const Area area{0, 150, kWidth, 100};
   const auto side = [&](bool keeps_lower) {
     return drawn(folder_.write("cut.csg", cut_block(0, keeps_lower)), cut["camera"]);

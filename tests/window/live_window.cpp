@@ -11,10 +11,10 @@
 namespace window_test {
 namespace {
 
-/// Higher than menu and status line are.
+/// More than the heights of the menu and the status line.
 constexpr uint32_t kMenuHeight = 30, kStatusHeight = 40;
 
-/// Of the angles and places of a camera, for the roundings of a few additions.
+/// For the angles and places of a camera, which some additions have rounded.
 constexpr double kRounding = 1e-9;
 
 bool is_near(const csgcore::Vec3& a, const csgcore::Vec3& b) {

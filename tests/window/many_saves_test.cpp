@@ -1,4 +1,5 @@
-// An hour's worth of saves: nothing grows, nothing is left over, and the last one is shown.
+// Tests as many saves as in an hour: nothing grows, nothing is left over, and the last one is
+// shown.
 #include <gtest/gtest.h>
 
 #include "designs.hpp"
@@ -10,11 +11,12 @@ namespace window_test {
 namespace {
 
 constexpr int kSaves = 1000;
-/// From here on whatever is kept for good, and the allocator's own room, is there.
+/// From this save on, everything that is kept for good, and the allocator's own room, has been
+/// allocated.
 constexpr int kSettled = 200;
 
-/// What heaps of several threads may take more or less at any time. A picture of the window has
-/// 0.4 MB: one that is kept in every save, or in every tenth, is far beyond.
+/// The memory by which heaps of several threads may vary at any time. A picture of the window has
+/// 0.4 MB: keeping one in every save, or in every tenth, would take far more.
 constexpr std::size_t kLeeway_bytes = std::size_t{8} << 20;
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -34,7 +36,7 @@ Usage usage_of(const Process& process) {
 using ManySaves = LiveWindow;
 
 TEST_F(ManySaves, LeaveNothingBehind) {
-  // So often its picture is waited for; else saves overtake each other.
+  // The test waits for every so many pictures; other saves overtake each other.
   const int rest = test_support::full_run() ? 1 : 8;
   std::cout << kSaves << " saves; every " << rest << ". is waited for\n";
   const std::string design = folder_.write("a.csg", row_of(1));
@@ -63,7 +65,7 @@ TEST_F(ManySaves, LeaveNothingBehind) {
   EXPECT_EQ(errors(), "");
 }
 
-/// The same of a .scad, with a program that plays openscad's part.
+/// The same with a .scad, and a program in openscad's place.
 TEST_F(ManySaves, LeaveNoExportBehind) {
   const frontend::Environment openscad("OPENSCAD", folder_.script("openscad",
                                                                   "for path; do :; done\n"

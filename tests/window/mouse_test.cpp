@@ -1,4 +1,4 @@
-// The mouse in the window: the camera by OpenSCAD's numbers (frontend/OPENSCAD.md,
+// Tests the mouse in the window: the camera with OpenSCAD's numbers (frontend/OPENSCAD.md,
 // "Window"), measuring, the plane.
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ constexpr window::Size kSize{kWidth, kHeight};
 
 class Mouse : public LiveWindow {
  protected:
-  /// The camera that the window starts with.
+  /// Starts the window and returns its camera.
   frontend::Camera start(const std::string& text = kBlock, std::vector<std::string> options = {}) {
     design_ = folder_.write("a.csg", text);
     open(design_, options);
@@ -79,13 +79,13 @@ TEST_F(Mouse, WheelZoomsAtTheCursor) {
   }
 }
 
-/// The ball from above: what lies at a pixel is known.
+/// Shows the ball from above, so that the point at each pixel is known.
 class MouseOnABall : public Mouse {
  protected:
   MouseOnABall() : camera_{Vec3(0.0), Vec3(0.0), 100} {}
   void open_ball() { start(kBall, {"--camera=0,0,0,0,0,0,100", "--projection=o"}); }
 
-  /// Of the ball's upper half, at a pixel's corner.
+  /// Returns the point of the ball's upper half at a pixel's corner.
   Vec3 surface_at(int x, int y) const {
     const double half_height = 100 * std::tan(11.25 * M_PI / 180);
     const double unit = 2 * half_height / kHeight;
@@ -110,8 +110,8 @@ TEST_F(MouseOnABall, ClicksMeasure) {
   const json one = next_points(1);
   expect_near(one[0]["position"], surface_at(210, 140));
   EXPECT_EQ(one[0]["primitive"], "line 1: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
-  wait_until_other(before);                                     // its place is shown
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // no double click
+  wait_until_other(before);                                     // the place is shown
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // so that it is not a double click
   click(190, 160);
   const json two = next_points(2);
   expect_near(two[0]["position"], surface_at(210, 140));

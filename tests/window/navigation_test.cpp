@@ -1,4 +1,4 @@
-// The camera under the mouse by OpenSCAD's numbers (frontend/OPENSCAD.md, "Window"), and
+// Tests the camera under the mouse with OpenSCAD's numbers (frontend/OPENSCAD.md, "Window"), and
 // where a point is seen.
 #include "navigation.hpp"
 
@@ -26,7 +26,7 @@ void expect_near(const Vec3& a, const Vec3& b, double error = 1e-12) {
       << a.x << ' ' << a.y << ' ' << a.z << " instead of " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-/// With numbers that no axis is the same for.
+/// A camera whose numbers are different on all axes.
 Navigation tilted(Projection projection = Projection::kPerspective) {
   return {Camera{{1, -2, 3}, {40, 10, 70}, 90}, projection};
 }
@@ -61,7 +61,7 @@ TEST(Navigation, AnglesStayWithinAFullTurn) {
               {40 - 70 + 360, 10 + 1400 - 3 * 360, 70 - 700 + 2 * 360}, 1e-11);
 }
 
-/// By 3·0.7 of the distance for the whole picture.
+/// A drag across the whole picture pans by 3·0.7 of the distance.
 TEST(Navigation, ThePictureFollowsAPan) {
   for (const Projection projection : kProjections) {
     Navigation navigation = tilted(projection);
@@ -69,7 +69,7 @@ TEST(Navigation, ThePictureFollowsAPan) {
     navigation.pan(64, -24, kSize);
     const Vec3 moved = navigation.camera().target - tilted().camera().target;
     expect_near(moved, 2.1 * 90 * (-0.1 * view.right - 0.05 * view.up));
-    // What was in the middle is now to the right of it, and above.
+    // The point that was in the middle is now to the right of it, and above.
     const auto place = project(navigation.view(kSize), tilted().camera().target);
     ASSERT_TRUE(place);
     EXPECT_GT(place->x_px, 320);

@@ -1,4 +1,4 @@
-// What the window shows when it opens, and where it cannot open.
+// Tests what the window shows when it opens, and the cases in which it cannot open.
 #include <gmock/gmock.h>
 
 #include "designs.hpp"
@@ -28,7 +28,7 @@ TEST_F(Opening, ShowsThePictureOfTheCommandInItsSize) {
                     HasSubstr("  |  400 x 300")));
   EXPECT_EQ(title(), "a.csg - scadray");
   expect_drawn(design, line);
-  // The whole design, as without --camera.
+  // The whole design is shown, as without --camera.
   const std::string path = folder_ / "whole.png";
   ProcessSetup setup;
   setup.words = {SCADRAY_PROGRAM, "-o", path, "--imgsize=400,300", design};
@@ -76,7 +76,7 @@ TEST_F(Opening, WhatCannotBeDrawnIsLeftOutAndListed) {
   EXPECT_THAT(line["messages"].get<std::vector<std::string>>(),
               ElementsAre(AllOf(HasSubstr("a.csg:7:1: warning: "), HasSubstr("minkowski"))));
   const Picture with_messages = shown();
-  key("m");  // they go
+  key("m");  // hides the messages
   wait_until_other(with_messages);
   expect_drawn(design, line, {"-q"});
 }
@@ -93,8 +93,8 @@ TEST_F(Opening, AScadWithoutASuffix) {
   expect_drawn(design, line);
 }
 
-/// Whether all of a status line so many pixels high lies within the window: nothing stands in its
-/// right margin.
+/// Returns whether the whole of a status line of that height is within the window: its right margin
+/// is empty.
 bool is_status_whole(const Picture& shown, uint32_t height) {
   constexpr uint32_t kMargin = 6;  // less than ImGui's
   const uint32_t bottom = shown.height - kMargin;
@@ -116,7 +116,7 @@ TEST_F(Opening, TheStatusLineIsWholeInNarrowWindows) {
     EXPECT_GT(7 * line["status"].get<std::string>().size(), 640u);  // a letter is 7 pixels wide
     EXPECT_TRUE(wait_until([this] { return is_status_whole(shown(), kLine); }));
   }
-  // A notice is wrapped: that a picture cannot have this name.
+  // The notice that a picture cannot have this name is wrapped.
   const Picture before = shown();
   key("ctrl+s");
   wait_until_settled(before);

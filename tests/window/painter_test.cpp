@@ -1,5 +1,5 @@
-// The window's pictures: those of the command, whatever is ordered meanwhile; and what lies at a
-// pixel.
+// Tests the window's pictures, which equal the command's, whatever is ordered meanwhile; and what
+// is found at a pixel.
 #include "painter.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ using frontend::ImportedDesign;
 using frontend::Show;
 using testing::HasSubstr;
 
-/// With translucent parts.
+/// A design with translucent parts.
 const std::string kDesign = window_test::kBlock +
                             "%sphere($fn = 0, $fa = 12, $fs = 2, r = 14);\n"
                             "#multmatrix([[1, 0, 0, -5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])"
@@ -58,7 +58,7 @@ PaintOrder order_of(std::shared_ptr<const ImportedDesign> design) {
   return order;
 }
 
-/// The picture that the command makes.
+/// Returns the picture that the command makes.
 csgcore::Image command_picture(const PaintOrder& order) {
   const csgcore::View view = order.navigation.view(order.size);
   frontend::RenderSettings settings = order.settings;
@@ -73,7 +73,7 @@ csgcore::Image command_picture(const PaintOrder& order) {
   return image;
 }
 
-/// A painter, and whoever waits for it.
+/// Holds a painter, and waits for it.
 class PainterTest : public testing::Test {
  protected:
   Painter& painter(double frame_ms = 1e6) {
@@ -156,7 +156,7 @@ TEST_F(PainterTest, DrawsWhatIsEmpty) {
   const std::string cubes = "{ cube(1); multmatrix([[1, 0, 0, 5]]) { cube(1); } }";
   PaintOrder order;
   uint64_t number = 0;
-  // The designs follow each other in one renderer.
+  // One renderer draws these designs one after the other.
   const std::string designs[] = {"",
                                  "%cube(1);",
                                  "intersection() " + cubes,
@@ -203,10 +203,10 @@ TEST_F(PainterTest, MeasuresWhereItIsAskedTo) {
 }
 
 TEST_F(PainterTest, WhatMovesIsCoarseAndThenRefined) {
-  Painter& painter = this->painter(1e-6);  // a time in which nothing can be drawn
+  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
   PaintOrder order = order_of(design_of(kDesign));
   painter.order(order);
-  EXPECT_TRUE(next_painting().is_final);  // it does not move
+  EXPECT_TRUE(next_painting().is_final);  // the camera does not move
   order.settings.samples = 4;
   order.is_moving = true;
   order.navigation.turn(10, 5, false);
@@ -263,7 +263,7 @@ class LargeOrder {
   LargeOrder() : order_(order_of(design_of(test_support::cylinder_minus_spheres(2000)))) {
     order_.size = {8000, 8000};
     order_.settings.samples = 64;
-    order_.settings.technique = frontend::Technique::kCells;  // which reports progress
+    order_.settings.technique = frontend::Technique::kCells;  // reports progress
     order_.settings.progress = [this](const char* stage, double) {
       if (std::string_view(stage) == "drawing" && !std::exchange(is_begun_, true)) {
         begun_.set_value();
@@ -271,14 +271,14 @@ class LargeOrder {
     };
   }
   const PaintOrder& order() const { return order_; }
-  /// False if it never does.
+  /// Waits until the drawing begins; returns false if it never does.
   bool begins() {
     return begun_.get_future().wait_for(frontend::kPatience) == std::future_status::ready;
   }
 
  private:
   PaintOrder order_;
-  bool is_begun_ = false;  // the painter's thread's
+  bool is_begun_ = false;  // set by the painter's thread
   std::promise<void> begun_;
 };
 
@@ -362,14 +362,14 @@ TEST_F(ProbeTest, LongLinesAreCut) {
   Painter& painter = this->painter();
   painter.probe(probe_of("multmatrix(" + list + ") multmatrix(" + list + ") cube(100);", 80, 60));
   EXPECT_LE(next_finding().line.size(), 100u);
-  painter.probe(probe_of("sphere(r = 10);", 80, 60));  // no line's end
+  painter.probe(probe_of("sphere(r = 10);", 80, 60));  // the text has no line break
   EXPECT_EQ(next_finding().line, "line 1: sphere(r = 10);");
 }
 
 TEST_F(ProbeTest, NoClickParsesTheDesign) {
   Painter& painter = this->painter();
   Probe probe = probe_of("\n" + window_test::kBall, 80, 60);
-  // The text goes on as no .csg does: only the primitive's own line may be looked at.
+  // The text continues as no .csg does: only the primitive's own line may be read.
   probe.csg = std::make_shared<frontend::FileText>(
       frontend::read_file(folder_.write("broken.csg", "\n" + window_test::kBall + "}} (")));
   painter.probe(probe);
@@ -390,7 +390,7 @@ TEST_F(ProbeTest, EachIsAnsweredInTurn) {
 
 TEST_F(PainterTest, ErrorsComeInPlaceOfPictures) {
   Painter& painter = this->painter();
-  // Beyond what even a scaled scene can hold: no file has that.
+  // A size that even a scaled scene cannot have.
   painter.order(order_of(
       design_of(test_support::scene_of(csgcore::Op::kUnion, {csgcore::make_sphere(1e95)}))));
   const Painting failed = next_painting();

@@ -19,8 +19,8 @@ std::string bytes_of(const std::string& path) {
   return bytes.str();
 }
 
-/// Where the numbers of an xwd file's head stand (X11/XWDFile.h): 32 bits each, the highest byte
-/// first.
+/// The places of the numbers in the head of an xwd file (X11/XWDFile.h): 32 bits each, the highest
+/// byte first.
 enum XwdHead : std::size_t {
   kXwdHeadSize = 0,
   kXwdWidth = 4,

@@ -12,7 +12,7 @@ struct Area {
   uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Row-major from the top left corner.
+/// A picture, row-major from the top left corner.
 struct Picture {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -27,13 +27,14 @@ struct Picture {
 /// Precondition: the area lies within the picture.
 Picture part(const Picture& picture, const Area& area);
 
-/// Pixels that are not alike. Pictures of different sizes have none alike.
+/// Returns the number of pixels that differ. In pictures of different sizes all do.
 std::size_t different_pixels(const Picture& a, const Picture& b);
 
-/// A PNG's. Throws std::runtime_error if it is none.
+/// Reads a PNG. Throws std::runtime_error if it is none.
 Picture read_png(const std::string& path);
 
-/// An xwd file's of 24 bits, as Xvfb keeps its screen. Throws std::runtime_error if it is none.
+/// Reads an xwd file of 24 bits, in which Xvfb keeps its screen. Throws std::runtime_error if it is
+/// none.
 Picture read_xwd(const std::string& path);
 
 }  // namespace window_test

@@ -26,7 +26,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-/// "NAME=value" of all variables.
+/// Returns "NAME=value" for all variables.
 std::vector<std::string> environment_of(const ProcessSetup& setup) {
   std::vector<std::string> result;
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -46,7 +46,8 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The fields of /proc/PID/stat from the third on: the second, the name, may hold anything.
+/// Returns the fields of /proc/PID/stat from the third on. The second, the name, may contain
+/// anything.
 std::vector<std::string> stat_of(pid_t pid) {
   const std::string text = text_of("/proc/" + std::to_string(pid) + "/stat");
   const std::size_t name_end = text.rfind(')');
@@ -75,7 +76,7 @@ Process::Process(const ProcessSetup& setup) {
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("cannot fork");
   if (pid_ > 0) return;
-  // Nothing is left behind by a test that is killed.
+  // A test that is killed leaves nothing running.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
   signal(SIGINT, SIG_DFL);  // a shell's background jobs are started with it ignored

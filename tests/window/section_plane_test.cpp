@@ -1,4 +1,4 @@
-// Scenes cut open: what is left of them, and that the cut is exact.
+// Tests scenes that are cut open: what is left of them, and that the cut is exact.
 #include "section_plane.hpp"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(SectionPlane, CutsOffWhatLiesOnOneSideOfAllParts) {
   EXPECT_GT(cut, 100u);
 }
 
-/// But for the roundings of the ray.
+/// The cut is exact up to the roundings of the ray.
 TEST(SectionPlane, TheCutLiesInThePlane) {
   Scene scene = test_support::scene_of(csgcore::Op::kUnion, {csgcore::make_sphere(10)});
   for (const double position : {0.1, -7.3, 1.0 / 3, 9.99}) {
@@ -96,7 +96,7 @@ TEST(SectionPlane, TheCutLiesInThePlane) {
   }
 }
 
-/// The same picture as by a block that is taken away in the design itself.
+/// The picture equals that of a design with a block subtracted.
 TEST(SectionPlane, ItsPictureIsThatOfADifference) {
   const Scene scene = test_support::cylinder_minus_spheres(100);
   csgcore::View view;

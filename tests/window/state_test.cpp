@@ -1,4 +1,4 @@
-// What each command makes of the state, and what the menu and the status line show of it.
+// Tests how each command changes the state, and how the menu and the status line show it.
 #include "state.hpp"
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ TEST_F(StateTest, StartsAsTheCommandLineSays) {
   EXPECT_TRUE(state.is_checked(Command::kDepth));
 }
 
-/// Whoever adds a command has to say here what it is.
+/// Whoever adds a command has to say here of which kind it is.
 TEST_F(StateTest, EveryCommandIsOfOneKind) {
   for (const CommandRow& row : command_rows()) {
     State state(frontend::Options{});
@@ -50,7 +50,7 @@ TEST_F(StateTest, EveryCommandIsOfOneKind) {
   }
 }
 
-/// Of each group exactly the one that was chosen last is checked.
+/// In each group exactly the choice that was made last is checked.
 TEST_F(StateTest, ChoicesExcludeEachOther) {
   const std::vector<std::vector<Command>> kGroups = {
       {Command::kPerspective, Command::kOrthographic},

@@ -20,37 +20,37 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// Larger pictures than this a side are refused; it is the largest texture and viewport side that
-/// GL drivers commonly have (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
+/// The largest width and height of a picture; larger ones are refused. GL drivers commonly have no
+/// larger textures and viewports (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
 constexpr uint32_t kMaxPictureSide_px = 16384;
 
-/// What the command line says of the camera and of the picture's size.
+/// The command line's options for the camera and the picture's size.
 struct CameraOptions {
-  std::optional<Camera> camera;  // none: as with view_all and auto_center
+  std::optional<Camera> camera;  // none: view_all and auto_center apply
   bool view_all = false;
-  bool auto_center = false;  // only together with view_all, as in OpenSCAD
+  bool auto_center = false;  // has an effect only with view_all, as in OpenSCAD
   csgcore::Projection projection = csgcore::Projection::kPerspective;
   uint32_t width_px = 512;  // 1…kMaxPictureSide_px
   uint32_t height_px = 512;
 };
 
-/// The camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target). Throws
-/// Error for any other count.
+/// Returns the camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target).
+/// Throws Error for any other count.
 Camera camera_from_numbers(std::span<const double> numbers);
 
-/// Whether the camera's place depends on the design's box.
+/// Returns whether the camera's place depends on the design's box.
 inline bool sees_all(const CameraOptions& options) { return options.view_all || !options.camera; }
 
 /// Applies view_all and auto_center to the design's box. An empty box leaves the camera as it is.
 Camera choose_camera(const CameraOptions& options, const csgcore::Box& view_box);
 
-/// Whether the picture is the background whatever there is, as in OpenSCAD 2021.01: the distance is
-/// 0, not finite, or in perspective negative.
+/// Returns whether the picture is all background, whatever the design, as in OpenSCAD 2021.01: the
+/// distance is 0, not finite, or in perspective negative.
 bool sees_nothing(const Camera& camera, csgcore::Projection projection);
 
-/// The rays of that camera; of one that sees nothing only the directions hold. OpenSCAD's
-/// orthographic picture from a negative distance is that from the positive one upside down: `up`
-/// points downwards there, and right × up = forward.
+/// Returns the rays of the camera. If the camera sees nothing (sees_nothing()), only their
+/// directions are valid. OpenSCAD's orthographic picture from a negative distance is the one from
+/// the positive distance upside down: there `up` points downwards, and right × up = forward.
 csgcore::View make_view(const Camera& camera, const CameraOptions& options);
 
 }  // namespace frontend

@@ -6,10 +6,10 @@
 
 namespace frontend {
 
-/// Replaces `image.rgb` by what `show` asks for; misses take `background`. kSurface and kCells are
-/// the renderer's, and leave the image as it is. Depth: near is white, far dark grey, linear in z
-/// over the range of the hits. Normals: (n + 1)/2. Id: a colour of its own for each id below 2^24.
-/// Precondition: the image has its measured channels.
+/// Replaces `image.rgb` by a picture of the channel `show`; misses get `background`. kSurface and
+/// kCells, which renderers draw, leave the image as it is. Depth: near is white, far dark grey,
+/// linear in z over the range of the hits. Normals: (n + 1)/2. Id: a colour of its own for each id
+/// below 2^24. Precondition: the image has its measured channels.
 void show_channel(csgcore::Image& image, Show show, Rgb background);
 
 }  // namespace frontend

@@ -8,10 +8,11 @@
 
 namespace frontend {
 
-/// In OpenSCAD's order; the first is the default.
+/// Returns the schemes in OpenSCAD's order; the first is the default.
 std::span<const ColorScheme> color_schemes();
 
-/// Null where no scheme has that name, which is compared to the letter, as OpenSCAD does.
+/// Finds a scheme by its exact name, upper and lower case distinguished, as OpenSCAD does. Null if
+/// there is none.
 const ColorScheme* find_color_scheme(std::string_view name);
 
 }  // namespace frontend

@@ -14,12 +14,12 @@
 
 namespace frontend {
 
-/// frontend::render, or another with its contract.
+/// frontend::render, or a function with the same contract.
 using Renderer = std::function<csgcore::Image(const csgcore::Scene&, const csgcore::View&,
                                               const RenderSettings&, RenderStats&)>;
 
-/// Runs the command; where the first argument is `bench` or `validate`, the program scadray-bench
-/// or scadray-validate in this one's place. Messages go to stderr; nothing is thrown.
+/// Runs the command. If the first argument is `bench` or `validate`, the program scadray-bench or
+/// scadray-validate runs in place of this one. Messages go to stderr; nothing is thrown.
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer);
 
 }  // namespace frontend

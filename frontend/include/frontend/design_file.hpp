@@ -1,4 +1,4 @@
-// A design's file, .csg or .scad, from disk to what is imported.
+// Reads a design's file, .csg or .scad, up to what the importer takes from it.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,24 @@
 
 namespace frontend {
 
-/// What is parsed.
+/// The text of a design, ready to be parsed.
 struct DesignText {
   FileText csg;
   std::string name;                // for the parser's messages
-  bool is_exported = false;        // from a .scad
-  std::vector<std::string> files;  // that it was read from, the design last; if wanted, and known
-  double export_ms = 0;            // openscad, for a .scad
+  bool is_exported = false;        // openscad made it from a .scad
+  std::vector<std::string> files;  // files it was read from, the design last; empty unless wanted
+                                   // and known
+  double export_ms = 0;            // time that openscad took for a .scad
   double read_ms = 0;
 };
 
 struct DesignFile {
   std::string name{};                // as messages show it
-  std::size_t file_bytes = 0;        // of the .csg text that was parsed
-  TextImport import;                 // to be finished
-  bool is_exported = false;          // from a .scad
-  std::vector<std::string> files{};  // that it was read from, the design last; if wanted
-  double export_ms = 0;              // openscad, for a .scad
+  std::size_t file_bytes = 0;        // size of the .csg text that was parsed
+  TextImport import;                 // import_design() finishes it
+  bool is_exported = false;          // openscad made it from a .scad
+  std::vector<std::string> files{};  // files it was read from, the design last; empty unless wanted
+  double export_ms = 0;              // time that openscad took for a .scad
   double read_ms = 0;
   double parse_ms = 0;
 };
@@ -38,40 +39,45 @@ struct DesignFileOptions {
   ImportOptions import;
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
   bool wants_files = false;
-  /// Given each line that openscad says.
+  /// Called with each line that openscad prints.
   std::function<void(const std::string& line)> message;
-  /// Called with what is done, a .scad's export many times.
+  /// Called with the name of the current stage; during a .scad's export, many times.
   std::function<void(const char* stage)> progress;
 };
 
-/// By its name: whether openscad has to export it.
+/// Returns whether the path has the suffix of a .scad, which openscad has to export.
 bool is_scad(const std::string& path);
 
-/// Whether openscad has to export it if it cannot be parsed: a regular file of any name but .csg's,
-/// as editors' plugins hand over temporary files without a suffix. (What is no regular file can be
-/// read only once.)
+/// Returns whether a file that cannot be parsed may be a .scad: a regular file of any name but a
+/// .csg's. (Editors' plugins pass temporary files without a suffix. A file that is not regular can
+/// be read only once.)
 bool may_be_scad(const std::string& path);
 
-/// What reading a design is known to read, before it is read: the design, openscad's parameters.
+/// Returns the files that reading the design is known to need beforehand: the design, and
+/// openscad's parameter file.
 std::vector<NamedPath> design_inputs(const std::string& path,
                                      const std::vector<std::string>& openscad_arguments);
 
-/// `path` is a .csg; a .scad, which the installed openscad exports; or "-", a .csg from standard
-/// input. A file of another name is a .csg if it parses as one, else a .scad. Throws Error, also
-/// where openscad does not say which files it reads and they are wanted, and where memory runs out.
+/// Reads and parses a design. `path` is a .csg; a .scad, which the installed openscad exports; or
+/// "-", a .csg from standard input. A file of any other name is a .csg if it parses as one, else a
+/// .scad. Throws Error, also if `files` are wanted and openscad does not name them, and if memory
+/// runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
-/// `file.import`, finished, once. Throws what that throws, and Error where memory runs out.
+/// Finishes `file.import`; may be called once. Throws what TextImport throws, and Error if memory
+/// runs out.
 ImportedDesign import_design(DesignFile& file);
 
-// The two steps of it, which can be stopped: Stopped (stop.hpp) is thrown where `stop` asks for it.
+// The two steps of read_design(). Both throw Stopped (stop.hpp) once `stop` is requested.
 
-/// A .scad by its name is exported, everything else is read only; it may end where it is seen that
-/// it cannot be parsed. What openscad does not say is left out of `files`. Throws Error.
+/// Exports a file whose name is a .scad's; reads any other. The result may be only a start of the
+/// text, if that start shows that the text cannot be parsed. `files` lacks what openscad does not
+/// name. Throws Error.
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop = {});
 
-/// In the place of a `text` that cannot be parsed, where may_be_scad(). Throws Error.
+/// Exports a design whose `text` cannot be parsed, and replaces `text`. Precondition:
+/// may_be_scad(). Throws Error.
 void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
                         const std::stop_token& stop = {});
 

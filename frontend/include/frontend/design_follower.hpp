@@ -1,4 +1,5 @@
-// A design's file read anew after every save, in a thread of its own, for the live window.
+// Follows a design's file: reads it anew after every save, in a thread of its own, for the live
+// window.
 #pragma once
 
 #include <chrono>
@@ -17,38 +18,39 @@ namespace frontend {
 struct FollowOptions {
   std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
   ImportOptions import;
-  /// Look at the files from time to time only, as if the system could not watch them. Without it
-  /// that is done for files that are missing, for file systems that other machines may write to,
-  /// and where the system cannot watch them.
+  /// Look at the files at intervals only, as if the system could not watch them. By default only
+  /// those are looked at that the system cannot watch: missing files, and files on file systems
+  /// that other machines may write to.
   bool polls = false;
-  /// How often, where it is done.
+  /// The interval of those looks.
   std::chrono::milliseconds poll_interval{250};
 };
 
-/// Follows a .scad and everything that it reads, or a .csg. "-", standard input, is read once.
+/// Follows a .scad and everything that it reads, or a .csg. Standard input ("-") is read once.
 ///
-/// A save stops a reading that is under way, openscad with all that it started: at most one runs at
-/// any time, and none is left when this object, or the program by a signal, ends (interrupt.hpp).
+/// A save stops a reading that is under way, and openscad with everything that it has started. So
+/// at most one openscad runs at any time, and none is left when this object ends, or when a signal
+/// ends the program (interrupt.hpp).
 class DesignFollower {
  public:
   enum class State : uint8_t { kIdle, kReading };
 
-  /// Starts to read at once. `on_news` is called from a thread of this object's own, whenever
-  /// take() or state() would say something new; it must not block, nor throw.
+  /// Starts reading at once. `on_news` is called from this object's own thread whenever the result
+  /// of take() or state() has changed; it must neither block nor throw.
   DesignFollower(std::string path, FollowOptions options, std::function<void()> on_news);
-  /// Prompt: stops what is being read. `on_news` is not called any more.
+  /// Returns promptly: it stops what is being read. `on_news` is not called afterwards.
   ~DesignFollower();
   DesignFollower(const DesignFollower&) = delete;
   DesignFollower& operator=(const DesignFollower&) = delete;
 
-  // From any thread; none of these waits.
+  // These may be called from any thread, and do not wait.
 
-  /// The newest version, once: nothing until there is one newer than that taken last. Versions that
-  /// were not taken in time are passed over.
+  /// Returns the newest version, each at most once: nothing if there is none newer than the one
+  /// taken last. Versions that were not taken in time are skipped.
   std::optional<DesignVersion> take();
-  /// kReading from when a save is noticed until its version can be taken.
+  /// kReading lasts from the notice of a save until its version can be taken.
   State state() const;
-  /// Reads again, as if saved.
+  /// Reads the design again, as after a save.
   void reload();
 
  private:

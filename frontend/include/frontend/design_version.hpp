@@ -1,4 +1,4 @@
-// What one reading of a followed design has given.
+// The result of one reading of a followed design.
 #pragma once
 
 #include <chrono>
@@ -16,25 +16,26 @@ namespace frontend {
 /// One reading of a design: at the start, or after a save.
 struct DesignVersion {
   uint64_t number = 0;  // counts up from 1
-  /// Null where it could not be read.
+  /// Null if the design could not be read.
   std::shared_ptr<const ImportedDesign> design;
-  /// Where it could not be read, "file:line:column: error: what (what to do)"; empty otherwise.
+  /// "file:line:column: error: what (what to do)" if the design could not be read; else empty.
   std::string error;
-  /// What openscad said, and then the importer's warnings. The error is not among them.
+  /// openscad's messages, then the importer's warnings, without the error.
   std::vector<std::string> messages;
-  /// All that it is read from, as far as is known, the design first; missing files that it asks
-  /// for, too.
+  /// The files that the design is known to be read from, the design first. Files that it asks for
+  /// and that are missing are included.
   std::vector<std::string> files;
-  /// Its .csg is byte for byte that of the last version that could be read; `design` is that one's
-  /// pointer. The messages may be others.
+  /// The .csg is byte for byte that of the last version that could be read, and `design` is that
+  /// version's pointer. The messages may differ.
   bool unchanged = false;
-  std::shared_ptr<const FileText> csg;  // that `design` was made of
-  std::size_t nodes = 0;  // of the .csg; those of the last version where it is unchanged
-  double export_ms = 0;   // openscad, for a .scad
+  std::shared_ptr<const FileText> csg;  // the text that `design` was made from
+  std::size_t nodes = 0;                // of the .csg; those of the last version if it is unchanged
+  double export_ms = 0;                 // time that openscad took for a .scad
   double read_ms = 0;
   double parse_ms = 0;
   double import_ms = 0;
-  /// When the save was seen, before waiting for its end; the start, or reload(), without a save.
+  /// When the save was seen, before waiting for its end. Without a save: when the follower was
+  /// started, or reload() called.
   std::chrono::steady_clock::time_point noticed;
 };
 

@@ -1,4 +1,4 @@
-// What a user can cause is reported by one exception type, with its place in the file.
+// The one exception type for what a user can cause, with its place in a file; and warnings.
 #pragma once
 
 #include <cstdint>
@@ -7,19 +7,19 @@
 
 namespace frontend {
 
-/// Lines and columns count from 1; columns in bytes. line 0: no place within the file.
+/// A place in a file. Lines and columns count from 1, columns in bytes. Line 0 means no place.
 struct Location {
   uint32_t line = 0;
   uint32_t column = 0;
 };
 
-/// Not thrown, collected and shown on stderr.
+/// A warning is collected and shown on stderr, not thrown.
 struct Warning {
-  std::string text;        // as an Error's, with "warning" for "error"
-  std::string error_text;  // what() of the Error that it is where warnings are errors
+  std::string text;        // like an Error's what(), with "warning" in place of "error"
+  std::string error_text;  // what() of the Error that it becomes where warnings are errors
 };
 
-/// what() is "file:line:column: error: what (what to do)", without the places that are not known.
+/// what() is "file:line:column: error: what (what to do)", without those places that are not known.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& file, Location location, const std::string& what,
@@ -27,7 +27,7 @@ class Error : public std::runtime_error {
   explicit Error(const Warning& warning) : std::runtime_error(warning.error_text) {}
 };
 
-/// Any of `file`, `location` and `todo` may be empty; the text is then without them.
+/// Any of `file`, `location` and `todo` may be empty, and is then left out of the text.
 Warning make_warning(const std::string& file, Location location, const std::string& what,
                      const std::string& todo);
 

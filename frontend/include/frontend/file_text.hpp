@@ -1,4 +1,4 @@
-// A text that was read, and what ends its reading early.
+// The text of a file, and a test that can end its reading early.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace frontend {
 
-/// Locations and offsets in a syntax tree are 32 bits wide.
+/// The largest input: locations and offsets in a syntax tree are 32 bits wide.
 constexpr std::size_t kMaxInputBytes = 0xFFFFFFFFu;
 
-/// A file's text, a copy of its own: a file that changes while it is read cannot harm us.
+/// A copy of a file's text, so that changes of the file while it is parsed have no effect.
 class FileText {
  public:
   FileText() = default;
@@ -26,8 +26,8 @@ class FileText {
   std::size_t size_ = 0;
 };
 
-/// Whether a text that begins with `start` is of no use, whatever comes after; so what never ends
-/// need not be read. Throws Stopped (stop.hpp) where `stop` asks for it.
+/// Returns whether a text that begins with `start` cannot be parsed, whatever comes after. So an
+/// endless input need not be read on. Throws Stopped (stop.hpp) once `stop` is requested.
 using IsHopeless = std::function<bool(std::string_view start, const std::stop_token& stop)>;
 
 }  // namespace frontend

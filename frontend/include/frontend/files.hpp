@@ -1,4 +1,4 @@
-// Files in and out: a design read in one go; pictures that appear whole or not at all.
+// Reads inputs at one go, and writes outputs that appear whole or not at all.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace frontend {
 
-/// Reads a file, or standard input for "-". Where `is_hopeless` says so, the rest is not read: the
-/// result is a start that is as useless as the whole. Throws Error where the file is missing, a
-/// folder, cannot be read, or is larger than kMaxInputBytes; Stopped (stop.hpp) where `stop` asks
-/// for it.
+/// Reads a file, or standard input for "-". Once `is_hopeless` returns true, the rest is not read,
+/// and the result is a start of the text that fails as the whole would. Throws Error if the file is
+/// missing, is a folder, cannot be read, or is larger than kMaxInputBytes; Stopped (stop.hpp) once
+/// `stop` is requested.
 FileText read_file(const std::string& path, const IsHopeless& is_hopeless = {},
                    const std::stop_token& stop = {});
 
@@ -23,35 +23,37 @@ FileText read_file(const std::string& path, const IsHopeless& is_hopeless = {},
 FileText read_descriptor(int descriptor, const std::string& name,
                          const IsHopeless& is_hopeless = {}, const std::stop_token& stop = {});
 
-/// Throws Error if `path` can be seen not to be a file that can be read.
+/// Throws Error if it can be told beforehand that `path` cannot be read as a file.
 void check_input(const std::string& path);
 
-/// What is to be written: `path` "-" is standard output.
+/// An output to be written. The path "-" is standard output.
 struct PendingOutput {
   std::string path;
   std::vector<std::byte> bytes;
 };
 
-/// A text, to be written as it is.
+/// Returns the bytes of the text, unchanged.
 std::vector<std::byte> bytes_of(std::string_view text);
 
-/// Throws Error if `path` can be seen not to be writable, before any work is spent on it.
+/// Throws Error if it can be told beforehand that `path` cannot be written. To be called before any
+/// work is spent on the output.
 void check_output(const std::string& path);
 
-/// A file as the user gave it.
+/// A path as the user gave it, with its role.
 struct NamedPath {
   std::string role;  // for messages: "-o", "the design"
   std::string path;  // "-" is standard output, or standard input
 };
 
-/// Throws Error if one of the outputs is the same file as another, or as one of the inputs: by its
-/// name or by any link, also where it does not exist yet. What is no regular file may repeat.
+/// Throws Error if an output is the same file as another output or as an input: by its name or by
+/// any link, also if the file does not exist yet. Only regular files must differ.
 void check_outputs_differ(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs);
 
-/// Writes all outputs: each regular file first under another name in its folder, and only once all
-/// are written are they renamed, so that a failure leaves old files untouched and no new ones. An
-/// old file whose folder takes no other is written in place, and put back after a failure. A
-/// symbolic link is followed and stays; devices and pipes are written to directly. Throws Error.
+/// Writes all outputs or none. Each regular file is first written under another name in its folder.
+/// Only when all are written are they renamed, so that a failure leaves old files untouched and no
+/// new ones. If a folder takes no new file, the old file is overwritten in place, and restored
+/// after a failure. A symbolic link is followed and stays; devices and pipes are written to
+/// directly. Throws Error.
 void write_outputs(std::span<const PendingOutput> outputs);
 
 }  // namespace frontend

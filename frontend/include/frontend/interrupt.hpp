@@ -1,4 +1,4 @@
-// What is to be undone when a signal ends the program.
+// Cleans up when a signal ends the program.
 #pragma once
 
 #include <signal.h>
@@ -8,18 +8,20 @@
 
 namespace frontend {
 
-/// From here on no signal but SIGKILL ends the program before the registered files are removed and
-/// the registered process group is killed. A signal that asks for the end (SIGINT, SIGTERM, SIGHUP,
-/// SIGXCPU, …) then gives exit code 1; one that dumps core (SIGQUIT, a crash) does so all the same.
-/// SIGPIPE and SIGXFSZ are ignored: writing then fails with an error. Signals that the caller
-/// ignores stay ignored. To be called once, by a program's main.
+/// Installs the handlers. From then on no signal but SIGKILL ends the program before the registered
+/// files are removed and the registered process group is killed. A signal that asks for the end
+/// (SIGINT, SIGTERM, SIGHUP, SIGXCPU, …) then gives exit code 1; one that dumps core (SIGQUIT, a
+/// crash) still does so. SIGPIPE and SIGXFSZ are ignored, so that writing fails with an error.
+/// Signals that the parent process has set to be ignored stay ignored. To be called once, by a
+/// program's main.
 void handle_interrupts();
 
-/// So many files can be registered at once: each has a slot, for the handler may not allocate.
+/// The most files that can be registered at once. Each has a slot, since the handler may not
+/// allocate.
 constexpr std::size_t kMaxRemovedFiles = 4098;
 
-/// The file at `path` is removed at an interruption while this object lives. The text behind
-/// `path` must live as long. Throws Error if too many are registered.
+/// While this object lives, an interruption removes the file at `path`. The characters behind
+/// `path` must live as long. Throws Error if too many files are registered.
 class RemoveOnInterrupt {
  public:
   explicit RemoveOnInterrupt(const char* path);
@@ -31,11 +33,11 @@ class RemoveOnInterrupt {
   std::size_t slot_;
 };
 
-/// The process group that an interruption kills; 0: none. Only one runs at a time.
+/// Registers the process group that an interruption kills; 0: none. There is one at a time.
 void set_child_group(pid_t group);
 
-/// For what must not be left half done: while this object lives, an interruption waits for its end,
-/// for some seconds at most. This thread takes no signal until then. Crashes and SIGKILL do not
+/// Guards work that must not be left half done. While this object lives, an interruption waits for
+/// its end, for some seconds at most, and this thread takes no signal. Crashes and SIGKILL do not
 /// wait.
 class HoldInterrupts {
  public:

@@ -1,4 +1,4 @@
-// .scad → .csg by the installed OpenSCAD.
+// Exports a .scad to a .csg by the installed OpenSCAD.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,19 @@ namespace frontend {
 
 struct OpenScadExport {
   FileText csg;
-  std::vector<std::string> files;  // that the design reads, as openscad names them; if wanted
+  std::vector<std::string> files;  // files the design reads, as openscad names them; if wanted
 };
 
-/// Runs `openscad` (the program that $OPENSCAD names, or else the one on PATH) on a .scad file and
-/// returns the .csg that it has written when it ends, or a part of it that cannot be parsed,
-/// whatever comes after it (is_beyond_repair() in parser.hpp). `arguments` are handed on as they
-/// are. Each line that it says is given to `message` as it comes, a very long one in pieces.
-/// `waiting` is called about ten times a second. Throws Error where openscad is missing, fails,
-/// reports an error (it may exit 0 all the same), or writes nothing; and, at once, Stopped
-/// (stop.hpp) where `stop` asks for it. openscad and all that it started is gone in each case, also
-/// where this program is killed.
+/// Runs openscad (the program that $OPENSCAD names, or else `openscad` on PATH) on a .scad file and
+/// returns the .csg that it writes. The result may be only a start of it, if that start shows that
+/// the .csg cannot be parsed (is_beyond_repair() in parser.hpp). `arguments` are passed on as they
+/// are. `message` is called with each line that openscad prints; a very long line comes in pieces.
+/// `waiting` is called about ten times a second.
+///
+/// Throws Error if openscad is missing, fails, reports an error (which it may do with exit code 0),
+/// or writes nothing. Throws Stopped (stop.hpp) as soon as `stop` is requested. In every case
+/// openscad and everything that it has started have ended when this function returns or throws;
+/// they also end if this program is killed.
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,

@@ -1,4 +1,4 @@
-// What OpenSCAD's --view draws over a finished picture.
+// The overlays of OpenSCAD's --view, drawn over a finished picture.
 #pragma once
 
 #include "csgcore/image.hpp"
@@ -9,17 +9,18 @@
 namespace frontend {
 
 struct Overlays {
-  bool axes = false;        // the world's, and three coloured ones in the lower left corner
+  bool axes = false;        // the world's axes, and a small red, green and blue set in the lower
+                            // left corner
   bool crosshairs = false;  // the diagonals of a cube around what the camera looks at
   bool edges = false;       // the solid's creases and outlines
-  bool scales = false;      // marks and numbers on the axes; without these nothing
+  bool scales = false;      // marks and numbers on the axes; no effect without `axes`
 
   bool any() const { return axes || crosshairs || edges || scales; }
   bool operator==(const Overlays&) const = default;
 };
 
-/// Draws them in the scheme's colours, 1 px wide, where the model is not in front. Precondition:
-/// the image has the view's size and, where any is drawn, its measured channels.
+/// Draws the overlays in the scheme's colours, 1 px wide, where the model is not in front.
+/// Precondition: the image has the view's size and, if any overlay is drawn, its measured channels.
 void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
                    const Overlays& overlays, const ColorScheme& scheme);
 

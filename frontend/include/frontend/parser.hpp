@@ -1,4 +1,4 @@
-// Text → syntax tree.
+// Parses the text of a .csg into a syntax tree.
 #pragma once
 
 #include <stop_token>
@@ -9,14 +9,14 @@
 
 namespace frontend {
 
-/// Parses a .csg file (frontend/OPENSCAD.md, "The .csg file": every version's spelling, and what a
-/// person may write by hand). Time and memory are in proportion to the text; nesting may be
-/// arbitrarily deep. `file_name` is used in messages only. Throws Error, and Stopped (stop.hpp)
-/// where `stop` asks for it.
+/// Parses a .csg file, in the spelling of every OpenSCAD version or as a person may write it
+/// (frontend/OPENSCAD.md, "The .csg file"). Time and memory are in proportion to the text; nesting
+/// may be arbitrarily deep. `file_name` is used in messages only. Throws Error; and Stopped
+/// (stop.hpp) once `stop` is requested.
 SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_token& stop = {});
 
-/// Whether no text that begins with `start` can be parsed: parse(start), and that of all of them,
-/// throws the same Error. So what never ends is refused without reading it all.
+/// Returns whether no text that begins with `start` can be parsed: parse() of `start`, and of each
+/// of those texts, throws the same Error. So an endless input can be refused after its start.
 bool is_beyond_repair(std::string_view start, const std::stop_token& stop = {});
 
 }  // namespace frontend

@@ -11,11 +11,11 @@ namespace frontend {
 
 using Bytes = std::vector<std::byte>;
 
-/// 8-bit RGB. The same image gives the same bytes; on processors with other instructions it may be
-/// compressed otherwise. Throws Error if it cannot be.
+/// Encodes 8-bit RGB. The same image gives the same bytes on one processor; on a processor with
+/// other instructions the compression may differ. Throws Error on failure.
 Bytes encode_png(const csgcore::Image& image);
 
-/// Float channels R, G, B, A, Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and the uint channel id.
+/// Encodes the float channels R, G, B, A, Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and the uint channel id.
 /// Precondition: the image has its measured channels.
 Bytes encode_exr(const csgcore::Image& image);
 

@@ -1,4 +1,4 @@
-// One line on a terminal that says what long work is at.
+// A line on the terminal that shows the progress of long work.
 #pragma once
 
 #include <chrono>
@@ -7,22 +7,22 @@
 
 namespace frontend {
 
-/// Writes to stderr, and only after kSilence of work. Threads may share it.
+/// Writes the line to stderr, once work has taken kSilence. Threads may share one object.
 class ProgressLine {
  public:
-  /// A disabled one never writes.
+  /// A disabled line never writes.
   explicit ProgressLine(bool enabled) : enabled_(enabled) {}
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// fraction in [0, 1]; below 0: not known.
+  /// `fraction` is in [0, 1]; below 0 it is unknown.
   void update(const char* stage, double fraction);
-  /// Removes the line, before anything else is written to stderr.
+  /// Removes the line. To be called before anything else is written to stderr.
   void clear();
 
-  static constexpr std::chrono::milliseconds kSilence{500};   // short runs show nothing
-  static constexpr std::chrono::milliseconds kInterval{100};  // enough for an eye
+  static constexpr std::chrono::milliseconds kSilence{500};   // so that short runs show nothing
+  static constexpr std::chrono::milliseconds kInterval{100};  // often enough for an eye
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,4 +1,4 @@
-// Scene and camera → Image: the seam between the command line and the renderers.
+// Draws a scene from a camera: the seam between the command line and the renderers.
 #pragma once
 
 #include "csgcore/image.hpp"
@@ -9,8 +9,8 @@
 
 namespace frontend {
 
-/// Draws the scene, without a display. Where kAuto takes OpenGL and that fails, or turns out to run
-/// in software, the CPU draws. Throws Error if kGl is asked for and no OpenGL can be had.
+/// Draws the scene; no display is needed. If kAuto chooses OpenGL, and OpenGL fails or turns out to
+/// run in software, the CPU draws. Throws Error if kGl is asked for and OpenGL is not available.
 csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
                       const RenderSettings& settings, RenderStats& stats);
 

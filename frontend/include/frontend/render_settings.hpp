@@ -1,4 +1,4 @@
-// How a picture is to look, and what draws it: all of it but the scene and the camera.
+// The settings of a picture and its renderer, without the scene and the camera.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 namespace frontend {
 
 using csgcore::Shading;
-/// What a picture shows (`--show`): the shaded surface, the leaf cells (paper, figure 5b), or a
+/// The subject of a picture (`--show`): the shaded surface, the leaf cells (paper, figure 5b), or a
 /// measured channel as grey values or colours.
 enum class Show : uint8_t { kSurface, kCells, kDepth, kNormals, kId };
 
-/// What draws (`--renderer`). kAuto: OpenGL where there is a GPU, else the CPU.
+/// The renderer (`--renderer`). kAuto: OpenGL if there is a GPU, else the CPU.
 enum class RendererKind : uint8_t { kAuto, kGl, kCpu };
-/// How a ray finds what it may meet (`--technique`): the leaf cells of a kd-tree, or lists for
-/// tiles of the screen. kAuto: tiles, the quicker for both renderers.
+/// Selects where a ray's candidate primitives come from (`--technique`): the leaf cells of a
+/// kd-tree, or lists for tiles of the screen. kAuto: tiles, which both renderers draw faster.
 enum class Technique : uint8_t { kAuto, kCells, kTiles };
 
-/// The most --samples: an edge then has 65 steps between its two colours, and more no eye tells.
+/// The most --samples: an edge then has 65 steps between its two colours, and no eye tells more.
 constexpr uint32_t kMaxSamples = 64;
 
-/// 8-bit colours of a scheme (frontend/OPENSCAD.md, "Light and colours").
+/// An 8-bit colour of a scheme (frontend/OPENSCAD.md, "Light and colours").
 struct Rgb {
   uint8_t r, g, b;
   bool operator==(const Rgb&) const = default;
@@ -34,7 +34,7 @@ struct ColorScheme {
   Rgb background, front, back, axes, crosshair;
 };
 
-/// Every setting of a picture that is not the camera's. The defaults are the command's.
+/// Every setting of a picture but the camera's. The defaults are the command's.
 struct RenderSettings {
   ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
                      {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00}};
@@ -48,17 +48,18 @@ struct RenderSettings {
   uint32_t leaf_primitives = 8;    // --leaf-primitives: K ≥ 1
   double threshold_px = 0;         // --threshold ≥ 0; 0: no cell is dropped
   unsigned threads = 0;            // 0: as many as the machine has
-  bool measured_channels = false;  // fill Image's z, normal, position and id too
-  /// Fill also those RenderStats that cost something: T_S, T_R and S_R, for which OpenGL draws
-  /// again, and why primitives were skipped.
+  bool measured_channels = false;  // also fill Image's z, normal, position and id
+  /// Also fill those RenderStats that take extra work: T_S, T_R and S_R, for which OpenGL draws
+  /// again, and the reasons why primitives were skipped.
   bool all_stats = false;
-  /// Where it asks for it, the CPU's pictures end early, whatever they show by then.
+  /// Once requested, the CPU's pictures end early, unfinished.
   std::stop_token stop;
-  /// Called with what is done in [0, 1] while long work goes on; may be empty.
+  /// Called during long work with a stage and the fraction of it that is done, in [0, 1]; may be
+  /// empty.
   std::function<void(const char* stage, double fraction)> progress;
 };
 
-/// Whether the same picture comes of both.
+/// Returns whether both settings give the same picture.
 bool draw_the_same(const RenderSettings& a, const RenderSettings& b);
 
 }  // namespace frontend

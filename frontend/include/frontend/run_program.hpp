@@ -1,4 +1,4 @@
-// The frame around every program's main: its exit code, and what ends it.
+// The frame of every program's main: exit codes, and errors that end the program.
 #pragma once
 
 #include <functional>
@@ -6,11 +6,11 @@
 
 namespace frontend {
 
-/// The exit statuses of frontend/OPTIONS.md. kDisagreement is `scadray validate`'s alone.
+/// The exit codes of frontend/OPTIONS.md. Only `scadray validate` has kDisagreement.
 enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 
-/// Runs a program, writes out what it has printed, and says on stderr what ends it instead: nothing
-/// is thrown. `smaller` is what to try where memory runs out: "a smaller …".
+/// Runs a program, flushes its output, and reports any exception on stderr; nothing is thrown.
+/// `smaller` is the advice for a run that is out of memory: "a smaller …".
 ExitCode run_program(const std::function<ExitCode()>& program, const std::string& smaller);
 
 }  // namespace frontend

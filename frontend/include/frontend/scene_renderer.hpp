@@ -1,4 +1,4 @@
-// A scene that is drawn again and again: what does not depend on the view is made once.
+// Draws one scene repeatedly, and reuses what does not depend on the view.
 #pragma once
 
 #include <memory>
@@ -14,35 +14,35 @@ namespace frontend {
 
 struct GpuFolders;
 
-/// Draws the scene that was loaded last. Belongs to one thread at a time; OpenGL, where it draws,
-/// stays with the thread of the first draw.
+/// Draws the scene that was loaded last. The object belongs to one thread at a time; if it draws by
+/// OpenGL, to the thread of the first draw.
 class SceneRenderer {
  public:
   SceneRenderer();
-  /// With the GPUs looked for elsewhere: for tests.
+  /// For tests: looks for GPUs in other folders.
   explicit SceneRenderer(const GpuFolders& folders);
   ~SceneRenderer();
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  /// Prepares the scene for drawing, from what was made of the scene before as far as that holds.
-  /// Throws Error where its size is beyond what can be drawn; the scene before is then drawn on.
+  /// Prepares the scene for drawing, and reuses what still holds of the scene before. Throws Error
+  /// if the scene's size is beyond what can be drawn; the scene before then stays loaded.
   void load(std::shared_ptr<const csgcore::Scene> scene);
 
-  /// The picture that render() makes of the scene, and its statistics; what was made for an earlier
-  /// picture counts with no time. The settings' renderer is that of the first draw.
+  /// Returns the picture that render() makes of the scene, and its statistics, in which reused work
+  /// takes no time. The renderer is the one chosen at the first draw, whatever later settings say.
   /// Precondition: a scene is loaded.
   csgcore::Image draw(const csgcore::View& view, const RenderSettings& settings,
                       RenderStats& stats);
 
-  /// draw(), for a design that is being edited: where the last picture by redraw() had the same
-  /// view and settings, only what has changed since is drawn, by the CPU. A picture that is stopped
-  /// counts as none.
+  /// Like draw(), for a design that is being edited. If the last picture by redraw() had the same
+  /// view and settings, the CPU draws only what has changed since. A picture that was stopped is
+  /// not reused.
   csgcore::Image redraw(const csgcore::View& view, const RenderSettings& settings,
                         RenderStats& stats);
 
-  /// What the ray through a point of the picture meets of the model, by the CPU. `x_px` and `y_px`
-  /// count from the upper left corner; a pixel's centre is at ½.
+  /// Returns what the ray through a point of the picture meets of the model, by the CPU. `x_px` and
+  /// `y_px` count from the upper left corner; a pixel's centre is at ½.
   csgcore::Hits pick(const csgcore::View& view, double x_px, double y_px) const;
 
  private:

@@ -1,11 +1,11 @@
-// Work that can be stopped from another thread, by a std::stop_token.
+// Stops work from another thread, by a std::stop_token.
 #pragma once
 
 #include <stop_token>
 
 namespace frontend {
 
-/// Thrown by work that was asked to stop. It is no error.
+/// Thrown by work that was asked to stop. It is not an error.
 struct Stopped {};
 
 inline void throw_if_stopped(const std::stop_token& stop) {

@@ -6,8 +6,9 @@
 
 namespace frontend {
 
-/// Runs the program `scadray-NAME` that lies beside this one, in its place: returns only by
-/// throwing Error, where there is none or it cannot be run. `todo`: what to do where there is none.
+/// Replaces this program by the program `scadray-NAME` in the same folder. Returns only by throwing
+/// Error, if there is no such program or it cannot be run. `todo` is the error's advice in the
+/// former case.
 [[noreturn]] void run_subcommand(const std::string& name, const std::vector<std::string>& arguments,
                                  const std::string& todo);
 

@@ -1,5 +1,5 @@
-// A .csg file as a syntax tree (frontend/OPENSCAD.md, "The .csg file"): every node with its place
-// in the file.
+// The syntax tree of a .csg file (frontend/OPENSCAD.md, "The .csg file"), with each node's place in
+// the file.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace frontend {
 
-/// Every node that OpenSCAD can write.
+/// All nodes that OpenSCAD can write.
 enum class NodeKind : uint8_t {
   kSphere,
   kCylinder,
@@ -44,7 +44,7 @@ enum class NodeKind : uint8_t {
   kRoof,
 };
 
-/// The names as they stand in a file, in NodeKind's order.
+/// The names as they are spelled in a file, in NodeKind's order.
 inline constexpr auto kNodeNames = std::to_array<std::string_view>({
     "sphere",     "cylinder",   "cube",         "polyhedron",     "circle",         "square",
     "polygon",    "text",       "multmatrix",   "color",          "group",          "render",
@@ -54,7 +54,7 @@ inline constexpr auto kNodeNames = std::to_array<std::string_view>({
 });
 static_assert(kNodeNames.size() == static_cast<size_t>(NodeKind::kRoof) + 1);
 
-/// The name as it stands in a file ("sphere").
+/// Returns the name as it is spelled in a file ("sphere").
 constexpr std::string_view name_of(NodeKind kind) { return kNodeNames[static_cast<size_t>(kind)]; }
 
 /// Bits of SyntaxNode::modifiers.
@@ -91,12 +91,13 @@ struct SyntaxNode {
   uint32_t argument_count = 0;
   uint32_t first_argument = 0;  // index into SyntaxTree::arguments
   uint32_t subtree_end = 0;     // index one past this node's last descendant
-  Location location;            // of the name
+  Location location;            // place of the name
 };
 
-/// A parsed file. Nodes in preorder: the children of node i are i+1 and, from each child c, the
-/// next is nodes[c].subtree_end, up to nodes[i].subtree_end. Top-level nodes start at 0. Owns all
-/// that it refers to; move-only, since the arguments' names point into it.
+/// A parsed file. Nodes are in preorder: node i's first child is i + 1, the sibling after child c
+/// is nodes[c].subtree_end, and the last child's subtree_end is nodes[i].subtree_end. Top-level
+/// nodes start at 0. The tree owns all that it refers to, and can only be moved, since argument
+/// names point into it.
 struct SyntaxTree {
   SyntaxTree() = default;
   SyntaxTree(SyntaxTree&&) = default;
@@ -108,7 +109,7 @@ struct SyntaxTree {
   std::vector<SyntaxNode> nodes;
   std::vector<Argument> arguments;
   std::vector<Value> values;
-  std::vector<char> strings;  // a vector, since its storage does not move with the tree
+  std::vector<char> strings;  // a vector, whose storage does not move with the tree
 
   std::span<const Argument> arguments_of(const SyntaxNode& node) const {
     return {arguments.data() + node.first_argument, node.argument_count};

@@ -12,7 +12,7 @@
 
 namespace frontend {
 
-/// Closes the descriptor that it owns. A negative number is none.
+/// Closes the descriptor that it owns. A negative number means that it owns none.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -26,7 +26,7 @@ class Descriptor {
     if (number_ >= 0) close(number_);
     number_ = number;
   }
-  /// False if the system reports only now that something could not be written.
+  /// Closes the descriptor. Returns false if the system reports only now that a write failed.
   bool close_now() {
     const int result = close(std::exchange(number_, -1));
     return result == 0;
@@ -36,7 +36,7 @@ class Descriptor {
   int number_;
 };
 
-/// Something that a thread can wait for by poll (readable: raised), among other descriptors.
+/// A flag that a thread can wait for by poll, among other descriptors: it is readable while raised.
 class Event {
  public:
   Event() : event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -53,7 +53,7 @@ class Event {
   Descriptor event_;
 };
 
-/// A stop_token's request as an event.
+/// Raises an event when a stop_token's stop is requested.
 class StopEvent {
  public:
   explicit StopEvent(std::stop_token stop) : callback_(std::move(stop), Raise{event_}) {}
@@ -66,7 +66,7 @@ class StopEvent {
     const Event& event;
     void operator()() const { event.raise(); }
   };
-  Event event_;  // before what raises it
+  Event event_;  // declared before the callback that raises it
   std::stop_callback<Raise> callback_;
 };
 

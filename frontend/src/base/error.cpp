@@ -3,7 +3,7 @@
 namespace frontend {
 namespace {
 
-/// "file:line:column: severity: what (todo)", leaving out what is empty or 0.
+/// Writes "file:line:column: severity: what (todo)", without the parts that are empty or 0.
 std::string message(const std::string& file, Location location, const char* severity,
                     const std::string& what, const std::string& todo) {
   std::string text = file;

@@ -24,8 +24,8 @@ Error cannot_read(const std::string& name, int error_number) {
                error_number == ENOENT ? "check the file's name" : "check the file");
 }
 
-/// Waits until there is something to read, or the end. For what may take for ever: a pipe, a
-/// terminal. Throws Stopped.
+/// Waits until there is something to read, or the end, on a descriptor that may take for ever: a
+/// pipe or a terminal. Throws Stopped.
 void wait_for_input(int descriptor, const StopEvent& stop) {
   std::array<pollfd, 2> waits = {pollfd{descriptor, POLLIN, 0},
                                  pollfd{stop.descriptor(), POLLIN, 0}};
@@ -35,14 +35,15 @@ void wait_for_input(int descriptor, const StopEvent& stop) {
 }
 
 Descriptor open_to_read(const std::string& path, const std::stop_token& stop) {
-  // What is to be stopped must not wait for a named pipe's writer here; it does so when it reads.
+  // A read that can be stopped must not wait for a named pipe's writer here; it waits when it
+  // reads.
   const int waits = stop.stop_possible() ? O_NONBLOCK : 0;
   const int number = open(path.c_str(), O_RDONLY | O_CLOEXEC | waits);
   if (number < 0) throw cannot_read(path, errno);
   return Descriptor(number);
 }
 
-/// Throws Error for a folder.
+/// Throws Error if the descriptor is a folder.
 struct stat status_of(int descriptor, const std::string& name) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) throw cannot_read(name, errno);
@@ -90,7 +91,7 @@ FileText read_file(const std::string& path, const IsHopeless& is_hopeless,
 void check_input(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw cannot_read(path, errno);
-  if (S_ISFIFO(status.st_mode)) return;  // opening it would tell its writer that somebody reads
+  if (S_ISFIFO(status.st_mode)) return;  // opening a pipe would tell its writer that somebody reads
   if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) {
     throw Error(path, {}, "is a device", "give a .csg or .scad file");
   }

@@ -1,4 +1,4 @@
-// The frustum's traits: cylinders, and cones with either end pointed.
+// The frustum's traits, for cylinders and for cones with a point at either end.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,8 +17,8 @@ using csgcore::Vec3;
 
 double larger_radius(const Primitive& p) { return std::max(p.r_bottom, p.r_top); }
 
-/// Adds a cap whose normal points to z_max, with three points of its rim; or an apex. Healing asks
-/// for caps often: they are written in place, since a copy waits for what has just been written.
+/// Adds a cap, with three points of its rim and its normal towards z_max, or an apex. It is built
+/// in place: healing asks for caps often, and a copy would wait for what has just been written.
 void add_cap(double z, double radius, uint32_t opposite, PlaneFaces& faces) {
   PlaneFace& cap = faces.faces.emplace_back();
   cap.center = Vec3(0, 0, z);
@@ -69,7 +69,7 @@ class FrustumTraits final : public PrimitiveTraits {
     add_cap(p.z_max, p.r_top, 0, faces);
   }
 
-  /// The middle of a chord between two neighbouring vertices of a circle is nearest.
+  /// The middle of a chord between two neighbouring vertices of a circle is nearest to the axis.
   double inscribed_share(int fragments) const override {
     return std::cos(std::numbers::pi / fragments);
   }

@@ -1,4 +1,4 @@
-// Text whose end is not known while it is read.
+// Collects a text whose length is not known while it is read.
 #pragma once
 
 #include <algorithm>
@@ -14,26 +14,26 @@
 
 namespace frontend {
 
-/// Its room is not filled with zeros first: a .csg may have hundreds of MB.
+/// A buffer that grows. Its room is not filled with zeros first: a .csg may have hundreds of MB.
 class GrowingText {
  public:
-  /// The bytes to make room for at first, at least, and the room in which small files end.
+  /// The least bytes of room made at first. Smaller files are read without growing.
   static constexpr std::size_t kFirstRoom = std::size_t{1} << 16;
 
-  /// `expected`: how many bytes there probably are; 0: not known.
+  /// `expected` is the probable number of bytes; 0 if unknown.
   explicit GrowingText(std::size_t expected) {
-    // One byte more than there are, so that the end shows without growing.
+    // One byte more than expected, so that the end of the file shows without growing.
     grow(std::max(std::min(expected, kMaxInputBytes) + 1, kFirstRoom));
   }
   std::size_t size() const { return size_; }
   bool is_too_large() const { return size_ > kMaxInputBytes; }
   std::string_view view() const { return {bytes_.get(), size_}; }
-  /// Where the next bytes belong: room for one at least, unless is_too_large().
+  /// Returns the room for the next bytes: one at least, unless is_too_large().
   std::span<char> room() {
     if (size_ == capacity_) grow(std::min(2 * capacity_, kMaxInputBytes + 1));
     return {bytes_.get() + size_, capacity_ - size_};
   }
-  /// So many bytes stand there now.
+  /// Counts `count` bytes that were written into room().
   void add(std::size_t count) { size_ += count; }
   FileText take() { return FileText(std::move(bytes_), std::exchange(size_, 0)); }
 
@@ -50,20 +50,20 @@ class GrowingText {
   std::size_t size_ = 0;
 };
 
-/// Looks whether a text that still comes is hopeless, at lengths each 16 times the last: in all it
-/// reads a fifteenth of the text twice, and of what is wrong no more than 16 times is taken in as
-/// there is before the fault.
+/// Tests, while a text is being read, whether it is hopeless (IsHopeless). It tests at lengths that
+/// grow 16-fold, so that a fifteenth of the text is read twice. Of an endless text, at most 16
+/// times the length up to its fault is read.
 class StartCheck {
  public:
-  /// `size`: of the whole text, of which only the start is looked at; 0: it may be endless.
+  /// `size` is that of the whole text, of which only one start is tested; 0: it may be endless.
   StartCheck(IsHopeless is_hopeless, std::size_t size)
       : is_hopeless_(std::move(is_hopeless)), is_endless_(size == 0) {
     if (size > 0 && size <= GrowingText::kFirstRoom) next_ = kNever;
   }
-  /// Bytes to read before the next look.
+  /// Returns how many bytes to read before the next test.
   std::size_t until_next(std::size_t size) const { return next_ - size; }
-  /// `text`: all that has come, no more than until_next() wanted. True where there is no use in
-  /// reading on. Throws Stopped (stop.hpp).
+  /// Returns whether there is no use in reading on. `text` is all that was read, at most
+  /// until_next() bytes more than before. Throws Stopped (stop.hpp).
   bool fails(std::string_view text, const std::stop_token& stop) {
     if (text.size() < next_) return false;
     next_ = is_endless_ ? next_ * kFactor : kNever;

@@ -13,22 +13,22 @@
 namespace frontend {
 namespace {
 
-// A handler may run on any thread, between any two instructions: it may only look at lock-free
-// atomics, and call what POSIX lists as async-signal-safe.
+// A handler may run on any thread, between any two instructions. So it may only use lock-free
+// atomics, and call only what POSIX lists as async-signal-safe.
 std::array<std::atomic<const char*>, kMaxRemovedFiles> files_to_remove;
 std::atomic<pid_t> child_group{0};
-std::atomic<int> holders{0};  // living HoldInterrupts
+std::atomic<int> holders{0};  // HoldInterrupts that exist now
 static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free);
 
-/// For another thread's HoldInterrupts, in ms: long, and yet an end.
+/// The longest wait for another thread's HoldInterrupts, in ms.
 constexpr int kMostWaits = 5000;
 
-/// By default these end a program, and nothing shows why it was interrupted but their number.
+/// Signals that end a program by default. Nothing but their number shows why it was interrupted.
 constexpr int kInterruptions[] = {SIGINT,  SIGTERM, SIGHUP,  SIGALRM, SIGVTALRM, SIGPROF,
                                   SIGUSR1, SIGUSR2, SIGPOLL, SIGPWR,  SIGSTKFLT, SIGXCPU};
-/// By default these dump core, which is wanted of them.
+/// Signals that dump core by default, which must still happen.
 constexpr int kCrashes[] = {SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
 
 void clean_up() {
@@ -52,10 +52,11 @@ void on_interrupt(int signal_number) {
 void on_crash(int signal_number) {
   clean_up();
   signal(signal_number, SIG_DFL);
-  raise(signal_number);  // when the handler returns: until then it is blocked
+  raise(signal_number);  // raised when the handler returns: until then the signal is blocked
 }
 
-/// Leaves alone what the caller ignores, and what a sanitizer or profiler handles already.
+/// Installs the handler, except for signals that the caller ignores, or that a sanitizer or
+/// profiler handles already.
 void handle(int signal_number, void (*handler)(int)) {
   struct sigaction action {};
   if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
@@ -88,7 +89,7 @@ RemoveOnInterrupt::~RemoveOnInterrupt() { files_to_remove[slot_].store(nullptr);
 void set_child_group(pid_t group) { child_group.store(group); }
 
 HoldInterrupts::HoldInterrupts() {
-  // In this order: a handler on this thread would wait for itself.
+  // The signals are blocked first: a handler on this thread would wait for itself.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before_);

@@ -8,8 +8,8 @@
 
 namespace frontend {
 
-/// Finds a word's index in a fixed list. The hash looks at the length and at the first, the last
-/// and the middle letter: the words that OpenSCAD writes then seldom meet in one slot.
+/// Finds a word's index in a fixed list. The hash combines the length and the first, middle and
+/// last letters, by which the words that OpenSCAD writes seldom collide.
 template <size_t kCount>
 class NameTable {
  public:
@@ -25,7 +25,7 @@ class NameTable {
     }
   }
 
-  /// Index of `word` (which is not empty) in the list, or kNone.
+  /// Returns the index of `word`, which must not be empty, or kNone.
   uint8_t find(std::string_view word) const {
     for (size_t slot = hash(word); slots_[slot] != kNone; slot = (slot + 1) % kSlots) {
       if (names_[slots_[slot]] == word) return slots_[slot];

@@ -1,4 +1,4 @@
-// Outputs: where they may go, and writing them all or none.
+// Checks where outputs may go, and writes all of them or none.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -43,9 +43,9 @@ bool is_standard_output(const std::string& path) {
   return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
-/// Where the links of a chain end, which need not exist.
+/// Returns where a chain of links ends, which need not exist.
 fs::path follow_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as the kernel has it
+  constexpr int kMostLinks = 40;  // as in the kernel
   fs::path target = path;
   std::error_code failed;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(target, failed)); ++i) {
@@ -62,23 +62,23 @@ std::string folder_of(const fs::path& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// Makes room on the disk, so that most of what can go wrong does so before anything is written.
-/// Blocks that wait to be allotted are also allotted at once when their file replaces another, by
-/// ext4 (its mount option auto_da_alloc), which took a quarter of a small picture's time. A wish:
-/// file systems may refuse. False, with errno set.
+/// Makes room on the disk, so that most failures come before anything is written. It also saves
+/// time: when a file replaces another, ext4 (its mount option auto_da_alloc) at once allots blocks
+/// that still wait to be allotted, which took a quarter of a small picture's time. File systems may
+/// refuse. Returns false, with errno set, on failure.
 bool reserve(int descriptor, std::size_t size) {
   return size == 0 || fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) == 0;
 }
 
-/// Thrown where a folder takes no other file: it is read-only, or not ours.
+/// Thrown if a folder takes no other file: it is read-only, or not ours.
 struct FolderRefuses {
   int error_number;
 };
 
-/// A file being written under another name, beside the one that it will replace.
+/// A file that is written under another name, beside the one that it will replace.
 class TemporaryFile {
  public:
-  /// Throws FolderRefuses, or Error. `output` must outlive this object.
+  /// Throws FolderRefuses or Error. `output` must outlive this object.
   explicit TemporaryFile(const PendingOutput& output)
       : output_(output),
         target_(follow_links(output.path).string()),
@@ -107,10 +107,10 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const PendingOutput& output() const { return output_; }
-  /// Throws FolderRefuses, or Error.
+  /// Throws FolderRefuses or Error.
   void put_in_place() {
     if (rename(path_.c_str(), target_.c_str()) != 0) {
-      // EPERM: another's file in a folder like /tmp; EBUSY: a file that is mounted by itself.
+      // EPERM: somebody else's file in a folder like /tmp. EBUSY: a file that is a mount point.
       if (errno == EACCES || errno == EPERM || errno == EBUSY) throw FolderRefuses{errno};
       throw cannot_write(output_.path, errno);
     }
@@ -118,7 +118,7 @@ class TemporaryFile {
   }
 
  private:
-  /// The file that is replaced may have been made readable to more or to fewer than a new one.
+  /// Gives the new file the permissions of the file that it replaces.
   void keep_permissions(int descriptor) const {
     struct stat old {};
     if (stat(target_.c_str(), &old) == 0 && fchmod(descriptor, old.st_mode & 0777) != 0) {
@@ -138,11 +138,11 @@ class TemporaryFile {
   bool exists_ = false;
 };
 
-/// A file that is overwritten, as no other can be put in its place.
+/// A file that is overwritten, since no other can be put in its place.
 class FileInPlace {
  public:
-  /// Writes nothing yet. Throws Error, with `refusal` where there is no such file. `output` must
-  /// outlive this object.
+  /// Writes nothing yet. Throws Error, with the reason of `refusal` if there is no such file.
+  /// `output` must outlive this object.
   FileInPlace(const PendingOutput& output, const FolderRefuses& refusal)
       : output_(output), file_(open(output.path.c_str(), O_RDWR | O_CLOEXEC)) {
     if (file_.number() < 0) {
@@ -153,13 +153,13 @@ class FileInPlace {
       throw cannot_write(output.path, errno);
     }
   }
-  /// What was not kept is put back.
+  /// Restores the old contents, unless the new ones were kept.
   ~FileInPlace() {
     if (!is_touched_) return;
     const HoldInterrupts hold;
     try {
       replace_by(std::as_bytes(std::span(old_.view())));
-    } catch (const Error&) {  // nothing is left to be done
+    } catch (const Error&) {  // nothing more can be done
     }
   }
   FileInPlace(const FileInPlace&) = delete;
@@ -186,7 +186,7 @@ class FileInPlace {
   bool is_touched_ = false;
 };
 
-/// True for what cannot be replaced by renaming: a device, a pipe.
+/// Returns whether the path is a device or a pipe, which renaming cannot replace.
 bool is_special(const std::string& path) {
   struct stat status {};
   return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
@@ -202,10 +202,12 @@ void write_directly(const PendingOutput& output) {
   write_all(file.number(), output.bytes, output.path);
 }
 
-/// Device and inode: of the file, with no name; or of the folder that it would get its name in.
+/// A file's device and inode, with an empty name; or, if it does not exist, those of its folder,
+/// and its name there.
 using FileIdentity = std::tuple<dev_t, ino_t, std::string>;
 
-/// Nothing for what is no regular file, or could not be made one. `standard`: what "-" stands for.
+/// Returns nothing if the file is not regular, or could not be made a regular one. `standard` is
+/// the descriptor that "-" stands for.
 std::optional<FileIdentity> identity_of(const std::string& path, int standard) {
   struct stat status {};
   const bool is_standard = path == "-" || (standard == STDOUT_FILENO && is_standard_output(path));
@@ -229,7 +231,7 @@ void check_output(const std::string& path) {
     if (S_ISDIR(status.st_mode)) throw cannot_write(path, EISDIR);
     if (access(path.c_str(), W_OK) != 0) throw cannot_write(path, errno);
     if (!S_ISREG(status.st_mode)) return;
-    if (access(path.c_str(), R_OK | W_OK) == 0) return;  // if need be, in place
+    if (access(path.c_str(), R_OK | W_OK) == 0) return;  // can be overwritten in place
   }
   const std::string folder = folder_of(follow_links(path));
   if (stat(folder.c_str(), &status) != 0) throw cannot_write(path, errno);
@@ -264,7 +266,7 @@ void write_outputs(std::span<const PendingOutput> outputs) {
   const auto goes_directly = [](const PendingOutput& output) {
     return is_standard_output(output.path) || is_special(output.path);
   };
-  std::deque<TemporaryFile> files;  // its elements do not move
+  std::deque<TemporaryFile> files;  // a deque does not move its elements
   std::deque<FileInPlace> in_place;
   for (const PendingOutput& output : outputs) {
     if (goes_directly(output)) continue;
@@ -277,7 +279,7 @@ void write_outputs(std::span<const PendingOutput> outputs) {
   for (const PendingOutput& output : outputs) {
     if (goes_directly(output)) write_directly(output);
   }
-  const HoldInterrupts hold;  // all or none
+  const HoldInterrupts hold;  // all files are put in place, or none
   for (FileInPlace& file : in_place) file.write();
   for (TemporaryFile& file : files) {
     try {

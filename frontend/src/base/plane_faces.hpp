@@ -1,4 +1,4 @@
-// The plane faces of a primitive's local solid, as healing compares them.
+// The plane faces of a primitive's local solid, for healing.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace frontend {
 
-/// A solid of more faces is curved in the design: no face of it is compared with others.
+/// A solid with more faces is taken for curved: none of its faces is compared with others.
 constexpr uint32_t kMostComparedFaces = 32;
 
 /// A face in local coordinates.
 struct PlaneFace {
-  csgcore::Vec3 center;  // on the plane, amid the corners
+  csgcore::Vec3 center;  // a point of the plane amid the corners
   csgcore::Vec3 normal;  // unit; it may point outwards or inwards
   /// The face that is parallel to this one, in every affine image.
   std::optional<uint32_t> opposite;
-  /// Its corners among those of all faces: three points or more that span it. An apex has none: it
-  /// is compared with nothing, and may be the opposite of a face.
+  /// The face's corners among those of all faces: three or more points that span it. An apex has
+  /// none. It is compared with nothing, but may be the opposite of a face.
   uint32_t first_corner = 0, corner_count = 0;
 };
 
-/// The faces, numbered from 0; no more than kMostComparedFaces.
+/// A solid's faces, numbered from 0; at most kMostComparedFaces.
 struct PlaneFaces {
   std::vector<PlaneFace> faces;
   std::vector<csgcore::Vec3> corners;
@@ -38,9 +38,9 @@ struct PlaneFaces {
   }
 };
 
-/// Unit vectors, or planes, are parallel if their cross product is no longer: far above the
-/// rounding of doubles, far below what six digits write. What is moved by rounding's 1e-6 stays so
-/// near to a plane that it runs along.
+/// Two unit vectors are parallel if their cross product is no longer than this. It is far above the
+/// rounding of doubles and far below that of six digits. A vector this near to a plane stays in it
+/// under the moves of healing, which are of the order of 1e-6.
 constexpr double kParallel = 1e-9;
 bool parallel(const csgcore::Vec3& unit_a, const csgcore::Vec3& unit_b);
 

@@ -11,10 +11,11 @@ using csgcore::Vec3;
 
 double cos_of_turn(double part) { return std::cos(2 * std::numbers::pi * part); }
 
-/// Only the vertices nearest to the four axes matter.
+/// Only the vertices nearest to the four half-axes matter.
 Box box_of_polygon(int fragments) {
   const double n = fragments;
-  // The greatest coordinate along the axis that lies `turn` of a circle away from vertex 0.
+  // Returns the largest coordinate along the axis that lies `turn` of a full turn away from vertex
+  // 0.
   const auto reach = [&](double turn) { return cos_of_turn(std::round(turn * n) / n - turn); };
   Box box;
   box.min = Vec3(-reach(0.5), -reach(0.75), 0);

@@ -16,10 +16,11 @@ using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// The vertices that are on the half-space's boundary but for the file's digits, moved onto it.
+/// Adds the vertices that lie on the half-space's boundary, but for the file's digits, moved onto
+/// it.
 void add_corners(const Polyhedron& polyhedron, const Vec3& normal, double offset,
                  std::vector<Vec3>& corners) {
-  // The importer's polyhedra are of unit size.
+  // The importer's polyhedra have unit size, so that this share is also a length.
   constexpr double kOnFace = csgcore::kMeshDigits;
   for (const Vec3& vertex : polyhedron.vertices()) {
     const double depth = offset - glm::dot(normal, vertex);

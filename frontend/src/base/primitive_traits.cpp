@@ -24,7 +24,7 @@ Box smooth_box(const Primitive& primitive) {
 
 }  // namespace
 
-// A kind's file defines its traits.
+// Each kind's own file defines its traits.
 #define FRONTEND_DECLARE(Name) extern const PrimitiveTraits& Name##_traits;
 CSGCORE_FOR_EACH_SHAPE(FRONTEND_DECLARE)
 #undef FRONTEND_DECLARE

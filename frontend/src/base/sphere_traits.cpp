@@ -13,7 +13,7 @@ using csgcore::Box;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// The box of the unit sphere's rings (frontend/OPENSCAD.md, "Facets"), from the polygon's.
+/// Returns the box of the unit sphere's rings (frontend/OPENSCAD.md, "Facets"), from the polygon's.
 Box box_of_rings(int fragments) {
   const Box& polygon = unit_polygon_box(fragments);
   const double rings = csgcore::ring_count(fragments);
@@ -24,7 +24,7 @@ Box box_of_rings(int fragments) {
           {polygon.max.x * widest, polygon.max.y * widest, height}};
 }
 
-/// A call with the same number as the last one in this thread computes nothing.
+/// A call with the same number as the thread's last one computes nothing.
 const Box& unit_sphere_box(int fragments) {
   struct Last {
     int fragments = 0;
@@ -61,8 +61,8 @@ class SphereTraits final : public PrimitiveTraits {
     return {Roundness::About::kCenter, {primitive.r_bottom, 0}, {}};
   }
 
-  /// The facets are chords of the rings and of the meridians, along which rings are 180°/rings
-  /// apart; the middle of a chord is nearest.
+  /// The facets are chords of the rings, and of the meridians, along which rings are 180°/rings
+  /// apart. The middle of a chord is nearest to the centre.
   double inscribed_share(int fragments) const override {
     return std::cos(std::numbers::pi / fragments) *
            std::cos(std::numbers::pi / (2 * csgcore::ring_count(fragments)));

@@ -1,4 +1,4 @@
-// The words of a program's command line, sorted by option, and their values, checked.
+// Sorts the words of a program's command line by option, and checks their values.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -17,12 +17,12 @@
 
 namespace frontend {
 
-/// Throws Error without a place.
+/// Throws an Error without a place.
 [[noreturn]] void fail(const std::string& what, const std::string& todo);
 [[noreturn]] void bad_value(const std::string& option, const std::string& value,
                             const std::string& todo);
 
-/// The whole text as a finite number; a leading + is allowed.
+/// Parses the whole text as a finite number; a leading + is allowed.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -35,16 +35,16 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-/// Without spaces around the parts.
+/// Returns the parts without the spaces around them.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
 class Arguments {
  public:
-  /// Gives {option, value} for a word that the library is not to read; nothing for others.
+  /// Returns {option, value} for a word that boost is not to read, and empty strings for any other.
   using WordReader = std::function<std::pair<std::string, std::string>(const std::string& word)>;
 
-  /// By the table, whatever is no option being a "file"; `program` is called for --help. Throws
-  /// Error.
+  /// Parses the words by the table. A word that is not an option is a "file". `program` is the name
+  /// in messages that refer to --help. Throws Error.
   Arguments(const boost::program_options::options_description& options,
             const std::vector<std::string>& words, const std::string& program,
             const WordReader& reader = {});
@@ -58,8 +58,8 @@ class Arguments {
     return has(option) ? values_[option].as<std::vector<std::string>>()
                        : std::vector<std::string>{};
   }
-  /// The option's value as a number in [least, most], or `missing`. An empty `todo` names the
-  /// range.
+  /// Returns the option's value as a number in [least, most], or `missing` without the option. With
+  /// an empty `todo` the error names the range.
   template <typename Number>
   Number number(const char* option, Number least, Number most, Number missing,
                 const std::string& todo = {}) const {
@@ -70,7 +70,7 @@ class Arguments {
     range << "give a number from " << least << " to " << most;
     bad_value(option, text(option), todo.empty() ? range.str() : todo);
   }
-  /// Calls visit(option, value) for every option in the order of the command line.
+  /// Calls visit(option, value) for every option, in the order of the command line.
   template <typename Visit>
   void for_each(Visit visit) const {
     for (const auto& option : parsed_.options) {
@@ -97,7 +97,7 @@ std::string listed(const Word<Value> (&names)[kCount]) {
   return list;
 }
 
-/// The value that goes with the option's word, or `missing`.
+/// Returns the value that the option's word names, or `missing` without the option.
 template <typename Value, std::size_t kCount>
 Value choice(const Arguments& arguments, const char* option, const Word<Value> (&names)[kCount],
              Value missing) {
@@ -107,16 +107,16 @@ Value choice(const Arguments& arguments, const char* option, const Word<Value> (
   bad_value(option, word, "give " + listed(names));
 }
 
-/// --imgsize; without it `camera` keeps its own.
+/// Reads --imgsize; without it, `camera` keeps its size.
 void read_image_size(const Arguments& arguments, CameraOptions& camera);
-/// --camera, --viewall, --autocenter, --projection.
+/// Reads --camera, --viewall, --autocenter and --projection.
 void read_camera(const Arguments& arguments, CameraOptions& camera);
-/// --renderer; without it kAuto.
+/// Reads --renderer; without it, returns kAuto.
 RendererKind read_renderer(const Arguments& arguments);
-/// What only an OpenSCAD can follow, as it is handed on to it: -D, -p, -P, -m, --hardwarnings,
-/// --check-parameters, --check-parameter-ranges.
+/// Returns the options that only openscad can follow, as they are handed on to it: -D, -p, -P, -m,
+/// --hardwarnings, --check-parameters, --check-parameter-ranges.
 std::vector<std::string> openscad_arguments_of(const Arguments& arguments);
-/// --leaf-primitives, --threshold, --threads; without them `render` keeps its own.
+/// Reads --leaf-primitives, --threshold and --threads; without them, `render` keeps its values.
 void read_cells_and_threads(const Arguments& arguments, RenderSettings& render);
 
 }  // namespace frontend

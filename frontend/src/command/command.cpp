@@ -47,7 +47,7 @@ std::string renderer_line(const RenderStats& stats) {
   return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
 }
 
-/// OpenSCAD's name of a frame's file: five digits before the suffix.
+/// Returns OpenSCAD's name of a frame's file: five digits before the suffix.
 std::string frame_path(const std::string& path, uint32_t frame) {
   const std::filesystem::path whole(path);
   std::string digits = std::to_string(frame);
@@ -56,7 +56,7 @@ std::string frame_path(const std::string& path, uint32_t frame) {
       .string();
 }
 
-/// $t of a frame, to the last bit.
+/// Assigns the frame's $t, exact to the last bit.
 std::string time_assignment(uint32_t frame, uint32_t frames) {
   std::array<char, 32> digits;
   const double t = static_cast<double>(frame) / frames;
@@ -64,7 +64,7 @@ std::string time_assignment(uint32_t frame, uint32_t frames) {
   return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
-/// One run that draws.
+/// One run of the command that draws.
 class Run {
  public:
   Run(const Options& options, const Renderer& renderer)
@@ -87,12 +87,12 @@ class Run {
     }
     if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
     progress_.clear();
-    check_outputs_differ(named_outputs(), named_inputs());  // now that all inputs are known
+    check_outputs_differ(named_outputs(), named_inputs());  // all inputs are known now
     write_outputs(outputs);
   }
 
  private:
-  /// Small pictures are drawn by one thread.
+  /// Returns whether to start worker threads: small pictures are drawn by one thread.
   bool wants_workers() const {
     constexpr uint64_t kSmallPixels = 64 * 64;
     const CameraOptions& camera = options_.camera;
@@ -110,12 +110,12 @@ class Run {
     encode(image, view, camera, outputs);
   }
 
-  /// The output's file for a frame.
+  /// Returns the path of an output for a frame.
   std::string path_of(const Output& output, uint32_t frame) const {
     return options_.frames == 0 ? output.path : frame_path(output.path, frame);
   }
 
-  /// The files of all pictures.
+  /// Returns the paths of all pictures.
   std::vector<std::string> picture_paths() const {
     std::vector<std::string> paths;
     for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
@@ -132,7 +132,7 @@ class Run {
     return outputs;
   }
 
-  /// Those that are known by now.
+  /// Returns the inputs that are known by now.
   std::vector<NamedPath> named_inputs() const {
     std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
     for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
@@ -155,7 +155,7 @@ class Run {
     progress_.update((text + stage).c_str(), fraction);
   }
 
-  /// A line on stderr, unless -q.
+  /// Writes a line to stderr, unless -q is given.
   void say(const std::string& text) {
     if (options_.quiet) return;
     progress_.clear();
@@ -228,7 +228,7 @@ class Run {
     const Clock::time_point start = Clock::now();
     Image image;
     if ((scene.model.empty() && scene.layers.empty()) || sees_nothing) {
-      // Nothing to draw needs no renderer.
+      // A picture of nothing needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";
       stats_.render.render_ms = ms_since(start);
@@ -261,7 +261,7 @@ class Run {
 
   std::string rule() const { return rule_of(files_); }
 
-  /// Throws Error for names that no rule can hold.
+  /// Throws Error for a name that no rule can contain.
   std::string rule_of(const std::vector<std::string>& files) const {
     std::vector<std::string> targets = picture_paths();
     std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
@@ -270,11 +270,11 @@ class Run {
 
   const Options& options_;
   const Renderer& renderer_;
-  Clock::time_point start_ = Clock::now();  // of the frame
+  Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
   ImportedDesign design_;
-  bool is_exported_ = false;        // anew for every frame
-  std::vector<std::string> files_;  // that the design was read from, for any frame
+  bool is_exported_ = false;        // set anew for every frame
+  std::vector<std::string> files_;  // files that the design was read from, for all frames
   RunStats stats_;                  // of the frame
   ProgressLine progress_;
   std::optional<csgcore::Workers> workers_;

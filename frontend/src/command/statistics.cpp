@@ -63,7 +63,7 @@ std::string to_json(const RunStats& stats) {
         {"T_R", render.paper_tr_ms},
         {"S_R", render.paper_sr_ms}}},
   };
-  // A file's name may hold bytes that are no UTF-8: they are replaced rather than refused.
+  // The name of a file may contain bytes that are not UTF-8; they are replaced.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

@@ -12,13 +12,15 @@ namespace frontend {
 
 void run_subcommand(const std::string& name, const std::vector<std::string>& arguments,
                     const std::string& todo) {
-  // Not the name by which this program was called: a link to it may lie elsewhere.
+  // The path is the program's own, not the one it was called by, which may be a link in another
+  // folder.
   std::error_code unknown;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
   std::string program = self.parent_path() / ("scadray-" + name);
   std::vector<char*> words{program.data()};
   for (const std::string& argument : arguments) {
-    words.push_back(const_cast<char*>(argument.c_str()));  // execv's signature; not written to
+    words.push_back(const_cast<char*>(argument.c_str()));  // execv's signature demands it; execv
+                                                           // does not write
   }
   words.push_back(nullptr);
   execv(program.c_str(), words.data());

@@ -1,5 +1,5 @@
-// The text of a .csg as a cursor over its tokens (frontend/OPENSCAD.md, "The .csg file"). In a
-// header of the parser's own, so that the parser's loops inline it: it sees every byte of a file.
+// A cursor over the tokens of a .csg (frontend/OPENSCAD.md, "The .csg file"). It is a header, so
+// that the parser's loops, which read every byte of a file, inline it.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 
 namespace frontend {
 
-/// A word of the file for a message: in quotes, its control and non-ASCII bytes as \xNN, shortened
-/// where it is long (a name in a damaged file may be as long as the file).
+/// Quotes a word of the file for a message. Control and non-ASCII bytes become \xNN, and a long
+/// word is shortened: a name in a damaged file may be as long as the file.
 std::string quoted(std::string_view word);
 
 class Lexer {
  public:
-  /// `text` must outlive the lexer. A byte order mark at its start is passed over.
+  /// `text` must outlive the lexer. A byte order mark at its start is skipped.
   Lexer(std::string_view text, const std::string& file_name)
       : begin_(text.data()), end_(begin_ + text.size()), file_name_(file_name) {
     if (text.starts_with("\xEF\xBB\xBF")) begin_ += 3;
@@ -29,50 +29,52 @@ class Lexer {
   }
 
   bool at_end() const { return at_ == end_; }
-  /// The next byte, or NUL at the end (where a NUL byte is as wrong as the end is).
+  /// Returns the next byte, or NUL at the end (a NUL byte is as wrong as the end there).
   char peek() const { return at_ == end_ ? '\0' : *at_; }
   void advance() { ++at_; }
   const char* position() const { return at_; }
-  /// Of the next byte.
+  /// The place of the next byte.
   Location location() const { return {line_, static_cast<uint32_t>(at_ - line_start_) + 1}; }
 
   void skip_space();
-  /// True, and past it, if the next byte is `c`.
+  /// Takes the next byte if it is `c`. Returns whether it was.
   bool take(char c);
-  /// The rest of the text starts with `literal`.
+  /// Returns whether the rest of the text starts with `literal`.
   bool ahead(std::string_view literal) const { return rest().starts_with(literal); }
   bool at_word() const { return at_ != end_ && is_word_start(*at_); }
-  /// The identifier at the cursor, where at_word() holds.
+  /// Takes the identifier at the cursor. Precondition: at_word().
   std::string_view word();
   bool at_number() const { return at_ != end_ && (is_digit(*at_) || *at_ == '.'); }
-  /// The unsigned decimal number at the cursor, where at_number() holds, correctly rounded.
+  /// Takes the unsigned decimal number at the cursor, correctly rounded. Precondition: at_number().
   double number();
-  /// Takes a number as most are written: perhaps a minus, a few digits, no exponent. False, and
-  /// nothing taken, where there is none.
+  /// Takes a number of the common form: perhaps a minus, a few digits, no exponent. Returns false,
+  /// and takes nothing, if there is none.
   bool plain_number(double& value);
-  /// Back to a position on the same line.
+  /// Moves back to a position on the same line.
   void go_back(const char* position) { at_ = position; }
-  /// What stands between the quotes at the cursor, escapes as written; past the closing quote.
+  /// Takes a string with its quotes, and returns what is between them, escapes as written.
   std::string_view quoted_string();
-  /// Takes `text`'s argument as OpenSCAD writes it: `kTextStart`, anything, `kTextEnd`; whatever
-  /// quotes and line breaks stand between (OpenSCAD escapes neither) go into `text`, and the cursor
-  /// before the comma. False, and nothing taken, where a person wrote a string that ends as others
-  /// do.
+  /// Takes `text`'s argument as OpenSCAD writes it: `kTextStart`, anything, `kTextEnd`. OpenSCAD
+  /// escapes neither quotes nor line breaks, so that `text` may contain them. The cursor then
+  /// stands at the comma of kTextEnd. Returns false, and takes nothing, if a person wrote a string
+  /// that ends as others do.
   bool raw_text(std::string_view& text);
 
   [[noreturn]] void fail(const char* at, const std::string& what, const std::string& todo) const;
   [[noreturn]] void fail(const std::string& what, const std::string& todo) const {
     fail(at_, what, todo);
   }
-  /// "expected X, found Y" at the cursor; at the end of the text it says that the file is cut off.
+  /// Fails with "expected X, found Y" at the cursor; at the end of the text, it says that the file
+  /// is cut off.
   [[noreturn]] void fail_expected(const std::string& expected, const std::string& todo) const;
 
-  /// After a failure: whether it may be the end of the text that has failed, so that more text
+  /// After a failure: returns whether the end of the text may be what has failed, so that more text
   /// could mend it.
   bool may_be_cut_off() const { return seeks_end_ || end_ - at_ <= kLongestRest; }
 
  private:
-  /// What is left unread of a token that the end has cut: "e+" of a number, "text = " of a text.
+  /// The most bytes that a token cut by the end leaves unread: "e+" of a number, "text = " of a
+  /// text.
   static constexpr ptrdiff_t kLongestRest = 16;
 
   static constexpr std::string_view kTextStart = "text = \"";
@@ -89,7 +91,8 @@ class Lexer {
   void skip_comment();
   bool plain_digits(double& value);
   double number_by_library();
-  /// The quote in [from, to) that ends an ordinary string whose first byte is `from`, or `to`.
+  /// Returns the quote in [from, to) that ends an ordinary string whose first byte is at `from`, or
+  /// `to`.
   static const char* closing_quote(const char* from, const char* to);
   static bool ends_by_hand(std::string_view between);
 
@@ -97,10 +100,10 @@ class Lexer {
   const char* end_;
   const char* at_;
   const char* line_start_;
-  const char* text_end_ = nullptr;  // where kTextEnd was found last, so that no stretch is searched
-                                    // twice
+  const char* text_end_ = nullptr;  // where kTextEnd was found last, so that no part of the text is
+                                    // searched twice
   uint32_t line_ = 1;
-  bool seeks_end_ = false;  // of a comment, string or text, which is not in the text
+  bool seeks_end_ = false;  // the end of a comment, string or text is missing
   const std::string& file_name_;
 };
 
@@ -150,11 +153,11 @@ inline bool Lexer::plain_number(double& value) {
   return false;
 }
 
-/// False, and nothing taken, for what needs the library.
+/// Returns false, and takes nothing, if the number needs the library.
 inline bool Lexer::plain_digits(double& value) {
-  // Exact where the digits make an integer below 2^53 and the power of ten is a double without
-  // rounding (10^22 is the last): then one division of two exact doubles is correctly rounded. So
-  // %g's six digits never need more.
+  // The result is exact if the digits form an integer below 2^53 and the power of ten is exact in
+  // double (10^22 is the last): one division of two exact doubles is correctly rounded. The six
+  // digits of %g always qualify.
   static constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -201,7 +204,8 @@ inline void Lexer::skip_comment() {
   }
 }
 
-/// The decimal number's magnitude is below 1, though too small or too large for a double.
+/// Returns whether the magnitude of a decimal number that overflows or underflows a double is below
+/// 1.
 inline bool is_below_one(std::string_view number) {
   const size_t exponent_at = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, exponent_at);
@@ -259,9 +263,9 @@ inline std::string_view Lexer::after_space(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t\r\n\v\f"), text.size()));
 }
 
-/// A person wrote the string: what follows its quote, up to where kTextEnd stands, goes on as
-/// OpenSCAD never writes it: with another argument than size, or with the end of the node and a
-/// text later whose end kTextEnd is.
+/// Returns whether a person wrote the string: `between`, the text from its closing quote to
+/// kTextEnd, continues as OpenSCAD never writes it. Either an argument other than size follows; or
+/// the node ends, and there is a later text to which kTextEnd may belong.
 inline bool Lexer::ends_by_hand(std::string_view between) {
   between = after_space(between);
   if (between.starts_with(',')) {

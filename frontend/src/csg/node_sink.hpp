@@ -1,4 +1,4 @@
-// A file's nodes one by one, as they are parsed.
+// Receives the nodes of a file one by one while it is parsed.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace frontend {
 class NodeSink {
  public:
   virtual ~NodeSink() = default;
-  /// The node that was parsed last, with its arguments. Of its descendants none is known yet: until
-  /// it is closed its subtree_end is kOpenSubtree. `offset`: of its name, in bytes from the text's
-  /// start.
+  /// Takes the node that was parsed last, with its arguments. Its descendants are not parsed yet,
+  /// and its subtree_end is kOpenSubtree until it is closed. `offset` is that of its name, in bytes
+  /// from the text's start.
   virtual void take(uint32_t node, uint32_t offset) = 0;
 };
 
-/// The end of what is still being parsed: beyond every node.
+/// The subtree_end of a node that is still being parsed. It is beyond every node.
 constexpr uint32_t kOpenSubtree = 0xFFFFFFFFu;
 
-/// parse() for who needs all nodes, but the arguments of each only once: what `tree`, which has a
-/// file name and nothing else, holds of them is dropped after `sink` has taken the node.
+/// Parses like parse(), but drops a node's arguments from `tree` after `sink` has taken the node.
+/// `tree` has a file name and nothing else before.
 void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,
                  const std::stop_token& stop);
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr NameTable kNodeTable(kNodeNames);
 
-/// Every argument name that OpenSCAD writes or that a primitive takes: these need no storage in
-/// the tree.
+/// All argument names that OpenSCAD writes or that a primitive takes. They need no storage in the
+/// tree.
 constexpr NameTable kArgumentTable(std::to_array<std::string_view>({
     "$fn",       "$fa",       "$fs",      "$fe",    "r",        "r1",      "r2",     "d",
     "d1",        "d2",        "h",        "center", "size",     "points",  "faces",  "triangles",
@@ -25,15 +25,15 @@ constexpr NameTable kArgumentTable(std::to_array<std::string_view>({
     "c",         "alpha",     "radius",
 }));
 
-/// No node, and no list: the end of a chain of indices.
+/// Means no node and no list: the end of a chain of indices.
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-/// A node, argument, value or byte of a string each takes at least one byte of text, so below this
-/// limit no 32-bit count, index, line or column can overflow, kNone included.
+/// The largest text. A node, argument, value or byte of a string takes at least one byte of text,
+/// so that no 32-bit count, index, line or column overflows, and none equals kNone.
 constexpr size_t kMaxTextBytes = kNone - 1;
 
-/// OpenSCAD writes lists at most three deep. The limit is far above any use, and keeps a damaged
-/// file of nothing but brackets from taking 16 bytes for each.
+/// The deepest nesting of lists, far above any use: OpenSCAD nests them at most three deep. It
+/// keeps a damaged file of nothing but brackets from taking 16 bytes for each.
 constexpr uint32_t kMaxListDepth = 1u << 20;
 
 constexpr const char* kValueHint = "write a number, true, false, undef, a \"string\" or a [list]";
@@ -53,7 +53,7 @@ Modifier modifier_of(char c) {
   }
 }
 
-/// Nodes without children in every version.
+/// Returns whether nodes of the kind have no children in any version.
 bool is_leaf(NodeKind kind) { return kind <= NodeKind::kText; }
 
 Value number_value(double number) {
@@ -63,7 +63,7 @@ Value number_value(double number) {
   return value;
 }
 
-/// undef, true, false, nan or inf into `value`; false for any other word.
+/// Parses undef, true, false, nan or inf into `value`; returns false for any other word.
 bool constant(std::string_view word, Value& value) {
   if (word == "true" || word == "false") {
     value.kind = ValueKind::kBool;
@@ -78,11 +78,11 @@ bool constant(std::string_view word, Value& value) {
   return true;
 }
 
-/// Builds the tree in one pass. Depth lives in vectors, not on the stack: an open list's `first` is
-/// its parent's place in lists_.
+/// Builds the tree in one pass. Nesting is kept in vectors, not on the call stack. The `first` of
+/// an open list is its parent's index in lists_.
 class Parser {
  public:
-  /// `tree` has a file name and nothing else. Without a sink it keeps all arguments.
+  /// `tree` has a file name and nothing else. Without a sink the tree keeps all arguments.
   Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink);
   void run(const std::stop_token& stop);
   const Lexer& lexer() const { return lexer_; }
@@ -115,21 +115,21 @@ class Parser {
   Lexer lexer_;
   struct OpenNode {
     uint32_t node;
-    bool single_child;  // stands without braces
+    bool single_child;  // it is without braces
   };
-  std::vector<OpenNode> open_;  // the innermost last
+  std::vector<OpenNode> open_;  // the innermost is the last
   std::vector<Value> lists_;    // the open lists, each followed by its elements so far
   uint32_t list_depth_ = 0;
   struct StoredName {
     uint32_t argument, first, count;
   };
-  std::vector<StoredName> names_;  // in tree_.strings, which still moves
+  std::vector<StoredName> names_;  // names in tree_.strings, which still moves
 };
 
 Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
     : tree_(tree), sink_(sink), text_(text.data()), lexer_(text, tree.file_name) {
-  // About what OpenSCAD's files have, so that most never move; a vector that is not used in full
-  // costs addresses, not memory.
+  // These are about the averages of OpenSCAD's files, so that the vectors of most files never move.
+  // A vector that is not used in full costs addresses, not memory.
   constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
   tree_.nodes.reserve(text.size() / kBytesPerNode);
   if (sink != nullptr) return;
@@ -159,7 +159,7 @@ void Parser::run(const std::stop_token& stop) {
   give_names();
 }
 
-/// Those that are not in the table, once tree_.strings does not move any more.
+/// Sets the argument names that are not in the table, once tree_.strings does not move any more.
 void Parser::give_names() {
   for (const StoredName& name : names_) {
     tree_.arguments[name.argument].name = {tree_.strings.data() + name.first, name.count};
@@ -167,7 +167,7 @@ void Parser::give_names() {
   names_.clear();
 }
 
-/// The last node, whose arguments are not needed after that.
+/// Gives the last node to the sink. Its arguments are not needed after that.
 void Parser::hand_over(uint32_t offset) {
   give_names();
   SyntaxNode& node = tree_.nodes.back();
@@ -273,7 +273,7 @@ void Parser::raw_text_argument() {
   Argument& argument = tree_.arguments.emplace_back();
   argument.name = "text";
   argument.value = store(text);
-  lexer_.advance();  // over the comma
+  lexer_.advance();  // past the comma
 }
 
 Value Parser::value() { return lexer_.peek() == '[' ? list() : scalar(); }
@@ -319,7 +319,7 @@ Value Parser::list() {
     } else if (c != ']') {
       lists_.push_back(scalar());
     }
-    // A value is complete, or the list after '[' or ','. Close what ends here.
+    // A value, or the list after '[' or ',', is complete. Lists that end here are closed.
     for (;;) {
       lexer_.skip_space();
       if (lexer_.take(',')) break;
@@ -336,9 +336,9 @@ Value Parser::list() {
   }
 }
 
-/// The list at the cursor, if it holds nothing but plain numbers, spaced as OpenSCAD does: rows of
-/// matrices, points, faces. False, and nothing taken, for others; of these no more than the numbers
-/// before the first inner list are looked at twice.
+/// Takes the list at the cursor if it contains nothing but plain numbers, spaced as by OpenSCAD:
+/// rows of matrices, points, faces. Returns false, and takes nothing, for any other list; at most
+/// its numbers before the first inner list are then parsed twice.
 bool Parser::list_of_numbers(Value& list) {
   if (list_depth_ == kMaxListDepth) return false;
   const char* const start = lexer_.position();
@@ -424,11 +424,11 @@ void Parser::fail_unclosed() const {
 void Parser::fail_value() const { lexer_.fail_expected("a value", kValueHint); }
 
 void Parser::fail_word(const char* start, std::string_view word) const {
-  if (lexer_.at_end()) fail_value();  // the word may be cut off
+  if (lexer_.at_end()) fail_value();  // the end may have cut the word off
   lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
-/// For a parser that only looks.
+/// A sink for checking a text alone.
 class NoSink : public NodeSink {
  public:
   void take(uint32_t, uint32_t) override {}

@@ -17,7 +17,7 @@ extern char** environ;
 namespace frontend {
 namespace {
 
-/// posix_spawn's file actions, with an owner.
+/// Owns posix_spawn's file actions.
 class FileActions {
  public:
   FileActions() { posix_spawn_file_actions_init(&actions_); }
@@ -27,7 +27,7 @@ class FileActions {
   void open(int number, const char* path, int flags) {
     posix_spawn_file_actions_addopen(&actions_, number, path, flags, 0);
   }
-  /// A descriptor that is given its own number stays open.
+  /// A descriptor that is given its own number stays open in the child.
   void give(int descriptor, int number) {
     posix_spawn_file_actions_adddup2(&actions_, descriptor, number);
   }
@@ -37,8 +37,8 @@ class FileActions {
   posix_spawn_file_actions_t actions_;
 };
 
-/// Starts a program in a process group (0: one of its own), with the signals as they were before
-/// this program changed them. Throws std::system_error.
+/// Starts a program in a process group (0: one of its own), with the signals set as they were
+/// before this program changed them. Throws std::system_error.
 pid_t spawn(std::vector<std::string> command, const FileActions& files, pid_t group,
             const HoldInterrupts& hold) {
   std::vector<char*> arguments;
@@ -84,8 +84,8 @@ ChildProcess::ChildProcess(const ChildSetup& setup) {
   guard_files.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
   guard_files.open(STDERR_FILENO, "/dev/null", O_WRONLY);
 
-  // An interruption must find the group registered once anything runs. The guard comes second, as
-  // nothing waits for it.
+  // The group must be registered before an interruption can come, once anything runs. The guard
+  // starts second, as nothing waits for it.
   const HoldInterrupts hold;
   pid_ = group_ = spawn(setup.command, files, 0, hold);
   set_child_group(group_);
@@ -118,7 +118,7 @@ int ChildProcess::wait() {
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
   kill(-group_, SIGKILL);  // the guard, and whatever else is left
-  set_child_group(0);      // while the number cannot be another's yet
+  set_child_group(0);      // as long as no other group can have the number
   int status = 0;
   waitpid(std::exchange(pid_, 0), &status, 0);
   if (guard_ > 0) waitpid(std::exchange(guard_, 0), nullptr, 0);
@@ -127,7 +127,7 @@ int ChildProcess::wait() {
 
 void ChildProcess::kill_all() const {
   kill(-group_, SIGKILL);
-  kill(pid_, SIGKILL);  // should it have left the group
+  kill(pid_, SIGKILL);  // in case it has left the group
 }
 
 }  // namespace frontend

@@ -1,4 +1,4 @@
-// A program that is run beside this one, with all that it starts, and that never outlives it.
+// Runs a program, with everything that it starts, so that it never outlives this one.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace frontend {
 
-/// A pipe whose ends are closed with it, unless closed before, and which no program inherits.
+/// A pipe that closes its open ends when it is destroyed. No program inherits it.
 class Pipe {
  public:
   /// Throws std::system_error.
@@ -40,27 +40,31 @@ struct ChildSetup {
   std::vector<std::string> command;  // the program, looked up on PATH, and its arguments
   int output = -1;                   // its standard output
   int errors = -1;                   // its standard error
-  int kept = -1;                     // one more that it gets, by the same number; -1: none
+  int kept = -1;                     // one more descriptor that it inherits, with the same number;
+                                     // -1: none
 };
 
-/// A running program. It and what it starts stand in a process group of their own, which is killed
-/// when this object goes, when a signal ends this program (interrupt.hpp), and when this program
-/// is killed: a guard stands in that group, a shell which waits for the end of a pipe that only
-/// this program holds open, and then kills the group it is in. (PR_SET_PDEATHSIG would reach the
-/// program alone, not what a wrapper script has started.) One at a time.
+/// A running program. It and everything that it starts are in a process group of their own. The
+/// group is killed when this object is destroyed, when a signal ends this program (interrupt.hpp),
+/// and when this program is killed. For the last case the group holds a guard: a shell that waits
+/// for the end of a pipe that only this program holds open, and then kills its own group.
+/// (PR_SET_PDEATHSIG would reach the program alone, not what a wrapper script has started.) There
+/// is one such object at a time.
 class ChildProcess {
  public:
-  /// Its standard input is empty. Throws std::system_error where it cannot be started.
+  /// Starts the program with an empty standard input. Throws std::system_error if it cannot be
+  /// started.
   explicit ChildProcess(const ChildSetup& setup);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Readable once it has ended; -1 where the system has no such descriptor (Linux before 5.3).
+  /// A descriptor that is readable once the program has ended; -1 where the system has none (Linux
+  /// before 5.3).
   int end_descriptor() const { return end_.number(); }
   bool has_ended() const;
-  /// Waits for its end, kills what it has left running, and returns its exit code; 128 and the
-  /// signal's number where one ended it.
+  /// Waits for the program's end, kills what it has left running, and returns its exit code, or 128
+  /// plus the number of the signal that ended it.
   int wait();
 
  private:

@@ -16,7 +16,7 @@ namespace frontend {
 
 namespace {
 
-/// `suffix` in lower case.
+/// `suffix` is in lower case.
 bool has_suffix(const std::string& path, std::string_view suffix) {
   return path.size() >= suffix.size() &&
          std::equal(suffix.begin(), suffix.end(), path.end() - static_cast<long>(suffix.size()),
@@ -25,7 +25,7 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
                     });
 }
 
-/// Parses what may turn out to be a .scad.
+/// Parses a text that may turn out to be a .scad's.
 TextImport parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
   try {
@@ -58,7 +58,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   return design;
 }
 
-/// What `work`, which is done on a design alone, returns.
+/// Returns what `work` returns, and turns a lack of memory into an Error about the design.
 template <typename Work>
 auto within_memory(const std::string& path, Work work) {
   try {
@@ -91,7 +91,7 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
                         const std::stop_token& stop) {
   text.is_exported = true;
-  // Places in an exported design are not those of the .scad, and must not look as if they were.
+  // Places in the exported text must not look like places in the .scad.
   text.name = path + " (its .csg)";
   const Clock::time_point start = Clock::now();
   OpenScadExport result = export_with_openscad(

@@ -25,12 +25,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::string absolute(const std::string& path) {
-  std::error_code failed;  // there is no working folder any more
+  std::error_code failed;  // the working folder is gone
   const std::filesystem::path result = std::filesystem::absolute(path, failed);
   return failed ? path : result.string();
 }
 
-/// Standard input, a pipe or a device: what can be read once only.
+/// Returns whether the path can be read only once: standard input, a pipe or a device.
 bool is_read_once(const std::string& path) {
   if (path == "-") return true;
   std::error_code missing;
@@ -44,9 +44,9 @@ int64_t system_time_ns() {
 
 }  // namespace
 
-/// Two threads: one that watches the files and decides, and, while there is something to read, one
-/// that reads. A newer save stops the latter and waits for its end before the next one starts, so
-/// there is never more than one openscad.
+/// Runs two threads: one watches the files and decides, and, while there is something to read, one
+/// reads. A newer save stops the reading thread, and waits for its end before the next one starts.
+/// So there is never more than one openscad.
 class DesignFollower::Follower {
  public:
   Follower(std::string path, FollowOptions options, std::function<void()> on_news)
@@ -91,7 +91,7 @@ class DesignFollower::Follower {
     stop_reading();
   }
 
-  /// Until there may be something to do.
+  /// Waits until there may be something to do.
   void wait() {
     std::optional<Clock::time_point> until = is_followed_ ? watch_.next_look() : std::nullopt;
     if (noticed_) {
@@ -111,7 +111,7 @@ class DesignFollower::Follower {
     wake_.clear();
   }
 
-  /// Something newer than what is being read, or was read last.
+  /// Notes that there is something newer than what is being read, or was read last.
   void notice(Clock::time_point when) {
     if (reading_.joinable()) {
       stop_reading();
@@ -174,8 +174,8 @@ class DesignFollower::Follower {
     if (state_.exchange(state) != state) on_news_();
   }
 
-  /// What the design includes by now, and what the last version that could be read has read: after
-  /// an error openscad says nothing. Puts their names in files_.
+  /// Returns the files that the design includes now, and those that the last version that could be
+  /// read has read, since openscad names none after an error. Stores their names in files_.
   std::vector<std::string> paths_to_watch() {
     files_.clear();
     std::vector<std::string> paths;
@@ -199,30 +199,30 @@ class DesignFollower::Follower {
   const std::function<void()> on_news_;
   const bool is_followed_;
 
-  // Shared with those who call.
+  // Shared by all threads.
   Event wake_;
   std::atomic<State> state_{State::kReading};
   std::atomic<bool> wants_reload_{false};
   std::mutex mutex_;
   std::optional<DesignVersion> news_;
 
-  // The watching thread's.
+  // Used by the watching thread alone.
   FileWatch watch_;
   IncludedFiles included_;
-  std::vector<std::string> files_;    // watched, as they are named
-  std::vector<std::string> imports_;  // of the last version that could be read
+  std::vector<std::string> files_;    // watched files, by their names
+  std::vector<std::string> imports_;  // files imported by the last version that could be read
   GoodVersion good_;
   bool is_scad_ = is_scad(path_);
   uint64_t number_ = 0;
-  std::optional<Clock::time_point> noticed_;  // what is still to be read
+  std::optional<Clock::time_point> noticed_;  // when the save that is still to be read was noticed
   int64_t reading_since_ns_ = 0;
 
-  // Written by the reading thread, and read when it has ended.
+  // Written by the reading thread, and read after its end.
   DesignReading result_;
   std::atomic<bool> has_read_{false};
   std::jthread reading_;
 
-  std::jthread thread_;  // the last one: it uses all others
+  std::jthread thread_;  // declared last, since it uses all others
 };
 
 DesignFollower::DesignFollower(std::string path, FollowOptions options,

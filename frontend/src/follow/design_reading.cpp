@@ -13,10 +13,10 @@
 namespace frontend {
 namespace {
 
-/// Of what openscad says the first so many bytes are kept: it may say the same for ever.
+/// The most bytes of openscad's messages that are kept: openscad may write the same for ever.
 constexpr std::size_t kMostMessageBytes = std::size_t{1} << 20;
 
-/// A function that adds lines to the version's messages.
+/// Returns a function that adds lines to the version's messages.
 std::function<void(const std::string&)> keeping_messages(DesignVersion& version) {
   return [&version, bytes = std::size_t{0}](const std::string& line) mutable {
     if (bytes > kMostMessageBytes) return;
@@ -25,7 +25,7 @@ std::function<void(const std::string&)> keeping_messages(DesignVersion& version)
   };
 }
 
-/// Nothing where the text is that of the version before.
+/// Returns nothing if the text is that of the version before.
 std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions& options,
                                      DesignReading& reading, const std::stop_token& stop) {
   reading.version.unchanged = reading.good.design && reading.good.csg->view() == text.csg.view();

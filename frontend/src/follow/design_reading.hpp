@@ -1,4 +1,4 @@
-// One reading of a design, from its file to what can be drawn.
+// Reads a design once, from its file to what can be drawn.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace frontend {
 
-/// The last version that could be read; all null or empty before there is one.
+/// The last version that could be read; null and 0 before there is one.
 struct GoodVersion {
   std::shared_ptr<const FileText> csg;
   std::shared_ptr<const ImportedDesign> design;
@@ -18,15 +18,15 @@ struct GoodVersion {
 };
 
 struct DesignReading {
-  /// Without its number and the time; `files` are those that it says it has read, none after an
-  /// error.
+  /// The version without its number and time. `files` are those that it reports; after an error,
+  /// none.
   DesignVersion version;
-  GoodVersion good;      // it, or after an error the one before
-  bool is_scad = false;  // by what stands in it: its name leaves that open
+  GoodVersion good;      // this version, or after an error the one before
+  bool is_scad = false;  // told by the text, where the name does not tell
 };
 
-/// Of `options` only `import` and `openscad_arguments` count. Every failure is version.error;
-/// throws Stopped (stop.hpp) alone.
+/// Reads the design. Of `options` only `import` and `openscad_arguments` are used. Every failure is
+/// reported in version.error; only Stopped (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
 

@@ -1,4 +1,4 @@
-// What tells a file from what it was before, without reading it.
+// Tells whether a file has changed, without reading it.
 #pragma once
 
 #include <sys/stat.h>
@@ -9,14 +9,14 @@
 
 namespace frontend {
 
-/// Two of the same path are equal as long as nobody writes to the file, puts another in its place,
-/// or changes who may read it. (A file written to twice within a tick of the file system's clock
-/// may keep its signature.)
+/// Two signatures of one path are equal as long as nobody writes to the file, replaces it, or
+/// changes its permissions. (A file that is written to twice within a tick of the file system's
+/// clock may keep its signature.)
 class FileSignature {
  public:
-  /// Of a missing file.
+  /// The signature of a missing file.
   FileSignature() = default;
-  /// Links are followed. What cannot be looked at is missing.
+  /// Links are followed. A file that cannot be examined counts as missing.
   explicit FileSignature(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) return;
@@ -30,7 +30,7 @@ class FileSignature {
   bool exists() const { return exists_; }
   bool is_regular() const { return is_regular_; }
   bool is_empty() const { return size_ == 0; }
-  /// The last time at which it was written to, renamed, linked or the like, by the system's clock.
+  /// When the file was last written to, renamed, linked or the like, in ns of the system's clock.
   int64_t changed_ns() const { return changed_ns_; }
 
   bool operator==(const FileSignature& other) const {

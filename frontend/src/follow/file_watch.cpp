@@ -18,17 +18,18 @@ namespace {
 
 constexpr uint32_t kNameEvents =
     IN_CREATE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_ONLYDIR | IN_MASK_ADD;
-/// Of a file just made, there may be no watch of its own yet.
+/// A file that was just made may have no watch of its own yet, so that its folder tells of its
+/// closing.
 constexpr uint32_t kLastFolderEvents = kNameEvents | IN_CLOSE_WRITE;
 constexpr uint32_t kContentEvents = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_MASK_ADD;
 
-/// The clock of files counts ticks of at most this; it lags behind.
+/// The longest tick of the clock that file systems use; that clock lags behind the system's.
 constexpr int64_t kFileClockTick_ns = 10'000'000;
 
 // Not in linux/magic.h.
 constexpr long kZfs = 0x2FC12FC1, kBcachefs = 0xCA451A4E, kNtfs3 = 0x7366746E, kJfs = 0x3153464A;
 
-/// False also where it cannot be asked.
+/// Returns whether inotify reports every change in the folder. False also if the system cannot say.
 bool is_told_of(const std::string& folder) {
   struct statfs status {};
   return statfs(folder.c_str(), &status) == 0 && FileWatch::tells_of_every_change(status.f_type);
@@ -38,7 +39,7 @@ bool is_told_of(const std::string& folder) {
 
 bool FileWatch::tells_of_every_change(long file_system_type) {
   switch (file_system_type) {
-    case EXT4_SUPER_MAGIC:  // ext2 and ext3, too
+    case EXT4_SUPER_MAGIC:  // also ext2 and ext3
     case XFS_SUPER_MAGIC:
     case BTRFS_SUPER_MAGIC:
     case F2FS_SUPER_MAGIC:
@@ -66,7 +67,7 @@ bool FileWatch::tells_of_every_change(long file_system_type) {
 FileWatch::FileWatch(bool only_polls, Milliseconds poll_interval) : poll_interval_(poll_interval) {
   if (only_polls) return;
   const int inotify = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-  if (inotify >= 0) inotify_.emplace(inotify);  // otherwise the user's are used up
+  if (inotify >= 0) inotify_.emplace(inotify);  // it fails if the user's instances are used up
 }
 
 void FileWatch::set_files(const std::vector<std::string>& paths, std::optional<int64_t> since) {
@@ -127,7 +128,7 @@ bool FileWatch::update() {
   if (!outdated_ && next && Clock::now() >= *next) look();
   if (outdated_) {
     arm();
-    look();  // there may be files in a folder that was not watched before
+    look();  // files may have come into a folder that was not watched before
   }
   return std::exchange(has_news_, false);
 }
@@ -154,7 +155,7 @@ void FileWatch::changed_all(Milliseconds settle) {
   for (File& file : files_) changed(file, settle);
 }
 
-/// Watches anew all that the files depend on, and nothing else.
+/// Replaces the watches by those of everything that the files depend on.
 void FileWatch::arm() {
   outdated_ = false;
   watches_all_ = inotify_.has_value();
@@ -195,7 +196,7 @@ void FileWatch::watch_folder(std::size_t file, const std::string& folder, const 
 
 int FileWatch::watch(const std::string& path, uint32_t mask) {
   const int number = inotify_add_watch(inotify_->number(), path.c_str(), mask);
-  // What vanishes while it is looked at is told of by the folder above.
+  // If a name vanishes while it is examined, the watch of its folder reports that.
   if (number < 0 && errno != ENOENT && errno != ENOTDIR) watches_all_ = false;
   return number;
 }
@@ -205,7 +206,7 @@ void FileWatch::read_events() {
   while (true) {
     const ssize_t count = read(inotify_->number(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return;  // EAGAIN: no more
+    if (count <= 0) return;  // EAGAIN: there is nothing more
     for (ssize_t at = 0; at < count;) {
       const auto* event = reinterpret_cast<const inotify_event*>(buffer.data() + at);
       on_event(*event);

@@ -1,4 +1,4 @@
-// Which files have been changed, and whether their writer is done.
+// Tells which files have changed, and whether their writer is done.
 #pragma once
 
 #include <chrono>
@@ -15,56 +15,59 @@ struct inotify_event;
 
 namespace frontend {
 
-/// Watches files, wherever their paths lead, existing or not: their contents, and every folder and
-/// link on the way to them. By inotify; where that does not tell all, by looking at them from time
-/// to time, too.
+/// Watches files, which may be missing: their contents, and every folder and link on their paths.
+/// It uses inotify, and also looks at the files at intervals where inotify does not report every
+/// change.
 ///
-/// A save is not one event. What has been closed after writing, or was put in place by renaming, is
-/// most likely complete; what has only been written to, or is missing or empty, is most likely not.
+/// A save is not one event. A file that was closed after writing, or put in place by renaming, is
+/// most likely complete. One that was only written to, or that is missing or empty, is most likely
+/// not.
 class FileWatch {
  public:
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::milliseconds;
 
-  // How long a file has to stay as it is before it counts as complete.
-  /// Closed or renamed: others written by the same save, or its permissions, may follow at once.
+  // A file counts as complete once it has stayed unchanged for one of these times.
+
+  /// After closing or renaming: other files of the same save, or permissions, may follow at once.
   static constexpr Milliseconds kSettleClosed{3};
-  /// Written to, but not closed: longer than an editor pauses between two writes.
+  /// After writing without closing: longer than an editor pauses between two writes.
   static constexpr Milliseconds kSettleOpen{40};
-  /// Missing or empty: an editor has moved the old file away, or truncated it, and now writes.
+  /// Missing or empty: an editor has moved the old file away, or truncated it, and is writing.
   static constexpr Milliseconds kSettleMissing{200};
 
   /// `only_polls`: do without inotify.
   FileWatch(bool only_polls, Milliseconds poll_interval);
 
-  /// From here on these files are watched, by their absolute paths. Changes of those watched before
-  /// stay known. Others, that the caller has read since `since` (the system clock, in ns), count as
-  /// changed where they changed after that.
+  /// Watches these files from now on, by their absolute paths. Changes of files that were watched
+  /// before stay noted. A file that was not, and that the caller has read since `since` (the system
+  /// clock, in ns), counts as changed if it changed after that.
   void set_files(const std::vector<std::string>& paths, std::optional<int64_t> since = {});
 
-  /// Readable by poll when update() may have news; -1: it has to be called at next_look() only.
+  /// A descriptor that is readable when update() may have news; -1: only next_look() says when to
+  /// call it.
   int descriptor() const { return inotify_ ? inotify_->number() : -1; }
-  /// When update() is to be called at the latest; nothing: there is no need.
+  /// The latest time to call update(); nothing: there is no need.
   std::optional<Clock::time_point> next_look() const;
-  /// Takes in what has happened. True if a file has been changed since the last call.
+  /// Takes note of what has happened. Returns whether a file has changed since the last call.
   bool update();
-  /// When all that has been changed counts as complete, unless more happens; nothing: nothing has
-  /// been changed since the last forget_changes().
+  /// When all changes count as complete, unless more happen; nothing: there were none since the
+  /// last forget_changes().
   std::optional<Clock::time_point> settled_at() const;
   /// To be called when reading the files begins.
   void forget_changes();
 
-  /// False where files can change without this system's knowledge, or nobody knows (statfs's
-  /// f_type).
+  /// Returns whether this system learns of every change of files on such a file system (statfs's
+  /// f_type). False if that is unknown.
   static bool tells_of_every_change(long file_system_type);
 
  private:
   struct File {
     std::string path;
     FileSignature signature;
-    std::optional<Clock::time_point> settled_at;  // of a change
+    std::optional<Clock::time_point> settled_at;  // when its change counts as complete
   };
-  /// A file that depends on a name in a folder.
+  /// A file that depends on a name in a folder. `is_last`: the name is the file's own.
   struct Dependence {
     std::size_t file;
     bool is_last;
@@ -86,9 +89,9 @@ class FileWatch {
   std::optional<Descriptor> inotify_;
   std::vector<File> files_;
   std::map<int, Names> folders_;                     // by inotify's number
-  std::map<int, std::vector<std::size_t>> content_;  // by inotify's number; of files_
-  bool watches_all_ = false;                         // every change is told of by inotify
-  bool outdated_ = false;                            // the watches, by an event
+  std::map<int, std::vector<std::size_t>> content_;  // by inotify's number; indices into files_
+  bool watches_all_ = false;                         // inotify reports every change
+  bool outdated_ = false;                            // an event has outdated the watches
   bool has_news_ = false;
   Clock::time_point last_look_{};
 };

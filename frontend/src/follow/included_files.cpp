@@ -18,7 +18,7 @@ bool is_word(char c) {
          c == '$';
 }
 
-/// Past what begins at `at`: a string or a comment, or else one byte.
+/// Returns the position after what begins at `at`: a string, a comment, or else one byte.
 std::size_t after_token(std::string_view text, std::size_t at) {
   const auto past = [text](std::size_t found, std::size_t length) {
     return found == std::string_view::npos ? text.size() : found + length;
@@ -32,7 +32,7 @@ std::size_t after_token(std::string_view text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// The name in `<…>` at `at`, after spaces; empty: there is none.
+/// Returns the name in `<…>` at `at`, after spaces; empty if there is none.
 std::string_view bracketed(std::string_view text, std::size_t at) {
   at = text.find_first_not_of(" \t\r\n", at);
   if (at == std::string_view::npos || text[at] != '<') return {};
@@ -41,7 +41,8 @@ std::string_view bracketed(std::string_view text, std::size_t at) {
   return text.substr(at + 1, end - at - 1);
 }
 
-/// Where OpenSCAD looks for what does not lie beside the file that includes it.
+/// Returns the folders where OpenSCAD looks for files that are not beside the file that includes
+/// them.
 std::vector<fs::path> library_folders() {
   std::vector<fs::path> folders;
   if (const char* set = std::getenv("OPENSCADPATH")) {
@@ -59,7 +60,7 @@ std::vector<fs::path> library_folders() {
   return folders;
 }
 
-/// Where a name may lie: the one path at which there is a file, or else all.
+/// Returns the path of a name at which there is a file, or else all paths at which it may be.
 std::vector<std::string> places_of(const std::string& name, const std::string& including,
                                    const std::vector<fs::path>& libraries) {
   if (fs::path(name).is_absolute()) return {name};
@@ -122,7 +123,7 @@ const std::vector<std::string>& IncludedFiles::names_in(const std::string& path)
     known.names = included_names(read_file(path).view());
   } catch (const Error&) {
     known.signature =
-        FileSignature();  // it just vanished, or may not be read: look again next time
+        FileSignature();  // the file vanished, or may not be read: examine it again next time
   }
   return known.names;
 }

@@ -1,4 +1,4 @@
-// The files that a .scad includes, without running openscad.
+// Finds the files that a .scad includes, without running openscad.
 #pragma once
 
 #include <map>
@@ -10,17 +10,17 @@
 
 namespace frontend {
 
-/// The names in the `include <…>` and `use <…>` of a .scad's text, as they stand; those in comments
-/// and strings do not count.
+/// Returns the names in the `include <…>` and `use <…>` of a .scad's text, as written there.
+/// Comments and strings are skipped.
 std::vector<std::string> included_names(std::string_view scad);
 
-/// `openscad -d` names what a design has read, yet nothing where the design has an error, and no
-/// file that was missing. These are the ones to watch even so.
+/// Finds the files to watch where openscad does not name them: `openscad -d` names what a design
+/// has read, but nothing if the design has an error, and no missing file.
 class IncludedFiles {
  public:
-  /// `scad_path` and all that it includes, and those include, each once. A name that is found
-  /// nowhere stands for a path in each folder in which OpenSCAD looks. Files that did not change
-  /// since the last call are not read again.
+  /// Returns `scad_path` and, each once, all files that it includes directly or indirectly. A name
+  /// that is found nowhere yields its path in each folder in which OpenSCAD looks. Files that have
+  /// not changed since the last call are not read again.
   std::vector<std::string> of(const std::string& scad_path);
 
  private:

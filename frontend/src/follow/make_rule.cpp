@@ -7,10 +7,11 @@
 namespace frontend {
 namespace {
 
-// GNU make reads a rule several times over: for the end of the targets and of the prerequisites
-// with references to variables passed over, then with these expanded, then name by name for
-// patterns and wildcards. What one reading would take for its own and none unescapes comes from a
-// reference. (Found by trying each byte with make 4.3; make_rule_test holds it.)
+// GNU make reads a rule several times: to find the end of the targets and of the prerequisites,
+// first with variables unexpanded, then with them expanded; then name by name for patterns and
+// wildcards. A character that one of these readings would interpret, and that no escape protects,
+// is written as a reference to a function that expands to it. (Found by trying each byte with make
+// 4.3; make_rule_test holds it.)
 
 constexpr std::string_view kContinued = " \\";
 constexpr std::string_view kWildcards = "*?[";
@@ -18,12 +19,12 @@ constexpr std::string_view kWhiteSpace = " \t\v\f\r";
 
 enum class Side : uint8_t { kTarget, kPrerequisite };
 
-/// What make expands to `c`.
+/// Returns text that make expands to `c`.
 std::string reference_to(char c) { return std::string("$(subst x,") + c + ",x)"; }
 
 struct Escape {
   std::string text;
-  bool by_backslash = false;  // backslashes before it are taken for escapes, too
+  bool by_backslash = false;  // backslashes before it would be taken for escapes, too
 };
 
 Escape escape_of(char c, bool is_last, Side side) {
@@ -31,7 +32,7 @@ Escape escape_of(char c, bool is_last, Side side) {
     case ':':
     case '#':
       return {std::string("\\") + c, true};
-    case ' ':  // as OpenSCAD has it; but before the line's end it would be lost
+    case ' ':  // escaped as by OpenSCAD; before the line's end it would be lost
       return {is_last ? '\\' + reference_to(c) : "\\ ", true};
     case ';':
     case '\t':
@@ -55,12 +56,12 @@ Escape escape_of(char c, bool is_last, Side side) {
   return {std::string(1, c)};
 }
 
-/// Or what is to be written as one.
+/// Returns whether the name contains a wildcard, or a byte that is written as one.
 bool has_wildcard(const std::string& name) {
   return name.starts_with('~') || name.find_first_of(kWildcards) != std::string::npos;
 }
 
-/// Throws Error for what cannot be escaped.
+/// Throws Error for a name that cannot be escaped.
 void check_name(const std::string& name, Side side) {
   const bool is_pattern =
       side == Side::kTarget && name.find('%') != std::string::npos && has_wildcard(name);
@@ -79,8 +80,8 @@ void check_name(const std::string& name, Side side) {
 std::string escaped(const std::string& name, Side side) {
   check_name(name, side);
   std::string result;
-  if (name.find_first_of(kWhiteSpace) == 0) result = "./";  // which make drops
-  // Where there is a wildcard, a name is unescaped once more.
+  if (name.find_first_of(kWhiteSpace) == 0) result = "./";  // make drops the "./"
+  // make unescapes a name with a wildcard once more.
   const std::size_t repeat = has_wildcard(name) ? 2 : 1;
   std::size_t backslashes = 0;  // before the next byte
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -89,7 +90,7 @@ std::string escaped(const std::string& name, Side side) {
       continue;
     }
     Escape escape = escape_of(name[i], i + 1 == name.size(), side);
-    if (i == 0 && name[i] == '~') escape.text = "[~]";  // no home folder
+    if (i == 0 && name[i] == '~') escape.text = "[~]";  // not the home folder
     result.append(backslashes * repeat * (escape.by_backslash ? 2 : 1), '\\');
     result += escape.text;
     backslashes = 0;
@@ -110,7 +111,7 @@ std::string without_escapes(std::string_view name) {
 std::vector<std::string> prerequisites_of(std::string_view rule) {
   constexpr std::string_view kNext = "\n\t";
   std::vector<std::string> names;
-  std::size_t start = rule.find(kNext);  // past the targets
+  std::size_t start = rule.find(kNext);  // after the targets
   while (start != std::string_view::npos) {
     start += kNext.size();
     const std::size_t end = rule.find(kNext, start);
@@ -133,8 +134,8 @@ std::string make_rule(const std::vector<std::string>& targets,
   for (const std::string& name : prerequisites) {
     rule += std::string(kContinued) + "\n\t" + escaped(name, Side::kPrerequisite);
   }
-  // White space at the line's end would be lost, and a backslash continue it: as if there were
-  // order-only prerequisites.
+  // At the end of the line, white space would be lost, and a backslash would continue the line. A
+  // bar, as before order-only prerequisites, prevents both.
   const bool has_open_end = !prerequisites.empty() &&
                             prerequisites.back().find_last_of(std::string(kWhiteSpace) + '\\') ==
                                 prerequisites.back().size() - 1;

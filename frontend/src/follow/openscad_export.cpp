@@ -46,7 +46,7 @@ Error cannot_run(const std::string& program, int error_number) {
                "check $OPENSCAD and PATH");
 }
 
-/// A file without a name, in memory.
+/// A file in memory, without a name.
 class MemoryFile {
  public:
   MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
@@ -56,16 +56,16 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
   int descriptor() const { return file_; }
-  /// For a child that it is handed on to.
+  /// A path by which a child that inherits the file can open it.
   std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-  /// Once.
+  /// Returns the contents; may be called once.
   FileText text() const { return read_descriptor(file_, "a file in memory"); }
 
  private:
   int file_;
 };
 
-/// What openscad says, line by line. The first ERROR is kept back, to be thrown.
+/// Collects openscad's messages line by line. The first ERROR is kept, to be thrown.
 class Messages {
  public:
   explicit Messages(const std::function<void(const std::string&)>& message) : message_(message) {}
@@ -86,7 +86,7 @@ class Messages {
   const std::optional<std::string>& first_error() const { return first_error_; }
 
  private:
-  /// A longer one is shown in pieces, so that it need not end to be shown.
+  /// A longer line is shown in pieces, so that it is shown even if it never ends.
   static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
 
   void line(const std::string& text) {
@@ -102,7 +102,7 @@ class Messages {
   std::optional<std::string> first_error_;
 };
 
-/// Whether openscad means `scad_path` by `name`: it shortens a path to the file's name alone, or
+/// Returns whether openscad means `scad_path` by `name`: it shortens a path to the file's name, or
 /// makes it relative to the working folder.
 bool is_same_file(const std::string& name, const std::string& scad_path) {
   const std::filesystem::path path(scad_path);
@@ -110,7 +110,7 @@ bool is_same_file(const std::string& name, const std::string& scad_path) {
   return name == path.filename() || std::filesystem::equivalent(name, path, missing);
 }
 
-/// "what in file NAME, line N" → Error with that place.
+/// Turns "what in file NAME, line N" into an Error with that place.
 Error openscad_error(const std::string& scad_path, const std::string& text) {
   constexpr const char* kTodo = "correct the design; this is what openscad reports";
   constexpr std::string_view kFile = " in file ", kLine = ", line ";
@@ -127,7 +127,7 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
   return Error(file, location, text.substr(0, file_at), kTodo);
 }
 
-/// What the running openscad writes and says.
+/// Reads what the running openscad writes and prints.
 class Listener {
  public:
   Listener(const ChildProcess& openscad, const Pipe& out, const Pipe& err, Messages& messages,
@@ -137,9 +137,9 @@ class Listener {
         messages_(messages),
         scad_path_(scad_path) {}
 
-  /// Until it has ended, or what it writes will be no .csg, whatever comes. What it has started may
-  /// hold the pipes open for longer: they are not read to their ends. Throws Stopped when
-  /// `stop_event` is to be read from (-1: never).
+  /// Reads until openscad has ended, or has written a start that no .csg has. The pipes are not
+  /// read to their ends, since programs that openscad has started may hold them open for longer.
+  /// Throws Stopped when `stop_event` becomes readable (-1: never).
   void listen(const std::function<void()>& waiting, int stop_event, const std::stop_token& stop) {
     while (!is_hopeless_) {
       if (openscad_.has_ended()) {
@@ -148,7 +148,7 @@ class Listener {
       }
       std::array<pollfd, 4> waits = {pollfd{pipes_[0], POLLIN, 0}, pollfd{pipes_[1], POLLIN, 0},
                                      pollfd{openscad_.end_descriptor(), POLLIN, 0},
-                                     pollfd{stop_event, POLLIN, 0}};  // poll passes over -1
+                                     pollfd{stop_event, POLLIN, 0}};  // poll ignores -1
       const int ready = poll(waits.data(), waits.size(), kWait_ms);
       if (ready < 0 && errno != EINTR) {
         throw std::system_error(errno, std::generic_category(), "openscad's output");
@@ -166,7 +166,7 @@ class Listener {
   FileText take_csg() { return csg_.take(); }
 
  private:
-  /// Standard output or standard error; as much as there is at once. The count of bytes.
+  /// Reads what there is on standard output or standard error. Returns the number of bytes.
   std::size_t read_from(std::size_t pipe) {
     std::array<char, 65536> said;
     std::span<char> room = said;
@@ -192,7 +192,7 @@ class Listener {
     return bytes;
   }
 
-  /// What stands in the pipes now; more may come for ever.
+  /// Reads what is in the pipes now; more may come for ever.
   void drain() {
     for (std::size_t i = 0; i < pipes_.size(); ++i) {
       int left = 0;
@@ -206,7 +206,7 @@ class Listener {
   }
 
   const ChildProcess& openscad_;
-  std::array<int, 2> pipes_;  // its standard output and standard error; -1: at its end
+  std::array<int, 2> pipes_;  // standard output and standard error; -1: at its end
   Messages& messages_;
   const std::string& scad_path_;
   GrowingText csg_{0};
@@ -258,7 +258,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
 
   if (listener.is_hopeless()) {
     if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());
-    return result;  // the parser says what is wrong
+    return result;  // the parser will say what is wrong
   }
   const int exit_code = openscad.wait();
   if (messages.first_error()) throw openscad_error(scad_path, *messages.first_error());

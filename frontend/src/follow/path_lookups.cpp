@@ -10,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // as the kernel has it
+constexpr int kMostLinks = 40;  // as in the kernel
 
-/// The names of a path, the first one last.
+/// Pushes the names of a path, the first one last.
 void push_names(const fs::path& path, std::vector<std::string>& names) {
   const std::size_t before = names.size();
   for (const fs::path& name : path.relative_path()) {
@@ -24,7 +24,7 @@ void push_names(const fs::path& path, std::vector<std::string>& names) {
 }  // namespace
 
 void visit_lookups(const std::string& path, const std::function<void(const PathLookup&)>& visit) {
-  std::vector<std::string> names;  // still to be looked up, the next one last
+  std::vector<std::string> names;  // names still to be looked up, the next one last
   push_names(path, names);
   fs::path folder = "/";
   for (int links = 0; !names.empty();) {

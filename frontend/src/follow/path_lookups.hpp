@@ -1,4 +1,4 @@
-// How the system gets from a path to a file.
+// Follows a path the way the system resolves it.
 #pragma once
 
 #include <functional>
@@ -6,16 +6,16 @@
 
 namespace frontend {
 
-/// One name looked up in one folder.
+/// The lookup of one name in one folder.
 struct PathLookup {
-  std::string folder;  // its path without links
+  std::string folder;  // its path, without links
   std::string name;
-  bool is_last = false;  // of the path, or of a link in its place: where the file itself lies
+  bool is_last = false;  // the last name of the path, or of a link in its place: the file itself
 };
 
-/// Calls `visit` for each name that an absolute path goes by, links' targets included, before that
-/// name is looked at: where visit watches the folder, no change is missed. Ends after the first
-/// name that is missing.
+/// Calls `visit` for each name that an absolute path is resolved through, links' targets included.
+/// The call comes before the name is examined, so that no change is missed if visit watches the
+/// folder. Ends after the first name that is missing.
 void visit_lookups(const std::string& path, const std::function<void(const PathLookup&)>& visit);
 
 }  // namespace frontend

@@ -13,7 +13,8 @@ using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// The normal of a plane's image under the linear map, which may be a mirror: by the cofactors.
+/// Returns the normal of a plane's image under the linear map, which may be a mirror, by its
+/// cofactors.
 Vec3 image_of_normal(const Mat3& map, const Vec3& normal) {
   return glm::normalize(glm::cross(map[1], map[2]) * normal.x +
                         glm::cross(map[2], map[0]) * normal.y +

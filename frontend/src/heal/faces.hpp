@@ -11,28 +11,28 @@ namespace frontend {
 
 /// A plane face in the world.
 struct Face {
-  csgcore::Vec3 center;  // on the plane, amid the corners
+  csgcore::Vec3 center;  // a point of the plane amid the corners
   csgcore::Vec3 normal;  // unit; a mirror keeps the side to which it points in local space
 };
 
 Face face_in_world(const PlaneFace& face, const csgcore::Affine& local_to_world);
 
-/// Finds the faces of primitives. Keeps those of polyhedra, by the polyhedron's address: polyhedra
-/// must outlive it.
+/// Finds the faces of primitives. Keeps those of polyhedra by the polyhedron's address, so that
+/// polyhedra must outlive this object.
 class Faces {
  public:
-  /// The primitive's faces in local coordinates; valid until the next call.
+  /// Returns the primitive's faces in local coordinates; valid until the next call.
   const PlaneFaces& of(const csgcore::Primitive& primitive);
-  /// The face under the primitive's present matrix.
+  /// Returns the face under the primitive's present matrix.
   Face at(const csgcore::Primitive& primitive, uint32_t face) {
     return face_in_world(of(primitive).faces[face], primitive.local_to_world);
   }
 
  private:
   std::unordered_map<const csgcore::Polyhedron*, PlaneFaces> known_;
-  const csgcore::Polyhedron* last_ = nullptr;  // most cubes come after a cube
+  const csgcore::Polyhedron* last_ = nullptr;  // so that a run of cubes is looked up once
   const PlaneFaces* last_faces_ = nullptr;
-  PlaneFaces found_;  // of the last primitive without a polyhedron
+  PlaneFaces found_;  // faces of the last primitive without a polyhedron
 };
 
 }  // namespace frontend

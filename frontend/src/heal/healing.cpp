@@ -19,43 +19,45 @@ using csgcore::Mat3;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-// Features that are closer than this part of the design's size are one already: the double
-// arithmetic of a chain of matrices does not place them better (each product costs 1e-16).
+// Features closer than this share of the design's size coincide already: double arithmetic does not
+// place them better after a chain of matrices (each product costs 1e-16).
 constexpr double kDoubleNoise = 1e-14;
-// Two numbers whose exact values are the same are printed the same: where the gap is the whole of
-// the two half units, the design's values differ. This keeps such a gap (and its own rounding) out.
+// Two numbers with the same exact value are printed the same. So a gap as large as both half units
+// together means that the design's values differ; this factor excludes it, and its own rounding.
 constexpr double kStrictly = 1 - 1e-6;
-// Distinct features that lie within one another's bounds are rare; where a file crowds more than
-// this of them together, the later ones are not compared with all of the earlier.
+// Distinct features within one another's bounds are rare. Where a file has more than this many of
+// them, the later ones are not compared with all earlier ones.
 constexpr size_t kMostRepresentatives = 16;
-// Columns of a circular cross-section are of one length and at right angles within this part: much
-// finer than 6 digits, since heal_matrix has made similarities exact, and coarser than the shears
-// that merging planes leaves behind.
+// The columns of a circular cross-section have one length and are at right angles within this
+// share. It is much finer than 6 digits, since heal_matrix has made similarities exact, and coarser
+// than the shears that merging planes leaves behind.
 constexpr double kCircular = 1e-5;
-// A polyhedron's face is moved along a direction that other faces run in. If it leads away from the
-// plane by less than this share (60° aslant), the polyhedron would move by more than twice the gap.
+// A polyhedron's face is moved along a direction in which other faces run. If a step in that
+// direction leads away from the plane by less than this share (60° aslant), the polyhedron would
+// move by more than twice the gap.
 constexpr double kLeastProgress = 0.5;
 
 // Directions that no design has on purpose. Features are sorted by one number, their projection
-// onto these; what is equal has equal numbers, and what differs has equal ones by accident only.
+// onto these. Equal features have equal numbers; different features have equal ones by accident
+// only.
 const Vec3 kOffsetProbe = glm::normalize(Vec3(0.61803398875, 0.41421356237, 0.73205080757));
 const Vec3 kDirectionProbe = glm::normalize(Vec3(-0.30277563773, 0.77200187266, 0.56155281281));
 
-/// How a point or plane of a design may differ from another's.
+/// The kinds of features that are made to coincide.
 enum class Feature : uint8_t { kPlane, kAxis, kCenter };
 
-/// A feature of a primitive in the order of their keys.
+/// A feature of a primitive, sorted by its key.
 struct Entry {
   double key;
-  double tolerance;  // the key is off by no more, whatever the rounding did
+  double tolerance;  // an upper bound of the key's error by rounding
   uint32_t primitive;
-  uint8_t face;  // of a plane
+  uint8_t face;  // number of a plane's face
 };
 
-/// Where the axis of a primitive that is round about one lies.
+/// The place of an axis, about which a primitive is round.
 struct AxisPlace {
-  std::array<Vec3, 2> point;  // two of the axis
-  Vec3 normal;                // unit, of the planes that were across the axis in local space
+  std::array<Vec3, 2> point;  // two points of the axis
+  Vec3 normal;                // unit; of the planes that are across the axis in local space
   Vec3 axis;                  // unit
 };
 
@@ -72,14 +74,14 @@ AxisPlace place_of(const Primitive& primitive, const Roundness& roundness) {
   return place;
 }
 
-/// All faces are in parallel pairs: the image of a cube.
+/// Returns whether the faces form three parallel pairs: the image of a cube.
 bool is_parallelepiped(const PlaneFaces& faces) {
   const auto has_opposite = [](const PlaneFace& face) { return face.opposite.has_value(); };
   return faces.faces.size() == 6 &&
          std::all_of(faces.faces.begin(), faces.faces.end(), has_opposite);
 }
 
-/// y ↦ y − shift − turn·(y − pivot).
+/// Moves each point y of the primitive to y − shift − turn·(y − pivot).
 void move(Primitive& primitive, const Vec3& pivot, const Vec3& shift, const Mat3& turn) {
   Affine& map = primitive.local_to_world;
   map.translation -= shift + turn * (map.translation - pivot);
@@ -119,7 +121,7 @@ class Merger {
     return csgcore::inverse(frame.to_world.linear) * (point - frame.to_world.translation);
   }
 
-  /// How far rounding may have turned a direction of the primitive, in radians.
+  /// Returns how far rounding may have turned a direction of the primitive, in radians.
   double turn_error(uint32_t primitive) const {
     const double error = frames_[frame_of_[primitive]].linear_error;
     if (error == 0) return 0;
@@ -129,7 +131,7 @@ class Merger {
     return 2 * error / least;
   }
 
-  /// The number that a direction and a point's place are sorted by, the same for ±direction.
+  /// Returns the sort key of a direction with a point's offset, the same for ±direction.
   double directed_key(Vec3 direction, const Vec3& offset, bool offset_is_along) const {
     if (glm::dot(direction, kOffsetProbe) < 0) direction = -direction;
     const double place = glm::dot(offset, offset_is_along ? direction : kOffsetProbe);
@@ -184,7 +186,7 @@ class Merger {
     std::vector<Entry> entries;
     entries.reserve(primitives_.size() * (kind == Feature::kPlane ? 2 : 1));
     for (uint32_t i = 0; i < primitives_.size(); ++i) add_entries(kind, i, entries);
-    // Sizes near the ends of double's range have neither places nor directions to compare.
+    // Features with sizes near the ends of double's range have no usable place or direction.
     std::erase_if(entries, [](const Entry& entry) {
       return !std::isfinite(entry.key) || !std::isfinite(entry.tolerance);
     });
@@ -192,7 +194,7 @@ class Merger {
       return a.key < b.key || (a.key == b.key && a.primitive < b.primitive);
     });
     for (size_t begin = 0, end; begin < entries.size(); begin = end) {
-      // A run of features each of which may be the next one.
+      // A run: each feature may coincide with the next one.
       bool rounded = !exact(entries[begin].primitive);
       for (end = begin + 1; end < entries.size(); ++end) {
         const double reach = entries[end].tolerance + entries[end - 1].tolerance + noise_;
@@ -205,7 +207,7 @@ class Merger {
     }
   }
 
-  /// The exact ones lead, then those first in the file: the rest follow them.
+  /// Exact features lead, then those first in the file; the others follow them.
   void merge_run(Feature kind, std::span<Entry> run) {
     std::sort(run.begin(), run.end(), [&](const Entry& a, const Entry& b) {
       const bool exact_a = exact(a.primitive);
@@ -237,8 +239,9 @@ class Merger {
     return false;
   }
 
-  /// How far apart, along the unit direction, rounding may have put a point that both primitives
-  /// have at `point`: what the matrices from each to their common frame explain.
+  /// Returns how far rounding may have separated, along the unit direction, a point that both
+  /// primitives have at `point`: as far as the matrices from each primitive to their common frame
+  /// explain.
   double explained(uint32_t a, uint32_t b, const Vec3& point, const Vec3& direction) const {
     const std::optional<uint32_t> common = frames_.common(frame_of_[a], frame_of_[b]);
     if (!common) return 0;
@@ -253,7 +256,8 @@ class Merger {
 
   bool is_noise(double gap) const { return std::abs(gap) <= noise_; }
 
-  /// The gap is nothing, or rounding explains it. The entries' tolerances bound what it can.
+  /// Returns whether the gap is noise, or rounding explains it. It is at most the sum of the
+  /// entries' tolerances, which are faster to compare.
   bool may_close(const Entry& leader, const Entry& entry, const Vec3& point, const Vec3& direction,
                  double gap) const {
     if (is_noise(gap)) return true;
@@ -275,7 +279,7 @@ class Merger {
     const Affine& map = primitives_[entry.primitive].local_to_world;
     const PlaneFaces& local = faces_.of(primitives_[entry.primitive]);
     const Face ours = face_in_world(local.faces[entry.face], map);
-    // The corners tell both the face's place and its tilt.
+    // The corners show both the place and the tilt of the face.
     double extent = 0;
     bool all_noise = true;
     for (const Vec3& corner_local : local.corners_of(local.faces[entry.face])) {
@@ -291,7 +295,7 @@ class Merger {
     return true;
   }
 
-  /// Moves the face, which reaches so far from its centre, onto the target's plane.
+  /// Moves the face, whose corners are at most `extent` from its centre, onto the target's plane.
   bool align_face(const Entry& entry, const Face& ours, const Face& target, double extent) {
     Primitive& primitive = primitives_[entry.primitive];
     const std::optional<Vec3> along = way_of(entry, ours, target.normal);
@@ -303,10 +307,10 @@ class Merger {
     const bool other_locked = other && locked(entry.primitive, *other);
     if (other_locked && !is_noise(glm::length(slope) * extent)) return false;
     const Vec3 other_center = other ? faces_.at(primitive, *other).center : Vec3(0.0);
-    // A shear that is constant along the way moves the parallel face alike …
+    // A shear along the way moves the parallel face in the same manner …
     move(primitive, ours.center, step * gap, glm::outerProduct(step, slope));
     if (!other || !(other_locked || others_run_along(primitive, ours.normal, *along))) return true;
-    // … and a stretch from the plane puts it back.
+    // … and a stretch from the target's plane puts that face back.
     const Vec3 moved = faces_.at(primitive, *other).center;
     move(primitive, target.center, Vec3(0.0),
          glm::outerProduct((moved - other_center) / glm::dot(target.normal, moved - target.center),
@@ -314,8 +318,8 @@ class Merger {
     return true;
   }
 
-  /// Faces that are not parallel to `normal` all run in the direction: a stretch along it moves
-  /// none of them out of its plane.
+  /// Returns whether all faces that are not parallel to `normal` run in the direction: then a
+  /// stretch along it moves none of them out of its plane.
   bool others_run_along(const Primitive& primitive, const Vec3& normal, const Vec3& direction) {
     for (const PlaneFace& face : faces_.of(primitive).faces) {
       const Vec3 other = face_in_world(face, primitive.local_to_world).normal;
@@ -326,14 +330,14 @@ class Merger {
     return true;
   }
 
-  /// The direction in which the face may move so that the others stay in their planes: all of a
-  /// parallelepiped, which has the freedom; those of another polyhedron that are locked. A cap
-  /// moves along its normal. None: it may not.
+  /// Returns the direction in which the face may move so that the other faces stay in their planes:
+  /// all of them in a parallelepiped, which has that freedom, and the locked ones in any other
+  /// polyhedron. A cap moves along its normal. Nothing if the face may not move.
   std::optional<Vec3> way_of(const Entry& entry, const Face& ours, const Vec3& normal) {
     const Primitive& primitive = primitives_[entry.primitive];
     const PlaneFaces& local = faces_.of(primitive);
     const bool keeps_all = is_parallelepiped(local);
-    std::vector<Vec3> kept;  // normals, no two of them parallel
+    std::vector<Vec3> kept;  // normals of those planes, no two of them parallel
     for (uint32_t face = 0; face < local.faces.size(); ++face) {
       if (!keeps_all && !locked(entry.primitive, face)) continue;
       const Vec3 other = face_in_world(local.faces[face], primitive.local_to_world).normal;
@@ -372,7 +376,7 @@ class Merger {
     return true;
   }
 
-  /// Moves the axis onto the line, along the planes across it: they stay where they are.
+  /// Moves the axis onto the line, along the planes across it, which stay in place.
   static void align_axis(Primitive& primitive, const AxisPlace& ours, const Vec3& line,
                          std::array<Vec3, 2> gaps) {
     for (Vec3& gap : gaps) gap -= line * (glm::dot(ours.normal, gap) / glm::dot(ours.normal, line));
@@ -397,8 +401,8 @@ class Merger {
     return true;
   }
 
-  /// World radius for each unit of local radius; 0 if the cross-section is not a circle (for what
-  /// is round about a centre: if the image is not).
+  /// Returns the world radius per unit of local radius; 0 if the cross-section is not a circle
+  /// (about a centre: if the image is not a sphere).
   static double radial_scale(const Primitive& primitive, const Roundness& roundness) {
     const Mat3& map = primitive.local_to_world.linear;
     const int columns = roundness.about == Roundness::About::kCenter ? 3 : 2;
@@ -412,8 +416,8 @@ class Merger {
     return scale;
   }
 
-  /// How far rounding may have put apart the radii of two primitives that both have a point at
-  /// `radius` (a vector in the world) from their axis.
+  /// Returns how far rounding may have separated the radii of two primitives that both have a point
+  /// at `radius` (a vector in the world) from their axis.
   double explained_radius(uint32_t a, uint32_t b, const Vec3& radius) const {
     const std::optional<uint32_t> common = frames_.common(frame_of_[a], frame_of_[b]);
     if (!common) return 0;
@@ -427,7 +431,7 @@ class Merger {
     return kStrictly * glm::dot(seen, error);
   }
 
-  /// Radii about the axis or centre that the two share.
+  /// Merges the radii about an axis or centre that the two primitives share.
   void merge_radii(uint32_t leader, uint32_t index) {
     if (exact(index)) return;
     Primitive& ours = primitives_[index];
@@ -466,7 +470,7 @@ class Merger {
   double size_;
   double noise_;
   static_assert(kMostComparedFaces <= 32, "a bit each");
-  std::vector<uint32_t> locks_;  // bit per face: its plane is shared, and may not move any more
+  std::vector<uint32_t> locks_;  // a bit per face: its plane is shared, and must not move any more
 };
 
 }  // namespace

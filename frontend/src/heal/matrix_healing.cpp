@@ -16,31 +16,32 @@ using csgcore::Affine;
 using csgcore::Mat3;
 using csgcore::Vec3;
 
-// Rounding noise of the double arithmetic, ours and OpenSCAD's, in a matrix with entries of at most
-// 1: a few dozen operations of 1.1e-16 each. It also takes what OpenSCAD prints where it means 0
-// (5.55112e-17).
+// Rounding noise of double arithmetic, ours and OpenSCAD's, in a matrix with entries of at most 1:
+// a few dozen operations of 1.1e-16 each. It includes what OpenSCAD prints for 0 (5.55112e-17).
 constexpr double kDoubleNoise = 1e-14;
-// A computed entry may lie on the very edge of its digit's interval: the edge itself is printed
-// either way.
+// A computed entry may lie exactly on an end of its digits' interval, which belongs to the
+// interval.
 constexpr double kTieSlack = 1 + 1e-9;
-// Angles with so many decimals (degrees) are taken for the design's own. A rounded matrix tells an
-// angle to about 6e-5 degrees, so that one angle in 170 has two decimals by chance; with three it
-// would be one in 17, so those are healed but go on counting as rounded.
+// An angle with at most kMeantDecimals decimals (degrees) is taken for the design's own. A rounded
+// matrix tells an angle to about 6e-5 degrees, so that by chance one angle in 170 has two decimals;
+// with three it would be one in 17, so that those are healed, but still count as rounded.
 constexpr int kMeantDecimals = 2;
 constexpr int kMostDecimals = 3;
-// Parts of a full turn, 360·i/q degrees, that loops over q copies use.
+// Loops over q copies turn by parts of a full turn, 360·i/q degrees.
 constexpr int kLeastParts = 7;
 constexpr int kMostParts = 97;
-// Scales of up to so many digits beside a rotation are taken for the design's own.
+// Beside a rotation, scales of up to this many digits are taken for the design's own.
 constexpr int kMeantScaleDigits = 3;
-// Rotation axes and mirror normals with whole components up to this are taken for the design's own.
+// Rotation axes and mirror normals with integer components up to this are taken for the design's
+// own.
 constexpr int kMostAxisComponent = 10;
 // Near y = ±90 degrees (cos y below this) x and z turn about the same axis, and only their sum is
-// known; such a matrix is healed as y = ±90 exactly or without looking for angles.
+// known. Such a matrix is healed as y = ±90 exactly, or without looking for angles.
 constexpr double kGimbalCosine = 1e-3;
-// Turning a matrix into the digits' intervals: so far within, since a step ends at the end of one;
-// entries of finer intervals than this share of the widest count no more; after so many steps there
-// is hardly a way. What is left after one round is of second order, 1e-13 of an entry that is 0.
+// Parameters of turning a matrix into its digits' intervals. kWithin: the share of each interval
+// that is aimed at, since a step ends at the end of one. kFinestShare: intervals finer than this
+// share of the widest have no more weight. kMostSteps: after so many there is hardly a solution.
+// kMostRounds: what one round leaves is of second order, 1e-13 of an entry that is 0.
 constexpr double kWithin = 0.999;
 constexpr double kFinestShare = 1e-2;
 constexpr int kMostSteps = 100;
@@ -69,9 +70,11 @@ double power_of_ten(int exponent) {
   return powers[exponent + kTable];
 }
 
-/// The exponent e with 10^e ≤ size < 10^(e+1). Far from 1 it may be one off just at a power of ten.
+/// Returns the exponent e with 10^e ≤ size < 10^(e+1). Far from 1 it may be one off just at a power
+/// of ten.
 int decimal_exponent(double size) {
-  constexpr int kNear = 6;  // where nearly all entries are, and a search beats the logarithm
+  constexpr int kNear = 6;  // nearly all entries are in this range, where a search beats the
+                            // logarithm
   if (size < power_of_ten(-kNear) || size >= power_of_ten(kNear)) {
     return static_cast<int>(std::floor(std::log10(size)));
   }
@@ -91,7 +94,7 @@ int64_t nearest_integer(double value) {
   return static_cast<int64_t>(value < 0 ? value - 0.5 : value + 0.5);
 }
 
-/// True if every entry of the candidate would be printed as the file has it.
+/// Returns whether every entry of the candidate would be printed as in the file.
 bool prints_alike(const Mat3& candidate, const Mat3& file, const Mat3& half) {
   bool alike = true;
   for_each_entry([&](int c, int r) {
@@ -101,7 +104,7 @@ bool prints_alike(const Mat3& candidate, const Mat3& file, const Mat3& half) {
   return alike;
 }
 
-/// The nearest orthogonal matrix (polar decomposition by Newton's iteration).
+/// Returns the nearest orthogonal matrix (polar decomposition by Newton's iteration).
 Mat3 nearest_orthogonal(Mat3 m) {
   for (int step = 0; step < kMostPolarSteps; ++step) {
     const Mat3 next = 0.5 * (m + glm::transpose(glm::inverse(m)));
@@ -114,23 +117,25 @@ Mat3 nearest_orthogonal(Mat3 m) {
   return m;
 }
 
-/// The matrix with `cross_product(w)·v = w × v`.
+/// Returns the matrix with `cross_product(w)·v = w × v`.
 Mat3 cross_product(const Vec3& w) {
   return Mat3(Vec3(0, w.z, -w.y), Vec3(-w.z, 0, w.x), Vec3(w.y, -w.x, 0));
 }
 
-/// What brings a matrix into the digits' intervals.
+/// A small change that brings a matrix into its digits' intervals.
 struct Correction {
-  Vec3 turn;  // by small angles
+  Vec3 turn;  // small angles
   double growth;
 };
 
-/// That of a similarity, S·(1 + [turn]× + growth) to first order: by least squares in units of the
-/// intervals, then away from the end that is furthest passed of all intervals, as long as one is
-/// (the relaxation method of Agmon, and of Motzkin and Schoenberg, 1954).
+/// Finds the correction of a similarity S, S·(1 + [turn]× + growth) to first order. It starts from
+/// least squares in units of the intervals. As long as an interval is missed, it then moves back
+/// from the one that is missed by most (the relaxation method of Agmon, and of Motzkin and
+/// Schoenberg, 1954).
 Correction find_correction(const Mat3& similarity, const Mat3& file, const Mat3& half,
                            bool free_scale) {
-  // How an entry of column c changes with the turns about axis c + 1, axis c + 2, and with growth.
+  // The derivatives of an entry of column c by the turns about axis c + 1 and axis c + 2, and by
+  // growth.
   Mat3 by_next, by_second, by_growth(0.0), per_length;
   const double finest = kFinestShare * largest_entry(half) + kDoubleNoise;
   glm::dmat4 squares(0.0);
@@ -158,7 +163,7 @@ Correction find_correction(const Mat3& similarity, const Mat3& file, const Mat3&
   const Mat3 least = file - kWithin * half - similarity;
   const Mat3 most = file + kWithin * half - similarity;
   for (int step = 0; step < kMostSteps; ++step) {
-    double furthest = 0;  // in turns and growth
+    double furthest = 0;  // as a length of turn and growth
     double excess = 0;
     int column = 0, row = 0;
     for_each_entry([&](int c, int r) {
@@ -182,7 +187,8 @@ Correction find_correction(const Mat3& similarity, const Mat3& file, const Mat3&
   return {Vec3(found), found[3]};
 }
 
-/// A rotation or mirror, times a factor near 1 if the scale is free, within the digits' intervals.
+/// Returns a rotation or mirror, times a factor near 1 if the scale is free, within the digits'
+/// intervals.
 std::optional<Mat3> similarity_within(const Mat3& file, const Mat3& half, bool free_scale) {
   Mat3 unit = nearest_orthogonal(file);
   double scale = 1;
@@ -195,7 +201,8 @@ std::optional<Mat3> similarity_within(const Mat3& file, const Mat3& half, bool f
   return std::nullopt;
 }
 
-/// One nonzero entry in each row and column: a scale, mirror or quarter turns, of any factors.
+/// Returns whether each row and column has one nonzero entry: a scale, mirror or quarter turn, with
+/// any factors.
 bool is_axis_aligned(const Mat3& m) {
   int rows = 0;
   for (int column = 0; column < 3; ++column) {
@@ -212,11 +219,11 @@ bool is_axis_aligned(const Mat3& m) {
 
 struct Scale {
   double factor;
-  bool is_short;  // a short decimal number, taken for the design's own
+  bool is_short;  // the factor is a short decimal number, taken for the design's own
 };
 
-/// The factor if the columns are orthogonal and of one length, as far as the digits tell: the
-/// shortest decimal number that explains their lengths, or else their mean.
+/// Returns the common factor if, within the digits, the columns are orthogonal and of one length:
+/// the shortest decimal number that explains their lengths, or else their mean.
 std::optional<Scale> uniform_scale(const Mat3& file, const Mat3& half) {
   std::array<double, 3> squares{};
   double slack = 0;
@@ -247,13 +254,13 @@ std::optional<Scale> uniform_scale(const Mat3& file, const Mat3& half) {
   return Scale{scale, false};
 }
 
-/// A rotation that prints as the file does.
+/// A rotation that is printed as in the file.
 struct Recognised {
   Mat3 rotation;
   bool meant;  // simple enough to be the design's own
 };
 
-/// The angles rounded to so few decimals that all three lie within `slack_deg`; none otherwise.
+/// Rounds the angles to that many decimals; nothing unless all three stay within `slack_deg`.
 std::optional<Vec3> rounded_angles(const Vec3& angles_deg, int decimals, double slack_deg) {
   const double unit = power_of_ten(decimals);
   Vec3 rounded;
@@ -264,7 +271,7 @@ std::optional<Vec3> rounded_angles(const Vec3& angles_deg, int decimals, double 
   return rounded;
 }
 
-/// 360·i/q degrees for one of the three angles, where the others are 0.
+/// Returns the angles with one of them rounded to 360·i/q degrees, if the other two are 0.
 std::optional<Vec3> part_of_turn(const Vec3& angles_deg, double slack_deg) {
   int turning = -1;
   for (int i = 0; i < 3; ++i) {
@@ -283,7 +290,7 @@ std::optional<Vec3> part_of_turn(const Vec3& angles_deg, double slack_deg) {
   return std::nullopt;
 }
 
-/// The angles with euler_rotation(angles) = m; at y = ±90 degrees with z = 0.
+/// Returns the angles with euler_rotation(angles) = m; at y = ±90 degrees, those with z = 0.
 Vec3 euler_angles_deg(const Mat3& m, double cos_y) {
   const double y = std::atan2(-m[0][2], cos_y);
   if (cos_y < kGimbalCosine) {
@@ -314,7 +321,7 @@ std::optional<Recognised> recognise_euler(const Mat3& file, const Mat3& half, do
 /// n·nᵀ.
 Mat3 projector(const Vec3& n) { return glm::outerProduct(n, n); }
 
-/// The direction with small whole components that lies within `slack` of the unit vector.
+/// Returns the direction with small integer components that is within `slack` of the unit vector.
 std::optional<Vec3> simple_direction(const Vec3& direction, double slack) {
   const Vec3 size = glm::abs(direction);
   const Vec3 relative = direction / std::max({size.x, size.y, size.z});
@@ -326,7 +333,8 @@ std::optional<Vec3> simple_direction(const Vec3& direction, double slack) {
       whole[i] = static_cast<double>(nearest_integer(component));
       distance = std::max(distance, std::abs(whole[i] - component));
     }
-    // Relative components are at least the unit vector's: this rejects no direction that is within.
+    // Components relative to the largest are at least the unit vector's, so that no direction
+    // within slack is rejected.
     if (distance > 4 * largest * slack) continue;
     const Vec3 unit = glm::normalize(whole);
     if (glm::length(unit - direction) <= slack) return unit;
@@ -334,7 +342,7 @@ std::optional<Vec3> simple_direction(const Vec3& direction, double slack) {
   return std::nullopt;
 }
 
-/// A mirror, I − 2·n·nᵀ, or a half turn, 2·n·nᵀ − I; `sign` is −1 for the half turn.
+/// Recognises a mirror, I − 2·n·nᵀ, or a half turn, 2·n·nᵀ − I; `sign` is −1 for the half turn.
 std::optional<Recognised> recognise_reflection(const Mat3& file, const Mat3& half, double widest,
                                                double sign) {
   const Mat3 square = 0.5 * (Mat3(1.0) - sign * file);
@@ -343,7 +351,7 @@ std::optional<Recognised> recognise_reflection(const Mat3& file, const Mat3& hal
     if (square[i][i] > square[column][column]) column = i;
   }
   const double length = glm::length(square[column]);
-  if (length < 0.5) return std::nullopt;  // a projector's longest column is at least 1/√3
+  if (length < 0.5) return std::nullopt;  // a projector's longest column has at least length 1/√3
   const std::optional<Vec3> normal = simple_direction(square[column] / length, 4 * widest / length);
   if (!normal) return std::nullopt;
   const Mat3 candidate = sign * (Mat3(1.0) - 2.0 * projector(*normal));
@@ -351,7 +359,7 @@ std::optional<Recognised> recognise_reflection(const Mat3& file, const Mat3& hal
   return Recognised{candidate, true};
 }
 
-/// OpenSCAD's rotate(a, v) about an axis with small whole components.
+/// Recognises OpenSCAD's rotate(a, v) about an axis with small integer components.
 std::optional<Recognised> recognise_axis_angle(const Mat3& file, const Mat3& half, double widest) {
   const Vec3 twice_sine(file[1][2] - file[2][1], file[2][0] - file[0][2], file[0][1] - file[1][0]);
   const double length = glm::length(twice_sine);
@@ -381,7 +389,7 @@ std::optional<Recognised> recognise(const Mat3& file, const Mat3& half) {
   return recognise_axis_angle(file, half, widest);
 }
 
-/// Axis-aligned and general matrices stay; what rounding may have done to them is their digits'.
+/// Keeps an axis-aligned or general matrix, with the rounding of its digits as its errors.
 void keep_linear(HealedMatrix& matrix) {
   for_each_entry([&](int c, int r) {
     const Digits digits = digits_of(matrix.map.linear[c][r]);
@@ -408,7 +416,7 @@ void heal_linear(HealedMatrix& matrix) {
   }
   if (found) matrix.map.linear = found->rotation * scale->factor;
   if (found && found->meant) return;
-  // The design's matrix and ours both lie within half a unit of the file's.
+  // Both the design's matrix and the healed one lie within half a unit of the file's.
   matrix.linear_error = 2.0 * half;
   matrix.exact = largest_entry(half) == 0;
 }
@@ -423,8 +431,8 @@ void bound_translation(HealedMatrix& matrix) {
   }
   if (!rounded) return;
   for (int i = 0; i < 3; ++i) {
-    // Beside a rounded number, one in ten of the numbers with five digits is a rounded one too, the
-    // sixth digit being 0.
+    // Beside a number with six digits, a number with five counts as rounded, too: by chance, one
+    // rounded number in ten has a sixth digit of 0.
     if (digits[i].count >= 5) matrix.translation_error[i] = digits[i].half_unit;
   }
   matrix.exact = false;
@@ -437,7 +445,7 @@ Digits digits_of(double value) {
   if (size == 0) return {0, 0};
   const int exponent = decimal_exponent(size);
   const double unit = power_of_ten(exponent - 5);
-  size *= power_of_ten(5 - exponent);  // six digits before the point
+  size *= power_of_ten(5 - exponent);  // so that six digits are before the point
   int64_t integer = nearest_integer(size);
   // Reading a decimal number and scaling it cost a few units in the 16th digit, 1e-10 here; a
   // seventh digit would be at least 0.1.
@@ -448,8 +456,8 @@ Digits digits_of(double value) {
     integer /= 10;
     --count;
   }
-  // %g gives what is just below a power of ten as that power (0.9999997 as 1), and for entries of
-  // a rotation that side is the only one: a power of ten has the unit of the numbers below it.
+  // A power of ten has the unit of the numbers below it: %g prints numbers just below it as that
+  // power (0.9999997 as 1), and entries of a rotation are never above 1.
   return {count, integer == 1 && count == 1 ? 0.05 * unit : 0.5 * unit};
 }
 

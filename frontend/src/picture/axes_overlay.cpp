@@ -12,15 +12,16 @@ namespace {
 using csgcore::Vec3;
 using csgcore::View;
 
-constexpr double kGnomonOrigin = 0.1;  // of the picture's width and height, from the lower left
-constexpr double kGnomonUnits = 180;   // units of the gnomon in the picture's height
-constexpr double kGnomonAxis = 10;     // in units
+constexpr double kGnomonOrigin = 0.1;  // from the lower left, as shares of the picture's width and
+                                       // height
+constexpr double kGnomonUnits = 180;   // the picture's height, in units of the gnomon
+constexpr double kGnomonAxis = 10;     // an axis, in these units
 constexpr double kGnomonLabel = 12;
 constexpr int64_t kHalfLetter_px = 3;
 
 const std::array<Vec3, 3> kAxes = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
 
-// The letters as OpenSCAD's lines come out, 6 pixels wide.
+// The letters' pixels as OpenSCAD's lines set them.
 constexpr std::array<std::string_view, 6> kLetterX = {"#....#", ".#..#.", "..##..",
                                                       "..##..", ".#..#.", "#....#"};
 constexpr std::array<std::string_view, 6> kLetterY = {"#....#", ".#..#.", "..##..",
@@ -28,8 +29,8 @@ constexpr std::array<std::string_view, 6> kLetterY = {"#....#", ".#..#.", "..##.
 constexpr std::array<std::string_view, 7> kLetterZ = {"######", "....#.", "...#..", "..#...",
                                                       ".#....", "#.....", "######"};
 
-/// (x, y): where its middle is to stand, in pixels from the top left corner. OpenSCAD rounds that,
-/// counting from the lower left.
+/// Draws a letter with its middle at (x, y), in pixels from the top left corner. The place is
+/// rounded as by OpenSCAD, which counts from the lower left.
 void draw_letter(Canvas& canvas, std::span<const std::string_view> letter, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
   const int64_t left = std::llround(x) - kHalfLetter_px;
@@ -58,7 +59,7 @@ void draw_gnomon(Canvas& canvas, const View& view, Rgb label_color) {
   const std::array<std::span<const std::string_view>, 3> letters = {kLetterX, kLetterY, kLetterZ};
   const double scale = view.height_px / kGnomonUnits;
   const ScreenPoint origin{kGnomonOrigin * view.width_px, (1 - kGnomonOrigin) * view.height_px, 0};
-  // It stands upright, also in a picture that does not.
+  // The gnomon is upright even in a picture that is upside down.
   const bool is_upright = glm::dot(glm::cross(view.right, view.up), view.forward) < 0;
   const Vec3 up = is_upright ? view.up : -view.up;
   const auto place = [&](std::size_t axis, double units) {

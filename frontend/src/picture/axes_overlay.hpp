@@ -1,4 +1,4 @@
-// OpenSCAD's --view=axes.
+// Draws OpenSCAD's --view=axes.
 #pragma once
 
 #include "picture/overlay_lines.hpp"

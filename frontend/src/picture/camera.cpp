@@ -18,7 +18,7 @@ constexpr double kHalfFov_deg = 11.25;  // OpenSCAD's vertical field of view is 
 double radians(double angle_deg) { return angle_deg * std::numbers::pi / 180; }
 double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
 
-/// Exact at multiples of 30°, where the sine is 0, ±½ or ±1, so that straight views are straight.
+/// Returns the sine, exact at multiples of 30° (0, ±½ or ±1), so that straight views are straight.
 double sine_of_degrees(double angle_deg) {
   constexpr std::array<double, 12> kSines = {
       0, 0.5,  std::numbers::sqrt3 / 2,  1,  std::numbers::sqrt3 / 2,  0.5,
@@ -31,11 +31,11 @@ double sine_of_degrees(double angle_deg) {
 }
 
 double cosine_of_degrees(double angle_deg) {
-  // The remainder first: adding 90 to a large angle would round it.
+  // The remainder comes first: adding 90 to a large angle would round it.
   return sine_of_degrees(std::fmod(angle_deg, 360.0) + 90);
 }
 
-/// OpenSCAD's rotate(angles): about x, then y, then z.
+/// Returns OpenSCAD's rotate(angles): about x, then y, then z.
 Mat3 rotation(const Vec3& angles_deg) {
   const double sx = sine_of_degrees(angles_deg.x), cx = cosine_of_degrees(angles_deg.x);
   const double sy = sine_of_degrees(angles_deg.y), cy = cosine_of_degrees(angles_deg.y);
@@ -48,7 +48,7 @@ Mat3 rotation(const Vec3& angles_deg) {
 
 double length(const Vec3& v) { return std::hypot(v.x, v.y, v.z); }
 
-/// The rotation that looks along `direction`, with z upwards.
+/// Returns the angles of the camera that looks along `direction`, with z upwards.
 Vec3 rotation_of_direction(const Vec3& direction) {
   const double level = std::hypot(direction.x, direction.y);
   const double x_deg = 90 + degrees(std::atan2(direction.z, level));
@@ -81,7 +81,7 @@ Camera choose_camera(const CameraOptions& options, const Box& view_box) {
   const bool view_all = sees_all(options);
   const bool auto_center = options.auto_center || !options.camera;
   if (!view_box.empty()) {
-    // Alone, auto_center does nothing: every OpenSCAD looks at it only where it views all.
+    // auto_center alone has no effect: every OpenSCAD heeds it only with view_all.
     if (view_all && auto_center) camera.target = view_box.center();
     if (view_all) {
       const double radius = length(view_box.center() - camera.target) + view_box.diagonal() / 2;

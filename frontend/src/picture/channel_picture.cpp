@@ -10,7 +10,7 @@ namespace {
 using Pixel = std::array<uint8_t, 3>;
 
 constexpr double kNearGrey = 255;
-constexpr double kFarGrey = 48;  // dark, and yet not the black of a Starnight background
+constexpr double kFarGrey = 48;  // dark, but not the black of a Starnight background
 
 bool is_hit(float z) { return std::isfinite(z); }
 
@@ -43,8 +43,9 @@ void show_normals(csgcore::Image& image) {
   }
 }
 
-/// Multiplication by an odd number permutes the numbers below 2^24, so no two ids below that share
-/// a colour; 2^24 over the golden ratio, made odd, sends neighbours far apart.
+/// Multiplication by an odd number permutes the numbers below 2^24, so that no two ids below that
+/// share a colour. The factor is 2^24 over the golden ratio, made odd, which sends neighbours far
+/// apart.
 Pixel color_of_id(uint32_t id) {
   constexpr uint32_t kGolden24 = 0x9E3779;
   const uint32_t mixed = (id + 1) * kGolden24;

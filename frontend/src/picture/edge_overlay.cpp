@@ -12,17 +12,17 @@ using csgcore::Image;
 using csgcore::Vec3;
 using csgcore::View;
 
-/// Depths are floats, and the renderers' may be off by a few ulp.
-constexpr double kSameDepth = 1e-5;  // of the depth
-/// Share by which a slope that is computed from a float normal may be off at a grazing angle.
+/// Depths are floats, and a renderer's may be off by a few ulp.
+constexpr double kSameDepth = 1e-5;  // as a share of the depth
+/// The relative error of a slope that is computed from a float normal at a grazing angle.
 constexpr double kSlopeError = 1e-3;
-/// From one pixel to the next the normal of a sphere turns at most 1 + √2 times as far as from that
-/// to its neighbour, or from the one before. Where it turns farther the surface is bent.
+/// From one pixel to the next, the normal of a sphere turns at most 1 + √2 times as far as in the
+/// steps before and after. Where it turns farther, the surface has a crease.
 constexpr float kMostGrowth = 3;
-/// Radians: what bends less is not seen.
+/// Creases of less than this angle (radians) are not visible.
 constexpr float kLeastBend = 0.01f;
 
-/// Looks at pairs of neighbours in a row or a column.
+/// Finds edges between neighbours in a row or a column.
 class EdgeFinder {
  public:
   EdgeFinder(const Image& image, const View& view)
@@ -34,7 +34,7 @@ class EdgeFinder {
         is_perspective_(view.projection == csgcore::Projection::kPerspective),
         is_edge_(image.rgb.size(), 0) {}
 
-  /// For each pixel whether an edge is drawn there.
+  /// Returns for each pixel whether an edge is drawn there.
   std::vector<uint8_t> find() {
     for (std::size_t row = 0; row < height_; ++row) {
       look_along(row * width_, 1, width_, view_.right, [&](std::size_t i) {
@@ -55,20 +55,23 @@ class EdgeFinder {
   }
   bool is_hit(std::size_t pixel) const { return std::isfinite(image_.z[pixel]); }
 
-  /// What is linear over a plane on the screen: 1/z in a perspective view, else z.
+  /// Returns the depth that is linear over a plane on the screen: 1/z in a perspective view, else
+  /// z.
   double linear_depth(std::size_t pixel) const {
     const double z = image_.z[pixel];
     return is_perspective_ ? 1 / z : z;
   }
-  /// How much that grows to the next pixel on the plane that touches the surface. `step`: world.
+  /// Returns how much the linear depth grows to the next pixel, on the plane that touches the
+  /// surface. `step` is the direction to that pixel in the world.
   double slope(std::size_t pixel, const Vec3& ray, const Vec3& step) const {
     const Vec3 normal(image_.normal[pixel]);
     const double along_step = pixel_ * glm::dot(normal, step);
     const double along_ray = glm::dot(normal, ray);
     return is_perspective_ ? along_step / (along_ray * image_.z[pixel]) : -along_step / along_ray;
   }
-  /// Whether the surface goes from one pixel to its neighbour without a gap: the depth grows by a
-  /// slope between theirs, since what is between them bends to one side, or once.
+  /// Returns whether the surface continues from one pixel to its neighbour without a gap. Then its
+  /// linear depth grows by a slope between those of the two pixels, as the surface between them
+  /// bends to one side, or once.
   bool is_continuous(std::size_t a, double slope_a, std::size_t b, double slope_b) const {
     const double growth = linear_depth(b) - linear_depth(a);
     const double size =
@@ -79,11 +82,13 @@ class EdgeFinder {
     return growth >= least - error && growth <= most + error;
   }
 
-  /// `count` pixels from `first` on, `stride` apart; ray(i) is the direction of the i-th.
+  /// Looks at `count` pixels from `first` on, at distances of `stride`; ray(i) is the direction of
+  /// the i-th.
   template <typename Ray>
   void look_along(std::size_t first, std::size_t stride, std::size_t count, const Vec3& step,
                   Ray ray) {
-    // How far the normal turns from a pixel to the next; less than 0: the surface does not go on.
+    // turns_[i + 1] is how far the normal turns from pixel i to the next; below 0: the surface ends
+    // there.
     turns_.assign(count + 2, -1);
     double slope_a = is_hit(first) ? slope(first, ray(0), step) : 0;
     for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -93,7 +98,7 @@ class EdgeFinder {
       if (is_hit(a) && is_hit(b) && is_continuous(a, slope_a, b, slope_b)) {
         turns_[i + 1] = glm::distance(image_.normal[a], image_.normal[b]);
       } else if (is_hit(a) || is_hit(b)) {
-        is_edge_[image_.z[a] <= image_.z[b] ? a : b] = 1;  // a miss is at infinity
+        is_edge_[image_.z[a] <= image_.z[b] ? a : b] = 1;  // the nearer one; a miss is at infinity
       }
       slope_a = slope_b;
     }

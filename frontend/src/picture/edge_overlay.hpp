@@ -1,4 +1,4 @@
-// --view=edges: the lines that a draughtsman would draw of the solid.
+// Draws --view=edges: the lines that a draughtsman would draw.
 #pragma once
 
 #include "csgcore/image.hpp"
@@ -7,8 +7,8 @@
 
 namespace frontend {
 
-/// Draws the creases and outlines that the measured channels show, 1 px wide, in the surface's
-/// colour half way to `background`. There are none where a surface goes on smoothly, whatever
+/// Draws the creases and outlines that the measured channels show, 1 px wide, in a colour half way
+/// between the surface's and `background`. A surface that continues smoothly has no edges, whatever
 /// primitives it is made of. Precondition: the image has its measured channels and the view's size.
 void draw_edges(csgcore::Image& image, const csgcore::View& view, Rgb background);
 

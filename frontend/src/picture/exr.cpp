@@ -12,13 +12,13 @@
 namespace frontend {
 namespace {
 
-// OpenEXR's C core: the C++ library above it costs half a millisecond of loading, in every run.
+// Uses OpenEXR's C core: loading the C++ library above it costs half a millisecond in every run.
 
 // Measured on a 640×480 picture that the model fills (1 thread, best of 7): none 13 ms and 14.8 MB,
 // RLE 41 ms and 11.3 MB, ZIP at level 1 206 ms and 7.6 MB. The digits of positions and normals are
 // noise to a compressor: half the size is not worth fifteen times the time.
 constexpr exr_compression_t kCompression = EXR_COMPRESSION_NONE;
-constexpr std::size_t kBytesPerPixel = 12 * 4;  // what is written, uncompressed
+constexpr std::size_t kBytesPerPixel = 12 * 4;  // in the file, uncompressed
 constexpr std::size_t kHeaderRoom = 1 << 16;    // for the header and the table of rows
 
 void check(exr_result_t result) {
@@ -56,7 +56,7 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
   exr_context_t get() const { return context_; }
-  /// Writes what the file's end lacks.
+  /// Writes the end of the file.
   void finish() { check(exr_finish(&context_)); }
 
  private:
@@ -72,7 +72,8 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Moves on to another chunk. True at the first, whose routines are still to be chosen.
+  /// Moves on to another chunk. Returns true for the first one, whose routines have not been chosen
+  /// yet.
   bool start_chunk(exr_context_t context, int part, const exr_chunk_info_t& chunk) {
     if (context_) {
       check(exr_encoding_update(context, part, &chunk, &pipeline_));
@@ -97,7 +98,7 @@ struct Channel {
   int stride;
 };
 
-/// R, G, B and A, which an Image does not hold as floats.
+/// Returns R, G, B and A as floats, which an Image does not have.
 std::vector<std::array<float, 4>> float_colors(const csgcore::Image& image) {
   std::vector<std::array<float, 4>> colors(image.rgb.size());
   for (std::size_t i = 0; i < colors.size(); ++i) {

@@ -1,4 +1,4 @@
-// Lines of single pixels in a picture, as OpenGL rasterises them.
+// Draws lines of single pixels into a picture, as OpenGL rasterises them.
 #pragma once
 
 #include <algorithm>
@@ -13,17 +13,17 @@
 namespace frontend {
 
 /// A point on the screen, in pixels from the top left corner, and its depth: 1/s in a perspective
-/// view, s in an orthographic one, which are what is linear along a line on the screen.
+/// view, s in an orthographic one. Both are linear along a line on the screen.
 struct ScreenPoint {
   double x, y, depth;
 };
 
-/// A point on the screen's raster: pixel `i` holds the positions in (i, i + 1], as the GL's does
-/// with x; with y, which runs downwards here, it holds [i, i + 1).
+/// The column or row of a place on the screen. As in OpenGL, column i holds x in (i, i + 1]; row i
+/// holds y in [i, i + 1), since y runs downwards here.
 inline double column_of(double x) { return std::ceil(x) - 1; }
 inline double row_of(double y) { return std::floor(y); }
 
-/// A picture and the colour to draw with.
+/// A picture, and the colour to draw with.
 class Canvas {
  public:
   Canvas(csgcore::Image& image, Rgb color) : image_(image), color_{color.r, color.g, color.b} {}
@@ -48,12 +48,12 @@ class Canvas {
   std::array<uint8_t, 3> color_;
 };
 
-/// Calls visit(column, row, depth, step) for the pixels from `a` up to but without `b`, one for
-/// each column or row, whichever the line crosses more of; `step` is the distance from `a`, in
-/// pixels.
+/// Calls visit(column, row, depth, step) for the pixels from `a` up to but without `b`: one for
+/// each column, or for each row if the line crosses more of them. `step` is the distance from `a`
+/// in that direction, in pixels.
 template <typename Visit>
 void walk_line(const Canvas& canvas, const ScreenPoint& a, const ScreenPoint& b, Visit visit) {
-  // Farther out, steps of a pixel drown in a double's rounding. Nothing that far ends in the
+  // Farther out, steps of a pixel vanish in a double's rounding. No line that long ends in the
   // picture.
   constexpr double kFarthest_px = 1e15;
   const bool along_x = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
@@ -64,7 +64,7 @@ void walk_line(const Canvas& canvas, const ScreenPoint& a, const ScreenPoint& b,
   if (!(std::abs(first) < kFarthest_px && std::abs(last) < kFarthest_px) || first == last) return;
   const double direction = last > first ? 1 : -1;
   const double size = static_cast<double>(along_x ? canvas.width() : canvas.height());
-  // Steps that leave the picture are not walked: an axis may be a billion pixels long.
+  // Steps outside the picture are skipped: an axis may be a billion pixels long.
   const double entry = direction > 0 ? -first : first - (size - 1);
   const double exit = direction > 0 ? size - first : first + 1;
   const double end = std::min(std::abs(last - first), exit);

@@ -8,12 +8,14 @@ namespace {
 
 using csgcore::Vec3;
 
-constexpr double kNearPlane = 0.1;    // of the camera's distance, where OpenSCAD clips its lines
+constexpr double kNearPlane = 0.1;    // share of the camera's distance at which OpenSCAD clips its
+                                      // lines
 constexpr double kStippleRun_px = 3;  // OpenSCAD's glLineStipple(3, 0xAAAA): 3 off, 3 on
-// An axis that lies in a face is drawn: z is a float, and the renderer's may be off by a few ulp.
-constexpr double kCoincidence = 1e-5;  // of the camera's distance
-/// The GL's grid within a pixel. On it an end that should lie between two pixels does so exactly,
-/// and the line is not drawn now in one, now in the other.
+// The tolerance for an axis that lies in a face, which is drawn: z is a float, and a renderer's may
+// be off by a few ulp.
+constexpr double kCoincidence = 1e-5;  // share of the camera's distance
+/// OpenGL's grid within a pixel. On it an end that is meant to lie between two pixels does so
+/// exactly, and the line does not jump from one to the other.
 constexpr double kSubpixels = 256;
 
 double snapped(double position_px) { return std::round(position_px * kSubpixels) / kSubpixels; }
@@ -41,14 +43,14 @@ void LinePainter::draw(const Vec3& from, const Vec3& to, LineStyle style) {
       });
 }
 
-/// (right, up, s).
+/// Returns (right, up, s).
 Vec3 LinePainter::to_eye(const Vec3& point) const {
   const Vec3 offset = point - view_.eye;
   return Vec3(glm::dot(offset, view_.right), glm::dot(offset, view_.up),
               glm::dot(offset, view_.forward));
 }
 
-/// Moves `point` onto the near plane if it lies before it. False if `other` does, too.
+/// Moves `point` onto the near plane if it lies in front of it. Returns false if `other` does, too.
 bool LinePainter::clip(Vec3& point, const Vec3& other) const {
   const double near = kNearPlane * distance_;
   if (!is_perspective_ || point.z >= near) return true;

@@ -1,4 +1,4 @@
-// Lines in space over a finished picture, hidden by the model.
+// Draws lines in space over a finished picture, where the model does not hide them.
 #pragma once
 
 #include "csgcore/geometry.hpp"
@@ -10,12 +10,12 @@ namespace frontend {
 
 enum class LineStyle : uint8_t {
   kSolid,
-  kStippled,  // 3 pixels off, 3 on, as OpenSCAD's
+  kStippled,  // 3 pixels off, 3 on, as in OpenSCAD
 };
 
 class LinePainter {
  public:
-  /// The view and the canvas, whose picture has its z channel, must outlive the painter.
+  /// The view, and the canvas, whose picture has its z channel, must outlive the painter.
   LinePainter(Canvas& canvas, const csgcore::View& view, const Camera& camera);
 
   /// Draws from `from` up to but without `to`, in world space, 1 px wide, where the model is not in

@@ -9,7 +9,7 @@ namespace {
 
 using csgcore::Vec3;
 
-/// They stay in the middle of the picture, whatever the camera looks at.
+/// Draws the crosshairs, which stay in the middle of the picture, whatever the camera looks at.
 void draw_crosshairs(LinePainter& painter, const Camera& camera) {
   const double reach = camera.distance / 8;
   for (const double x : {-reach, reach}) {

@@ -1,5 +1,5 @@
-// The container by hand, for deflate by ISA-L: no library that writes PNG lets another than zlib
-// compress, and zlib took a quarter of a small picture's whole run.
+// Writes PNG without a library, so that ISA-L can compress: libraries that write PNG use zlib
+// alone, which took a quarter of a small picture's whole run.
 #include <isa-l/crc.h>
 #include <isa-l/igzip_lib.h>
 
@@ -17,23 +17,23 @@
 namespace frontend {
 namespace {
 
-// Measured at 640×480, least of 15: CS1000 by igzip's level 1 1.0 ms and 109 KB; zlib's level 1 5.2
-// ms and 115 KB, libdeflate's 3.0 ms and 123 KB. R9 0.4 ms and 38 KB, 3.1 ms and 41 KB, 2.0 ms and
-// 31 KB. The filter ("up": what a row adds to the one above) saves a fifth of CS1000 and costs a
-// third of CS10000, whose parts are smaller than the steps it looks for.
+// Measured at 640×480, minimum of 15. CS1000: igzip's level 1 1.0 ms and 109 KB, zlib's level 1 5.2
+// ms and 115 KB, libdeflate's 3.0 ms and 123 KB. R9: 0.4 ms and 38 KB, 3.1 ms and 41 KB, 2.0 ms and
+// 31 KB. The filter "up" (each row minus the one above) saves a fifth of CS1000 and costs a third
+// of CS10000, whose parts are smaller than the steps it looks for.
 constexpr uint32_t kCompressionLevel = 1;
 constexpr std::byte kFilterUp{2};
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
 constexpr std::byte kBitDepth{8}, kTrueColor{2}, kStandard{0};
 
-/// A chunk may have 2³¹ − 1 bytes; readers like them much shorter.
+/// A chunk may have 2³¹ − 1 bytes, but readers prefer much shorter ones.
 constexpr std::size_t kLongChunkBytes = std::size_t{1} << 20;
-/// Rows are filtered and compressed so many at a time, while they are in the cache.
+/// Rows are filtered and compressed in batches of this size, while they are in the cache.
 constexpr std::size_t kBatchBytes = std::size_t{1} << 16;
 constexpr std::size_t kGrowth = std::size_t{1} << 17;
 
-/// The file so far.
+/// The bytes of the file so far.
 class PngFile {
  public:
   PngFile() { append(kSignature); }
@@ -44,7 +44,7 @@ class PngFile {
     append(type);
   }
   void close() {
-    const std::size_t first = chunk_ + sizeof(uint32_t);  // the type is part of the checksum
+    const std::size_t first = chunk_ + sizeof(uint32_t);  // the checksum includes the type
     const auto* checked = reinterpret_cast<const unsigned char*>(bytes_.data() + first);
     const uint32_t checksum = crc32_gzip_refl(0, checked, bytes_.size() - first);
     put_number(chunk_, static_cast<uint32_t>(bytes_.size() - first - kTypeBytes));
@@ -60,7 +60,7 @@ class PngFile {
     put_number(bytes_.size() - sizeof number, number);
   }
 
-  /// Compresses all of the stream's input into chunks of pixels, of which one is open.
+  /// Compresses all of the stream's input into pixel chunks, of which one is open.
   void compress(isal_zstream& stream) {
     do {
       if (bytes_.size() - chunk_ > kLongChunkBytes) {
@@ -91,7 +91,7 @@ class PngFile {
   }
 
   Bytes bytes_;
-  std::size_t chunk_ = 0;  // where the open one starts
+  std::size_t chunk_ = 0;  // where the open chunk starts
 };
 
 void append_header(const csgcore::Image& image, PngFile& file) {
@@ -104,7 +104,7 @@ void append_header(const csgcore::Image& image, PngFile& file) {
   file.close();
 }
 
-/// Rows as a PNG filters them.
+/// Filters rows as PNG defines it.
 class FilteredRows {
  public:
   explicit FilteredRows(const csgcore::Image& image)
@@ -117,7 +117,7 @@ class FilteredRows {
 
   bool at_end() const { return rows_left_ == 0; }
 
-  /// The next ones, until the next call.
+  /// Returns the next rows, which are valid until the next call.
   std::span<uint8_t> next() {
     uint8_t* to = batch_.data();
     for (; rows_left_ > 0 && to != batch_.data() + batch_.size(); --rows_left_) {

@@ -17,12 +17,12 @@ constexpr double kMark = 1 / 60.0;
 constexpr double kLongMark = 1 / 30.0;
 constexpr double kDigitWidth = 1 / 120.0;
 constexpr double kDigitAdvance = 1 / 80.0;
-// Heights over the axis. OpenSCAD's middle is not half way.
+// Heights above the axis. OpenSCAD's middle is not half way.
 constexpr double kDigitBottom = 1 / 240.0;
 constexpr double kDigitMiddle = 7 / 480.0;
 constexpr double kDigitTop = 1 / 48.0;
 
-/// Half an axis: where it runs, how its numbers are read, and to which side its marks point.
+/// A half-axis: its direction, that in which its numbers are read, and the side of its marks.
 struct HalfAxis {
   Vec3 direction, reading, up, mark;
 };
@@ -35,12 +35,11 @@ const std::array<HalfAxis, 6> kHalfAxes = {{
     {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(-1, 0, 0)},
 }};
 
-/// A character as one stroke through the corners of
+/// Returns a character as one stroke through the corners of
 ///   A B
 ///   C D
 ///   E F
-/// A 1 stands at the side where the origin is. What %g writes beyond these (the + of 1e+06) is
-/// left blank.
+/// A 1 is at the side of the origin. Characters of %g beyond these (the + of 1e+06) are blank.
 std::string_view stroke_of(char character, bool origin_is_left) {
   switch (character) {
     case '0':
@@ -74,7 +73,7 @@ std::string_view stroke_of(char character, bool origin_is_left) {
   }
 }
 
-/// The text of a mark, at the mark where the number begins or ends, whichever is nearer the origin.
+/// Writes a number at its mark. It begins or ends there, with the end that is nearer to the origin.
 void draw_number(LinePainter& painter, const HalfAxis& axis, const std::string& text, double at,
                  double distance) {
   const bool runs_outwards = glm::dot(axis.direction, axis.reading) > 0;
@@ -106,8 +105,8 @@ std::string number_text(double value) {
 void draw_scale_marks(LinePainter& painter, const Camera& camera) {
   const double distance = camera.distance;
   const double step = std::pow(10, std::floor(std::log10(distance)) - 1);
-  if (!std::isnormal(step)) return;  // distances too near 0 for a tenth of them
-  // Numbers at the long marks, or where these are few at every other one.
+  if (!std::isnormal(step)) return;  // the distance is too near to 0 for a tenth of it
+  // Numbers are at the long marks, or, if there are few of these, at every other mark.
   const int numbered = distance < 30 * step ? 2 : 10;
   for (int i = 0; i * step < distance; ++i) {
     const double at = i * step;

@@ -1,4 +1,4 @@
-// OpenSCAD's --view=scales.
+// Draws OpenSCAD's --view=scales.
 #pragma once
 
 #include "picture/overlay_lines.hpp"
@@ -6,7 +6,8 @@
 namespace frontend {
 
 /// Draws marks and numbers along the six half-axes, up to the camera's distance. The numbers lie in
-/// the planes that OpenSCAD draws them in: they are seen from the side where they are not.
+/// the planes in which OpenSCAD draws them, so that from some sides they are seen edge-on or
+/// mirrored.
 void draw_scale_marks(LinePainter& painter, const Camera& camera);
 
 }  // namespace frontend

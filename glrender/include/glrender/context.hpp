@@ -7,22 +7,22 @@
 
 namespace glrender {
 
-/// OpenGL is missing, too old, or failed; what() says what and what to do.
+/// Thrown where OpenGL is missing, too old, or fails; what() says which, and what to do.
 class GlError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Tiles have lists that no shader can evaluate. Cells still may be drawn.
+/// Thrown where a tile's list is too long for a shader. The same scene can still be drawn by cells.
 class ListsTooLong : public GlError {
  public:
   using GlError::GlError;
 };
 
-/// Owns an EGL display and a surfaceless context, current on the thread that made it; everything
-/// else in glrender must be used on that thread, within the context's lifetime. Takes the first
-/// hardware device (EGL_EXT_platform_device), else Mesa's surfaceless platform, which llvmpipe
-/// serves. Throws GlError.
+/// Owns an EGL display and a surfaceless context, which is current on the thread that made it.
+/// Everything else in glrender must be used on that thread, within the context's lifetime. The
+/// constructor takes the first hardware device (EGL_EXT_platform_device), else Mesa's surfaceless
+/// platform, which llvmpipe serves. It throws GlError.
 class HeadlessContext {
  public:
   HeadlessContext();
@@ -30,7 +30,7 @@ class HeadlessContext {
   HeadlessContext(HeadlessContext&&) noexcept;
   HeadlessContext& operator=(HeadlessContext&&) noexcept;
 
-  /// GL_RENDERER, as the driver says it.
+  /// The driver's GL_RENDERER.
   const std::string& renderer_name() const;
 
  private:

@@ -15,7 +15,7 @@ using csgcore::Ray;
 using csgcore::Vec3;
 using csgcore::View;
 
-/// Rays that are followed: of so many the average is known to some percent.
+/// The number of rays that are followed, from which the average is known to some percent.
 constexpr size_t kRays = 400;
 
 bool has_surface(const csgcore::Leaf& leaf) {
@@ -36,7 +36,7 @@ bool meets(const Ray& ray, const Box& box) {
   return from < to;
 }
 
-/// By the bounding rectangle of its corners, all of which lie before the eye.
+/// Tests the bounding rectangle of the box's corners, all of which must be in front of the eye.
 bool is_in_view(const View& view, const Box& box) {
   double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int corner = 0; corner < 8; ++corner) {
@@ -56,7 +56,7 @@ bool is_in_view(const View& view, const Box& box) {
          most[1] > -view.half_height;
 }
 
-/// Of pixels that show the solid, evenly taken.
+/// Returns rays of pixels that show the solid, taken evenly.
 std::vector<Ray> sampled_rays(const csgcore::Solid& solid, const View& view) {
   csgcore::Hits hits;
   csgcore::TraceStats stats;

@@ -1,4 +1,4 @@
-// What §4.1 of the paper says that T_R depends on.
+// Counts what T_R depends on, according to §4.1 of the paper.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@ namespace measure {
 
 struct CellCounts {
   uint64_t cells = 0;          // with a surface in them
-  uint64_t cells_in_view = 0;  // of these, whose bounds on the screen are in the picture
-  /// The depth complexity: so many cells the rays of the pixels that show the solid pass through,
-  /// on average.
+  uint64_t cells_in_view = 0;  // those whose bounds on the screen are in the picture
+  /// The depth complexity: the average number of cells that the rays of pixels which show the solid
+  /// pass through.
   double cells_per_pixel = 0;
 };
 

@@ -19,15 +19,15 @@ using csgcore::Vec3;
 
 using Polygon = std::vector<Vec3>;
 
-/// A half-space that holds the polygon but for so much of the model's size does not cut it.
+/// A half-space that contains the polygon up to this share of the model's size does not cut it.
 constexpr double kFlat = 1e-12;
 
 /// A faceted primitive in world space.
 struct Part {
   Mesh mesh;
-  std::vector<HalfSpace> half_spaces;  // normals of unit length
+  std::vector<HalfSpace> half_spaces;  // their normals have unit length
   Box box;
-  /// Balls within it and around it.
+  /// The centre of a ball inside it and of one around it.
   Vec3 center{0.0};
   double inner = 0, outer = 0;
 };
@@ -85,7 +85,7 @@ struct Halves {
   Polygon within, beyond;
 };
 
-/// By the half-space's plane. A part that is no thicker than `flat` is empty.
+/// Splits the polygon by the half-space's plane. A piece no thicker than `flat` is empty.
 Halves split(const Polygon& polygon, const HalfSpace& half_space, double flat) {
   thread_local std::vector<double> heights;
   heights.clear();
@@ -112,7 +112,7 @@ Halves split(const Polygon& polygon, const HalfSpace& half_space, double flat) {
   return halves;
 }
 
-/// What is within the part, and the half-spaces that it was cut by.
+/// The piece inside the part, and the half-spaces that it was cut by.
 struct Within {
   Polygon polygon;
   std::vector<const HalfSpace*> cuts;
@@ -133,7 +133,8 @@ Within within(Polygon polygon, const Part& part, double flat) {
   return result;
 }
 
-/// Whether an edge of the polygon lies in the half-space's plane: else later cuts have taken it.
+/// Returns whether an edge of the polygon lies in the half-space's plane. If not, later cuts have
+/// removed it.
 bool bounds(const HalfSpace& half_space, const Polygon& polygon, double flat) {
   size_t on_plane = 0;
   for (const Vec3& vertex : polygon) {
@@ -142,7 +143,8 @@ bool bounds(const HalfSpace& half_space, const Polygon& polygon, double flat) {
   return on_plane >= 2;
 }
 
-/// Appends what is left of the polygon, in few pieces: it is divided along the edges of what goes.
+/// Appends what remains of the polygon, in few pieces: it is divided along the edges of the removed
+/// part.
 void cut_away(const Polygon& polygon, const Part& part, double flat, std::vector<Polygon>& kept) {
   const Vec3 middle = box_of(polygon).center();
   double radius = 0, furthest = 0;
@@ -163,7 +165,7 @@ void cut_away(const Polygon& polygon, const Part& part, double flat, std::vector
   if (gone.polygon.empty()) kept.push_back(std::move(rest));
 }
 
-/// The first primitive's index comes first.
+/// Returns the operands, with the index of the first primitive first.
 std::vector<uint32_t> operands(const csgcore::Scene& scene) {
   std::vector<uint32_t> operands;
   for (const csgcore::CsgToken& token : scene.model.tokens()) {

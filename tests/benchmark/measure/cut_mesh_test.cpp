@@ -22,7 +22,8 @@ Affine at(const Vec3& place) {
   return map;
 }
 
-/// A cylinder minus balls that overlap each other, its wall and a cap, and one within all others.
+/// A cylinder minus balls that overlap each other, its wall and a cap, and minus one inside all
+/// others.
 Scene cut_cylinder(Op op = Op::kDifference) {
   Scene scene;
   scene.primitives = {csgcore::make_frustum(-2, 2, 1.5, 1.5),

@@ -7,7 +7,7 @@
 namespace measure {
 namespace {
 
-/// A million spheres take openscad minutes.
+/// openscad takes minutes for a million spheres.
 constexpr double kExportLimit_s = 1800;
 
 }  // namespace

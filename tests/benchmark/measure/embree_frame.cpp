@@ -19,7 +19,7 @@ namespace {
 using csgcore::View;
 using Rgb = std::array<uint8_t, 3>;
 
-/// A packet's rays are those of a block of pixels.
+/// The rays of a packet are those of a block of pixels.
 constexpr uint32_t kBlockWidth = 4;
 struct Packet8 {
   static constexpr uint32_t kRays = 8;
@@ -35,7 +35,7 @@ struct Packet16 {
     rtcIntersect16(valid, scene, &context, &rays);
   }
 };
-/// Pixels a side of what a task draws.
+/// The pixels per side of a task's tile.
 constexpr uint32_t kTile = 16;
 
 struct Eye {
@@ -79,7 +79,7 @@ void aim(const Eye& eye, uint32_t x, uint32_t y, Packet& packet) {
   }
 }
 
-/// OpenSCAD's light and colours.
+/// Shades with OpenSCAD's light and colours.
 Rgb shade(const glm::vec3& color, const glm::vec3& normal, const glm::vec3& to_light) {
   const float light =
       0.2f + std::abs(glm::dot(normal, to_light)) / std::sqrt(glm::dot(normal, normal));

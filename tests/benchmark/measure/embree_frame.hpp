@@ -1,4 +1,4 @@
-// Frames of a triangle mesh by Embree: primary rays and OpenSCAD's shading.
+// Draws frames of a triangle mesh by Embree: primary rays and OpenSCAD's shading.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,16 @@ namespace measure {
 
 class EmbreeFrame {
  public:
-  /// Builds the tree for the fastest rays, by `threads` threads. `is_cut` of a primitive: its faces
-  /// have the back colour.
+  /// Builds the tree for the fastest rays, with `threads` threads. `is_cut`, by primitive: its
+  /// faces have the back colour.
   EmbreeFrame(std::span<const CutTriangle> triangles, std::span<const char> is_cut,
               unsigned threads);
   ~EmbreeFrame();
 
-  /// What building the tree took.
+  /// The time that building the tree took.
   double build_ms() const;
 
-  /// By perspective views whose sides are multiples of 16 pixels: `rgb`, and `z` where measured
+  /// Draws perspective views whose sides are multiples of 16 pixels: `rgb`, and `z` if measured
   /// channels are wanted.
   void draw(const csgcore::View& view, const csgcore::FrameSettings& settings,
             csgcore::Image& image) const;

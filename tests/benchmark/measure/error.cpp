@@ -1,5 +1,5 @@
-// Time against error: what a user waits for a picture of a file, and how wrong it is, by scadray
-// and by what else would draw it.
+// Measures time against error: how long a user waits for a picture of a file, and how wrong it is,
+// with scadray and with its peers.
 //
 // {"picture": {"width_px", "height_px", "pixels"},
 //  "measures": {KEY: what it counts}: the keys of "error", and a sentence for each,
@@ -31,19 +31,19 @@ namespace {
 
 using nlohmann::json;
 
-/// What takes longer than this is run by itself, a few times; the rest in turn.
+/// Work that takes longer is run by itself, a few times; other work in turn.
 constexpr double kSlow_ms = 1'000;
 constexpr size_t kSlowRuns = 3;
-/// What takes longer than this is run once, if no bar asks for it.
+/// Work that takes longer is run once, unless a bar asks for it.
 constexpr double kVerySlow_ms = 6'000;
 constexpr Repetitions kInTurn{5, 9, 500};
-/// Before each run: what the one before leaves to do is not this one's (an X server starts over
-/// when OpenSCAD has gone, for some 50 ms).
+/// A pause before each run, so that what the run before it leaves to do does not count (an X server
+/// starts over when OpenSCAD has gone, for some 50 ms).
 constexpr std::chrono::milliseconds kPause{100};
-/// Twice the fragments take an exact solid about this many times as long.
+/// With twice the fragments, an exact solid takes about this many times as long.
 constexpr double kGrowth = 3.5;
 
-/// What has to be shown of scadray's whole process (the report names these bars).
+/// A bar for scadray's whole process, which the report names.
 struct Bar {
   const char *series, *setting, *design;
   bool by_trace;
@@ -72,13 +72,13 @@ bool is_of(const Bar& bar, const Candidate& candidate, const std::string& design
 struct Point {
   Candidate candidate;
   PictureErrors errors;
-  std::vector<double> first_ms;  // if it is slow: all its runs, the first among them
+  std::vector<double> first_ms;  // of slow work: all its runs, the first included
   Summary time, trace;
   std::shared_ptr<std::vector<double>> traces_ms = std::make_shared<std::vector<double>>();
 };
 
-/// Where a series has run out of time: finer facets of the same design are harder; and where even
-/// the coarsest solid took too long, so are all designs of as many primitives.
+/// Notes where a series has run out of time. Finer facets of the same design are harder; and if
+/// even the coarsest solid took too long, so do all designs of as many primitives.
 class Limits {
  public:
   struct Limit {
@@ -127,7 +127,7 @@ class SceneMeasurement {
   }
   ExactDesign& subject() { return subject_; }
 
-  /// The times.
+  /// Computes the times.
   void finish() {
     std::vector<Timed> works;
     std::vector<Point*> quick;
@@ -154,7 +154,7 @@ class SceneMeasurement {
   void add_ratios(json& ratios) const;
 
  private:
-  /// The limit on the time is a single work's.
+  /// The limit on the time applies to each work.
   static Repetitions in_turn(size_t works) {
     Repetitions repetitions = kInTurn;
     repetitions.long_enough_ms *= static_cast<double>(works);
@@ -205,7 +205,7 @@ class SceneMeasurement {
     points_.push_back(std::move(point));
   }
 
-  /// Unless only its first run was slow: a shader's, say, that was compiled.
+  /// Measures a slow point, unless only its first run was slow, by compiling a shader, for example.
   void measure_slow(Point& point, const Run& first) {
     point.first_ms.push_back(first.wall_ms);
     if (first.trace_ms) point.traces_ms->push_back(*first.trace_ms);
@@ -235,7 +235,7 @@ json json_of(const Point& point) {
   return result;
 }
 
-/// For each error that a peer reaches, scadray's quickest point of at most that.
+/// Returns for each error that a peer reaches scadray's quickest point with at most that error.
 json levels_of(const std::vector<Point>& points) {
   json levels = json::array();
   for (const Point& peer : points) {
@@ -298,10 +298,10 @@ void SceneMeasurement::add_ratios(json& ratios) const {
   }
 }
 
-/// From the easy to the hard.
+/// Returns the designs from the easy to the hard.
 std::vector<std::string> designs(const Settings& settings) {
   if (settings.quick) return {"r9", "cs100"};
-  // Those that bars ask for first.
+  // Designs that bars ask for come first.
   return {"r9", "cs1000", "cc1000", "cs100", "t1022", "flange", "knob", "bracket"};
 }
 

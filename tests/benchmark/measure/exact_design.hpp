@@ -1,4 +1,4 @@
-// A design of the sections about errors: its exact picture, and what it looks like in facets.
+// A design of the sections about errors, with its exact picture, and its picture in facets.
 #pragma once
 
 #include <map>
@@ -15,12 +15,12 @@
 
 namespace measure {
 
-/// One sample a pixel, and kSupersampling².
+/// The exact picture with one sample a pixel, and with kSupersampling².
 struct ExactPictures {
   Picture plain, antialiased;
 };
 
-/// What openscad makes of a design with one $fn for all of it.
+/// The facets that openscad makes of a design with one $fn for all of it.
 struct FacetedDesign {
   std::filesystem::path csg;
   csgcore::Scene scene;
@@ -31,8 +31,8 @@ struct FacetedDesign {
 /// A design, seen by OpenSCAD's default camera in 640×480.
 class ExactDesign {
  public:
-  /// What the exact ray oracle sees. Throws WrongAnswer where scadray's CPU tracer, whose colours
-  /// the exact pictures have, sees something else.
+  /// Traces the exact picture by the exact ray oracle. Throws WrongAnswer if scadray's CPU tracer,
+  /// whose colours the exact pictures have, sees something else.
   ExactDesign(std::string design, const Settings& settings);
 
   const std::string& design() const { return design_; }
@@ -43,22 +43,22 @@ class ExactDesign {
   /// --imgsize and --camera, to the last digit, in words that openscad and scadray know.
   const std::vector<std::string>& camera_arguments() const { return camera_arguments_; }
 
-  /// By the oracle: `s` and `primitive` alone.
+  /// The oracle's hits; only `s` and `primitive` are filled.
   const csgcore::Hits& exact() const { return exact_; }
-  /// By scadray's CPU tracer, in double.
+  /// The hits of scadray's CPU tracer, in double.
   const csgcore::Hits& traced() const { return traced_; }
   /// The diagonal of the model's box.
   double size() const { return size_; }
   const ExactPictures& pictures() const { return pictures_; }
-  /// As OpenSCAD's --render draws: without color().
+  /// The pictures as OpenSCAD's --render draws them: without color().
   const ExactPictures& rendered_pictures() const { return rendered_; }
-  /// "judge", "pixels", "undecided", "position_worst".
+  /// The JSON of the check: "judge", "pixels", "undecided", "position_worst".
   const nlohmann::json& check() const { return check_; }
 
-  /// By openscad's own export; kept. Throws std::runtime_error with openscad's words.
+  /// Returns openscad's own export, which is kept. Throws std::runtime_error with openscad's words.
   const FacetedDesign& faceted(uint32_t fragments);
 
-  /// A file of this design's in the work folder.
+  /// Returns the path of a file of this design in the work folder.
   std::filesystem::path file(const std::string& suffix) const;
 
  private:
@@ -77,10 +77,10 @@ class ExactDesign {
   std::map<uint32_t, FacetedDesign> faceted_;
 };
 
-/// The .csg as scadray reads it.
+/// Reads a .csg as scadray does.
 frontend::ImportedDesign read_csg(const std::filesystem::path& csg,
                                   const frontend::ImportOptions& options);
-/// As the command draws, in this program. Throws frontend::Error.
+/// Draws as the command does, but in this program. Throws frontend::Error.
 csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view,
                     const frontend::RenderSettings& settings);
 Picture picture_of(csgcore::Image image);

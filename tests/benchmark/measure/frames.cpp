@@ -35,7 +35,7 @@ using nlohmann::json;
 constexpr const char* kDesign = "cs1000";
 constexpr double kTurn_deg = 1;
 constexpr size_t kFrames = 60;
-/// Share of Embree's frame that scadray's may take: the bar that the report names.
+/// The share of Embree's time for a frame that scadray may take: the bar that the report names.
 constexpr double kMostOfEmbree = 0.5;
 
 /// OpenSCAD's default colours.
@@ -51,7 +51,7 @@ csgcore::FrameSettings cornfield() {
   return settings;
 }
 
-/// OpenSCAD's default camera, and how it turns.
+/// OpenSCAD's default camera, turned.
 class Turntable {
  public:
   explicit Turntable(const csgcore::Box& view_box) {
@@ -72,7 +72,7 @@ class Turntable {
 
 struct Program {
   std::string name, prepares;
-  std::function<double()> prepare;  // ms
+  std::function<double()> prepare;  // returns ms
   std::function<void(const View&, Image&)> draw;
 };
 
@@ -80,7 +80,7 @@ csgcore::Solid solid_of(const csgcore::Scene& scene) {
   return csgcore::Solid(csgcore::canonical_primitives(scene), scene.model);
 }
 
-/// Both ways of scadray's.
+/// Measures both techniques of scadray.
 class Scadray {
  public:
   Scadray(const csgcore::Scene& scene, unsigned threads) : scene_(scene), solid_(solid_of(scene)) {
@@ -117,10 +117,10 @@ class Scadray {
 
 #ifdef MEASURE_HAS_EMBREE
 constexpr int kFragments = 48;
-/// Float's rays, and neighbours that do not share their vertices: so many of the hits may differ
-/// from scadray's picture of the same facets.
+/// The share of the hits that may differ from scadray's picture of the same facets, since rays are
+/// in float, and neighbours do not share their vertices.
 constexpr double kMostDiffering = 2e-3;
-/// Depths that differ by so much of the distance are of other places.
+/// Depths that differ by more than this share of the distance are different places.
 constexpr double kSameDepth = 1e-4;
 
 class Embree {
@@ -150,7 +150,7 @@ class Embree {
             {"made_ms", mesh_ms_}};
   }
 
-  /// Throws WrongAnswer.
+  /// Compares the pictures. Throws WrongAnswer.
   json agreement(const View& view, const csgcore::Hits& facets, const csgcore::Hits& round) const {
     csgcore::FrameSettings settings = settings_;
     settings.measured_channels = true;
@@ -197,7 +197,7 @@ struct Times {
   std::vector<Summary> frames, preparations;
 };
 
-/// All draw the same frames, one after the other.
+/// Measures all programs, which draw the same frames one after the other.
 Times measure_all(const std::vector<Program>& programs, const Turntable& turntable, size_t frames) {
   Times times;
   for (const Program& program : programs) {

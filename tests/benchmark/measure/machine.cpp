@@ -13,7 +13,7 @@
 namespace measure {
 namespace {
 
-/// A program's words, and where its version stands in them.
+/// A program's words, and the place of its version in them.
 struct Peer {
   const char* name;
   std::vector<std::string> command;
@@ -73,13 +73,13 @@ std::string commit_of(const std::filesystem::path& folder) {
   };
   const ProcessResult head = git({"rev-parse", "--short=10", "HEAD"});
   if (!head.succeeded()) return "unknown";
-  // What this program and the report write is no change of what is measured.
+  // What this program and the report write does not change what is measured.
   const ProcessResult changes = git({"status", "--porcelain", "--untracked-files=no", "--", ":/",
                                      ":!/README.md", ":!/tests/benchmark/results"});
   return first_match(head.output, R"((\w+))") + (changes.output.empty() ? "" : "+");
 }
 
-/// Of a Debian package; empty if it is not installed.
+/// Returns the version of a Debian package; empty if it is not installed.
 std::string package_version(const std::string& package) {
   const ProcessResult result = run_process({"dpkg-query", "-W", "-f=${Version}", package});
   return result.succeeded() ? result.output : "";

@@ -1,4 +1,4 @@
-// What was measured, and on what.
+// Describes the machine, and what was measured.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,9 +7,9 @@
 
 namespace measure {
 
-/// "processor", "cores", "instruction_set" (of csgcore's packets), "memory_bytes", "system",
-/// "compiler", "commit" (of the working tree; with "+" if it was changed), "date" (UTC),
-/// "versions" of every peer that the machine has, by name.
+/// Returns "processor", "cores", "instruction_set" (of csgcore's packets), "memory_bytes",
+/// "system", "compiler", "commit" (of the working tree; with "+" if it was changed), "date" (UTC),
+/// and "versions" of every peer that the machine has, by name.
 nlohmann::json describe_machine(const Settings& settings);
 
 }  // namespace measure

@@ -1,5 +1,5 @@
-// Measures scadray and its peers: tests/benchmark/run calls it. Writes a results file (JSON), whose
-// other sections it keeps if they are of the same commit and machine.
+// Measures scadray and its peers; tests/benchmark/run calls it. Writes a results file (JSON), and
+// keeps the file's other sections if they are of the same commit and machine.
 #include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
@@ -22,7 +22,7 @@ std::string names_of_sections() {
   return names;
 }
 
-/// What the file holds of the same machine and commit; else nothing.
+/// Returns the sections of the file if they are of the same machine and commit; else nothing.
 json sections_kept(const std::filesystem::path& file, const json& machine) {
   std::ifstream stream(file);
   const json old = json::parse(stream, nullptr, false);
@@ -34,7 +34,7 @@ json sections_kept(const std::filesystem::path& file, const json& machine) {
   return old.value("sections", json::object());
 }
 
-/// All of it, or nothing: the old file stands until the new one is whole.
+/// Writes all or nothing: the old file stays until the new one is complete.
 void write(const std::filesystem::path& file, const json& results) {
   const std::filesystem::path fresh = file.string() + ".new";
   std::ofstream stream(fresh);

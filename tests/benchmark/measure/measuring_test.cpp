@@ -1,4 +1,4 @@
-// Repeated measurements, and other programs run and measured.
+// Tests repeated measurements, and running and measuring other programs.
 #include <gtest/gtest.h>
 #include <spng.h>
 
@@ -143,7 +143,7 @@ TEST(PeakMemory, CountsWhatIsHeldInBetweenOnly) {
   EXPECT_GE(*memory.bytes(), kBytes * 9 / 10);
 }
 
-/// An RGB picture of these bytes.
+/// Writes an RGB picture of these bytes.
 std::filesystem::path write_png(const std::string& name, uint32_t width, uint32_t height,
                                 const std::vector<uint8_t>& rgb) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;

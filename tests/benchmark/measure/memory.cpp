@@ -8,7 +8,7 @@
 namespace measure {
 namespace {
 
-/// A line of /proc/self/status that counts in kB.
+/// Reads a line of /proc/self/status that counts in kB.
 std::optional<uint64_t> status_bytes(const std::string& name) {
   std::ifstream file("/proc/self/status");
   for (std::string word; file >> word;) {
@@ -22,7 +22,7 @@ std::optional<uint64_t> status_bytes(const std::string& name) {
 
 PeakMemory::PeakMemory() {
   malloc_trim(0);
-  // Linux' proc(5): 5 resets the peak to what is held now.
+  // By Linux' proc(5), 5 resets the peak to what is held now.
   std::ofstream reset("/proc/self/clear_refs");
   reset << 5 << std::flush;
   if (reset) start_ = status_bytes("VmRSS");

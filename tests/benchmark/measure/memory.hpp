@@ -1,4 +1,4 @@
-// How much memory this program's own work takes.
+// Measures how much memory this program's own work takes.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,12 @@
 
 namespace measure {
 
-/// Watches the memory that this program holds, from now on; one at a time.
+/// Watches the memory that this program holds, from now on. There is one such object at a time.
 class PeakMemory {
  public:
   PeakMemory();
-  /// The most that was held since, above what was held at the start; none where the system does not
-  /// tell.
+  /// The most that was held since, beyond what was held at the start; nothing if the system does
+  /// not tell.
   std::optional<uint64_t> bytes() const;
 
  private:

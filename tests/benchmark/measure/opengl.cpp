@@ -42,7 +42,7 @@ constexpr const char* kDesigns[] = {"r9", "cs1000", "cc1000", "t1022", "cs10000"
 constexpr bench::Rule kRules[] = {bench::Rule{}, bench::kPaperRule};
 constexpr Technique kTechniques[] = {Technique::kTiles, Technique::kCells};
 
-/// On the CPU a frame of 4K takes seconds.
+/// On the CPU, a frame of 4K takes seconds.
 constexpr uint64_t kManyPixels = 3'000'000;
 
 RenderSettings settings_of(RendererKind renderer, Technique technique, const bench::Rule& rule) {
@@ -62,7 +62,7 @@ class OpenGlMeasurer {
     try {
       measure_all();
     } catch (const frontend::Error& error) {
-      // Of the first picture: what can draw that can draw them all.
+      // OpenGL is left out if it fails at the first picture. If it can draw one, it can draw all.
       if (!frames_.empty()) throw;
       left_out_.add("OpenGL", error.what());
     }
@@ -86,7 +86,7 @@ class OpenGlMeasurer {
           for (const Size& size : kSizes) {
             const bool is_large = size.width_px > kSizes[0].width_px;
             if (settings_.quick && is_large) continue;
-            // Seconds a frame, of which nothing is learnt that the small one does not tell.
+            // It would take seconds a frame, and teach nothing that the small one does not.
             if (is_software_ && is_large && rule.threshold_px > 0) continue;
             json frame = measure_size(subject, technique, rule, size);
             frame.update(answer);
@@ -97,7 +97,8 @@ class OpenGlMeasurer {
     }
   }
 
-  /// The picture against the CPU's, which is held against the reference. Throws WrongAnswer.
+  /// Compares the picture with the CPU's, which was compared with the reference. Throws
+  /// WrongAnswer.
   json check(const Subject& subject, Technique technique, const bench::Rule& rule) {
     const View view = default_view(subject, camera_options());
     require_exact(subject, view);

@@ -1,6 +1,6 @@
-// What the paper has measured (§4.1, table 1 and figure 14), in ms, on its two machines:
-// C1, a Pentium-M of 1.4 GHz with a GeForce FX Go5200; C2, an Athlon 64 3800+ with a GeForce 6800
-// GT. 640 × 480 pixels, a threshold of 1 pixel.
+// The paper's measurements (§4.1, table 1 and figure 14), in ms, on its two machines: C1, a
+// Pentium-M of 1.4 GHz with a GeForce FX Go5200; C2, an Athlon 64 3800+ with a GeForce 6800 GT.
+// Pictures have 640 × 480 pixels, and the threshold is 1 pixel.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ using csgcore::Vec3;
 using csgcore::View;
 using nlohmann::json;
 
-/// `csg` in n places, `step` apart.
+/// Returns `csg` in n places, `step` apart.
 std::string copied(const std::string& csg, int n, const Vec3& step) {
   std::ostringstream text;
   text.precision(17);

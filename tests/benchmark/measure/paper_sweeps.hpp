@@ -16,23 +16,23 @@ class PaperMeasurer {
       : settings_(settings), repetitions_(settings.repetitions) {}
 
   const Settings& settings() const { return settings_; }
-  /// Of curves of many points.
+  /// Takes fewer samples from now on, for curves of many points.
   void take_fewer_samples();
 
-  /// All of them, or the first two for --quick.
+  /// Returns all values, or the first two for --quick.
   template <typename Value>
   std::vector<Value> some(std::vector<Value> values) const {
     if (settings_.quick && values.size() > 2) values.resize(2);
     return values;
   }
 
-  /// {"design", "primitives", "pixels", "hits", "rules": [RULE, …]}. Throws WrongAnswer.
+  /// Returns {"design", "primitives", "pixels", "hits", "rules": [RULE, …]}. Throws WrongAnswer.
   nlohmann::json rules(const Subject& subject, const csgcore::View& view,
                        const std::vector<bench::Rule>& rules);
-  /// POINT.
+  /// Returns a POINT.
   nlohmann::json point(const Subject& subject, const csgcore::View& view);
 
-  /// "gl: " and GL_RENDERER; empty as long as nothing was measured by it.
+  /// "gl: " and GL_RENDERER; empty until something was measured by it.
   const std::string& opengl() const { return opengl_; }
   const std::vector<std::string>& left_out() const { return left_out_.reasons; }
 
@@ -43,15 +43,15 @@ class PaperMeasurer {
   LeftOut left_out_;
 };
 
-/// b of time ≈ a · cones^b by least squares of the logarithms, of the medians at `path` in the
-/// rules of that index; null where they are not there.
+/// Returns the exponent b of time ≈ a · cones^b, by least squares of the logarithms, for the
+/// medians at `path` in the rules of that index; null if there are none.
 nlohmann::json growth_exponent(const nlohmann::json& points, size_t rule, const std::string& path);
 
-/// The camera goes back: fewer pixels are covered by the same cells.
+/// The camera goes back, so that the same cells cover fewer pixels.
 nlohmann::json sweep_area(PaperMeasurer& measurer);
-/// The camera goes aside: fewer cells are in view.
+/// The camera goes aside, so that fewer cells are in view.
 nlohmann::json sweep_cells_in_view(PaperMeasurer& measurer);
-/// The design again and again behind itself, without perspective: the same pixels are covered.
+/// The design is repeated behind itself, without perspective, so that the same pixels are covered.
 nlohmann::json sweep_depth(PaperMeasurer& measurer);
 
 }  // namespace measure

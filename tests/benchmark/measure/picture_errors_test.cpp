@@ -11,7 +11,7 @@ namespace {
 
 using csgcore::Hits;
 
-/// Six pixels: three of primitive 4, 10 in depth, one of primitive 7 at 20, two misses.
+/// Six pixels: three of primitive 4, 10 in depth; one of primitive 7 at 20; two misses.
 Hits six_pixels() {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Hits hits;

@@ -1,4 +1,4 @@
-// Pictures that programs have written.
+// Reads pictures that programs have written.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace measure {
 
-/// 8 bits a channel, three channels a pixel, row by row from the top.
+/// A picture with 8 bits a channel and three channels a pixel, row by row from the top.
 struct Png {
   uint32_t width_px = 0;
   uint32_t height_px = 0;
@@ -15,10 +15,10 @@ struct Png {
   bool operator==(const Png&) const = default;
 };
 
-/// Any PNG as RGB. Throws std::runtime_error.
+/// Reads any PNG as RGB. Throws std::runtime_error.
 Png read_png(const std::filesystem::path& file);
 
-/// All of its pixels have one colour.
+/// Returns whether all pixels have one colour.
 bool is_blank(const Png& picture);
 
 }  // namespace measure

@@ -33,7 +33,7 @@ double ms_of(const timeval& time) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// The child's part between fork and exec: nothing but system calls.
+/// The child's part between fork and exec, which may only make system calls.
 [[noreturn]] void become(char* const* arguments, char* const* environment, const char* folder,
                          int output) {
   setpgid(0, 0);

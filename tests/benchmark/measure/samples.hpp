@@ -1,4 +1,4 @@
-// Repeated measurements of the same work, and what they come to.
+// Repeated measurements of the same work, and their summary.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace measure {
 
-// As `scadray bench` has them; every time in the results is a Summary.
+// The types of `scadray bench`; every time in the results is a Summary.
 using bench::Repetitions;
 using bench::summarise;
 using bench::Summary;
 
-/// Work that takes its own time: returns ms.
+/// Work that measures its own time, and returns it in ms.
 using Timed = std::function<double()>;
-/// Any work, timed by the clock on the wall.
+/// Returns work that is timed by the wall clock.
 Timed timed(std::function<void()> work);
 
-/// Measures all of them in turn, one of each a round, so that what else the machine does meets all
+/// Measures all works in turn, one of each a round, so that other load on the machine affects all
 /// alike. The first round warms up and does not count.
 std::vector<Summary> measure_in_turn(std::span<const Timed> works, const Repetitions& repetitions);
 Summary measure(const Timed& work, const Repetitions& repetitions);

@@ -1,5 +1,5 @@
-// How times grow: with primitives, with parts that cannot be seen, with pixels, with threads. In
-// memory, without files, by the CPU, in double.
+// Measures how times grow with primitives, parts that cannot be seen, pixels and threads. Scenes
+// are in memory, without files, and the CPU draws, in double.
 //
 // {"width_px", "height_px", "threads",
 //  "primitives": [{"family", "title", "rows": [{"primitives", "prepare_ms", "subdivide_ms",
@@ -37,11 +37,11 @@ using csgcore::View;
 using frame_benchmark::PictureSize;
 using nlohmann::json;
 
-/// Beyond it, only the two techniques are held against each other: the reference looks at every
-/// primitive for every ray.
+/// For larger scenes only the two techniques are compared with each other, since the reference
+/// tests every primitive for every ray.
 constexpr uint32_t kMostForReference = 100'000;
 
-/// A scene whose four stages are expected to take longer together is left out.
+/// A scene whose four stages together are expected to take longer is left out.
 constexpr double kMostPass_ms = 20'000;
 
 Repetitions repetitions_of(const Settings& settings, double pass_ms) {
@@ -50,7 +50,7 @@ Repetitions repetitions_of(const Settings& settings, double pass_ms) {
   return pass_ms > kLongPass_ms ? Repetitions{1, 1, 0} : Repetitions{3, 20, 1'000};
 }
 
-/// A scene from OpenSCAD's default camera, by both techniques.
+/// Draws a scene from OpenSCAD's default camera, by both techniques.
 class Drawn {
  public:
   Drawn(const Scene& scene, const PictureSize& size, unsigned threads)
@@ -62,7 +62,7 @@ class Drawn {
     settings_.back = glm::vec3{0.5f};
   }
 
-  // Each returns the ms that it took; what it replaces is freed before the clock starts.
+  // Each function returns the ms that it took; what it replaces is freed before the clock starts.
   double prepare() {
     subdivision_.reset();
     solid_.reset();
@@ -133,7 +133,7 @@ json row_of(const SceneFamily& family, uint32_t primitives, const Settings& sett
   });
   const std::optional<uint64_t> peak = memory.bytes();
   drawn->require_right(name);
-  // One after the other: each prepares what the next ones need.
+  // One after the other, since each prepares what the next ones need.
   const Timed works[] = {[&] { return drawn->prepare(); }, [&] { return drawn->subdivide(); },
                          [&] { return drawn->draw_by_tiles(); },
                          [&] { return drawn->draw_by_cells(); }};
@@ -212,7 +212,7 @@ json over_pixels(const SceneOfSize& subject, const Settings& settings) {
   if (settings.quick) megapixels.resize(1);
   json rows = json::array();
   for (const double mega : megapixels) {
-    // 4 : 3, as 640×480 is.
+    // 4 : 3, as 640×480.
     const auto unit = static_cast<uint32_t>(std::lround(std::sqrt(mega * 1e6 / 12)));
     const PictureSize size{4 * unit, 3 * unit};
     Drawn drawn(scene, size, settings.threads);

@@ -54,8 +54,8 @@ Scene parts(uint32_t primitives) {
 
 Scene random_tree(uint32_t primitives) { return test_support::random_tree(primitives, kSeed); }
 
-/// CSn's primitives, subtracted and added in turn, each from and to all before it: a tree as deep
-/// as it has primitives.
+/// CSn's primitives, subtracted and added in turn, each from and to all before it. The tree is as
+/// deep as it has primitives.
 Scene deep(uint32_t primitives) {
   Scene scene = minus_spheres(primitives);
   const auto count = static_cast<uint32_t>(scene.primitives.size());

@@ -1,4 +1,4 @@
-// Scenes of any number of primitives.
+// Scenes with any number of primitives.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace measure {
 
 struct SceneFamily {
   const char* name;   // in the results
-  const char* title;  // to be read
-  /// Of about so many primitives, at least 10; always the same.
+  const char* title;  // for readers
+  /// Makes a scene of about `primitives` primitives, at least 10; always the same.
   csgcore::Scene (*make)(uint32_t primitives);
 };
 std::span<const SceneFamily> scene_families();

@@ -1,4 +1,4 @@
-// What is measured, in sections: each checks its answers before it takes a time.
+// The sections of the measurements. Each checks its answers before it takes a time.
 #pragma once
 
 #include <filesystem>
@@ -14,29 +14,29 @@
 namespace measure {
 
 struct Settings {
-  /// What the measured programs are: those of the build that this program is of.
+  /// The programs that are measured, of the same build as this program.
   std::filesystem::path scadray;
   std::filesystem::path examples;
-  /// Designs are exported into it, and pictures written; kept from run to run.
+  /// The folder for exported designs and pictures, which is kept from run to run.
   std::filesystem::path work_folder;
-  /// A peer that takes longer for one picture is left out there, and from all that is harder.
+  /// If a peer takes longer for a picture, that picture and all harder ones are left out for it.
   double peer_limit_s = 60;
   /// The largest scene of the sections about size.
   uint32_t most_primitives = 1'000'000;
-  /// A few of each kind only: to see that all works.
+  /// Measure only a few of each kind, to see that everything works.
   bool quick = false;
   unsigned threads = 2;
   Repetitions repetitions{};
-  /// A long section hands over what it has so far, so that what ends it early costs the rest alone.
+  /// A long section hands over its results so far, so that an early end loses only the rest.
   std::function<void(const nlohmann::json& so_far)> keep = [](const nlohmann::json&) {};
 };
 
-/// A picture that is not what it has to be: no time of it may be seen.
+/// A picture is wrong: none of its times may be reported.
 struct WrongAnswer : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Progress, on stderr: a line.
+/// Writes a line of progress to stderr.
 void say(const std::string& line);
 
 /// A list of strings "what: why", under "left_out" of a section: what the machine does not have, or
@@ -49,7 +49,7 @@ struct LeftOut {
 struct Section {
   const char* name;
   const char* title;
-  /// Throws WrongAnswer.
+  /// Measures the section. Throws WrongAnswer.
   nlohmann::json (*measure)(const Settings& settings);
 };
 std::span<const Section> sections();

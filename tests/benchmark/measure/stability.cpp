@@ -1,5 +1,5 @@
-// How far scenes can be pushed: the stress suite's kinds of hardness, each as a curve over its
-// parameter, by the CPU in double and by OpenGL in float, against rays in exact arithmetic.
+// Measures how far scenes can be pushed: the stress suite's kinds of hardness, each as a curve over
+// its parameter, by the CPU in double and by OpenGL in float, against rays in exact arithmetic.
 //
 // {"width_px", "height_px", "gl_renderer" (if there is one),
 //  "curves": [{"name", "title": what is drawn, "parameter": what is varied,
@@ -65,7 +65,7 @@ Subject seen(const Part& part) {
   return subject;
 }
 
-/// Drilled and filled, with faces that coincide, and bitten by balls.
+/// A block, drilled and filled, with faces that coincide, and bitten by balls.
 Part block() {
   const Part body = stress::rod(0, 10, 8) - stress::rod(4, 10, 5) - stress::rod(0, 4, 2);
   std::vector<Part> bites;
@@ -83,9 +83,9 @@ Subject far_camera(double distance) {
   return {std::move(scene), view};
 }
 
-/// A bowl and a cup, cut open, with walls of that share of the model's size.
+/// A bowl and a cup, cut open, with walls of `share` of the model's size.
 Subject thin_walls(double share) {
-  const double wall = share * 12;  // the model's diagonal, about
+  const double wall = share * 12;  // about the model's diagonal
   const Part bowl = stress::ball(3) - stress::ball(3 - wall) - stress::rod(-4, 4, 3, {-3, 0, 0});
   const Part cup = stress::rod(0, 4, 2, {0, 6, 0}) - stress::rod(wall, 4, 2 - wall, {0, 6, 0});
   return seen(bowl + cup);
@@ -94,12 +94,13 @@ Subject thin_walls(double share) {
 Subject scaled(double scale) { return seen(block().under({csgcore::Mat3{scale}, Vec3{0.0}})); }
 
 Subject moved_away(double sizes) {
-  const double far = sizes * 20;  // the model's diagonal, about
+  const double far = sizes * 20;  // about the model's diagonal
   return seen(block().at({far, -far, far}));
 }
 
-/// Looked at along faces that coincide: a plate with holes, filled flush, and a ball that touches
-/// it. The lower the eye, the less of the plate's breadth is in the picture; of its length, all is.
+/// Looks along faces that coincide: a plate with holes, filled flush, and a ball that touches it.
+/// The lower the eye, the less of the plate's breadth is in the picture; its length is always
+/// whole.
 Subject grazed(double angle_deg) {
   std::vector<Part> holes;
   for (const double x : {-5.0, 0.0, 5.0}) holes.push_back(stress::rod(-2, 0, 1.5, {x, 0, 0}));
@@ -115,7 +116,7 @@ Subject grazed(double angle_deg) {
   return subject;
 }
 
-/// 10^first, 10^(first + step), … 10^last.
+/// Returns 10^first, 10^(first + step), … 10^last.
 std::vector<double> powers(int first, int last, int step = 1) {
   std::vector<double> values;
   for (int digits = first; digits <= last; digits += step) values.push_back(std::pow(10., digits));
@@ -170,7 +171,7 @@ Hits by_gl(glrender::HeadlessContext& context, const Scene& scene, const Solid& 
 }
 #endif
 
-/// Draws in float, where there is an OpenGL.
+/// Draws in float, if there is an OpenGL.
 class FloatRenderer {
  public:
   explicit FloatRenderer(LeftOut& left_out) {

@@ -26,13 +26,13 @@ using nlohmann::json;
 
 constexpr uint32_t kWidth_px = 640, kHeight_px = 480;
 
-/// Of the drawing program, for one picture: far beyond any.
+/// The limit for the drawing program, for one picture: far beyond any.
 constexpr double kLimit_s = 300;
 
 struct Design {
   const char* name;
   const char* family;
-  uint32_t primitives;  // those it is named for
+  uint32_t primitives;  // the number in their name
   std::optional<double> bar_ms{};
   std::optional<double> bar_bytes{};
 };
@@ -103,7 +103,8 @@ class MeasuredRun {
   std::filesystem::path csg_, picture_, stats_;
 };
 
-/// By two methods that share no more than a ray's evaluation; and with something to see.
+/// Compares two methods that share no more than a ray's evaluation, and checks that something is
+/// seen.
 void require_right(const MeasuredRun& drawing) {
   const std::string name = drawing.csg().stem();
   const Png by_default = drawing.picture({});
@@ -118,7 +119,7 @@ void require_right(const MeasuredRun& drawing) {
   }
 }
 
-/// What the program says of its own stages, over several runs.
+/// The times that the program reports of its own stages, over several runs.
 class Stages {
  public:
   void add(const json& stats) {
@@ -167,7 +168,7 @@ json measure_design(const Design& design, const Settings& settings) {
   return row;
 }
 
-/// From each design of a family to the next larger one.
+/// Returns the growth from each design of a family to the next larger one.
 json growth_of(const json& rows) {
   json growth = json::array();
   for (size_t i = 1; i < rows.size(); ++i) {

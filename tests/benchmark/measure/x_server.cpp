@@ -12,10 +12,10 @@ namespace measure {
 namespace {
 
 constexpr int kStartLimit_ms = 20'000;
-/// Where Xvfb writes the number that it has chosen.
+/// The descriptor to which Xvfb writes the number that it has chosen.
 constexpr int kAnswer = 3;
 
-/// Up to the line's end; empty if none comes in time.
+/// Reads up to the end of a line; empty if none comes in time.
 std::string read_line(int pipe) {
   std::string line;
   for (;;) {
@@ -32,7 +32,7 @@ std::string read_line(int pipe) {
 XServer::XServer() {
   int pipe[2];
   if (pipe2(pipe, O_CLOEXEC) != 0) return;
-  // Beyond kAnswer, so that dup2 makes a descriptor that exec keeps.
+  // The number is beyond kAnswer, so that dup2 makes a descriptor that exec keeps.
   const int writing = fcntl(pipe[1], F_DUPFD_CLOEXEC, kAnswer + 1);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

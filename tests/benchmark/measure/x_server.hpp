@@ -10,7 +10,7 @@ namespace measure {
 /// An Xvfb of this program's own, until its end.
 class XServer {
  public:
-  /// Waits until it serves. `running()` is false where there is no Xvfb, or it fails.
+  /// Waits until the server answers. running() is false if there is no Xvfb, or it fails.
   XServer();
   ~XServer();
   XServer(const XServer&) = delete;

@@ -1,4 +1,4 @@
-// What the report says and draws of each section.
+// Tests what the report says and draws of each section.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(Report, SaysWhatTheResultsHold) {
   EXPECT_THAT(text,
               HasSubstr("| CS100 | 101 | 1 MB | 8 (7.60–8.80) | 12 | 20 MB | 10 ms: reached |"));
   EXPECT_THAT(text, HasSubstr("| 15 ms: missed |"));
-  // In time, but in too much memory.
+  // The bar for the time is reached, that for the memory is missed.
   EXPECT_THAT(text, HasSubstr("| 40 ms, 10 MB: missed |"));
   EXPECT_THAT(text, HasSubstr("CS grows as n^0.301 from 1,001 to 10,001"));
   EXPECT_THAT(text, HasSubstr("](whole.svg)"));
@@ -38,7 +38,7 @@ TEST(Report, SaysWhatTheResultsHold) {
   EXPECT_THAT(names_of(made.figures), testing::ElementsAre("whole"));
 }
 
-/// Of a program's setting: pixels that are wrong and the depth, or null.
+/// A program's point at one setting: wrong pixels and the depth, or null.
 json error_point(const char* series, const char* setting, double ms, json wrong, json depth) {
   return {{"series", series},
           {"setting", setting},
@@ -91,14 +91,14 @@ TEST(Report, PlotsErrorsOverTimes) {
   const Report made = report::make_report(results_of({{"error", time_against_error()}}));
   ASSERT_THAT(names_of(made.figures), testing::ElementsAre("error_cs1000"));
   const report::Panel& wrong = made.figures[0].panels.at(0);
-  ASSERT_EQ(wrong.series.size(), 3u);  // one a program
+  ASSERT_EQ(wrong.series.size(), 3u);  // one per program
   EXPECT_EQ(wrong.series[1].name, "OpenSCAD preview");
   ASSERT_EQ(wrong.series[1].points.size(), 2u);
   EXPECT_EQ(wrong.series[1].points[0].x, 1'000);
-  EXPECT_EQ(wrong.series[1].points[0].y, 0.01);  // of the picture's pixels
+  EXPECT_EQ(wrong.series[1].points[0].y, 0.01);  // a share of the picture's pixels
   EXPECT_EQ(wrong.series[0].points[0].y, 0);
   EXPECT_EQ(wrong.y.zero_at, 1e-3);  // below 965 of 307,200
-  // What cannot be had is not drawn.
+  // An unknown error is not drawn.
   EXPECT_EQ(made.figures[0].panels.at(1).series.size(), 2u);
 }
 
@@ -108,7 +108,7 @@ TEST(Report, SaysByHowMuchItIsAhead) {
   EXPECT_THAT(text,
               HasSubstr("| OpenSCAD preview, $fn=48 | CS1000 | 4,800 | 10 | 480 | 200: reached |"));
   EXPECT_THAT(text, HasSubstr("| POV-Ray | CS1000 | 150 | 10 | 15 | 25: missed |"));
-  // The worst of its two levels.
+  // The worse of its two levels.
   EXPECT_THAT(text, HasSubstr("| OpenSCAD preview | 2 | CS1000 | $fn=12 | wrong | 965 | 1,000 | "
                               "scadray CPU | 0 | 10 | 100 |"));
   EXPECT_THAT(text, HasSubstr("| POV-Ray |  | 1,500 (1,425–1,650) | 0 | 3 | – | – | – |"));
@@ -175,10 +175,10 @@ TEST(Report, TakesTheQuickestTechniqueOfOpenGl) {
   EXPECT_THAT(made.markdown, HasSubstr("reached).\n"));
   EXPECT_THAT(made.markdown, HasSubstr("| 2 of 90,000 |"));
   ASSERT_EQ(made.figures.size(), 1u);
-  EXPECT_EQ(made.figures[0].panels.size(), 1u);  // none for cs10000, which is not there
+  EXPECT_EQ(made.figures[0].panels.size(), 1u);  // none for cs10000, which is missing
 }
 
-/// A rule's times; by OpenGL, too, if `wrong` is one.
+/// A rule's times; also by OpenGL, if `wrong` is a number.
 json rule_times(int k, double threshold_px, double ms, json wrong) {
   json rule{{"leaf_primitives", k},
             {"threshold_px", threshold_px},

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What the plots show of an error, one panel each.
+/// The errors that the plots show, in a panel each.
 struct Measure {
   const char* key;
   const char* title;
@@ -23,12 +23,12 @@ bool has_error(const json& point, const char* measure) {
   return point.at("error").contains(measure) && !point.at("error").at(measure).is_null();
 }
 
-/// Errors of pixels are counts; as shares they do not depend on the picture's size.
+/// Errors of pixels are counts, but as shares they do not depend on the picture's size.
 double unit_of(const Measure& measure, double pixels) {
   return std::string(measure.key) == "wrong" ? pixels : 1;
 }
 
-/// Half a decade or more below the least error: where errors of 0 are drawn.
+/// Returns where errors of 0 are drawn: half a decade or more below the least error.
 double place_of_zero(const json& scenes, const Measure& measure, double pixels) {
   double least = INFINITY;
   for (const json& scene : scenes) {
@@ -63,7 +63,7 @@ Panel panel_of(const json& scene, const Measure& measure, double pixels, double 
   return panel;
 }
 
-/// A count or a share, or a dash where it cannot be had.
+/// Writes a count or a share, or a dash if it is unknown.
 std::string error_cell(const json& point, const char* measure) {
   return has_error(point, measure) ? number(point.at("error").at(measure)) : "–";
 }
@@ -101,7 +101,7 @@ std::string with_setting(const std::string& program, const std::string& setting)
   return setting.empty() ? program : program + ", " + setting;
 }
 
-/// Of each peer the level at which scadray is least ahead.
+/// Writes for each peer the level at which scadray leads by least.
 void write_levels(const json& scenes, Report& report) {
   struct Least {
     const json* level;

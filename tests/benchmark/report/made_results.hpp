@@ -1,15 +1,15 @@
-// Results that nobody has measured, for the tests of the report.
+// Invented results, for the tests of the report.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 namespace made {
 
-/// A Summary of that median; the quartiles at 0.95 and 1.1 times.
+/// A Summary with that median, and quartiles of 0.95 and 1.1 times the median.
 nlohmann::json times(double median);
-/// A results file of these sections, on a machine of no brand.
+/// A results file with these sections, on an invented machine.
 nlohmann::json results_of(nlohmann::json sections);
-/// The section of that name.
+/// The section "whole".
 nlohmann::json whole();
 
 }  // namespace made

@@ -1,4 +1,4 @@
-// Writes what measure has found: the report with its plots, and the summary in README.md.
+// Writes the report of what `measure` has found, with its plots, and the summary in README.md.
 #include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
@@ -21,7 +21,7 @@ std::string contents_of(const std::filesystem::path& file) {
   return text;
 }
 
-/// All of it, or nothing.
+/// Writes all or nothing.
 void write(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path fresh = file.string() + ".new";
   std::ofstream stream(fresh, std::ios::binary);
@@ -31,7 +31,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::filesystem::rename(fresh, file);
 }
 
-/// The plots of an earlier report that are none of this one's.
+/// Removes the plots of an earlier report that are not in this one.
 void remove_others(const std::filesystem::path& folder, const report::Report& report) {
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-/// "K = 8, by cells", or with its threshold.
+/// Returns "K = 8, by cells", or the rule with its threshold.
 std::string rule_of(const json& frame) {
   std::string rule = "K = " + number(frame.at("leaf_primitives"));
   const double threshold_px = frame.at("threshold_px");
@@ -20,7 +20,7 @@ double frame_megapixels(const json& frame) {
   return frame.at("width_px").get<double>() * frame.at("height_px").get<double>() / 1e6;
 }
 
-/// One design's frames over the picture's size, one series a rule.
+/// Returns one design's frames over the picture's size, one series a rule.
 Panel panel_of(const json& frames, const std::string& design) {
   Panel panel{design_title(design), {"megapixels"}, {"time of a frame in ms"}, {}};
   for (const json& frame : frames) {
@@ -36,7 +36,7 @@ Panel panel_of(const json& frames, const std::string& design) {
   return panel;
 }
 
-/// What issue 6 asks for, against the quickest of the frames that it asks it of.
+/// Writes the bar of issue 6, compared with the quickest of the frames that it is about.
 void write_bar(const json& frames, bool is_software, Report& report) {
   const char* const design = is_software ? "cs1000" : "cs10000";
   const uint32_t height_px = is_software ? 480 : 2160;

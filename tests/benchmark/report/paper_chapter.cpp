@@ -6,7 +6,7 @@ namespace {
 
 using nlohmann::json;
 
-/// "paper's, 1 pixel" or "K = 8".
+/// Returns "paper's, 1 pixel" or "K = 8".
 std::string title_of_rule(const json& rule) {
   const double threshold_px = rule.at("threshold_px");
   const std::string k = "K = " + number(rule.at("leaf_primitives"));
@@ -64,7 +64,7 @@ struct Renderer {
 };
 constexpr Renderer kRenderers[] = {{"gl", "OpenGL"}, {"cpu", "CPU"}};
 
-/// T_R of each renderer, over what the points have at a key.
+/// Plots T_R of each renderer over the points' values at a key.
 Panel dependence(const json& sweep, const char* key, const char* title, const char* axis) {
   Panel panel{title, {axis, false}, {"T_R in ms", false}, {}};
   for (const Renderer& renderer : kRenderers) {
@@ -134,14 +134,14 @@ void write_growth_of_models(const json& growth, Report& report) {
   report.figure({"paper_growth", {panel}}, "Figure 14: T_R over the number of cones");
 }
 
-/// Wrong pixels and times over what a rule varies.
+/// Plots wrong pixels and times over the parameter of a rule.
 void write_sweep(const json& sweep, const char* key, const char* axis, const std::string& name,
                  const std::string& title, Report& report) {
   const json& rules = sweep.at("rules");
   if (rules.empty()) return;
   const double hits = sweep.at("hits");
   Panel wrong{title + ": wrong pixels", {axis}, {"share of the hits"}, {}};
-  // Half of one pixel and less: none.
+  // Half of one pixel and less counts as none.
   wrong.y.zero_at = 1e-6;
   Panel times{title + ": times", {axis}, {"time in ms"}, {}};
   Series subdivide{"subdivide", {}};

@@ -15,16 +15,16 @@ namespace {
 
 constexpr int kPanelWidth_px = 800, kSmallPanelWidth_px = 480;
 constexpr int kHeight_px = 500;
-/// For the legend, under the panels: a line, and how many names stand in one.
+/// The legend under the panels: the height of a line, and the names in one.
 constexpr int kLegendLine_px = 24;
 constexpr size_t kNamesPerLine = 3;
 
-/// Okabe and Ito's colours, which all eyes tell apart, and filled marks, then open ones.
+/// Okabe and Ito's colours, which all eyes can tell apart; filled marks, then open ones.
 constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                              "#e69f00", "#56b4e9", "#000000", "#8c564b"};
 constexpr std::array kMarks{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
 
-/// For a string in single quotes that gnuplot takes for "enhanced text".
+/// Escapes a string in single quotes that gnuplot takes for "enhanced text".
 std::string quoted(const std::string& text) {
   static const std::string kSpecial = "_^{}@&~\\";
   std::string result = "'";
@@ -36,7 +36,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// The value where the axis can show it.
+/// Returns the value if the axis can show it.
 std::optional<double> shown(const Axis& axis, double value) {
   if (!std::isfinite(value)) return {};
   if (!axis.is_logarithmic || value > 0) return value;
@@ -52,7 +52,7 @@ struct Range {
   bool empty() const { return low > high; }
 };
 
-/// Of what is measured; empty if nothing is.
+/// Returns the range of what is measured; empty if nothing is.
 Range range_of(const Panel& panel, const Axis& axis, bool is_x) {
   Range range;
   for (const Series& series : panel.series) {
@@ -77,8 +77,9 @@ void write_axis(std::ostream& out, char name, const Axis& axis, const Range& ran
     return;
   }
   out << "set logscale " << name << "\n";
-  // Whole decades, so that both ends have a tick; what is hardly beyond one (CSn has n + 1
-  // primitives) needs no other. The margin shows those, and gnuplot its ticks at the ends.
+  // The range ends at whole decades, so that both ends have a tick. A value hardly beyond one (CSn
+  // has n + 1 primitives) needs no further decade. The margin shows such values, and gnuplot's
+  // ticks at the ends.
   constexpr double kSlack = 0.01, kMargin = 1.03;
   const int first = static_cast<int>(std::floor(std::log10(range.low) + kSlack));
   int last = static_cast<int>(std::ceil(std::log10(range.high) - kSlack));
@@ -116,7 +117,7 @@ std::vector<std::string> names_of(const Figure& figure) {
   return names;
 }
 
-/// Guides first, so that they lie behind.
+/// Guides come first, so that they are behind.
 std::vector<const Series*> in_drawing_order(const Panel& panel) {
   std::vector<const Series*> order;
   for (const Series& series : panel.series) order.push_back(&series);
@@ -126,7 +127,7 @@ std::vector<const Series*> in_drawing_order(const Panel& panel) {
   return order;
 }
 
-/// Colours go to what is measured, not to guides.
+/// Only what is measured gets colours, guides do not.
 size_t look_of(const Series& series, const Figure& figure) {
   std::vector<std::string> names;
   for (const Panel& panel : figure.panels) {
@@ -195,7 +196,7 @@ void write_panel(std::ostream& out, const Figure& figure, size_t index) {
   out << "\n";
 }
 
-/// An empty plot that has the key of all panels.
+/// Writes an empty plot that has the key of all panels.
 void write_legend(std::ostream& out, const Figure& figure, double share) {
   out << "set size 1," << share << "\nset origin 0,0\n"
       << "unset title\nunset xlabel\nunset ylabel\nunset border\nunset xtics\nunset ytics\n"

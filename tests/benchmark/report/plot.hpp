@@ -1,4 +1,4 @@
-// Plots, drawn by gnuplot as SVG.
+// Draws plots as SVG, by gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,21 @@
 namespace report {
 
 struct Axis {
-  std::string title;  // with its unit
+  std::string title;  // with the unit
   bool is_logarithmic = true;
-  /// Where a logarithmic axis shows what is 0, marked as such; else zeros are not drawn.
+  /// Where a logarithmic axis shows 0, marked as such; nothing: zeros are not drawn.
   std::optional<double> zero_at{};
-  /// The axis reaches at least so far up.
+  /// The least upper end of the axis.
   std::optional<double> up_to{};
 };
 
 struct Point {
   double x = 0;
   double y = 0;
-  /// Ends of an error bar; equal: none.
+  /// Ends of an error bar; if they are equal, there is none.
   double low = 0, high = 0;
 };
-/// Without an error bar.
+/// A point without an error bar.
 inline Point point(double x, double y) { return {x, y, y, y}; }
 
 struct Series {
@@ -43,16 +43,16 @@ struct Panel {
   std::vector<Series> series;
 };
 
-/// One picture: panels side by side, which share a legend: series of the same name look the same.
+/// One picture: panels side by side, with a common legend. Series of the same name look the same.
 struct Figure {
   std::string name;  // of the file, without ".svg"
   std::vector<Panel> panels;
 };
 
-/// What gnuplot is told. The same figure gives the same bytes.
+/// Returns gnuplot's script. The same figure gives the same bytes.
 std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);
 
-/// Draws FOLDER/NAME.svg. Throws std::runtime_error where gnuplot cannot, and leaves no file.
+/// Draws FOLDER/NAME.svg. Throws std::runtime_error if gnuplot fails, and then leaves no file.
 void draw(const Figure& figure, const std::filesystem::path& folder, const std::string& gnuplot);
 
 }  // namespace report

@@ -1,4 +1,4 @@
-// measure itself, on a few small designs: what it writes is what the report reads.
+// Tests `measure` itself on a few small designs: the report can read what it writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class Measure : public testing::Test {
   const std::filesystem::path results_ = folder_ / "results.json";
 };
 
-/// Every section that is quick to measure.
+/// The sections that are quick to measure.
 const std::vector<std::string> kSections{"whole", "scale", "stability"};
 
 TEST_F(Measure, WritesWhatTheReportReads) {
@@ -78,7 +78,7 @@ TEST_F(Measure, KeepsTheOtherSectionsOfTheSameMachine) {
   EXPECT_FALSE(results().at("sections").contains("paper"));
 }
 
-/// Programs in scadray's place.
+/// Runs other programs in scadray's place.
 class WrongProgram : public Measure {
  protected:
   measure::ProcessResult run_with(const std::string& body) const {
@@ -100,7 +100,7 @@ TEST_F(WrongProgram, ThatFailsHasNoTimes) {
 }
 
 TEST_F(WrongProgram, ThatDrawsNothingHasNoTimes) {
-  // Another camera, which looks away.
+  // This one has another camera, which looks away.
   expect_no_times(run_with(std::string("exec ") + SCADRAY + " --camera=1e6,1e6,0,0,0,0,1 \"$@\"\n"),
                   "an empty picture");
 }

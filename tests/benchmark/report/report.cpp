@@ -38,7 +38,7 @@ std::string wrapped(const std::string& text) {
   return result + "\n";
 }
 
-/// Who measured, when and on what.
+/// Says on which machine, when and what was measured.
 std::string description(const json& machine) {
   const double memory = machine.at("memory_bytes");
   std::vector<std::string> versions;
@@ -66,7 +66,7 @@ void write_left_out(const json& section, Report& report) {
   if (reasons.empty()) return;
   std::string list = "\nLeft out:\n\n";
   for (const std::string reason : reasons) {
-    // The first line says it; what a program printed besides is no text for a report.
+    // The first line gives the reason; what else a program printed does not belong into a report.
     list += "- " + reason.substr(0, reason.find('\n')) + "\n";
   }
   report.markdown += list;

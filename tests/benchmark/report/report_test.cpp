@@ -1,4 +1,4 @@
-// From a results file to the report and README.md's summary.
+// Tests the way from a results file to the report and README.md's summary.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ std::string contents_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder with a results file, a README.md and an old report, for the program itself.
+/// Prepares a folder with a results file, a README.md and an old report, for the program itself.
 class ReportProgram : public testing::Test {
  protected:
   ReportProgram() {
@@ -101,7 +101,7 @@ class ReportProgram : public testing::Test {
     std::ofstream(folder_ / "results.json") << made::results_of({{"whole", made::whole()}});
     std::ofstream(report_) << "old";
     std::ofstream(folder_ / "plots" / "old.svg") << "<svg/>";
-    // Writes what it is told to into where it is told to.
+    // Plays gnuplot: writes its input into the file that the input names.
     std::ofstream(folder_ / "gnuplot")
         << "#!/bin/sh\ncp \"$1\" \"$(sed -n \"s/^set output '\\(.*\\)'$/"
            "\\1/p\" \"$1\")\"\n";

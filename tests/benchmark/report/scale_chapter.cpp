@@ -18,7 +18,7 @@ constexpr Stage kSubdivide{"subdivide_ms", "Subdividing"};
 constexpr Stage kFirst{"first_ms", "A first picture, by tiles"};
 constexpr Stage kSteady{"steady_ms", "A further picture, by cells"};
 
-/// One stage's times over a number that the rows have, one series a scene.
+/// Plots one stage's times over a number of the rows, one series a scene.
 Panel times_panel(const json& scenes, const char* name_key, const Stage& stage, const Axis& x,
                   double (*x_of)(const json& row)) {
   Panel panel{stage.title, x, {"time in ms"}, {}};
@@ -52,7 +52,7 @@ Panel sizes_panel(const json& families, const char* key, double unit, const char
   return panel;
 }
 
-/// The slope between the last two rows: 1 grows as n does.
+/// Returns the slope between the last two rows: 1 means growth proportional to n.
 double last_exponent(const json& rows, const char* key) {
   const json &before = rows.at(rows.size() - 2), &last = rows.back();
   return std::log(median(last.at(key)) / median(before.at(key))) /
@@ -162,7 +162,7 @@ void write_threads(const json& scenes, Report& report) {
     }
   }
   report.table(table);
-  // Of two points a table says as much.
+  // For two points a table suffices.
   if (most_rows < 3) return;
   Axis threads{"threads", false};
   report.figure({"scale_threads",

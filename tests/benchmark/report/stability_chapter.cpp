@@ -19,7 +19,7 @@ double wrong_share(const json& row, const char* precision, double pixels) {
 }
 
 Panel wrong_panel(const json& curve, double pixels) {
-  // Where no pixel is wrong: a decade below one.
+  // No wrong pixel is drawn a decade below one.
   Panel panel{capitalised(curve.at("title")) + ": wrong pixels",
               {curve.at("parameter")},
               {"share of the picture"},

@@ -11,7 +11,7 @@ namespace report {
 namespace {
 
 constexpr int kDigits = 3;
-/// Below it zeros would have to be counted.
+/// In smaller numbers readers would have to count zeros.
 constexpr double kLeastPlain = 1e-4;
 
 std::string printed(const char* format, int precision, double value) {
@@ -20,7 +20,7 @@ std::string printed(const char* format, int precision, double value) {
   return text.data();
 }
 
-/// Of a number in plain digits.
+/// Inserts commas into a number in plain digits.
 std::string with_commas(std::string text) {
   const size_t point = std::min(text.find('.'), text.size());
   const size_t first = text.front() == '-' ? 1 : 0;
@@ -31,7 +31,7 @@ std::string with_commas(std::string text) {
   return text;
 }
 
-/// "2.1e-7".
+/// Returns "2.1e-7".
 std::string with_exponent(double value) {
   std::string text = printed("%.*e", 1, value);
   const size_t digits = text.find('e') + 2;
@@ -54,7 +54,7 @@ std::string number(double value) {
   if (value == 0) return "0";
   if (std::abs(value) < kLeastPlain) return with_exponent(value);
   if (value == std::round(value)) return whole_number(value);
-  // What is left after rounding decides: 9.996 is 10.0.
+  // The rounded number decides: 9.996 becomes 10.0.
   const double rounded = std::stod(printed("%.*e", kDigits - 1, value));
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(rounded))));
   return with_commas(printed("%.*f", std::max(0, kDigits - 1 - magnitude), rounded));

@@ -15,7 +15,7 @@ const std::map<std::string, std::string>& family_titles() {
   return kTitles;
 }
 
-/// What was asked for, and whether it is reached.
+/// Says what was asked for, and whether it is reached.
 std::string bar_of(const json& row) {
   if (!row.contains("bar_ms")) return "";
   const double bar_ms = row.at("bar_ms");
@@ -28,7 +28,7 @@ std::string bar_of(const json& row) {
   return bar + (is_met ? ": reached" : ": missed");
 }
 
-/// Through the last of the points.
+/// Returns a guide through the last of the points.
 Series linear_log_guide(const std::vector<Point>& points) {
   Series guide{"n log n", {}, Series::Style::kGuide};
   if (points.size() < 2) return guide;
@@ -76,7 +76,7 @@ std::string exponent(const json& step, const char* key) {
 }
 
 void write_growth(const json& growth, Report& report) {
-  // The last step of each family: where what does not depend on n matters least.
+  // The last step of each family, in which costs that do not depend on n matter least.
   std::map<std::string, json> last;
   for (const json& step : growth) last[step.at("family")] = step;
   std::vector<std::string> sentences;

@@ -16,7 +16,7 @@ TEST(PixelRay, PerspectiveGoesThroughThePixelsCentre) {
   view.half_height = 0.5;
   view.width_px = 4;
   view.height_px = 2;
-  const Ray ray = pixel_ray(view, 0, 0);  // the top left one
+  const Ray ray = pixel_ray(view, 0, 0);  // the top left pixel
   EXPECT_EQ(ray.origin, view.eye);
   EXPECT_EQ(ray.direction, Vec3(-1.5 * 0.5, 0.5 * 0.5, -1));
   EXPECT_EQ(pixel_ray(view, 3, 1).direction, Vec3(0.75, -0.25, -1));
@@ -35,7 +35,8 @@ TEST(PixelRay, OrthographicMovesTheOrigin) {
   EXPECT_EQ(ray.direction, Vec3(0, 0, -1));
 }
 
-/// The larger side, in pixels, of the rectangle that holds the projections of points in the box.
+/// Returns the larger side, in pixels, of the rectangle around the projections of points in the
+/// box.
 double sampled_size(const View& view, const Box& box, int steps) {
   double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;
   for (int i = 0; i <= steps; ++i) {

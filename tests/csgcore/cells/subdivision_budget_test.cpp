@@ -1,4 +1,4 @@
-// What a subdivision may cost, where surfaces meet in curves and faces that no cell separates.
+// Tests the cost of a subdivision where surfaces meet in curves and faces that no cell separates.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ Primitive box(const Vec3& low, const Vec3& high, const Affine& map = {}) {
   return make_polyhedron(Polyhedron::box({low, high}), map);
 }
 
-/// A block minus the others.
+/// A block minus the other primitives.
 Scene cut_from_a_block(std::vector<Primitive> cuts, double half = 25) {
   cuts.insert(cuts.begin(), box(Vec3(-half), Vec3(half)));
   return checks::scene_of(Op::kDifference, std::move(cuts));
@@ -36,7 +36,7 @@ Scene cut_from_a_block(std::vector<Primitive> cuts, double half = 25) {
 
 Scene vase() { return test_support::stacked_frusta(60); }
 
-/// On one face, and side by side along it.
+/// Cubes on one face, side by side.
 Scene cubes_on_a_face() {
   std::vector<Primitive> cubes;
   for (int i = 0; i < 40; ++i) {
@@ -62,7 +62,7 @@ Scene bars_about_an_axis() {
   return cut_from_a_block(std::move(bars));
 }
 
-/// Tubes within tubes, of one length.
+/// Tubes of one length, one inside the other.
 Scene nested_cylinders() {
   Scene scene;
   CsgTreeBuilder tree;
@@ -122,7 +122,7 @@ struct Family {
   Scene (*make)();
 };
 
-/// Of a picture of 640×480 that the solid fills.
+/// Options for a picture of 640×480 that the solid fills.
 SubdivisionOptions options_of(const Solid& solid, uint32_t leaf_primitives, double threshold_px) {
   const View view =
       checks::view_of(solid.bounds(), {0.48, 0.64, -0.6}, 3 * solid.bounds().diagonal());
@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(All, SubdivisionBudget,
                                   (std::get<2>(param_info.param) < 1 ? "HalfAPixel" : "APixel");
                          });
 
-/// Without a threshold no cell is dropped: the picture is the tiles', bit for bit.
+/// Without a threshold no cell is dropped, so that the picture equals the tiles', bit for bit.
 TEST(SubdivisionBudget, PicturesAreTheTiles) {
   for (const Family& family : kFamilies) {
     SCOPED_TRACE(family.name);
@@ -216,7 +216,8 @@ TEST(SubdivisionBudget, PicturesAreTheTiles) {
   }
 }
 
-/// Cells that wait for others' credit, round after round, become what they would have been.
+/// Cells that wait, round after round, for the credit of others end as they would have without a
+/// budget.
 TEST(SubdivisionBudget, WhatSufficesChangesNothing) {
   for (const Scene& scene :
        {test_support::cylinder_minus_spheres(200), test_support::cylinder_minus_cones(300),
@@ -227,7 +228,7 @@ TEST(SubdivisionBudget, WhatSufficesChangesNothing) {
       options.budget_bytes = uint64_t{1} << 40;
       const Subdivision expected(solid, options);
       ASSERT_EQ(given_up(expected), 0u);
-      uint64_t least = 0;  // a budget that suffices, but hardly
+      uint64_t least = 0;  // a budget that just suffices
       for (uint64_t budget = expected.bytes(); least == 0; budget += budget / 2) {
         options.budget_bytes = budget;
         const Subdivision subdivision(solid, options);
@@ -265,8 +266,8 @@ TEST(SubdivisionBudget, DeliversWhatIsGivenUp) {
   EXPECT_EQ(delivered_given_up, given_up(subdivision));
 }
 
-/// What the eye comes close to is divided on, until the budget is used up; then it is drawn as it
-/// is.
+/// Cells that the eye comes close to are divided further, until the budget is used up; then they
+/// are drawn as they are.
 TEST(SubdivisionBudget, HoldsForAllViewsTogether) {
   const Scene scene = vase();
   const Solid solid(canonical_primitives(scene), scene.model);
@@ -290,7 +291,7 @@ TEST(SubdivisionBudget, HoldsForAllViewsTogether) {
   EXPECT_GT(given_up(subdivision), 0u);
 }
 
-/// The budget of a design that asks for no other.
+/// The budget of a design that sets none.
 TEST(SubdivisionBudget, IsInProportionToTheScene) {
   EXPECT_EQ(subdivision_budget(0), uint64_t{64} << 20);
   EXPECT_EQ(subdivision_budget(1000) - subdivision_budget(0), 1000u * 8192);

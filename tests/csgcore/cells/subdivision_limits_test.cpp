@@ -1,4 +1,4 @@
-// Where subdivision would never end, or has nothing to do.
+// Tests scenes for which subdivision would never end, or has nothing to do.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ Primitive sphere_at(const Vec3& center, double radius) {
   return make_sphere(radius, {Mat3{1.0}, center});
 }
 
-/// A shape whose subdivision must end, keep its meaning and stay of sensible size.
+/// A scene whose subdivision must end, keep its meaning and stay of sensible size.
 struct Limit {
   const char* name;
   Scene (*make)();
@@ -66,15 +66,15 @@ Scene spheres_through_a_circle() {
   return checks::scene_of(Op::kIntersection, spheres);
 }
 
-/// 1,000 spheres one within the other, whose gaps a division halves only while it doubles the cells
-/// along them: separated to 8 a cell they would need millions.
+/// 1,000 nested spheres. Each division halves the gaps but doubles the cells along them: with at
+/// most 8 a cell, separating them would take millions of cells.
 Scene shells_that_slowly_separate() {
   std::vector<Primitive> primitives{make_frustum(-15, 15, 12, 12)};
   for (int i = 0; i < 1000; ++i) primitives.push_back(make_sphere(10 - 1e-3 * i));
   return checks::scene_of(Op::kDifference, primitives);
 }
 
-/// 100 shells one within the other, 1e-6 apart.
+/// 100 nested shells, 1e-6 apart.
 Scene nested_shells() {
   Scene scene;
   CsgTreeBuilder builder;
@@ -193,7 +193,7 @@ TEST(SubdivisionLimit, OfAnIntersectionOfBoxesApart) {
   EXPECT_TRUE(Subdivision(solid, {}).nodes().empty());
 }
 
-/// The root cell lies wholly within a cut: empty, though the tree is not.
+/// The root cell is entirely inside a cut: it is empty, though the tree is not.
 TEST(SubdivisionLimit, OfABodyThatIsCutAway) {
   const Scene scene = checks::scene_of(Op::kDifference, {make_sphere(1), make_sphere(9)});
   const Solid solid(canonical_primitives(scene), scene.model);
@@ -213,7 +213,7 @@ TEST(SubdivisionLimit, FullCellsAreSolid) {
   EXPECT_TRUE(inner->solid);
 }
 
-/// Leaves of one kind.
+/// Returns the number of leaves of one kind.
 uint64_t leaves_of_kind(const Subdivision& subdivision, LeafKind kind) {
   return census(subdivision).by_kind[static_cast<size_t>(kind)];
 }
@@ -246,7 +246,7 @@ TEST(SubdivisionLimits, EndsWhereCoordinatesAreTooCoarse) {
   EXPECT_LT(subdivision.leaves().size(), 200000u);
 }
 
-/// Three plates with a common upper face: by the paper's rule alone, all of it would be dropped.
+/// Three plates share an upper face, all of which the paper's rule alone would drop.
 TEST(SubdivisionLimits, CoincidentFacesAreNotDropped) {
   std::vector<Primitive> plates;
   for (const Vec3& center : {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{1, 2, 0}}) {

@@ -77,8 +77,8 @@ TEST(Subdivision, FunctionHoldsBeyondTheCellByTheOverlap) {
   }
 }
 
-/// A sphere that ends short of a cell, by less than the overlap, stands in the cell's function; one
-/// that ends further away does not.
+/// A sphere that ends short of a cell by less than the overlap is in the cell's Blist; one that
+/// ends further away is not.
 TEST(Subdivision, WhatIsWithinTheOverlapCounts) {
   for (const bool within : {true, false}) {
     const double overlap = cell_overlap({Vec3(-3.0), Vec3(3.0)});
@@ -225,7 +225,8 @@ TEST(Subdivision, BatchesDeliverItsLeaves) {
         EXPECT_EQ(inside.fetch_add(1), 0) << "two calls at a time";
         for (const Leaf& leaf : batch.leaves) add(delivered, leaf, batch.tests);
         ++batches;
-        std::this_thread::sleep_for(std::chrono::microseconds(200));  // a second call would show
+        std::this_thread::sleep_for(std::chrono::microseconds(200));  // long enough to show a
+                                                                      // second call
         inside.fetch_sub(1);
       });
       for (const Leaf& leaf : subdivision.leaves()) add(kept, leaf, subdivision.tests());
@@ -275,7 +276,7 @@ TEST(Subdivision, RefineFollowsTheView) {
       ASSERT_EQ(tuple_of(subdivision.leaves()[i]), tuple_of(before[i]));
     }
   }
-  // The cells are those of a subdivision for the near view from the start.
+  // The cells equal those of a subdivision made for the near view from the start.
   options.view = previous;
   const Subdivision fresh(solid, options);
   EXPECT_EQ(census(fresh).leaves(), census(subdivision).leaves());

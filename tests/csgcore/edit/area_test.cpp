@@ -1,4 +1,4 @@
-// A part of a picture traced anew: what is left of the rest, and that nothing shows the seam.
+// Tests a part of a picture that is traced anew: the rest stays as it is, and no seam shows.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +24,7 @@ PixelArea random_area(std::mt19937& random, const View& view) {
   return area;
 }
 
-/// The place in a picture of each pixel of the area.
+/// Returns the indices in the picture of the area's pixels.
 std::vector<size_t> pixels_of(const PixelArea& area, const View& view) {
   std::vector<size_t> pixels;
   for (uint32_t y = area.y; y < area.y + area.height; ++y) {
@@ -35,7 +35,7 @@ std::vector<size_t> pixels_of(const PixelArea& area, const View& view) {
   return pixels;
 }
 
-/// What no picture shows.
+/// Gives a pixel values that no picture has.
 void paint(Image& image, size_t pixel) {
   image.rgb[pixel] = kPaint;
   image.z[pixel] = -1;
@@ -102,7 +102,7 @@ TEST_P(AreaOf, PictureIsTracedAndNoMore) {
       for (int round = 0; round < 20; ++round) {
         options.area = random_area(random, view);
         options.threads = 1 + round % 2;
-        // The area appears in the midst of paint, and nothing else.
+        // Only the area is drawn; the paint around it stays.
         Image image = whole, expected = whole;
         Hits hits = whole_hits, expected_hits = whole_hits;
         for (size_t pixel = 0; pixel < whole.rgb.size(); ++pixel) {
@@ -129,7 +129,7 @@ TEST_P(AreaOf, PictureIsTracedAndNoMore) {
   }
 }
 
-/// The pixels beside the area are looked at as they were before they were averaged.
+/// The edges of the pixels beside the area are found in the colours from before they were averaged.
 TEST_P(AreaOf, AntialiasedPictureHasNoSeam) {
   std::mt19937 random(2);
   for (const auto& [name, view] : checks::trace_views(solid_.bounds(), 61, 45)) {
@@ -154,8 +154,8 @@ INSTANTIATE_TEST_SUITE_P(Tracer, AreaOf,
                          testing::Values("Empty", "Flush", "Cones", "Crowd", "Random40"),
                          [](const auto& name) { return std::string(name.param); });
 
-/// A ball that shrinks, and beside it a wire between the pixels' centres: seen where its pixels are
-/// edges, which they are next to the larger ball only.
+/// A ball shrinks, and beside it is a wire between the pixels' centres. The wire is seen where its
+/// pixels are at an edge, which they are only next to the larger ball.
 TEST(Area, PixelsBesideItAreEdgesOrNot) {
   const auto solid_with = [](double radius) {
     const Affine upright{Mat3{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {-1.36, 0, 0}};

@@ -1,5 +1,5 @@
-// What is made from an earlier solid draws what is made anew, and a picture of which only the
-// changed areas are drawn anew is the whole picture.
+// Tests that a solid made from an earlier one draws the same picture as one made anew, and that a
+// picture whose changed areas alone are drawn anew equals the whole picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool same_bits(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
          (a.polyhedron == nullptr) == (b.polyhedron == nullptr);
 }
 
-/// How pictures are drawn: one of many ways by each seed.
+/// One of many ways to draw a picture, chosen by the seed.
 struct Way {
   FrameSettings settings;
   TraceOptions options;
@@ -63,11 +63,12 @@ struct Way {
 };
 
 struct Redrawn {
-  uint64_t pictures = 0, partly = 0;  // of them with less than all pixels traced
+  uint64_t pictures = 0, partly = 0;  // pictures of which fewer than all pixels were traced
   uint64_t pixels = 0, traced = 0;
 };
 
-/// Fails unless the picture of `before`, its changed areas drawn anew, is that of the later scene.
+/// Fails unless the picture of `before`, with its changed areas drawn anew, equals that of the
+/// later scene.
 void expect_same_picture(const Made& before, const Made& after, const Solid& anew,
                          const SceneEdit& edit, const View& view, uint32_t seed, Redrawn& redrawn) {
   const Way way(seed);
@@ -106,7 +107,7 @@ void expect_same_pictures(const Made& before, const Made& after, const SceneEdit
   }
 }
 
-/// Edit after edit, each time from what was made of the state before.
+/// Makes edit after edit, each time from what was made of the state before.
 TEST(EditedPictures, RandomEditsDrawWhatIsMadeAnew) {
   const uint32_t rounds = test_support::full_run() ? 300 : 10;
   std::printf("%s run: %u designs\n", test_support::full_run() ? "full" : "sample", rounds);
@@ -150,8 +151,8 @@ TEST(EditedPictures, AreTheSameByEveryInstructionSet) {
   }
 }
 
-/// A ball among holes that mostly reach nothing of it, and are left out: the ball moves, and so do
-/// holes, into it and out of it.
+/// A ball among holes, most of which do not reach it and are left out. The ball moves, and holes
+/// move into it and out of it.
 TEST(EditedPictures, GroupsFollowWhatBoundsThem) {
   std::mt19937 random(4);
   std::vector<Primitive> parts{make_sphere(3)};
@@ -174,8 +175,8 @@ TEST(EditedPictures, GroupsFollowWhatBoundsThem) {
   }
 }
 
-/// Of so many that operands stand in groups: the same spheres move again and again, out of their
-/// groups' boxes.
+/// The scene has so many operands that they are grouped. The same spheres move again and again, out
+/// of their groups' boxes.
 TEST(EditedPictures, MovedOperandsOfGroupsAreDrawn) {
   Scene scene = test_support::cylinder_minus_spheres(500);
   auto before = std::make_unique<Made>(scene);

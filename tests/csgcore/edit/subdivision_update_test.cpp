@@ -1,4 +1,5 @@
-// A subdivision that follows edits: valid cells, the same picture, and no more work than needed.
+// Tests a subdivision that follows edits: its cells are valid, its picture is right, and it does no
+// more work than needed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +25,7 @@ auto tuple_of(const Leaf& leaf) {
                          leaf.kind, leaf.solid);
 }
 
-/// What update() says is kept is what it was.
+/// Fails unless everything that update() reports as kept is unchanged.
 void expect_kept(const Subdivision& before, const Subdivision& after,
                  const SubdivisionUpdate& update, const SceneEdit& edit) {
   if (update.is_anew) {
@@ -46,7 +47,7 @@ void expect_kept(const Subdivision& before, const Subdivision& after,
     ASSERT_EQ(tuple_of(was), tuple_of(is));
     for (uint32_t k = 0; k < is.test_count; ++k) {
       BlistTest test = before.tests_of(was)[k];
-      // One that was changed in place keeps its index.
+      // A primitive that was changed in place keeps its index.
       ASSERT_TRUE(edit.keeps_indices() || later[test.primitive] != SceneEdit::kGone);
       if (!edit.keeps_indices()) test.primitive = later[test.primitive] & 0x7FFFFFFFu;
       ASSERT_EQ(test, after.tests_of(is)[k]);
@@ -59,7 +60,7 @@ void expect_kept(const Subdivision& before, const Subdivision& after,
   }
 }
 
-/// The leaf's cell meets the reach of one that was changed, before or after.
+/// Returns whether a changed primitive reaches the leaf's cell, before or after the edit.
 bool is_reached(const Leaf& leaf, double overlap, const Made& before, const Made& after,
                 const SceneEdit& edit) {
   const auto meets = [&](const Box& box) {
@@ -133,7 +134,7 @@ TEST(SubdivisionUpdate, RandomEditsLeaveCellsValid) {
   EXPECT_GT(counts.in_part, counts.anew / 2);
 }
 
-/// What an edit adds stays within the budget; where that does not suffice all is made anew.
+/// Edits stay within the budget; where they cannot, all is made anew.
 TEST(SubdivisionUpdate, EditsKeepToTheBudget) {
   std::mt19937 random(5);
   Counts counts;
@@ -143,7 +144,7 @@ TEST(SubdivisionUpdate, EditsKeepToTheBudget) {
     SubdivisionOptions options;
     options.leaf_primitives = 2;
     const Made made(design.scene());
-    // Some more than it takes, and less than that.
+    // A budget of a bit more than is needed, and one of less.
     const uint64_t bytes = Subdivision(made.solid, options).bytes();
     options.budget_bytes = round % 2 ? bytes + bytes / 8 : bytes / 2;
     ASSERT_NO_FATAL_FAILURE(follow_edits(design, options, 10, random, counts));
@@ -152,7 +153,7 @@ TEST(SubdivisionUpdate, EditsKeepToTheBudget) {
   EXPECT_GT(counts.anew, 0);
 }
 
-/// Few leaves are touched; and however many edits follow each other, what is stored stays bounded.
+/// An edit touches few leaves, and however many edits follow, what is stored stays bounded.
 TEST(SubdivisionUpdate, OnePrimitiveTouchesFewLeaves) {
   Scene scene = test_support::cylinder_minus_spheres(1000);
   auto before = std::make_unique<Made>(scene);
@@ -193,9 +194,9 @@ TEST(SubdivisionUpdate, ColorsTouchNone) {
   EXPECT_EQ(&subdivision.solid(), &after.solid);
 }
 
-/// Cells that hold a primitive wholly, before and after, are no business of its surface.
+/// Cells inside a primitive, before and after, do not depend on its surface.
 TEST(SubdivisionUpdate, CellsDeepInsideAreKept) {
-  // A box with bubbles in it, between two balls that keep the bounds.
+  // A box with bubbles in it, between two balls that fix the bounds.
   Scene scene;
   CsgTreeBuilder builder;
   const auto add = [&](const Primitive& primitive) {
@@ -227,7 +228,8 @@ TEST(SubdivisionUpdate, CellsDeepInsideAreKept) {
   checks::expect_correct(subdivision, scene, 2);
 }
 
-/// A ball comes so near to a cell that the cell's function, which is valid beyond it, needs it.
+/// A ball comes so near to a cell that the cell's Blist, which is valid a bit beyond the cell,
+/// needs it.
 TEST(SubdivisionUpdate, WhatComesWithinTheOverlapCounts) {
   const double overlap = cell_overlap({Vec3(-3.0), Vec3(3.0)});
   std::vector<Primitive> balls;
@@ -264,8 +266,8 @@ TEST(SubdivisionUpdate, WhatComesWithinTheOverlapCounts) {
   EXPECT_TRUE(names_it());
 }
 
-/// A cell may name a primitive that a closer look finds outside of it: no cell does so any longer
-/// once that is removed.
+/// A cell may name a primitive that a closer look finds outside of it. No cell does so once that
+/// primitive is removed.
 TEST(SubdivisionUpdate, NoCellNamesWhatIsGone) {
   uint64_t found = 0;
   for (const uint32_t seed : {7u, 9u}) {
@@ -321,10 +323,10 @@ TEST(SubdivisionUpdate, OtherBoundsAreSubdividedAnew) {
   }
 }
 
-/// Surfaces that coincide are left in one cell, which edits do not blow up.
+/// Coincident surfaces are left in one cell, and edits do not divide it.
 TEST(SubdivisionUpdate, CoincidentSurfacesStayInOneCell) {
   std::vector<Primitive> parts;
-  for (int i = 0; i < 12; ++i) {  // turned, so that none are equal; and none is within another
+  for (int i = 0; i < 12; ++i) {  // turned, so that none are equal, and none is inside another
     const double c = std::cos(0.1 * i), s = std::sin(0.1 * i);
     parts.push_back(make_frustum(-1 - i % 3, 1 - i % 3, 4, 4,
                                  {Mat3{Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1)}, Vec3(0.0)}));

@@ -1,5 +1,5 @@
-// Which boundaries of a solid are shown, against the tree's own value between crossings in extended
-// precision.
+// Tests which boundaries of a solid are shown, against the tree's own value between crossings in
+// extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Turn {
   bool enters = false;
 };
 
-/// Rays of scenes whose crossings don't coincide.
+/// Finds the turns of rays in scenes without coincident crossings.
 class TurnOracle {
  public:
   explicit TurnOracle(const Scene& scene) : scene_(scene) {
@@ -39,7 +39,8 @@ class TurnOracle {
     }
   }
 
-  /// Beyond s, in their order; `is_close` is set if any two crossings lie close to each other.
+  /// Returns the turns beyond s, in order, and sets `is_close` if any two crossings are close to
+  /// each other.
   std::vector<Turn> turns(const LongRay& ray, Real from_s, bool& is_close) const {
     std::vector<Turn> crossings;
     std::vector<bool> inside(primitives_.size());
@@ -76,7 +77,7 @@ class TurnOracle {
   std::vector<RayOracle> primitives_;
 };
 
-/// What the picture shows in a pixel must be the turn or, if there is none, nothing.
+/// Fails unless the pixel shows the turn, or nothing if there is none.
 void expect_shown(const Hits& hits, size_t pixel, const LongRay& ray, const Turn* turn,
                   double size) {
   ASSERT_EQ(hits.primitive[pixel], turn ? turn->primitive : Hits::kMiss);
@@ -87,13 +88,13 @@ void expect_shown(const Hits& hits, size_t pixel, const LongRay& ray, const Turn
     return;
   }
   const Real facing = glm::dot(LongVec3(hits.normal[pixel]), ray.direction);
-  // Along the normal, positions are exact but for the last bits of the coordinates and of s.
+  // Along the normal, positions are exact up to the last bits of the coordinates and of s.
   const Real last_bits = 1e-15L * (std::abs(turn->s) + glm::length(ray.origin));
   const Real allowed = 1e-13L * size + last_bits;
   ASSERT_LE(std::abs(facing * (turn->s - hits.s[pixel])), allowed);
   const LongVec3 off = LongVec3(hits.position[pixel]) - ray.at(turn->s);
   ASSERT_LE(std::abs(facing) * glm::length(off), allowed);
-  // Out of the solid: against the ray where it comes in.
+  // The normal points out of the solid: against the ray where it enters.
   ASSERT_EQ(facing < 0, turn->enters);
 }
 

@@ -1,5 +1,5 @@
-// The definition of the picture (NUMERICS.md, "The definition"), ray by ray, on cases small enough
-// to be told by hand.
+// Tests the definition of the picture (NUMERICS.md, "The definition"), ray by ray, on cases small
+// enough to be solved by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ struct Seen {
   Vec3 position, normal;
 };
 
-/// By tiles and by cells, which must agree.
+/// Traces the ray by tiles and by cells, which must agree.
 Seen look_at(std::vector<Primitive> primitives, const std::string& tree, const Look& look) {
   Scene scene;
   scene.primitives = std::move(primitives);
@@ -57,7 +57,7 @@ Primitive slab(double bottom, double top, double radius = 5) {
   return make_frustum(bottom, top, radius, radius);
 }
 
-/// Whether that is seen, at that height.
+/// Checks that the primitive is seen, at that height.
 testing::AssertionResult shows(const Seen& seen, uint32_t primitive, double z, const Vec3& normal) {
   constexpr double kRounding = 1e-13;
   if (seen.primitive == primitive && std::abs(seen.position.z - z) < kRounding &&
@@ -74,7 +74,7 @@ TEST(Definition, OfCoincidentFacesTheLastInFileOrderIsShown) {
   EXPECT_TRUE(shows(look_at({slab(0, 1), slab(0, 1)}, "(+ 1 0)", {}), 1u, 1, kUp));
   EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1), slab(-2, 1)}, "(+ 2 1 0)", {}), 2u, 1, kUp));
   EXPECT_TRUE(shows(look_at({slab(-1, 1), slab(0, 1)}, "(* 1 0)", {}), 1u, 1, kUp));
-  // What is subtracted, and only touches what is left.
+  // A subtracted primitive that only touches what is left.
   EXPECT_TRUE(shows(look_at({slab(0, 1), slab(1, 2)}, "(- 0 1)", {}), 1u, 1, kUp));
 }
 
@@ -82,7 +82,7 @@ TEST(Definition, AFlushHoleIsOpen) {
   const std::vector<Primitive> plate{slab(0, 1), slab(0, 1, 2)};
   EXPECT_EQ(look_at(plate, "(- 0 1)", {}).primitive, kMiss);
   EXPECT_TRUE(shows(look_at(plate, "(- 0 1)", {3, 0}), 0u, 1, kUp));
-  // What is subtracted is left where the ray comes out of it below: the other face is flush too.
+  // The ray leaves the subtracted primitive at its lower face, where another face is flush.
   EXPECT_TRUE(
       shows(look_at({slab(0, 1), slab(0, 1, 2), slab(-3, -2)}, "(+ (- 0 1) 2)", {}), 2u, -2, kUp));
 }
@@ -98,7 +98,7 @@ TEST(Definition, AFaceSharedByAUnionLeavesNoSkin) {
   EXPECT_TRUE(shows(look_at({slab(0, 1), slab(1, 2)}, "(+ 0 1)", behind), 0u, 0, kDown));
 }
 
-/// The cut face and the part that fills the cut up to it: either alone would be seen there.
+/// A cut face, and the part that fills the cut up to it: each of them alone would be seen there.
 TEST(Definition, ACutFaceThatMeetsAnotherPartIsThatOfTheLast) {
   EXPECT_TRUE(
       shows(look_at({slab(0, 2), slab(1, 3), slab(-1, 1)}, "(+ (- 0 1) 2)", {}), 2u, 1, kUp));
@@ -113,11 +113,11 @@ TEST(Definition, OfFacesThatTurnNoOperationNoneIsShown) {
   // 3 and 2 are cut away at once.
   EXPECT_TRUE(shows(look_at(four, "(+ (* 0 1) (- 3 2))", {}), 1u, 1, kUp));
   EXPECT_TRUE(shows(look_at(four, "(* 0 (+ 1 (- 3 2)))", {}), 1u, 1, kUp));
-  // 3 is cut away by what the ray is in already.
+  // 3 is cut away by a primitive that the ray is inside of already.
   const std::vector<Primitive> in_cut{slab(0, 1), slab(0, 2), slab(-3, 1), slab(-2, 1)};
   EXPECT_TRUE(shows(look_at(in_cut, "(+ (- 3 1) 0)", {}), 0u, 1, kUp));
   EXPECT_TRUE(shows(look_at(in_cut, "(+ (- 3 1) (* 0 2))", {}), 2u, 1, kUp));
-  // 3 alone would do, but the ray is in the other operand's part already.
+  // 3 alone would suffice, but the ray is inside the other operand already.
   const std::vector<Primitive> in_other{slab(0, 1), slab(0, 2), slab(-3, 1), slab(-2, 1)};
   EXPECT_TRUE(shows(look_at(in_other, "(* 0 (+ 1 3))", {}), 0u, 1, kUp));
 }
@@ -127,7 +127,7 @@ TEST(Definition, AnOperationThatIsHandedOverHasNotTurned) {
   const std::vector<Primitive> stacked{slab(0, 1), slab(1, 2), slab(0, 1, 4)};
   EXPECT_TRUE(shows(look_at(stacked, "(* 0 (+ 1 2))", {}), 0u, 1, kUp));
   EXPECT_TRUE(shows(look_at(stacked, "(* (+ 1 2) 0)", {}), 0u, 1, kUp));
-  // 1 is cut away all along, and what is cut of it ends with it.
+  // 1 is cut away all along, and its cut ends where it ends.
   Look look;
   look.projection = Projection::kPerspective;
   look.height = 0.5;
@@ -142,7 +142,7 @@ TEST(Definition, APrimitiveThatIsAddedAndSubtractedFacesOutBothWays) {
   behind.boundary = Boundary::kBehind;
   EXPECT_TRUE(shows(look_at(parts, either_or, {}), 1u, 3, kUp));
   EXPECT_TRUE(shows(look_at(parts, either_or, behind), 0u, 2, kDown));
-  // Two that coincide, so that neither alone decides.
+  // Two coincident primitives, neither of which decides alone.
   const std::vector<Primitive> twins{slab(0, 1), slab(0, 1), slab(-3, -2)};
   EXPECT_TRUE(shows(look_at(twins, "(+ 0 1 (- 2 0 1))", {}), 1u, 1, kUp));
   EXPECT_TRUE(shows(look_at(twins, "(+ (- 2 0 1) 0 1)", {}), 1u, 1, kUp));
@@ -150,12 +150,12 @@ TEST(Definition, APrimitiveThatIsAddedAndSubtractedFacesOutBothWays) {
 
 // --- The thinnest piece ---
 
-/// Of the tests below: two small balls make the box 20 wide each way.
+/// For the tests below: two small balls make the scene's box 20 wide each way.
 const Primitive kCorners[] = {make_sphere(1, moved({-9, -9, -9})),
                               make_sphere(1, moved({9, 9, 9}))};
 const double kThinnest = 1e-9 * 20 * std::sqrt(3.0);
 
-/// A wall, of so many times the thinnest, with what is behind it.
+/// Looks at a wall that is `times` tolerances thick, with something behind it.
 Seen look_at_wall(double times, const Look& look) {
   return look_at({kCorners[0], kCorners[1], slab(0, times * kThinnest), slab(-4, -3)},
                  "(+ 0 1 2 3)", look);
@@ -164,7 +164,8 @@ Seen look_at_wall(double times, const Look& look) {
 TEST(Definition, AWallThinnerThanTheToleranceDoesNotExist) {
   for (const double angle : {0.0, 0.5, 1.0, 1.4}) {
     SCOPED_TRACE(angle);
-    // Through a point of the wall, leaning so much; a thickness is the same at any angle.
+    // The ray goes through a point of the wall, at an angle; thickness does not depend on the
+    // angle.
     const Look look{0, 0, {std::sin(angle), 0, -std::cos(angle)}};
     EXPECT_EQ(look_at_wall(1.01, look).primitive, 2u);
     EXPECT_NE(look_at_wall(0.99, look).primitive, 2u);
@@ -185,7 +186,7 @@ TEST(Definition, AGapNarrowerThanTheToleranceDoesNotExist) {
   EXPECT_TRUE(shows(look_at_gap(1.01), 3u, 1.01 * kThinnest, kDown));
 }
 
-/// A cut whose own wall is too thin to exist leaves the face behind it.
+/// A cut whose wall is too thin to exist leaves the face behind it.
 TEST(Definition, OfACoincidenceWhatHasChangedIsShown) {
   EXPECT_TRUE(shows(
       look_at({kCorners[0], kCorners[1], slab(0, 0.5 * kThinnest), slab(-3, 0)}, "(+ 0 1 2 3)", {}),
@@ -202,7 +203,7 @@ TEST(Definition, AnEyeInAFaceSeesFromTheToleranceOn) {
     SCOPED_TRACE(above);
     look.height = 3 + above * kThinnest;
     look.direction = kDown;
-    EXPECT_TRUE(shows(look_at(parts, "(+ 0 1 2)", look), 2u, 0, kDown));  // from within
+    EXPECT_TRUE(shows(look_at(parts, "(+ 0 1 2)", look), 2u, 0, kDown));  // from inside
   }
   look.height = 3 + 1.1 * kThinnest;
   EXPECT_TRUE(shows(look_at(parts, "(+ 0 1 2)", look), 2u, 3, kUp));

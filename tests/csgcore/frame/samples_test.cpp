@@ -1,4 +1,4 @@
-// Antialiasing: edge pixels are the means of their samples, all others stay as they are.
+// Tests antialiasing: edge pixels are the means of their samples, and all others stay as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,8 @@ Drawn draw_with(const Solid& solid, const View& view, const FrameSettings& setti
   return drawn;
 }
 
-/// The largest difference of a channel between the pixel and those beside, above and below it.
+/// Returns the largest difference in a channel between the pixel and those beside, above and below
+/// it.
 int contrast(const Image& image, uint32_t x, uint32_t y) {
   const auto at = [&](uint32_t column, uint32_t row) {
     return image.rgb[size_t{row} * image.width_px + column];
@@ -59,7 +60,7 @@ int contrast(const Image& image, uint32_t x, uint32_t y) {
   return result;
 }
 
-/// A pixel as the samples' definition has it, traced with the whole list.
+/// Computes a pixel by the definition of the samples, traced with the whole list.
 class SampleOracle {
  public:
   SampleOracle(const Solid& solid, const View& view, const FrameSettings& settings)
@@ -164,8 +165,8 @@ TEST(Samples, LeaveTheMeasuredChannelsAlone) {
   EXPECT_TRUE(checks::same_bits(one, many));
 }
 
-/// Seen from above, a black disc so large that its edge is straight: as much of the white
-/// background is left in the edge's pixels as the disc leaves of them.
+/// Looks from above at a black disc so large that its edge is straight. The pixels at its edge have
+/// as much of the white background as the disc leaves uncovered.
 TEST(Samples, AreAsGrayAsTheEdgeCovers) {
   constexpr double kRadius = 1e6;
   constexpr uint32_t kSamples = 16;

@@ -1,5 +1,5 @@
-// Parts of a scene that cannot be seen: they are counted for what they are, they are not
-// intersected, and they change no bit of the picture.
+// Tests the parts of a scene that cannot be seen: they are counted by the right reason, they are
+// not intersected, and they change no bit of the picture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace csgcore {
 namespace {
 
-/// So many that every list which holds them is long.
+/// So many parts that every list with all of them is long.
 constexpr uint32_t kParts = 300;
 
 /// Looks down on x, y in [−8, 8].
@@ -27,11 +27,12 @@ View view_from_above(Projection projection) {
   return view;
 }
 
-/// A tree of a few primitives, and the many that are not seen.
+/// A tree of a few primitives that are seen, and many that are not.
 struct Parts {
   std::vector<Primitive> seen;
   std::function<Primitive(uint32_t)> unseen;
-  /// Builds the tree of the seen ones, [0, seen.size()), and of others, [first, end).
+  /// Builds the tree of the primitives that are seen, [0, seen.size()), and of the others, [first,
+  /// end).
   std::function<void(CsgTreeBuilder&, uint32_t first, uint32_t end)> build;
 };
 
@@ -50,14 +51,14 @@ void add_range(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
   for (uint32_t i = first; i < end; ++i) builder.primitive(i);
 }
 
-/// Two balls far off, which make the solid's box the same whatever else there is.
+/// Two balls far away, which fix the solid's box whatever else there is.
 const Primitive kLeft = make_sphere(1, checks::moved({-1e3, -1e3, -1e3}));
 const Primitive kRight = make_sphere(1, checks::moved({1e3, 1e3, 50}));
 constexpr uint32_t kCornerParts = 2;
 
 constexpr Projection kBothProjections[] = {Projection::kOrthographic, Projection::kPerspective};
 
-/// `count_of` picks the one counter that must hold all unseen parts.
+/// `count_of` is the one counter that must count all unseen parts.
 void expect_skipped(const Parts& parts, uint64_t SkippedPrimitives::*count_of,
                     std::span<const Projection> projections = kBothProjections) {
   for (const Projection projection : projections) {
@@ -94,8 +95,8 @@ void build_union(CsgTreeBuilder& builder, uint32_t first, uint32_t end) {
   builder.close();
 }
 
-/// Of what is large on the screen, hardly a ray is traced that goes past it, though it fills its
-/// rectangle badly.
+/// Hardly any ray is traced that passes a large shape, although the shape fills its rectangle
+/// badly.
 TEST(Skipped, RaysThatPassLargeShapes) {
   Affine tilted;  // a rotation
   tilted.linear = {
@@ -115,7 +116,7 @@ TEST(Skipped, RaysThatPassLargeShapes) {
       Hits hits;
       TraceStats stats;
       trace(Solid(canonical_primitives(scene), scene.model), view, {}, hits, stats);
-      // Tiles go past by some pixels.
+      // Tiles reach some pixels beyond the shape.
       EXPECT_LT(static_cast<double>(stats.rays),
                 1.22 * static_cast<double>(checks::count_hits(hits)));
     }
@@ -150,7 +151,7 @@ TEST(Skipped, BehindTheEye) {
 }
 
 TEST(Skipped, BetweenTheSamples) {
-  // A pixel is 0.25 wide, and its corner at a multiple of that.
+  // A pixel is 0.25 wide, and its corners are at multiples of that.
   const auto dust = [](uint32_t i) {
     const double x = 0.25 * std::round(4 * place(i)),
                  y = 0.25 * std::round(2 * place(7 * i % kParts));
@@ -187,7 +188,7 @@ TEST(Skipped, AddedAndWhollySubtracted) {
     builder.close();
     builder.close();
   };
-  // A block, its upper half cut off, and in the air above it the parts, cut off too.
+  // A block whose upper half is cut off; the parts are in the air above it, and cut off, too.
   const auto in_the_air = [](uint32_t i) {
     return make_sphere(0.5, checks::moved({0.1 * (i % 7), 0.1 * (i % 5), 4 + 0.01 * i}));
   };
@@ -209,16 +210,16 @@ TEST(Skipped, IntersectedAway) {
     }
     builder.close();
   };
-  // Pairs that stand apart.
+  // Pairs that are disjoint.
   const auto apart = [](uint32_t i) {
     return make_sphere(1, checks::moved({i % 2 ? 6.5 : -6.5, place(i), 0}));
   };
   expect_skipped({{kLeft, kRight, make_sphere(4)}, apart, build}, &SkippedPrimitives::cancelled);
 }
 
-/// From outside they are hidden too; so from within.
+/// Seen from outside the parts are hidden, too; therefore the eye is inside.
 TEST(Skipped, InsideTheSolid) {
-  // One behind the other: each tile has all of them or none.
+  // The parts are behind each other, so that each tile has all of them or none.
   const auto within = [](uint32_t i) {
     return make_sphere(1, checks::moved({0, 0, -2 + 4.0 * i / kParts}));
   };

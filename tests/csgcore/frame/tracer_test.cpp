@@ -1,4 +1,4 @@
-// The tracer's pictures depend on nothing but the solid and the view.
+// Tests that the tracer's pictures depend on the solid and the view alone.
 #include "csgcore/tracer.hpp"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ TEST_P(PicturesOf, OddSizesAreTheSame) {
   }
 }
 
-/// Pictures with all channels, antialiased, by both lights.
+/// Draws pictures with all channels, antialiased, with both kinds of shading.
 std::vector<Image> draw_all(const Solid& solid, const Subdivision& subdivision, const View& view,
                             const TraceOptions& options) {
   std::vector<Image> images;

@@ -1,4 +1,4 @@
-// The rays of packets and their crossings with primitives, against extended precision.
+// Tests the rays of packets, and their crossings with primitives, against extended precision.
 #include "packets/packet.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // --- Rays ---
 
-/// A view of what lies about `center`, `distance` away, that shows `size` of it.
+/// Returns a view from `distance` away that shows `size` around `center`.
 View random_view(std::mt19937& random, const Vec3& center, double distance, double size) {
   View view = checks::view_of({center, center}, checks::random_direction(random), distance);
   view.projection = random() % 2 ? Projection::kOrthographic : Projection::kPerspective;
@@ -50,7 +50,7 @@ View random_view(std::mt19937& random, const Vec3& center, double distance, doub
 }
 
 struct Packet {
-  Ray exact[kPacketRays];  // pixel_ray's
+  Ray exact[kPacketRays];  // as pixel_ray gives them
   RayPacket rays;
 };
 Packet random_packet(std::mt19937& random, const FrameRays& frame) {
@@ -71,13 +71,13 @@ Vec3 lane_of(const double (&v)[3][kPacketRays], uint32_t lane) {
   return {v[0][lane], v[1][lane], v[2][lane]};
 }
 
-/// What is exact of x(base_s) − pivot, whatever cancels.
+/// Returns x(base_s) − pivot, exact whatever cancels.
 LongVec3 exact_origin(const FrameRays& frame, const Ray& ray) {
   return reference::exact_offset(ray.origin, frame.base_s, ray.direction, frame.pivot);
 }
 
-/// The derived bound (NUMERICS.md): two roundings of the result, and two of what the split products
-/// leave below it, 2^-26 of the distance.
+/// The derived bound (NUMERICS.md): two roundings of the result, and two of the remainders of the
+/// split products, which are 2^-26 of the distance.
 TEST(MakeRays, ArePixelRaysWithTheirOriginsNearTheModel) {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
@@ -103,8 +103,8 @@ TEST(MakeRays, ArePixelRaysWithTheirOriginsNearTheModel) {
   }
 }
 
-/// How near: at the depth of the box's centre, up to base_s's 26 bits, and not beside the view's
-/// axis, which is what directions are exact about.
+/// The pivot is at the depth of the box's centre, up to base_s's 26 bits, and on the view's axis,
+/// about which directions are exact.
 TEST(FrameRays, PutThePivotAtTheModelsDepth) {
   std::mt19937 random(2);
   for (int round = 0; round < 1000; ++round) {
@@ -120,7 +120,7 @@ TEST(FrameRays, PutThePivotAtTheModelsDepth) {
     const double rounding = 4 * kEpsilon * (distance + 100);
     ASSERT_LE(std::abs(frame.base_s - distance), 0x1p-26 * distance + rounding);
     ASSERT_LE(glm::length(frame.pivot - (view.eye + frame.base_s * view.forward)), rounding);
-    // Nothing is seen before the tolerance beyond the eye.
+    // Nothing is seen up to the tolerance beyond the eye.
     const bool is_perspective = view.projection == Projection::kPerspective;
     const double nearest = thickness_tolerance(bounds) - frame.base_s;
     ASSERT_EQ(frame.first_t, is_perspective ? nearest : -std::numeric_limits<double>::max());
@@ -160,15 +160,15 @@ Mat3 random_map(MapKind kind, std::mt19937& random) {
   return Mat3{1.0};
 }
 
-/// Often of lengths that are exact in few bits, so that rays are exactly in a cap's plane.
+/// Lengths are often exact in few bits, so that rays are exactly in a cap's plane.
 constexpr test_support::SizeRange kSizes{
     .low = 0.5, .high = 2, .even_share = 0.6, .step = 0.25, .most_fragments = 12};
 
 struct Placement {
   const char* name;
-  double size;        // of the primitive
-  double from_pivot;  // of its local origin
-  double from_world;  // of the pivot
+  double size;        // the primitive's size
+  double from_pivot;  // distance of its local origin from the pivot
+  double from_world;  // distance of the pivot from the world's origin
 };
 constexpr Placement kPlacements[] = {{"unit", 1, 0, 0},
                                      {"aside", 1, 10, 3},
@@ -247,11 +247,11 @@ INSTANTIATE_TEST_SUITE_P(Packets, CrossingsOf, testing::Range(0, checks::kRayKin
                            return checks::name_of(static_cast<RayKind>(kind.param));
                          });
 
-/// The eye's distance costs nothing up to 2^26 sizes, from where on it moves the pivot away.
+/// The eye's distance has no cost up to 2^26 sizes; beyond that it moves the pivot away.
 TEST(Crossings, AreAsExactFromFarAway) {
   std::mt19937 random(4);
   for (const double distance : {3.0, 1e2, 1e4, 1e7, 1e8, 1e9, 1e10, 1e12}) {
-    double worst = 0;  // of the model's size
+    double worst = 0;  // as a share of the model's size
     int crossed = 0;
     for (int round = 0; round < (test_support::full_run() ? 2000 : 100); ++round) {
       const Placement placement{"", 1, uniform(random, 0, 1), 0};
@@ -283,8 +283,8 @@ TEST(Crossings, AreAsExactFromFarAway) {
   }
 }
 
-/// By how much a point, relative to the pivot, lies outside of what encloses a primitive, in
-/// canonical space; negative within.
+/// Returns how far a point, relative to the pivot, is outside of a primitive's enclosure, in
+/// canonical space; negative inside.
 Real canonical_gap(const Target& target, const LongVec3& point) {
   const CanonicalPrimitive& primitive = target.canonical;
   const LongVec3 center = LongVec3(primitive.center) - LongVec3(target.frame.pivot);
@@ -296,8 +296,8 @@ Real canonical_gap(const Target& target, const LongVec3& point) {
   return std::max(std::abs(p.z) - 1, wall);
 }
 
-/// In units of the distance that is asked for: who is told to be apart is so in extended precision,
-/// and who is four times as far away, where float tells, is told.
+/// In units of the tested distance: a primitive that is found to be disjoint is so in extended
+/// precision, and one that is four times as far away, within float's precision, is found.
 TEST(Apart, IsWhoIsFurtherAway) {
   std::mt19937 random(6);
   int told = 0;
@@ -325,7 +325,7 @@ TEST(Apart, IsWhoIsFurtherAway) {
       const Real gap = canonical_gap(target, point) / reach;
       told += is_told;
       if (is_told) {
-        // Rays that start far from the pivot round on their way.
+        // Rays that start far from the pivot are rounded on their way.
         const Real rounding = 4 * kEpsilon * glm::length(lanes[lane].origin) / distance;
         ASSERT_GE(gap + rounding, 1) << "distance " << distance;
       }
@@ -340,7 +340,7 @@ TEST(Apart, IsWhoIsFurtherAway) {
   EXPECT_GT(told, 1000);
 }
 
-/// Of one primitive's list.
+/// The list of one primitive.
 struct SingleList {
   CellList cells;
   double nearest_t = -std::numeric_limits<double>::max();
@@ -389,8 +389,8 @@ TEST(Hits, AreWhereSegmentsStartWithTheNormalsThere) {
   });
 }
 
-/// Rays, 4e-5 from the first to the last, straight down onto a plate with a pocket whose wall
-/// stands `aside` of them, and that only some may reach.
+/// Rays, 4e-5 from the first to the last, straight down onto a plate with a pocket whose wall is
+/// `aside` of them. Only some rays may reach the pocket.
 struct PocketTrace {
   uint64_t intersections;
   double z[kPacketRays];
@@ -419,7 +419,7 @@ PocketTrace trace_beside_a_pocket(double aside, LaneMask may_reach = kAllLanes) 
   list.list = &cells;
   list.nearest_t = nearest_t;
   list.earliest_t = -20;
-  const LaneMask reached[] = {may_reach, kAllLanes};  // the last test comes first
+  const LaneMask reached[] = {may_reach, kAllLanes};  // the last test is evaluated first
   list.reached = reached;
   TraceParameters parameters;
   parameters.thickness_tolerance = 1e-9;
@@ -441,7 +441,7 @@ TEST(Hits, DoNotIntersectWhatTheyLieBeside) {
     EXPECT_NEAR(trace.z[0], z, 1e-12);
   };
   expect(0.1, kPacketRays, 1);
-  // Nearly on its wall, and within it.
+  // The rays are almost on the pocket's wall, and inside it.
   expect(3e-5, 2 * kPacketRays, 1);
   expect(-0.1, 2 * kPacketRays, 0);
 }
@@ -494,7 +494,7 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
               : static_cast<float>(along[0] * (x + 4) + along[1] * (y + 4) + at);
     }
   }
-  // How far beyond the lines.
+  // Returns how far a pixel is beyond the lines.
   const auto beyond = [&](size_t i, double pixel_x, double pixel_y) {
     double furthest = -kInfinity;
     for (const int line : {0, 1}) {
@@ -520,7 +520,7 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
         const double pixel[] = {static_cast<double>(x + lane % kPacketWidth_px),
                                 static_cast<double>(y + lane / kPacketWidth_px)};
         const double past = beyond(i, pixel[0], pixel[1]);
-        if (std::abs(past) < 1e-4) continue;  // float
+        if (std::abs(past) < 1e-4) continue;  // within float's error
         ASSERT_EQ((lanes >> lane % kPacketRays & 1) != 0,
                   holds(extents[i], pixel[0], pixel[1]) && past < 0)
             << i << ' ' << lane;
@@ -531,7 +531,7 @@ TEST(FindReached, TellsThePixelsOfTwoBlocks) {
 
 // --- Instruction sets ---
 
-/// All bytes that a packet's functions give for the same input.
+/// Collects all bytes that a packet's functions give for the same input.
 class Bytes {
  public:
   template <typename T>

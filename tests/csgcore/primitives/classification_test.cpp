@@ -1,5 +1,5 @@
-// Classification is judged by points: what is claimed must hold at every one, and what the points
-// show to be decided should be claimed.
+// Tests classification by points: a claim must hold at every point, and what the points show to be
+// decided should be claimed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +38,8 @@ bool is_in(const Box& box, const Vec3& p) {
          p.z >= box.min.z && p.z <= box.max.z;
 }
 
-/// What a grid of the cell's points, and points of the primitive's surface, show. A cell that holds
-/// none of the surface lies within the primitive or beyond it, as a whole.
+/// What a grid of the cell's points, and points of the primitive's surface, show. A cell without
+/// any surface is entirely inside the primitive or outside.
 struct Sampled {
   bool meets = false;   // some point is in both
   bool leaves = false;  // some point of the cell is not in the primitive
@@ -64,7 +64,7 @@ Sampled sample(const Primitive& primitive, const std::vector<Vec3>& points, cons
 
 struct Tally {
   int outside = 0, inside = 0, crossing = 0;
-  int missed_outside = 0;  // nothing shows that they meet, yet they are said to cross
+  int missed_outside = 0;  // said to cross, although no sample shows that they meet
   int missed_inside = 0;
 };
 
@@ -131,7 +131,7 @@ struct NamedMap {
 constexpr NamedMap kMaps[] = {
     {"Similarity", similarity}, {"AxisAligned", axis_aligned}, {"Affine", affine}};
 
-/// Of moderate proportions, so that a grid of points finds what it looks for.
+/// Primitives of moderate proportions, so that a grid of points finds their parts.
 constexpr test_support::SizeRange kSizes{.low = 0.5, .high = 2, .most_fragments = 24};
 
 bool is_told_tightly(const Primitive& primitive) {
@@ -188,7 +188,7 @@ TEST_P(ClassificationOf, FurthestPointsAreFurthest) {
       double sampled = -std::numeric_limits<double>::infinity();
       for (const Vec3& point : points) sampled = std::max(sampled, glm::dot(point, direction));
       ASSERT_LE(sampled, found + 1e-13 * size);
-      // The test kind's own answer is told by the points, too: from below.
+      // The points also test the test kind's own answer, from below.
       const double furthest = reference::furthest(primitive, {Vec3(0.0), direction});
       ASSERT_LE(sampled, furthest + 1e-13 * size);
       if (!is_told_tightly(primitive)) continue;
@@ -198,8 +198,8 @@ TEST_P(ClassificationOf, FurthestPointsAreFurthest) {
   }
 }
 
-/// Where a ball leaves the primitive first: the directions out of each side, at its centre, in
-/// world space; and how far off the nearest side is.
+/// Where a ball leaves the primitive first: the directions out of each side at its centre, in world
+/// space, and the distance of the nearest side.
 struct WaysOut {
   std::vector<Vec3> directions;
   double nearest = std::numeric_limits<double>::infinity();
@@ -228,7 +228,7 @@ TEST_P(ClassificationOf, HoldsBallsThatLieInside) {
       const Vec3 center = checks::random_point(random, canonical.bounds);
       const WaysOut ways_out(primitive, center);
       double radius = smallest * checks::uniform(random, 0.001, 0.3);
-      // Often one that is just held, or just not.
+      // Half of the balls are just inside, or just not.
       if (k % 2 == 0 && ways_out.nearest > 0) {
         radius = ways_out.nearest * checks::uniform(random, 0.8, 1.05);
       }
@@ -253,7 +253,7 @@ TEST_P(ClassificationOf, KnowsWhatIsApart) {
     const Primitive a = make(random);
     Primitive b = checks::random_primitive(random);
     const CanonicalPrimitive canonical_a = canonicalize(a);
-    // From the plane in which a ends along some direction, b begins so far beyond.
+    // b begins at a distance beyond the plane in which a ends along some direction.
     const Vec3 direction = checks::random_direction(random);
     const auto shift = [&](double gap) {
       const CanonicalPrimitive canonical_b = canonicalize(b);
@@ -266,7 +266,7 @@ TEST_P(ClassificationOf, KnowsWhatIsApart) {
     const double gap = size * checks::uniform(random, 0.01, 0.1);
     const bool tightly = is_told_tightly(a) && is_told_tightly(b);
     missed += !are_apart(canonical_a, shift(gap), 0.01 * gap) && tightly;
-    // They may or may not be, or overlap.
+    // They may or may not be disjoint.
     b.local_to_world.translation +=
         size * (0.2 * checks::random_direction(random) - 0.15 * direction);
     const CanonicalPrimitive near = canonicalize(b);
@@ -322,8 +322,8 @@ TEST(Classification, ApexHasNoSecondNappe) {
   EXPECT_EQ(classify(cone, {{-0.1, -0.1, 0.999}, {0.1, 0.1, 1.2}}), Classification::kCrosses);
 }
 
-/// How far a point lies outside, in units of a side of the local solid, in more than double
-/// precision; the map is taken as exact.
+/// Returns how far a point is outside, in units of a side of the local solid, in more than double
+/// precision. The map is taken as exact.
 Real exact_excess(const Primitive& primitive, const Vec3& point) {
   const Affine& map = primitive.local_to_world;
   const LongVec3 local = glm::inverse(glm::mat<3, 3, Real>(map.linear)) *
@@ -336,9 +336,10 @@ Real exact_excess(const Primitive& primitive, const Vec3& point) {
   return excess;
 }
 
-/// Single points next to the surface, under maps that lose digits: rounding makes no claim.
+/// Tests single points next to the surface, under maps that lose digits: no claim may be due to
+/// rounding.
 TEST(Classification, RoundingIsAllowedFor) {
-  // A polyhedron's vertices, and so its bounds, are those of its half-spaces but for rounding.
+  // A polyhedron's vertices, and so its bounds, are those of its half-spaces up to rounding.
   constexpr Real kVertexRounding = 4 * std::numeric_limits<double>::epsilon();
   std::mt19937 random(8);
   int inner = 0, outer = 0;
@@ -369,7 +370,8 @@ TEST(Classification, RoundingIsAllowedFor) {
   EXPECT_GT(outer, 5000);
 }
 
-/// Far from the origin, far larger than the other axes, far smaller than the cell: never wrong.
+/// Far from the origin, far larger than the other axes, far smaller than the cell: claims are never
+/// wrong.
 TEST(Classification, ExtremeSizes) {
   std::mt19937 random(6);
   for (int round = 0; round < 300; ++round) {
@@ -384,7 +386,7 @@ TEST(Classification, ExtremeSizes) {
     const test_support::TestKind& kind = test_support::test_kind_of(primitive.shape);
     const CanonicalPrimitive canonical = canonicalize(primitive);
     for (int i = 0; i < 20; ++i) {
-      // A point of the solid, as exactly as coordinates of 1e12 allow, and a cell around it.
+      // A point of the solid, as exact as coordinates of 1e12 allow, and a cell around it.
       const Vec3 surface = kind.surface_point(primitive, random);
       const double share = 0.99 * checks::uniform(random, 0, 1);
       const Vec3 point = map.point(glm::mix(kind.core(primitive, surface), surface, share));

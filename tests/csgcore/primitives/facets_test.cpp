@@ -1,4 +1,4 @@
-// The facets of OpenSCAD's primitives, and the half-spaces that define them.
+// Tests the facets of OpenSCAD's primitives, and the half-spaces that define them.
 #include "csgcore/facets.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ TEST(FragmentCount, IsOpenSCADs) {
       {1e4, {0, 0, 0.01}, 36000},  // $fa is 0.01 at least
       {1, {0, 12, 0}, 30},         //
       {1, {2, 12, 2}, 3},          //
-      {1, {6.9, 12, 2}, 6},        // cut, not rounded
+      {1, {6.9, 12, 2}, 6},        // truncated, not rounded
       {1, {inf, 12, 2}, 3},        //
       {9e-7, {50, 12, 2}, 3},      // below 2⁻²⁰
       {1, {1e30, 12, 2}, 2147483647},
@@ -78,14 +78,15 @@ std::vector<MeshCase> mesh_cases() {
   return cases;
 }
 
-/// Equal to the six digits that OpenSCAD writes.
+/// Returns whether the values are equal to the six digits that OpenSCAD writes.
 bool same_digits(double written, double value) {
   constexpr double kHalfDigit = 5.001e-6;
   constexpr double kNoise = 1e-15;  // sin(180°) is as small as this in some versions
   return std::abs(written - value) <= kHalfDigit * std::abs(value) + kNoise;
 }
 
-/// Per vertex of `written`, the vertex of `mesh` that it is; size of mesh.vertices: none.
+/// Returns for each vertex of `written` the index of the same vertex of `mesh`, or the size of
+/// mesh.vertices if there is none.
 std::vector<size_t> matched(const Mesh& written, const Mesh& mesh) {
   std::vector<size_t> result;
   for (const Vec3& w : written.vertices) {
@@ -97,7 +98,7 @@ std::vector<size_t> matched(const Mesh& written, const Mesh& mesh) {
   return result;
 }
 
-/// True if the polygon's corners are the face's, and turn as it does.
+/// Returns whether the polygon's corners are among the face's, in the same sense of rotation.
 bool is_part_of(const std::vector<size_t>& corners, const std::vector<uint32_t>& face) {
   std::vector<size_t> places;
   for (const size_t corner : corners) {
@@ -118,13 +119,13 @@ TEST(Facets, AreOpenSCADs) {
     ASSERT_FALSE(different.contains(c.mesh.vertices.size())) << c.scad << ": an unknown vertex";
     ASSERT_EQ(different.size(), c.mesh.vertices.size()) << c.scad;
 
-    // OpenSCAD's polygons tile the faces: each lies in one, and their triangles are as many.
+    // OpenSCAD's polygons tile the faces: each is in one face, and their triangles are as many.
     size_t triangles = 0;
     for (const std::vector<uint32_t>& face : c.mesh.faces) triangles += face.size() - 2;
     size_t written_triangles = 0;
     for (const std::vector<uint32_t>& polygon : written.faces) {
       std::vector<size_t> corners;
-      for (const uint32_t corner : polygon) {  // (it repeats points that are equal)
+      for (const uint32_t corner : polygon) {  // OpenSCAD repeats equal points
         const size_t vertex = vertices[corner];
         if (corners.empty() || corners.back() != vertex) corners.push_back(vertex);
       }
@@ -137,8 +138,8 @@ TEST(Facets, AreOpenSCADs) {
   }
 }
 
-/// The design moved so that `vertex` comes to lie at the origin, and magnified by a power of two
-/// that makes a difference in the last bit visible.
+/// Moves the design so that `vertex` is at the origin, and magnifies it by a power of two that
+/// makes a difference in the last bit visible.
 std::string magnified(const std::string& scad, const Vec3& vertex) {
   const double scale = std::ldexp(1.0, 60);
   char text[400];
@@ -155,7 +156,7 @@ TEST(Facets, HaveOpenSCADsBits) {
       {"sphere(r = 0.3, $fn = 48);", sphere_mesh(0.3, 48)},
       {"cylinder(h = 0.7, r1 = 1.1, r2 = 0.3, center = true, $fn = 13);",
        frustum_mesh(-0.35, 0.35, 1.1, 0.3, 13)}};
-  constexpr size_t kVertices = 15;  // of each, from the first to the last
+  constexpr size_t kVertices = 15;  // vertices of each, evenly from the first to the last
   for (const auto& [scad, mesh] : cases) {
     for (size_t i = 0; i < kVertices; ++i) {
       const Vec3& vertex = mesh.vertices[i * (mesh.vertices.size() - 1) / (kVertices - 1)];
@@ -170,7 +171,8 @@ double signed_distance(const HalfSpace& h, const Vec3& p) {
   return (glm::dot(h.normal, p) - h.offset) / glm::length(h.normal);
 }
 
-/// Every face lies in a half-space's boundary, no vertex outside of any, none has no face.
+/// Fails unless every face is in a half-space's boundary, no vertex is outside of any, and each has
+/// a face.
 void expect_bounds(const std::vector<HalfSpace>& half_spaces, const Mesh& mesh,
                    const std::string& name) {
   constexpr double kRounding = 1e-14;  // some ulps of coordinates below 12
@@ -201,10 +203,11 @@ TEST(HalfSpaces, BoundTheMesh) {
   expect_bounds(half_spaces(box), box_mesh(box), "box");
 }
 
-// Nothing but the polygon's own numbers, where these are exact: planes meet where they should.
+// The planes have the polygon's own numbers where these are exact, so that they meet where they
+// should.
 TEST(HalfSpaces, AreExactWhereTheAnglesAre) {
   const std::vector<HalfSpace> hexagon = half_spaces(faceted_frustum(0, 1, 5, 5, 6));
-  EXPECT_EQ(hexagon[0].normal.x, 1);  // the sector from 0 to 60°, and the one from −60° to 0
+  EXPECT_EQ(hexagon[0].normal.x, 1);  // of the sector from 0 to 60°, and of the one from −60° to 0
   EXPECT_EQ(hexagon[5].normal.x, 1);
   EXPECT_EQ(hexagon[0].normal.z, 0);
   EXPECT_EQ(hexagon[0].offset, 5);
@@ -240,12 +243,12 @@ TEST(HalfSpaces, OfNoConvexSolid) {
 
   Mesh inside_out = box;
   for (auto& face : inside_out.faces) std::reverse(face.begin(), face.end());
-  EXPECT_TRUE(half_spaces(inside_out));  // the solid is clear
+  EXPECT_TRUE(half_spaces(inside_out));  // the solid is unambiguous
 
   Mesh bent = box;
   bent.vertices[7] *= 1.001;  // three faces are no longer plane
   EXPECT_FALSE(half_spaces(bent));
-  bent.vertices[7] = Vec3(1 + 1e-6);  // a matter of the file's digits
+  bent.vertices[7] = Vec3(1 + 1e-6);  // as far as the file's digits
   EXPECT_TRUE(half_spaces(bent));
 
   Mesh dented = box;  // its lid is a funnel

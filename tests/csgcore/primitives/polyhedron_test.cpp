@@ -1,4 +1,4 @@
-// Convex polyhedra by their hierarchies, against all of their faces and vertices.
+// Tests the hierarchies of convex polyhedra against all of their faces and vertices.
 #include "csgcore/polyhedron.hpp"
 
 #include <gtest/gtest.h>
@@ -76,14 +76,14 @@ TEST(Polyhedron, FacesAreTheHalfSpaces) {
   }
 }
 
-/// What the tracer relies on: whoever passes a branch over loses nothing.
+/// The tracer relies on it that a branch which is skipped has no face that matters.
 TEST(Polyhedron, BranchesImplyTheirFaces) {
   std::mt19937 random(1);
   for (const auto& [name, polyhedron] : all_kinds()) {
     const std::vector<Entry>& entries = polyhedron->entries();
     int passed_over = 0;
     for (int round = 0; round < 200; ++round) {
-      // Near the surface, where it matters.
+      // Points near the surface, where it matters.
       const Vec3 face = polyhedron->face_towards(checks::random_direction(random));
       Vec3 p = checks::random_point(random, {Vec3(-1), Vec3(1)});
       const double reach = glm::dot(face, p);
@@ -133,7 +133,7 @@ TEST(Polyhedron, AnswersAreThoseOfAllFacesAndVertices) {
   }
 }
 
-/// Some ray by all half-spaces.
+/// Returns a ray's segment by all half-spaces.
 std::pair<double, double> segment_of(const Polyhedron& polyhedron, const Vec3& o, const Vec3& d) {
   double start = -std::numeric_limits<double>::infinity();
   double end = -start;
@@ -200,7 +200,7 @@ TEST(Polyhedron, OnlyBoxesHaveSlabs) {
   }
 }
 
-/// A ray along a box's face, within it, on it and beyond it: the box is closed.
+/// Rays along a box's face, inside it, on it and beyond it: the box is closed.
 TEST(Polyhedron, RaysAlongFacesOfABox) {
   const CanonicalPrimitive box =
       canonicalize(make_polyhedron(Polyhedron::box({Vec3(-1), Vec3(1)})));
@@ -247,7 +247,7 @@ TEST(Polyhedron, FacesMayRunEitherWay) {
     for (int i = 0; i < 8; ++i) {
       Mesh turned = mesh;
       for (std::vector<uint32_t>& face : turned.faces) {
-        // All of them first, then some.
+        // First all faces are reversed, then some.
         if (i == 0 || random() % 2 == 0) std::reverse(face.begin(), face.end());
       }
       const auto polyhedron = Polyhedron::from(turned);
@@ -277,7 +277,7 @@ TEST(Polyhedron, OnlyOfClosedMeshes) {
   EXPECT_FALSE(Polyhedron::from(without_last(box)));
   EXPECT_FALSE(Polyhedron::from(with_again(box, box.faces[0])));
   EXPECT_FALSE(Polyhedron::from(with_again(box, turned)));
-  // Opposite faces of an octahedron, each twice: all edges are there twice, and nothing is closed.
+  // Opposite faces of an octahedron, each twice: every edge is there twice, but nothing is closed.
   const std::vector<Vec3> corners = {Vec3(1, 0, 0),  Vec3(0, 1, 0),  Vec3(0, 0, 1),
                                      Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1)};
   EXPECT_FALSE(Polyhedron::from({corners, {{0, 1, 2}, {2, 1, 0}, {3, 4, 5}, {5, 4, 3}}}));

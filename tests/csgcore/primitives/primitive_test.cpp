@@ -40,7 +40,7 @@ TEST(Primitive, IsValidUnderMatrices) {
   EXPECT_TRUE(is_valid(make_sphere(1, map)));
   map.linear[0][0] = -1;  // a mirror
   EXPECT_TRUE(is_valid(make_sphere(1, map)));
-  map.linear[0][0] = 0;  // flattens
+  map.linear[0][0] = 0;  // flattens the primitive
   EXPECT_FALSE(is_valid(make_sphere(1, map)));
   map.linear[0][0] = kNan;
   EXPECT_FALSE(is_valid(make_sphere(1, map)));

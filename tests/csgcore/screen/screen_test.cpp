@@ -1,4 +1,4 @@
-// Where primitives lie on the screen: never too little.
+// Tests the extents of primitives on the screen: they are never too small.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ struct Screen {
   FrameRays frame;
   std::vector<CanonicalPrimitive> primitives;
   Extents extents;
-  std::vector<ScreenSlab> slabs;    // of those whose inside2 < 0, on the screen
-  std::vector<ScreenKDop> corners;  // of those that are large there
+  std::vector<ScreenSlab> slabs;    // of those with inside2 < 0, on the screen
+  std::vector<ScreenKDop> corners;  // of those that are large on the screen
 
   Screen(const std::vector<Primitive>& scene, const FrameRays& rays, bool centers_only)
       : frame(rays) {
@@ -56,7 +56,7 @@ struct Screen {
                corners.data());
   }
 
-  /// Of what fills its box badly.
+  /// Returns whether the primitive fills its box badly.
   bool has_slab(size_t i) const {
     return extents[i].inside2 < 0 &&
            cull_reason_on_screen(extents[i]) == ScreenCullReason::kVisible;
@@ -70,7 +70,7 @@ struct Screen {
     return (has_slab(i) && misses(slabs[i], box)) || (is_cornered(i) && misses(corners[i], box));
   }
 
-  /// The rays of so many points of the picture, at most kPacketRays.
+  /// Returns the rays through these points of the picture, of which there are at most kPacketRays.
   RayPacket rays_through(const std::vector<glm::dvec2>& points_px) const {
     PacketLaterals laterals;
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
@@ -83,7 +83,7 @@ struct Screen {
     return rays;
   }
 
-  /// The picture's point that shows a point of the world in front of the eye.
+  /// Returns the place in the picture of a point of the world in front of the eye.
   glm::dvec2 project(const Vec3& point) const {
     const View& view = frame.view;
     const Vec3 offset = point - view.eye;
@@ -103,7 +103,7 @@ std::vector<Primitive> random_primitives(std::mt19937& random, int count) {
   return primitives;
 }
 
-/// The same, stretched to needles and pressed to plates.
+/// Random primitives, stretched to needles and pressed to plates.
 std::vector<Primitive> stretched_primitives(std::mt19937& random, int count) {
   std::vector<Primitive> primitives = random_primitives(random, count);
   for (Primitive& primitive : primitives) {
@@ -114,12 +114,12 @@ std::vector<Primitive> stretched_primitives(std::mt19937& random, int count) {
   return primitives;
 }
 
-/// The space that random_primitives fill, about.
+/// About the space that random_primitives fill.
 const Box kSeenSpace{Vec3(-8.0), Vec3(8.0)};
 
 FrameRays rays_of(const View& view) { return frame_rays(view, kSeenSpace); }
 
-/// Views of that: from outside, from amidst them, from one point of it.
+/// Returns views of that space: from outside, from its middle, from one point of it.
 std::vector<View> random_views(std::mt19937& random) {
   std::vector<View> views;
   for (const double distance : {40.0, 12.0, 3.0, 0.0, 1e5}) {
@@ -135,12 +135,13 @@ std::vector<View> random_views(std::mt19937& random) {
   return views;
 }
 
-/// The part of a segment that is in front of the eye; false if there is none.
+/// Returns whether a part of the segment is in front of the eye.
 bool is_seen(const FrameRays& frame, const PacketSegments& segments, uint32_t lane) {
   return segments.start[lane] < segments.end[lane] && segments.end[lane] > frame.first_t;
 }
 
-/// Pixels' centres next to where points of the surface are seen, or the very points.
+/// Returns places in the picture where points of the surface are seen, or pixels' centres next to
+/// them.
 std::vector<glm::dvec2> points_at(const Screen& screen, const Primitive& primitive,
                                   std::mt19937& random, bool centers_only) {
   std::vector<glm::dvec2> points;
@@ -194,7 +195,8 @@ INSTANTIATE_TEST_SUITE_P(Tiles, ScreenExtents, testing::Bool(), [](const auto& c
   return centers_only.param ? "OfCentres" : "OfAllPoints";
 });
 
-/// Of what lies wholly on the screen, well before the eye: to a hundredth of its size.
+/// The extent of a primitive entirely on the screen, well in front of the eye, is tight to a
+/// hundredth of its size.
 TEST(ScreenExtents, AreTight) {
   std::mt19937 random(2);
   uint64_t tight = 0, tight_lines = 0, tight_corners = 0;
@@ -208,11 +210,11 @@ TEST(ScreenExtents, AreTight) {
       const bool is_perspective = view.projection == Projection::kPerspective;
       if (cull_reason_on_screen(extent) != ScreenCullReason::kVisible) continue;
       if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
-      // What encloses it is shown in its place.
+      // Its enclosure is shown in its place.
       const Polyhedron* polyhedron = primitives[i].polyhedron.get();
       if (polyhedron && polyhedron->vertices().size() > 64) continue;
       glm::dvec2 low(1e9), high(-1e9);
-      double beyond[2] = {-1e9, -1e9};  // how far the furthest is beyond the lines
+      double beyond[2] = {-1e9, -1e9};  // how far the furthest point is beyond the lines
       double least[ScreenKDop::kCount], most[ScreenKDop::kCount];
       std::fill(std::begin(least), std::end(least), 1e9);
       std::fill(std::begin(most), std::end(most), -1e9);
@@ -313,7 +315,7 @@ TEST(ScreenSlabs, MissOnlyTilesWhoseRaysMissThem) {
   EXPECT_GT(missed_by_corners, 100u);
 }
 
-/// The screen's functions have no other test of their instruction sets.
+/// No other test covers the instruction sets of the screen's functions.
 TEST(ScreenSlabs, EveryInstructionSetAgrees) {
   std::mt19937 random(5);
   const std::vector<View> views = random_views(random);
@@ -342,7 +344,7 @@ TEST(ScreenSlabs, EveryInstructionSetAgrees) {
   }
 }
 
-/// The screen's extents against a tile, which has any depth.
+/// Tests the screen's extents against a tile, which has any depth.
 TEST(ScreenExtents, RectanglesMeetATileOrNot) {
   constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
   std::mt19937 random(6);

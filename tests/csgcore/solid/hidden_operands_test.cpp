@@ -1,5 +1,5 @@
-// What is left out of a solid's outer groups is seen from nowhere outside, and where it can be
-// seen, it is.
+// Tests the operands that are left out of a solid's outer groups: nobody outside can see them, and
+// a view that can does see them.
 #include "solid/hidden_operands.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 using checks::moved;
 using checks::uniform;
 
-/// Half of the sides of the block that things are hidden in.
+/// Half a side of the block that hides things.
 constexpr double kHalf = 10;
 
 Primitive make_block(const Vec3& half, const Affine& placed = {}) {
@@ -39,7 +39,7 @@ class Designer {
     again(static_cast<uint32_t>(scene_.primitives.size()));
     scene_.primitives.push_back(primitive);
   }
-  /// One more operand of a primitive that stands in the tree already.
+  /// Adds one more operand of a primitive that the tree has already.
   void again(uint32_t primitive) { builder_.primitive(primitive); }
   Scene finish() {
     scene_.model = builder_.finish();
@@ -54,7 +54,7 @@ class Designer {
 constexpr int kSide = 6;
 constexpr size_t kLattice = kSide * kSide * kSide;
 
-/// Balls in the block's inside; those of a row along x reach into each other, rows do not.
+/// Balls inside the block. Those of a row along x overlap; rows do not.
 void add_lattice(Designer& design) {
   for (int i = 0; i < static_cast<int>(kLattice); ++i) {
     const Vec3 place(i % kSide, i / kSide % kSide, i / kSide / kSide);
@@ -99,19 +99,19 @@ TEST(HiddenOperands, VoidsInASolid) {
 
 TEST(HiddenOperands, PartsInASolid) {
   const Solid solid = block_and_lattice(Op::kUnion);
-  EXPECT_EQ(solid.inner().size(), kLattice);  // before they are looked for here
+  EXPECT_EQ(solid.inner().size(), kLattice);  // before hidden operands are sought
   EXPECT_EQ(solid.outer_groups().list().count(), 1u);
   expect_the_whole_picture(solid);
 }
 
-/// What is seen of a row, all of it may be.
+/// If anything of a row is seen, all of it may be.
 TEST(HiddenOperands, ATunnelOpensARow) {
   for (const bool reaches : {false, true}) {
     Designer design;
     design.open(Op::kDifference);
     design.add(make_block(Vec3(kHalf)));
     add_lattice(design);
-    // From the side to the first ball of the row in the middle; or not quite to it.
+    // A tunnel from the side to the first ball of the middle row, or not quite to it.
     const double end = reaches ? 0.8 : 1.0;
     const Vec3 first = Vec3(-1.6, 0.5, 0.5) * Vec3(2.5, 2.5, 2.5) - Vec3(end, 0, 0);
     const double length = first.x + kHalf + 1;
@@ -142,7 +142,7 @@ TEST(HiddenOperands, AThinWallHidesNothing) {
   expect_the_whole_picture(solid);
 }
 
-/// Nothing of them is left, however little they are within what takes them away.
+/// Nothing is left of the parts, however little they are inside what takes them away.
 TEST(HiddenOperands, WhatIsWhollyTakenAway) {
   Designer design;
   design.open(Op::kUnion);
@@ -169,8 +169,9 @@ TEST(HiddenOperands, WhatIsWhollyTakenAway) {
   expect_the_whole_picture(solid);
 }
 
-/// Voids in a crowd, each of which reaches into hundreds, and some into the open: to find that all
-/// of them are seen would take longer than many pictures. Others are not looked for, then.
+/// A crowd of voids, each of which overlaps hundreds, and some of which are open to the outside.
+/// Finding that all of them are seen would take longer than many pictures, so that the search is
+/// given up.
 TEST(HiddenOperands, ConnectedCrowdsAreGivenUp) {
   Designer design;
   design.open(Op::kDifference);
@@ -206,7 +207,7 @@ TEST(HiddenOperands, LongHolesHideWhatTheyDoNotReach) {
   expect_the_whole_picture(solid);
 }
 
-/// A wall so large that its coordinates say little of where it ends.
+/// A wall so large that its coordinates tell little of where it ends.
 TEST(HiddenOperands, HugeWallsHideWhatIsCertain) {
   std::mt19937 random(1);
   for (const double huge : {1e9, 1e12}) {
@@ -234,7 +235,7 @@ TEST(HiddenOperands, HugeWallsHideWhatIsCertain) {
   }
 }
 
-/// Operations of a few operands, one in another, and one of many.
+/// Nested operations of a few operands, and one of many.
 TEST(HiddenOperands, LongListsAreLeftAsTheyAre) {
   Designer design;
   design.open(Op::kUnion);
@@ -273,7 +274,7 @@ TEST(HiddenOperands, WhatStandsTwiceStays) {
   const Solid solid = solid_of(design.finish());
   const std::vector<uint32_t>& inside = hidden_in(solid).inside;
   EXPECT_EQ(std::count(inside.begin(), inside.end(), 1u), 0);
-  // Nor does its row go: who is kept is taken to be seen.
+  // Its row stays, too: an operand that is kept is assumed to be seen.
   EXPECT_EQ(inside.size(), kLattice - kSide);
   expect_the_whole_picture(solid);
 }
@@ -282,7 +283,8 @@ TEST(HiddenOperands, AreSeenByAnEyeAmongThem) {
   const Solid solid = block_and_lattice(Op::kDifference);
   View view = checks::trace_views(solid.bounds(), 64, 48)[0].view;
   view.half_height = 1;
-  // In a void; in the solid, from which a ray ends where that does; in the wall about the voids.
+  // The eye is in a void; in the solid, where the ray ends as the solid does; or in the wall about
+  // the voids.
   for (const Vec3& eye : {Vec3(0.8, 1.25, 1.25), Vec3(0.0), Vec3(0, 0, 9.9)}) {
     view.eye = eye;
     expect_the_whole_picture(solid, view, Boundary::kFirst);
@@ -292,7 +294,7 @@ TEST(HiddenOperands, AreSeenByAnEyeAmongThem) {
   }
 }
 
-/// Whose walls go, or come: earlier judgements do not hold.
+/// Walls are removed or added, so that earlier judgements do not hold.
 TEST(HiddenOperands, AreJudgedAgainAfterEdits) {
   const auto design_with = [](const Vec3& body, const Vec3& tunnel) {
     Designer design;
@@ -383,7 +385,7 @@ Scene random_design(uint32_t seed) {
   return scene;
 }
 
-/// Most of these have enough that is hidden.
+/// Most of these designs hide enough.
 TEST(HiddenOperands, RandomDesignsShowTheSame) {
   const uint32_t designs = test_support::full_run() ? 5000 : 40;
   uint32_t with_hidden = 0;

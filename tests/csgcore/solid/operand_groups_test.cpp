@@ -31,10 +31,10 @@ Primitive random_ball(std::mt19937& random) {
   return make_sphere(radius, checks::moved(checks::random_point(random, kSpace)));
 }
 
-/// Operations of up to hundreds of operands, one in another; some primitives stand in it again.
+/// Nested operations of up to hundreds of operands; some primitives are in them repeatedly.
 void add_operation(CsgTreeBuilder& builder, Scene& scene, std::mt19937& random, int depth) {
   const bool is_large = random() % 2;
-  // Little is left of what many have in common.
+  // Intersections of many operands leave little.
   const Op op = static_cast<Op>(is_large ? 2 * (random() % 2) : random() % 3);
   static_assert(static_cast<int>(Op::kIntersection) == 1);
   builder.open(op);
@@ -77,7 +77,7 @@ bool box_holds(const Extent& extent, const Vec3& point) {
   return true;
 }
 
-/// The value at a point, of which nothing is asked that lies outside of a group's box.
+/// Returns the value at a point. A group's members are evaluated only if its box holds the point.
 bool value_at(const Solid& solid, const Vec3& point) {
   const OperandGroups& groups = solid.groups();
   const std::function<bool(uint32_t)> inside = [&](uint32_t index) {
@@ -117,7 +117,7 @@ TEST_P(GroupsOf, RandomTreeHaveItsValues) {
   EXPECT_GT(holds, 0);
 }
 
-/// The same by opening them, cell by cell.
+/// The same by expanding the groups, cell by cell.
 TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
   const WorldClassifier classifier(solid_.primitives());
   Restrictor restrictor(groups_.extents(), classifier);
@@ -151,9 +151,9 @@ TEST_P(GroupsOf, RandomTreeOpenIntoItsList) {
   }
 }
 
-/// And all others in one group each.
+/// All other primitives are in exactly one group.
 TEST_P(GroupsOf, RandomTreeNamesWhatStandsInNoGroupOrInSeveral) {
-  std::map<uint32_t, int> uses;  // in groups
+  std::map<uint32_t, int> uses;  // number of groups, by primitive
   for (uint32_t group = groups_.first_group(); group < groups_.count(); ++group) {
     for (const uint32_t entry : groups_.members(group).primitive) ++uses[entry & kPrimitiveBits];
   }
@@ -173,7 +173,7 @@ TEST_P(GroupsOf, RandomTreeShowTheSame) {
   }
 }
 
-/// Rectangles of balls hold what is bounded in double, and hardly more.
+/// Rectangles of balls contain what is bounded in double, and hardly more.
 TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
   for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
@@ -185,7 +185,7 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       const OperandGroups::Members members = groups_.members(group);
       const auto count = static_cast<uint32_t>(members.primitive.size());
       const double* const center = groups_.extents()[group].center;
-      // What follows a group's is another's.
+      // The numbers after a group's are another group's.
       std::vector<float> rows[4];
       for (auto& row : rows) row.assign(count + 1, 7.0f);
       const Rectangle all = find_rectangles(
@@ -220,12 +220,12 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       }
     }
     EXPECT_GT(visible, 0);
-    // Near the eye a ball is no longer seen as one.
+    // Near the eye a ball is not seen as one any more.
     EXPECT_LT(area, (name == "FromWithin" ? 2 : 1.2) * exact_area);
   }
 }
 
-/// On the screen a group reaches as far as what it holds, and not as far as its box.
+/// On the screen a group reaches as far as its members, and not as far as its box.
 TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
   for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
@@ -258,7 +258,7 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
       for (const uint32_t entry : members) {
         const Extent& member = bounds.extents()[entry & kPrimitiveBits];
         if (cull_reason_on_screen(member) != ScreenCullReason::kVisible) continue;
-        // What the group's box and the picture leave of it counts.
+        // Only the part within the group's box and the picture counts.
         double low[2], high[2];
         for (const int axis : {0, 1}) {
           const double last = axis == 0 ? view.width_px - 1.0 : view.height_px - 1.0;
@@ -285,7 +285,7 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GroupsOf, testing::Range(1u, 7u));
 
-/// Who lies between the rays is nowhere, and nobody else.
+/// Members between the rays have no rectangle; all others have one.
 TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
   std::mt19937 random(GetParam());
   constexpr uint32_t kCount = 4000;
@@ -326,7 +326,7 @@ TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
   }
 }
 
-/// Beside a ball that is not.
+/// Beside it is a ball that does not overflow.
 TEST(MemberRectangles, WhatOverflowsMayBeAnywhere) {
   constexpr float kOverflown = std::numeric_limits<float>::infinity();
   constexpr uint32_t kCount = 2;
@@ -403,8 +403,8 @@ std::vector<Primitive> balls_at(std::initializer_list<double> places) {
 }
 
 TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
-  // What is subtracted from elsewhere; what an intersection leaves nothing of; what a union within
-  // an intersection holds beside it.
+  // The difference's operand is elsewhere; the intersection leaves nothing of one; a union within
+  // an intersection has one beside it.
   const Solid difference = solid_of(balls_at({0, 1, 5}), [](CsgTreeBuilder& builder) {
     builder.open(Op::kDifference);
     for (uint32_t i = 0; i < 3; ++i) builder.primitive(i);
@@ -428,7 +428,7 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
     builder.close();
   });
   EXPECT_EQ(cut_union.groups().list().count(), 2u);
-  // Both operands of the union lie beside what is left of its box.
+  // Both operands of the union are beside what is left of its box.
   const Solid nothing = solid_of(balls_at({-4, 4, 0}), [](CsgTreeBuilder& builder) {
     builder.open(Op::kIntersection);
     builder.open(Op::kUnion);
@@ -439,7 +439,7 @@ TEST(OperandGroups, LeaveOutWhatMattersNowhere) {
     builder.close();
   });
   EXPECT_TRUE(nothing.groups().list().is_constant());
-  // Nor is what is left of it less something.
+  // Nor is anything left of what remains of it less something.
   const Solid less = solid_of(balls_at({-4, 4, 0.5, 0}), [](CsgTreeBuilder& builder) {
     builder.open(Op::kIntersection);
     builder.open(Op::kDifference);

@@ -1,5 +1,5 @@
-// Operands that are there twice, or lie within others, are left out; nothing of the picture
-// changes.
+// Tests that operands that are there twice, or are inside others, are left out, and that the
+// picture stays the same.
 #include "solid/redundant_operands.hpp"
 
 #include <gmock/gmock.h>
@@ -48,11 +48,11 @@ std::optional<LeanTree> lean_of(const Scene& scene) {
   const auto primitives = canonical_primitives(scene);
   Extents extents;
   for (const CanonicalPrimitive& primitive : *primitives) extents.push_back(extent_of(primitive));
-  constexpr double kTolerance = 1e-8;  // of scenes some 10 large
+  constexpr double kTolerance = 1e-8;  // for scenes of about size 10
   return leave_out_redundant(scene.model, *primitives, extents, kTolerance);
 }
 
-/// Letter for letter the same ball, else another one.
+/// Makes a ball for each letter; equal letters mean equal balls.
 Scene scene_of(const std::string& letters, const std::string& tree) {
   Scene scene;
   for (const char letter : letters) {
@@ -74,7 +74,7 @@ TEST(EqualOperands, TheLastIsLeft) {
   EXPECT_EQ(merged("abab", "(* 0 1 2 3)"), "(* 2 3)");
   EXPECT_EQ(merged("abcb", "(- 0 1 2 3)"), "(- 0 2 3)");
   EXPECT_EQ(merged("aaaaa", "(- 0 1 2 3 4)"), "(- 0 4)");
-  // Not by the place in the tree.
+  // File order decides, not the place in the tree.
   EXPECT_EQ(merged("aba", "(+ 2 1 0)"), "(+ 2 1)");
 }
 
@@ -88,12 +88,12 @@ TEST(EqualOperands, OfDifferentOperationsAllStay) {
 TEST(EqualOperands, OperationsOfEqualOperandsAreEqual) {
   EXPECT_EQ(merged("abab", "(+ (- 0 1) (- 2 3))"), "(- 2 3)");
   EXPECT_EQ(merged("abcabcd", "(+ (- 0 (* 1 2)) (- 3 (* 4 5)) 6)"), "(+ (- 3 (* 4 5)) 6)");
-  // Once their own equal operands are gone.
+  // The differences become equal once their own equal operands are gone.
   EXPECT_EQ(merged("abbab", "(+ (- 0 1 2) (- 3 4))"), "(- 3 4)");
   EXPECT_EQ(merged("abab", "(+ (- 0 1) (- 3 2))"), "the same");
-  // What is left dissolves into the operation around it.
+  // The operation that is left merges into the one around it.
   EXPECT_EQ(merged("ababc", "(+ (* (+ 0 1) (+ 2 3)) 4)"), "(+ 2 3 4)");
-  // Operands that interleave: of one the top, of the other the side might be the last.
+  // Operands that interleave: the last might be the top of one, and the side of the other.
   EXPECT_EQ(merged("aabb", "(+ (- 0 2) (- 1 3))"), "the same");
 }
 
@@ -150,7 +150,7 @@ TEST(InnerOperands, OfAUnionAreLeftOut) {
   EXPECT_EQ(lean({large, small}, "(- 0 1)"), "the same");
 }
 
-/// What touches the surface from inside shows there, if it comes later.
+/// Parts that touch the surface from inside show there, if they come later.
 TEST(InnerOperands, ThatShowAtTheSurfaceStay) {
   const auto slab = [](double top, double radius) { return make_frustum(0, top, radius, radius); };
   const auto prism = [](double top, double radius) {
@@ -196,7 +196,7 @@ Scene tree_of_few_kinds(uint32_t seed) {
   return scene;
 }
 
-/// The same without merging: nothing is equal that differs by its last bit alone.
+/// The same tree without merging: primitives that differ in the last bit are not equal.
 Scene with_tiny_differences(Scene scene) {
   for (size_t i = 0; i < scene.primitives.size(); ++i) {
     double& number = scene.primitives[i].local_to_world.linear[0][0];
@@ -227,7 +227,7 @@ TEST(EqualOperands, PicturesAreThoseOfAllOperands) {
   }
   EXPECT_GT(left_out, 100u);
   EXPECT_GT(pixels, 10000u);
-  // At silhouettes and edges the last bit tells.
+  // At silhouettes and edges the last bit decides.
   EXPECT_LE(differing, pixels / 1000);
 }
 

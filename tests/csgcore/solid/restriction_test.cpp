@@ -21,7 +21,7 @@ bool value_at(const Solid& solid, const CellList& list, const Vec3& point) {
   });
 }
 
-/// Nothing in it is decided, pointless, or out of reach.
+/// Fails unless nothing in the list is decided, irrelevant or out of reach.
 void expect_irreducible(const Solid& solid, const CellList& list, const Box& cell, bool all_cross) {
   const std::vector<BlistTest> tests = tests_of(list);
   std::vector<bool> reached(tests.size());
@@ -98,7 +98,7 @@ TEST(CellList, KeepsAListBothWays) {
   EXPECT_EQ(cell_list.count(), 2u);
 }
 
-/// A cell far from an operand costs nothing below it: the operand goes as a whole.
+/// In a cell far from an operand, nothing below it is visited: the operand is dropped as a whole.
 TEST(Restriction, DropsWhatAnOperandMadeIrrelevant) {
   Scene scene;
   CsgTreeBuilder builder;

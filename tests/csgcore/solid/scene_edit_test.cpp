@@ -1,4 +1,4 @@
-// What compare() finds between two scenes.
+// Tests what compare() finds between two scenes.
 #include "csgcore/scene_edit.hpp"
 
 #include <gmock/gmock.h>
@@ -94,7 +94,7 @@ TEST(SceneEdit, EachParameterCounts) {
   EXPECT_FALSE(differs([](Primitive& p) { p.id = 7; }));
 }
 
-/// Each import makes its own.
+/// Each import makes polyhedra of its own.
 TEST(SceneEdit, PolyhedraAreComparedByTheirNumbers) {
   const auto box = [](double size) {
     return make_polyhedron(Polyhedron::box({Vec3(0.0), Vec3(size)}));
@@ -124,7 +124,7 @@ TEST(SceneEdit, InsertedAndRemoved) {
     EXPECT_EQ(out.model, TreeEdit::kWithin);
     EXPECT_THAT(out.later_indices(), ElementsAre(0, 1, SceneEdit::kGone, 2, 3));
   }
-  // At the end no id changes.
+  // Removing the last primitive changes no id.
   const SceneEdit last =
       compare(scene_of(Op::kUnion, balls({0, 1})), scene_of(Op::kUnion, balls({0, 1, 2})));
   EXPECT_THAT(last.added, ElementsAre(2));
@@ -140,10 +140,10 @@ TEST(SceneEdit, WhatChangesTheWholeIsKnownNowhere) {
   EXPECT_EQ(model_edit(both, scene_of(Op::kIntersection, balls({0, 1, 2}))), TreeEdit::kAnywhere);
   EXPECT_EQ(model_edit(both, scene_of(Op::kIntersection, balls({0, 1.5}))), TreeEdit::kSame);
   EXPECT_EQ(model_edit(both, scene_of(Op::kUnion, balls({0, 1}))), TreeEdit::kAnywhere);
-  // What is taken away becomes what it is taken from.
+  // The operand that was subtracted becomes the one that is subtracted from.
   const Scene difference = scene_of(Op::kDifference, balls({0, 1, 2}));
   EXPECT_EQ(model_edit(difference, scene_of(Op::kDifference, balls({1, 2}))), TreeEdit::kAnywhere);
-  // All of it is gone, or new: it is known wherever nothing of it reaches.
+  // All is gone, or new: the solid is known wherever no primitive reaches.
   EXPECT_EQ(model_edit(difference, Scene{}), TreeEdit::kWithin);
   EXPECT_EQ(model_edit(Scene{}, difference), TreeEdit::kWithin);
 }
@@ -162,7 +162,7 @@ TEST(SceneEdit, TreesAreComparedOneByOne) {
   EXPECT_FALSE(edit.surfaces_only());
 }
 
-/// Kept primitives are the same, and the solid is where no other reaches.
+/// Kept primitives are equal, and the solid is unchanged where no other primitive reaches.
 TEST(SceneEdit, RandomEditsKeepWhatTheySay) {
   std::mt19937 random(1);
   int partial = 0, same_points = 0;

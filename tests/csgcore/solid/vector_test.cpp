@@ -1,4 +1,4 @@
-// The tests that are made several at a time must give the same answers by every instruction set.
+// Tests that are evaluated several at a time must give the same answers with every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>

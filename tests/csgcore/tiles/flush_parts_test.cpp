@@ -1,5 +1,5 @@
-// Parts that share planes, and plates behind each other: what a face hides is left out of tiles
-// (TileCuller::cut_by_face), and nothing of the picture changes.
+// Tests parts that share planes, and plates behind each other: what a face hides is left out of
+// tiles (TileCuller::cut_by_face), and the picture stays the same.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ Mat3 random_turn(std::mt19937& random) {
   return {x, y, glm::cross(x, y)};
 }
 
-/// Boxes, prisms and cylinders whose planes are few, so that many coincide; all in one frame.
+/// Builds boxes, prisms and cylinders in one frame, with few planes, so that many coincide.
 class Builder {
  public:
   explicit Builder(uint32_t seed) : random_(seed), turn_(random_turn(random_)) {}
@@ -58,7 +58,7 @@ class Builder {
   void add_part() {
     const Vec3 at{whole(-3, 3), whole(-3, 3), whole(-1, 1)};
     const double height = random_() % 4 == 0 ? 0.01 : whole(1, 3);
-    // Some lie on their side.
+    // Some parts lie on their side.
     const Mat3 local =
         random_() % 5 == 0 ? Mat3{Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)} : Mat3(1.0);
     const Affine to_world{turn_ * local, turn_ * at};
@@ -119,7 +119,7 @@ TEST(FlushParts, AreDrawnAsByTheWholeList) {
   EXPECT_GT(coincident, 100 * rounds);
 }
 
-/// Of `count` plates, one picture's intersections for each ray that meets anything.
+/// Returns the intersections per ray that hits, in a picture of `count` plates.
 double intersections_per_ray(const std::function<Primitive(int)>& plate, int count) {
   std::vector<Primitive> plates;
   for (int i = 0; i < count; ++i) plates.push_back(plate(i));

@@ -1,4 +1,4 @@
-// Lists for tiles of the screen: along every ray of a tile, what the whole solid's list says.
+// Tests the lists of screen tiles: along every ray of a tile they equal the whole solid's list.
 #include "csgcore/tile_lists.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kWidth_px = 37;
 constexpr uint32_t kHeight_px = 26;
-/// Points of a ray that are asked.
+/// Points that are tested on a ray.
 constexpr int kDepths = 40;
 
 TileListOptions options_of(const Solid& solid) {
@@ -32,7 +32,7 @@ bool holds(const TileLists& lists, const ListedTile& tile, const Solid& solid, c
       tests, [&](uint32_t primitive) { return contains(solid.primitives()[primitive], point); });
 }
 
-/// The depths between which the ray is looked at.
+/// Returns the depths between which a ray is tested.
 std::pair<double, double> depths_of(const View& view, const Solid& solid) {
   const double middle = glm::dot(solid.bounds().center() - view.eye, view.forward);
   const double reach = solid.bounds().diagonal();
@@ -44,8 +44,8 @@ struct Found {
   uint64_t points = 0, inside = 0, cut_tiles = 0;
 };
 
-/// Fails if a tile's list says another thing than the solid, of a point in front of its cut, or if
-/// something is where no tile is. `offset`: of the rays from the pixels' centres.
+/// Fails if a tile's list differs from the solid at a point in front of its cut, or if there is
+/// anything outside all tiles. `offset` is that of the rays from the pixels' centres.
 void expect_the_solid(const Solid& solid, const View& view, const TileLists& lists,
                       const std::array<double, 2>& offset, Found& found) {
   std::vector<const ListedTile*> tile_of(size_t{kWidth_px} * kHeight_px);
@@ -78,7 +78,7 @@ void expect_the_solid(const Solid& solid, const View& view, const TileLists& lis
         found.inside += expected;
       }
       if (!tile || !std::isfinite(tile->cut_s)) continue;
-      // The ray's value there is not the one that it starts with.
+      // The value there is not the one that the ray starts with.
       const Vec3 point = ray.origin + tile->cut_s * ray.direction;
       ASSERT_NE(solid.contains(point), starts_inside) << x << ", " << y << ": cut";
     }
@@ -109,14 +109,14 @@ TEST_P(TileListsTest, SayWhatTheSolidSays) {
     ASSERT_TRUE(list_tiles(solid, view, options, lists));
     expect_the_solid(solid, view, lists, {0, 0}, found);
     if (HasFatalFailure()) return;
-    // And of rays anywhere in the pixels.
+    // The same for rays anywhere in the pixels.
     options.centers_only = false;
     ASSERT_TRUE(list_tiles(solid, view, options, lists));
     for (uint32_t sample = 0; sample < 2; ++sample) {
       expect_the_solid(solid, view, lists, sample_offset(sample, 2), found);
       if (HasFatalFailure()) return;
     }
-    // Behind a front all of the ray counts.
+    // Behind a front the whole ray counts.
     options.boundary = Boundary::kBehind;
     ASSERT_TRUE(list_tiles(solid, view, options, lists));
     Found behind;

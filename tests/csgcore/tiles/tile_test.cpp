@@ -1,4 +1,4 @@
-// What a tile's list may be without: never what its rays see.
+// Tests what a tile's list may omit: nothing that its rays see.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ class Simplifying {
       make_block_rays(whole_.frame(), block, rays);
       const PacketHits by_all = trace(list, rays, block.lanes, boundary);
       const PacketHits by_few = trace(culled, rays, block.lanes, boundary);
-      // What lies behind a cut counts only where nothing before it does.
+      // What is behind a cut counts only on rays that hit nothing before it.
       const LaneMask lanes = cuts ? by_few.hits : block.lanes;
       EXPECT_EQ(by_all.hits & lanes, by_few.hits & lanes);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
@@ -66,7 +66,7 @@ class Simplifying {
   }
 
  private:
-  /// False if it is constant.
+  /// Returns false if the list is constant.
   bool restrict_to(const Tile& tile, CellList& list) {
     restrictor_.restrict(*solid_.cell_list(), box_of(tile, true), list);
     return !list.is_constant();
@@ -97,7 +97,7 @@ class Culler : public testing::TestWithParam<Boundary> {};
 
 TEST_P(Culler, DropsOnlyWhatItsRaysDoNotSee) {
   const Boundary boundary = GetParam();
-  // Where rays go on, nothing is hidden behind what they meet first.
+  // Where rays go on, what they meet first hides nothing.
   const auto last_value =
       boundary == Boundary::kFirst ? std::optional<bool>(true) : std::optional<bool>();
   uint64_t dropped = 0, hits = 0;
@@ -122,12 +122,12 @@ TEST_P(Culler, DropsOnlyWhatItsRaysDoNotSee) {
   EXPECT_GT(hits, 10000u);
 }
 
-/// The rims of walls too thin to exist, which rays nevertheless are within for long enough to be
-/// found to end there; behind them many needles that they meet end on, before them some more, and
-/// at last a ball.
+/// The rims of walls that are too thin to exist. Rays are inside them for long enough to be found
+/// to end there. Behind them are many needles that rays meet end on, in front of them some more,
+/// and at last a ball.
 TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
-  // Below the thinnest piece of such a scene, 1e-9 of its size; and what some tens of pixels are
-  // small against, so that all their rays leave a wall at about one depth.
+  // It is less than the tolerance of such a scene, 1e-9 of its size. Some tens of pixels are small
+  // compared with it, so that all their rays leave a wall at about one depth.
   constexpr double kThickness = 2e-8;
   constexpr double kPixel = 1e-10;
   const Mat3 lying{Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)};
@@ -138,7 +138,8 @@ TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
     const bool is_one_tile = seed % 2 == 0;
     const double half_px = is_one_tile ? 4 : uniform(random, 4, 40);
     std::vector<Primitive> primitives;
-    // In the order of a quadtree: they lie too close to each other for their groups to find one.
+    // The needles are in the order of a quadtree, so close to each other that groups do not
+    // separate them.
     const auto add_needles = [&](double low_x, const glm::dvec2& center_px, double reach_px,
                                  int bits) {
       for (uint32_t i = 0; i < 1u << 2 * bits; ++i) {
@@ -168,7 +169,7 @@ TEST(Cuts, AWallThatDoesNotExistHidesNothing) {
     if (!is_one_tile) {
       primitives.push_back(make_sphere(1000 * kPixel, {Mat3(1.0), {20, 0, 0}}));
     }
-    // Beside the picture, so that the size is more than 21 in any case.
+    // A ball beside the picture makes the size more than 21 in any case.
     primitives.push_back(make_sphere(1, {Mat3(1.0), {20, 6, 0}}));
     add_needles(6, {0, 0}, 1.05 * half_px, 5);
     add_needles(6, in_picture_px(), 0.5 * half_px, 4);

@@ -1,4 +1,4 @@
-// The tree's normal form, and its compilation to a Blist.
+// Tests the tree's normal form, and its compilation to a Blist.
 #include "csgcore/csg_tree.hpp"
 
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ TEST(CsgTreeBuilder, NormalForm) {
       {"", ""},
       {"0", "0"},
       {"01", "0 1 +2"},              // the top level is a union
-      {"u01)", "0 1 +2"},            // which a union dissolves into
+      {"u01)", "0 1 +2"},            // a union merges into it
       {"u01)2", "0 1 2 +3"},         //
       {"uuu0)))", "0"},              // a lone operand is itself
       {"u0u1u2)))", "0 1 2 +3"},     // union under union
@@ -75,7 +75,7 @@ TEST(CsgTreeBuilder, NormalForm) {
       {"d0iu12)))", "0 1 2 -3"},     // and then dissolves
       {"dd0e)1)", "0 1 -2"},         //
       {"ddd0)1)2)", "0 1 2 -3"},     //
-      {"diu01)e)2)", ""},            // what an emptied operand had is dropped
+      {"diu01)e)2)", ""},            // operands of an emptied operation are dropped
       {"u3diu01)e)2))", "3"},        //
       {"d0i1d2u3e)e)))", "0 1 2 3 -2 *2 -2"},
   };
@@ -148,7 +148,7 @@ bool evaluate_calls(std::string_view calls, uint32_t truth) {
   return stack.front().value;
 }
 
-/// The rules that csg_tree.hpp states.
+/// Checks the rules that csg_tree.hpp states.
 void expect_normal_form(const CsgTree& tree) {
   std::vector<const CsgToken*> roots;
   for (const CsgToken& token : tree.tokens()) {

@@ -1,4 +1,4 @@
-// Lists are read as the expressions that they were compiled from.
+// Tests that Blists are read as the expressions that they were compiled from.
 #include "tree/list_expression.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace {
 
 using Step = ListExpression::Step;
 
-/// Evaluates it by the states of its tests; or its complement, by those of their complements.
+/// Evaluates the expression by the states of its tests, or its complement by those of their
+/// complements.
 int32_t evaluate_states(const CellList& list, const std::vector<int32_t>& state_of_test,
                         bool complement = false) {
   ListExpression expression;
@@ -41,7 +42,7 @@ bool is_complement(const CellList& list, uint32_t i) {
   return (list.primitive[i] & CellList::kComplementBit) != 0;
 }
 
-/// By the list's jumps.
+/// Evaluates the list by its jumps.
 bool holds(const CellList& list, const std::vector<uint8_t>& inside) {
   uint32_t number = list.root;
   while (number >= CellList::kFirst) {
@@ -99,8 +100,8 @@ TEST(ListExpression, HoldsWhereTheListDoes) {
   EXPECT_GT(tests, 15u);
 }
 
-/// The definition (NUMERICS.md): a tree's value before and behind some changes of primitives, and
-/// the last primitive that its turn is due to.
+/// The definition (NUMERICS.md): the value of a tree before and behind some changes of primitives,
+/// and the last primitive to which its turn is due.
 struct Turn {
   bool before, behind;
   uint32_t last;  // kNobody if none

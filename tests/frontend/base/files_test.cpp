@@ -1,4 +1,4 @@
-// Reading a design; writing pictures whole or not at all.
+// Tests reading a design, and writing pictures whole or not at all.
 #include "frontend/files.hpp"
 
 #include <fcntl.h>
@@ -103,7 +103,7 @@ TEST(ReadFile, ErrorsNameTheFileAndTheReason) {
   }
 }
 
-/// A pipe that repeats the text for as long as somebody reads.
+/// A pipe that repeats the text as long as anybody reads it.
 class EndlessPipe {
  public:
   explicit EndlessPipe(const std::string& text) {
@@ -134,7 +134,7 @@ TEST(ReadFile, OfACsgEndsWhereItIsSeenToBeNone) {
   EXPECT_EQ(read_size(zeros), 4096u);
   close(zeros);
   EXPECT_EQ(read_size(EndlessPipe("y\n").descriptor()), 4096u);
-  // The fault stands behind 100,000 good bytes.
+  // The fault is after 100,000 good bytes.
   EndlessPipe late(std::string(100000, ' ') + "sphere(;");
   EXPECT_EQ(read_size(late.descriptor()), 4096u * 256);
 }
@@ -142,7 +142,7 @@ TEST(ReadFile, OfACsgEndsWhereItIsSeenToBeNone) {
 TEST(ReadFile, OfALargeFileThatIsNoCsgReadsItsStart) {
   const TemporaryFolder folder;
   const std::string path = folder.write("large.csg", "");
-  fs::resize_file(path, std::uintmax_t{1} << 40);  // of holes
+  fs::resize_file(path, std::uintmax_t{1} << 40);  // a sparse file
   EXPECT_EQ(read_file(path, is_beyond_repair).view().size(), 4096u);
 }
 
@@ -173,7 +173,7 @@ TEST(CheckInput, SeesWhatCannotBeRead) {
   EXPECT_THAT(error_of([&] { check_input(folder.path()); }), HasSubstr("is a folder"));
   EXPECT_THAT(error_of([] { check_input("/dev/zero"); }), HasSubstr("is a device"));
   ASSERT_EQ(mkfifo((folder / "fifo").c_str(), 0600), 0);
-  EXPECT_THAT(error_of([&] { check_input(folder / "fifo"); }), "no error");  // and no waiting
+  EXPECT_THAT(error_of([&] { check_input(folder / "fifo"); }), "no error");  // and does not wait
 }
 
 TEST(WriteOutputs, WritesAndReplaces) {
@@ -294,8 +294,8 @@ TEST(WriteOutputs, PastTheLimitOnAFilesSizeAsOnAFullDisk) {
   EXPECT_EQ(folder.read("old"), "before");
 }
 
-/// As a user who is not root, and may write to the files of mode 0666 but not to their folder of
-/// mode 0555. Its exit code is `function`'s; 77 where there is no such user.
+/// Runs `function` as a user who is not root, and who may write to the files of mode 0666 but not
+/// to their folder of mode 0555. Returns the result of `function`; 77 if there is no such user.
 template <typename Function>
 int code_as_another_user(Function function) {
   const int status = status_of_process([&] {
@@ -315,7 +315,7 @@ class ReadOnlyFolder : public testing::Test {
     folder_.write("open", "before");
     fs::permissions(folder_ / "open", fs::perms(0666));
     fs::permissions(folder_.path(), fs::perms(0555));
-    // It may lie in a folder that another user cannot reach.
+    // The folder may be in one that another user cannot reach.
     if (code_as_another_user([&] { return access((folder_ / "open").c_str(), R_OK | W_OK); }) !=
         0) {
       GTEST_SKIP() << "no other user may write here";
@@ -358,7 +358,7 @@ TEST_F(ReadOnlyFolder, AFailureLeavesItsFilesUntouched) {
             }),
             0);
   EXPECT_EQ(folder_.read("open"), "before");
-  // In the middle of it, too: what stood there is put back.
+  // The old contents are restored even if writing fails in the middle.
   EXPECT_EQ(code_as_another_user([&] {
               const rlimit limit{1000, 1000};
               setrlimit(RLIMIT_FSIZE, &limit);
@@ -370,7 +370,7 @@ TEST_F(ReadOnlyFolder, AFailureLeavesItsFilesUntouched) {
   EXPECT_EQ(folder_.read("open"), "before");
 }
 
-/// As in /tmp: everybody may add files, and nobody may replace another's.
+/// The folder is like /tmp: everybody may add files, and nobody may replace somebody else's.
 TEST_F(ReadOnlyFolder, ASharedOnesFilesAreWrittenInPlace) {
   fs::permissions(folder_.path(), fs::perms(01777));
   EXPECT_EQ(code_as_another_user([&] {
@@ -432,7 +432,7 @@ TEST_F(OutputsDiffer, ButForPipesAndDevices) {
   for (const std::string& path : {std::string("/dev/null"), folder_ / "fifo"}) {
     EXPECT_EQ(error({{"-o", path}, {"--stats", path}, {"-d", path}}), "no error");
   }
-  // Of standard output that depends on where it goes.
+  // Returns the error if standard output goes to that file.
   const auto error_where_output_goes_to = [&](const std::string& path, const NamedPath& other) {
     const int saved = dup(STDOUT_FILENO);
     const int file = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
@@ -468,7 +468,7 @@ TEST(Interrupt, RemovesRegisteredFilesAndExitsWithFailure) {
   }
 }
 
-/// Those that a sanitizer handles itself are left out.
+/// Signals that a sanitizer handles itself are left out.
 TEST(Interrupt, ACrashRemovesRegisteredFilesToo) {
   const TemporaryFolder folder;
   for (const int signal_number : {SIGQUIT, SIGABRT, SIGSYS}) {
@@ -488,7 +488,7 @@ TEST(Interrupt, WaitsForWhatHoldsIt) {
   const TemporaryFolder folder;
   const int status = status_of_process([&] {
     std::atomic<bool> is_held{false};
-    std::thread other([&] {  // which takes the signal
+    std::thread other([&] {  // takes the signal
       while (!is_held) std::this_thread::yield();
       kill(getpid(), SIGTERM);
     });

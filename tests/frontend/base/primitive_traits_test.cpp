@@ -1,4 +1,4 @@
-// What every kind of primitive answers the frontend, against the solid itself and the defaults.
+// Tests the traits of every kind of primitive, against the solid itself and the defaults.
 #include "base/primitive_traits.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ constexpr double kRounding = 1e-12;  // the solids below are of size 1 to 10
 
 class Defaults final : public PrimitiveTraits {};
 
-/// Some of each kind.
+/// Returns some primitives of each kind.
 std::vector<Primitive> samples() {
   std::vector<Primitive> primitives{
       csgcore::make_sphere(1),
@@ -161,7 +161,7 @@ TEST(PrimitiveTraits, WhatIsRoundStaysWhenItIsTurned) {
     int inside = 0;
     for (int i = 0; i < 2000; ++i) {
       const Vec3 point(coordinate(random), coordinate(random), coordinate(random));
-      // Onto the half-plane of x, or onto the half-axis.
+      // Turned into the half-plane of x, or onto its half-axis.
       const Vec3 turned = has_axis ? Vec3(std::hypot(point.x, point.y), 0, point.z)
                                    : Vec3(glm::length(point), 0, 0);
       EXPECT_EQ(holds(primitive, point), holds(primitive, turned));

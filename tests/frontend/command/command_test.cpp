@@ -1,4 +1,4 @@
-// The whole command but the drawing, whose part a function plays.
+// Tests the whole command, with a function in place of the renderer.
 #include "frontend/command.hpp"
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ class Command : public testing::Test {
  protected:
   Command() : file_(folder_.write("a.csg", kSphere)) {}
 
-  /// Plays the renderer: the left half is a surface 5 away, the right half background.
+  /// Plays the renderer: the left half is a surface at distance 5, the right half background.
   Image draw(const csgcore::Scene& scene, const csgcore::View& view, const RenderSettings& settings,
              RenderStats& stats) {
     ++drawings_;
@@ -246,7 +246,7 @@ TEST_F(Command, ACameraThatSeesNothingIsBackgroundWithoutARenderer) {
   EXPECT_EQ(drawings_, 1);
 }
 
-/// As in OpenSCAD, whose corner of axes stands in every picture.
+/// In OpenSCAD, too, every picture has the axes in the corner.
 TEST_F(Command, WhereNothingIsSeenOfTheAxesTheirCornerStandsAlone) {
   const auto picture = [&](const std::string& camera, const char* view) {
     run({"-o", png_, "--imgsize=64,64", camera, view, file_});
@@ -349,7 +349,7 @@ TEST_F(Command, QuietShowsErrorsOnly) {
   EXPECT_THAT(run({"-q", "-o", png_, folder_ / "none.csg"}).err, HasSubstr("none.csg: error: "));
 }
 
-/// Each is run where x.png exists already; none may touch it.
+/// Each line runs with an existing x.png, which it must not change.
 TEST_F(Command, FailuresExitWith1AndTouchNothing) {
   folder_.write("x.png", "before");
   folder_.write("x00001.png", kSphere);
@@ -408,7 +408,7 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
 TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
   const std::string warning = "mixed.csg:2:2: warning: square is left out (it cannot be drawn)\n";
   const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n square(size = 1);\n");
-  // The option, which once had to ask for it, stays for scripts.
+  // The option used to be needed for this; scripts may still give it.
   for (const char* option : {"--imgsize=64,64", "--skip-unsupported"}) {
     drawings_ = 0;
     const Outcome outcome = run({"-o", png_, option, mixed});
@@ -417,7 +417,7 @@ TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
     EXPECT_EQ(drawings_, 1);
     EXPECT_EQ(run({"-q", "-o", png_, option, mixed}).err, "");
   }
-  // Where it is all, there is a picture of the background.
+  // If the design has nothing else, the picture shows the background.
   std::filesystem::remove(png_);
   drawings_ = 0;
   const std::string flat = folder_.write("flat.csg", "square(size = 1); cube(1e308);");
@@ -477,7 +477,7 @@ TEST_F(Command, AFileOfAnotherNameMayBeEither) {
   EXPECT_GT(nlohmann::json::parse(exported.out)["times_ms"]["export"], 0);
   const Outcome parsed = run({"-o", png_, "--stats=-", folder_.write("a.txt", "sphere(r = 1);")});
   EXPECT_EQ(nlohmann::json::parse(parsed.out)["times_ms"]["export"], 0);
-  // What is named so is a .csg, and what is no file can be read only once.
+  // A file of this name is a .csg, and what is not a regular file can be read only once.
   const std::string csg = folder_.write("a.CSG", "module ball() sphere(1);");
   EXPECT_THAT(run({"-o", png_, csg}).err, HasSubstr("a.CSG:1:1: error: "));
   EXPECT_THAT(run({"-o", png_, "/dev/null"}).err, IsEmpty());
@@ -535,7 +535,7 @@ TEST_F(Command, AnEndlessExportIsRefused) {
   EXPECT_FALSE(folder_.has("x.png"));
 }
 
-/// An openscad that says what $t it is given, and draws a ball of that size.
+/// Plays an openscad that tells its $t, and draws a ball of that size.
 constexpr const char* kAnimated =
     "while [ \"$1\" != -- ]; do case \"$1\" in '$t='*) t=${1#*=};; -d) d=$2;; esac; shift; done\n"
     "echo \"ECHO: $t\" >&2; [ -z \"$d\" ] || printf 'x: \\\\\n\t%s\n\t%s\n' $t.stl \"$2\" >\"$d\"\n"
@@ -580,13 +580,13 @@ TEST_F(Command, AnAnimationThatBreaksLeavesNothing) {
   EXPECT_EQ(outcome.code, ExitCode::kFailure);
   EXPECT_EQ(drawings_, 1);
   EXPECT_EQ(folder_.names(), names);
-  // What can be seen beforehand is.
+  // Failures that can be foreseen are.
   std::filesystem::create_directory(folder_ / "x00001.png");
   EXPECT_THAT(run({"-o", png_, "--animate=2", scad}).err, HasSubstr("x00001.png: error: "));
   EXPECT_EQ(drawings_, 1);
 }
 
-// The rule is one that make follows.
+// make can follow the rule.
 TEST_F(Command, MakeDrawsAgainWhatItReads) {
   if (std::system("(command -v openscad && command -v make) >/dev/null") != 0)
     GTEST_SKIP() << "no openscad or make";

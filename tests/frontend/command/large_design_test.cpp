@@ -1,4 +1,4 @@
-// Memory of the program on large designs.
+// Tests the program's memory on large designs.
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -17,7 +17,7 @@
 namespace frontend {
 namespace {
 
-/// A cylinder minus many spheres on its wall, as OpenSCAD writes it.
+/// Writes a cylinder minus many spheres on its wall, as OpenSCAD does.
 void write_design(const std::string& path, int spheres) {
   std::ofstream file(path, std::ios::binary);
   file << "difference() {\n\tcylinder($fn = 48, $fa = 12, $fs = 2, h = 20, r1 = 10, r2 = 10, "
@@ -35,7 +35,7 @@ void write_design(const std::string& path, int spheres) {
   file << "\t\t}\n\t}\n}\n";
 }
 
-/// The peak memory of a run, in bytes; 0 if it fails.
+/// Returns the peak memory of a run in bytes; 0 if it fails.
 uint64_t peak_bytes(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -50,8 +50,8 @@ uint64_t peak_bytes(std::vector<std::string> words) {
   return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// Less than 1 GB for a million primitives (issue 6): with the arguments of all nodes in a tree it
-/// would be 1.2 GB. The rest is the program itself and its picture.
+/// A million primitives take less than 1 GB (issue 6); a tree with the arguments of all nodes would
+/// take 1.2 GB. The rest is the program itself and its picture.
 TEST(LargeDesign, TakesLessThanAKilobyteAPrimitive) {
   constexpr uint64_t kBytesAPrimitive = 950;
   constexpr uint64_t kRest = 30'000'000;

@@ -1,4 +1,4 @@
-// The command line: OpenSCAD's syntax and options, scadray's own, and every error.
+// Tests the command line: OpenSCAD's syntax and options, scadray's own, and every error.
 #include "frontend/options.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::Not;
 
 using Words = std::vector<std::string>;
 
-/// Parses `words` with what every drawing needs before them.
+/// Parses `words` after the words that every drawing needs.
 Options parse_drawing(Words words) {
   words.insert(words.begin(), {"-o", "x.png", "a.csg"});
   return parse_options(words);
@@ -124,7 +124,7 @@ TEST(Options, Animation) {
     EXPECT_THAT(drawing_error({"--animate", value}), HasSubstr("--animate=")) << value;
   }
   EXPECT_EQ(parse_options({"-o", "x.png", "-o", "y.png", "--animate=2048", "a"}).frames, 2048u);
-  // The limit is said, and what it leaves.
+  // The message names the limit, and what it allows.
   EXPECT_EQ(drawing_error({"--animate=4097"}),
             "error: --animate=4097 is not understood (give a number from 0 to 4096)");
   EXPECT_EQ(error_of({"-o", "x.png", "-o", "y.png", "--animate=2049", "a"}),
@@ -211,7 +211,7 @@ TEST(Options, View) {
   EXPECT_THAT(all.warnings, IsEmpty());
   EXPECT_THAT(parse_drawing({"--view=scales"}).warnings, ElementsAre(HasSubstr("without axes")));
   EXPECT_THAT(parse_drawing({"--view=wireframe"}).warnings, ElementsAre(HasSubstr("wireframe")));
-  // OpenSCAD goes on, too.
+  // OpenSCAD continues, too.
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
 }
 
@@ -273,7 +273,7 @@ TEST(Options, Technique) {
   EXPECT_EQ(technique_of({"--technique=tiles"}), Technique::kTiles);
   EXPECT_THAT(drawing_error({"--technique=x"}), HasSubstr("give cells or tiles"));
   EXPECT_THAT(drawing_error({"--technique=auto"}), HasSubstr("give cells or tiles"));
-  // What speaks of cells, although it be the default's value.
+  // An option about cells selects them, even with its default value.
   EXPECT_EQ(technique_of({"--leaf-primitives=8"}), Technique::kCells);
   EXPECT_EQ(technique_of({"--threshold=1"}), Technique::kCells);
   EXPECT_EQ(technique_of({"--show=cells"}), Technique::kCells);
@@ -369,7 +369,7 @@ TEST(Options, SyntaxIsOpenScads) {
   EXPECT_TRUE(parse_drawing({"--viewa"}).camera.view_all);
   // Clusters of short options.
   EXPECT_TRUE(parse_options({"-qo", "x.png", "a"}).quiet);
-  // What it refuses.
+  // Words that it refuses.
   EXPECT_THAT(drawing_error({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(drawing_error({"-z"}), HasSubstr("-z"));
   EXPECT_THAT(drawing_error({"-camera=0,0,0,0,0,0"}), HasSubstr("-c"));

@@ -73,7 +73,7 @@ std::string parsed(std::string_view text) {
   return shown(tree, 0, tree.nodes.size());
 }
 
-/// The message of the error that `text` gives; fails if it gives none.
+/// Returns the message of the error that `text` gives; fails if it gives none.
 std::string error_of(std::string_view text) {
   try {
     parse(text, "x.csg");
@@ -150,7 +150,7 @@ constexpr Spelling kSpellings[] = {
     {"offset(delta = 1, chamfer = true) {\n}\n", "offset(delta=1, chamfer=true)"},
     {"resize(newsize = [3,4,5], auto = [0,0,0], convexity = 0) {\n}\n",
      "resize(newsize=[3 4 5], auto=[0 0 0], convexity=0)"},
-    // 2015.03 and 2019.05 to 2021.01, from a file; master, only what is no default
+    // 2015.03 and 2019.05 to 2021.01 from a file; master only writes what is not a default
     {"linear_extrude(file = \"q.dxf\", layer = \"\", origin = [0, 0], timestamp = 0, height = 2, "
      "center = false, convexity = 1, scale = [1, 1], $fn = 0, $fa = 12, $fs = 2);\n",
      "linear_extrude(file=<q.dxf>, layer=<>, origin=[0 0], timestamp=0, height=2, center=false, "
@@ -228,7 +228,7 @@ TEST(RawText, QuotesLineBreaksAndBackslashesStandRaw) {
       "x.csg");
   EXPECT_EQ(shown(tree, 0, tree.nodes.size()),
             "text(text=<say (\"hi\");\nline\\2\\n>, size=4, spacing=1) cube(size=1)");
-  EXPECT_EQ(tree.nodes[1].location.line, 3u);  // the line break within counts
+  EXPECT_EQ(tree.nodes[1].location.line, 3u);  // the line break within the text counts
 }
 
 TEST(RawText, OddTexts) {
@@ -250,7 +250,7 @@ TEST(RawText, ByHandAStringEndsAtItsQuote) {
             "text(text=<a>, font=<b>, size=5)");
   EXPECT_EQ(parsed("text(text = \"a\");"), "text(text=<a>)");
   EXPECT_EQ(parsed("text(text=\"a\\\"\", size = 5);"), "text(text=<a\">, size=5)");
-  EXPECT_EQ(parsed("text(text = \"\\u00e9\");"), "text(text=<\\u00e9>)");  // unknown: as it stands
+  EXPECT_EQ(parsed("text(text = \"\\u00e9\");"), "text(text=<\\u00e9>)");  // unknown: unchanged
 }
 
 // ---- Numbers
@@ -294,7 +294,7 @@ TEST(Numbers, AtTheEndsOfDouble) {
 }
 
 TEST(Numbers, AreCorrectlyRounded) {
-  // Halfway cases and the ends of the short way: 15 digits, 2^53 + 1, 22 decimals.
+  // Halfway cases, and the limits of the fast conversion: 15 digits, 2^53 + 1, 22 decimals.
   EXPECT_EQ(number_of("9007199254740993"), 9007199254740992.0);
   EXPECT_EQ(number_of("9007199254740993.0000000000000000000000000001"), 9007199254740994.0);
   EXPECT_EQ(number_of("999999999999999"), 999999999999999.0);
@@ -387,7 +387,7 @@ TEST(Locations, AreThoseOfTheNames) {
 
 struct Malformed {
   std::string_view text;
-  std::string_view message;  // how it starts
+  std::string_view message;  // how it begins
 };
 
 class MalformedFile : public testing::TestWithParam<Malformed> {};
@@ -466,10 +466,11 @@ constexpr std::string_view kDesign =
 
 TEST(Malformed, TruncatedAnywhereIsATreeOrAnError) {
   for (size_t length = 0; length <= kDesign.size(); ++length) {
-    const std::string cut(kDesign.substr(0, length));  // on the heap: asan sees reads past its end
+    const std::string cut(kDesign.substr(0, length));  // on the heap, so that asan sees reads past
+                                                       // its end
     try {
       const SyntaxTree tree = parse(cut, "x.csg");
-      // Only where nothing is open: before the design, or after its one group.
+      // A text may be cut only where nothing is open: before the design, or after its one group.
       EXPECT_TRUE(cut.empty() || cut.find("*/}") != std::string::npos) << cut;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), AllOf(StartsWith("x.csg:"), HasSubstr(": error: ")));
@@ -499,7 +500,7 @@ TEST(BeyondRepair, IsWhatFailsBeforeItsEnd) {
        {std::string("y\ny\n"), std::string("sphere(;"), std::string("sphere(r = 1e400);"),
         std::string("}"), std::string("/ "), std::string(1, '\0')}) {
     EXPECT_TRUE(is_beyond_repair(start + more)) << start;
-    EXPECT_FALSE(is_beyond_repair(start)) << start;  // too near the end to be sure
+    EXPECT_FALSE(is_beyond_repair(start)) << start;  // too near to the end to be certain
   }
 }
 
@@ -514,7 +515,7 @@ TEST(BeyondRepair, IsNothingThatMayGoOn) {
   }
 }
 
-/// Of good texts no start is, wherever it is cut.
+/// No start of a good text is beyond repair, wherever it is cut.
 TEST(BeyondRepair, IsNoStartOfAGoodText) {
   const std::string text =
       "\xEF\xBB\xBF// a comment\n%group() { /* another one */ multmatrix([[1, 0, 0, -1e+02], [0, "
@@ -568,10 +569,11 @@ TEST(Sizes, FilesTooLargeFor32BitsAreRefusedUnread) {
   }
 }
 
-/// Texts that would take quadratic time if any of them made the parser look ahead again and again.
+/// Texts that would take quadratic time if the parser looked ahead repeatedly.
 TEST(Sizes, NothingIsReadTwice) {
   constexpr size_t kTimes = 100'000;
-  // 1 to 4 MB take 0.1 s at most, under asan too; looking ahead in vain to the end, 10 s and more.
+  // 1 to 4 MB take at most 0.1 s, under asan too; looking ahead in vain to the end would take 10 s
+  // and more.
   constexpr std::chrono::seconds kLimit(3);
   for (const std::string_view piece :
        {"text(text = \"a\");", "text(text = \"a\\\"b\", size = 1);",

@@ -1,4 +1,5 @@
-// Following a design: every way in which editors save, what comes and goes, and what is reported.
+// Tests following a design: every way in which editors save, files that come and go, and what is
+// reported.
 #include "frontend/design_follower.hpp"
 
 #include <fcntl.h>
@@ -78,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Follow, EveryWayOfSaving, testing::ValuesIn(save_cases(
                                   (test.param.polls ? "Polled" : "");
                          });
 
-/// Whatever watches.
+/// Runs with inotify and with polling.
 class Follow : public testing::TestWithParam<bool> {
  protected:
   FollowOptions options() const { return GetParam() ? by_polling() : by_inotify(); }
@@ -94,7 +95,7 @@ TEST_P(Follow, HalfAFileDoesNotStay) {
   std::ofstream file(folder_ / "a.csg", std::ios::binary);
   file << "sphere(r = 1); sphere(r = " << std::flush;
   EXPECT_THAT(design.next_error().error, StartsWith(folder_ / "a.csg:1:"));
-  file << "2); sphere(r = 3);" << std::flush;  // still open
+  file << "2); sphere(r = 3);" << std::flush;  // the file is still open
   design.next_of(3);
   file << "sphere(r = 3);" << std::flush;
   file.close();
@@ -122,7 +123,7 @@ TEST_P(Follow, FoldersThatVanishAndComeBack) {
   design.next_of(3);
   fs::remove_all(folder_ / "x");
   design.next_error();
-  folder_.write("z/y/a.csg", spheres(4));  // elsewhere by now
+  folder_.write("z/y/a.csg", spheres(4));  // the path now leads there
   fs::rename(folder_ / "z", folder_ / "x");
   design.next_of(4);
 }
@@ -140,12 +141,12 @@ TEST_P(Follow, LinksToFilesAndFolders) {
   fs::rename(folder_.write("one/new", spheres(4)), folder_ / "one/real.csg");
   design.next_of(4);
   fs::create_directory_symlink("two", folder_ / "next");
-  fs::rename(folder_ / "next", folder_ / "now");  // of a folder on the way
+  fs::rename(folder_ / "next", folder_ / "now");  // a folder on the path
   design.next_of(2);
   fs::create_symlink("one/real.csg", folder_ / "b.csg");
-  fs::rename(folder_ / "b.csg", folder_ / "a.csg");  // of the file
+  fs::rename(folder_ / "b.csg", folder_ / "a.csg");  // the file itself
   design.next_of(4);
-  fs::remove(folder_ / "one/real.csg");  // a dangling link
+  fs::remove(folder_ / "one/real.csg");  // leaves a dangling link
   EXPECT_THAT(design.next_error().error, HasSubstr("No such file"));
   folder_.write("one/real.csg", spheres(5));
   design.next_of(5);
@@ -206,7 +207,7 @@ TEST(DesignFollower, IsIdleOnceItHasRead) {
   Followed design(folder.write("a.csg", spheres(1)));
   EXPECT_EQ(design.next_of(1).number, 1u);
   design.wait_until_idle();
-  EXPECT_FALSE(design->take());  // once only
+  EXPECT_FALSE(design->take());  // only once
 }
 
 TEST(DesignFollower, ReadsAgainOnDemand) {
@@ -244,7 +245,7 @@ TEST(DesignFollower, FollowsARelativePath) {
   fs::current_path(before);
 }
 
-/// A pipe as standard input.
+/// Puts a pipe in place of standard input.
 class FromStandardInput : public testing::Test {
  protected:
   void SetUp() override {

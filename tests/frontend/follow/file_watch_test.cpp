@@ -1,4 +1,4 @@
-// What tells of changes, and how long a save takes to settle.
+// Tests which events tell of changes, and how long a save takes to settle.
 #include "follow/file_watch.hpp"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using Clock = FileWatch::Clock;
 
 constexpr std::chrono::hours kNever{1};
 
-/// Takes in events until one matters.
+/// Takes events until one matters.
 void wait_for_change(FileWatch& watch) {
   while (!watch.update()) {
     pollfd wait{watch.descriptor(), POLLIN, 0};
@@ -24,7 +24,7 @@ void wait_for_change(FileWatch& watch) {
   }
 }
 
-/// How long the last change takes to settle, from before it.
+/// Checks how long the last change takes to settle, counted from before it.
 void expect_settles_after(const FileWatch& watch, Clock::time_point before,
                           std::chrono::milliseconds settle) {
   ASSERT_TRUE(watch.settled_at());
@@ -157,7 +157,7 @@ TEST(FileWatch, AnEventThatChangesNothingIsNone) {
   EXPECT_FALSE(watch.update());
   fs::create_hard_link(folder / "a", folder / "c");
   EXPECT_FALSE(watch.update());
-  folder.write("missing/b", "x");  // and its folder is watched by now
+  folder.write("missing/b", "x");  // its folder is watched by now
   wait_for_change(watch);
 }
 

@@ -1,4 +1,4 @@
-// A design that a test follows, and waits for its versions.
+// Follows a design in a test, and waits for its versions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,17 +16,17 @@
 
 namespace frontend {
 
-/// Far longer than anything waited for takes, on a slow machine and under a sanitizer.
+/// Far longer than anything that tests wait for, on a slow machine and under a sanitizer.
 constexpr std::chrono::seconds kPatience{60};
 
-/// Without looking at the files from time to time where inotify has to tell.
+/// Follows by inotify, without looking at the files at short intervals.
 inline FollowOptions by_inotify() {
   FollowOptions options;
   options.poll_interval = std::chrono::hours(1);
   return options;
 }
 
-/// Without inotify.
+/// Follows without inotify.
 inline FollowOptions by_polling() {
   FollowOptions options;
   options.polls = true;
@@ -47,7 +47,7 @@ class Followed {
   DesignFollower* operator->() { return &*follower_; }
   void end() { follower_.reset(); }
 
-  /// The next version for which `is_wanted` holds; those before it are kept in passed().
+  /// Returns the next version for which `is_wanted` holds; earlier ones are kept in passed().
   DesignVersion next(const std::function<bool(const DesignVersion&)>& is_wanted) {
     std::optional<DesignVersion> found;
     wait([&] {
@@ -67,7 +67,7 @@ class Followed {
   DesignVersion next() {
     return next([](const DesignVersion&) { return true; });
   }
-  /// With so many primitives.
+  /// Returns the next version with so many primitives.
   DesignVersion next_of(uint32_t primitives) {
     return next([primitives](const DesignVersion& version) {
       return version.design && version.design->primitive_nodes == primitives;
@@ -103,10 +103,10 @@ class Followed {
   std::condition_variable changed_;
   int news_ = 0;
   std::vector<DesignVersion> passed_;
-  std::optional<DesignFollower> follower_;  // the last one: it calls back
+  std::optional<DesignFollower> follower_;  // declared last, since it calls back
 };
 
-/// A .csg of so many primitives.
+/// Returns a .csg of `count` primitives.
 inline std::string spheres(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text += "sphere($fn = 0, $fa = 12, $fs = 2, r = 1);\n";

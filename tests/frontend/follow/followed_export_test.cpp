@@ -1,4 +1,5 @@
-// Following a .scad: what it reads, and the openscad that exports it; some play its part.
+// Tests following a .scad: the files that it reads, and the openscad that exports it, in whose
+// place programs of the test run.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -43,9 +44,9 @@ std::size_t open_descriptors() {
   return count;
 }
 
-/// A program that takes a .csg for a .scad; where there is "slow" in it, it starts another one,
+/// A program that takes a .csg for a .scad. If the text contains "slow", it starts another program,
 /// writes that one's number to the file "slow", and waits for ever. The file "starts" grows by a
-/// byte with each start; "twice" is written if one ran already.
+/// byte with each start; "twice" is written if one was running already.
 class FakeOpenScad : public testing::Test {
  protected:
   std::string body() const {
@@ -102,7 +103,7 @@ TEST_F(FakeOpenScad, ANewerSaveEndsASlowExport) {
     folder_.write("a.scad", "// slow");
   }
   EXPECT_FALSE(folder_.has("twice"));
-  EXPECT_THAT(design.passed(), IsEmpty());  // what was ended is no news
+  EXPECT_THAT(design.passed(), IsEmpty());  // a run that was stopped gives no version
 }
 
 TEST_F(FakeOpenScad, TheEndDuringAnExportLeavesNoProcess) {
@@ -178,7 +179,7 @@ TEST_F(FakeOpenScad, AMissingOpenScadIsAnErrorThatGoesAway) {
   design.next_of(1);
 }
 
-/// As an editor's plugin may hand it over: what it is shows when it is read.
+/// An editor's plugin may pass a file of such a name; only its text tells what it is.
 TEST_F(FakeOpenScad, IsRunForAScadOfAnyName) {
   const Environment openscad("OPENSCAD", folder_.script("openscad2",
                                                         "for path; do :; done\n"
@@ -201,7 +202,7 @@ TEST_F(FakeOpenScad, IsRunForAScadOfAnyName) {
   design.next_of(2);
   folder_.write("scad-x7Qf", spheres(5));  // now a .csg
   EXPECT_EQ(design.next_of(5).export_ms, 0);
-  // What is named so is a .csg, whatever stands in it.
+  // A file of this name is a .csg, whatever its text.
   Followed named(folder_.write("a.csg", "include <b.scad>"));
   EXPECT_THAT(named.next_error().error, StartsWith(folder_ / "a.csg:1:1: error: unknown node"));
 }
@@ -225,7 +226,7 @@ TEST_F(FakeOpenScad, IsNotRunForACsg) {
   EXPECT_FALSE(folder_.has("starts"));
 }
 
-/// The installed openscad; tests/run installs it.
+/// Uses the installed openscad, which tests/run installs.
 class FollowedScad : public testing::Test {
  protected:
   void SetUp() override {
@@ -250,7 +251,7 @@ TEST_F(FollowedScad, AndWhatItIncludesAndWhatThatIncludes) {
   design.next_of(2);
   folder_.write("lib/c.scad", "module c() { sphere(1); sphere(2); }");
   design.next_of(4);
-  fs::rename(folder_ / "lib", folder_ / "new");  // openscad warns, no more
+  fs::rename(folder_ / "lib", folder_ / "new");  // openscad only warns
   design.next_of(0);
   fs::rename(folder_ / "new", folder_ / "lib");
   design.next_of(4);

@@ -1,4 +1,4 @@
-// Which files a .scad includes.
+// Tests which files a .scad includes.
 #include "follow/included_files.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Rules, as the installed make reads them.
+// Tests rules, as the installed make reads them.
 #include "follow/make_rule.hpp"
 
 #include <gmock/gmock.h>
@@ -52,8 +52,8 @@ TEST(MakeRule, NamesThatNoRuleCanHold) {
   EXPECT_THAT(error_of("a(1).png", "b (2).scad"), HasSubstr("b\\ (2).scad"));
 }
 
-/// What a makefile that includes the rule of the two targets makes for the first: every
-/// prerequisite, and the target itself, each shown as "<NAME>".
+/// Returns what a makefile that includes the rule of the two targets makes for the first: every
+/// prerequisite and the target, each shown as "<NAME>".
 std::string made_by_make(const TemporaryFolder& folder, const std::vector<std::string>& targets,
                          const std::vector<std::string>& prerequisites) {
   for (const std::vector<std::string>* names : {&targets, &prerequisites}) {
@@ -68,7 +68,7 @@ std::string made_by_make(const TemporaryFolder& folder, const std::vector<std::s
   return folder.read("said");
 }
 
-/// All that make, a shell or a programmer may take for special, and some plain letters.
+/// All bytes that make, a shell or a programmer may take for special, and some plain letters.
 constexpr std::string_view kBytes =
     ":;#$ %\\\t=|&*?[]~({}!\"'`<>@+,-.^\r\v\f\x01"
     "ab\xC3\xA4";
@@ -82,7 +82,7 @@ TEST(MakeRule, IsReadByMakeWithTheseVeryNames) {
     while (name.size() < length) name += kBytes[random() % kBytes.size()];
     return name;
   };
-  // make takes no target with % for its goal by itself.
+  // make does not by itself take a target with % for its goal.
   const auto any_target = [&](const std::string& first) {
     const std::string name = first + any_name(6);
     return name.find('%') == std::string::npos ? name : first + "%:;=" + first;
@@ -117,7 +117,7 @@ TEST(MakeRule, EveryByteInEveryPlace) {
       prerequisites.push_back(name);
       expected += '<' + name + ">\n";
     }
-    // With % it would be no goal by itself.
+    // With % it would not be a goal by itself.
     const std::string target = c == '%' ? "T" : std::string("T") + c;
     const TemporaryFolder folder;
     EXPECT_EQ(made_by_make(folder, {target}, prerequisites), expected + '<' + target + ">\n")

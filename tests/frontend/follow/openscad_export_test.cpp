@@ -1,4 +1,4 @@
-// Running openscad: with programs that play its part, and with the installed one.
+// Tests running openscad, with programs in its place and with the installed one.
 #include "frontend/openscad_export.hpp"
 
 #include <fcntl.h>
@@ -159,7 +159,7 @@ TEST_F(FakeOpenScad, ReadsNothingFromOurStandardInput) {
   EXPECT_EQ(result.csg, "end\n");
 }
 
-/// Killed, it is gone when whoever adopts it has reaped it, or a zombie until then.
+/// Returns whether the process ends soon. A killed one is a zombie until its adopter has reaped it.
 bool ends_soon(pid_t pid) {
   const auto is_running = [pid] {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
@@ -189,7 +189,7 @@ TEST_F(FakeOpenScad, ADeathKillsItAndWhatItStarted) {
       const rlimit no_core{};
       setrlimit(RLIMIT_CORE, &no_core);
       handle_interrupts();
-      // Not the main thread: whatever depends on the thread that starts it would show.
+      // Another thread than the main one shows what depends on the thread.
       std::thread([] { run_export("a.scad"); }).join();
       _exit(99);
     }
@@ -254,7 +254,7 @@ TEST_F(FakeOpenScad, HasTheSignalsThatItsCallerHad) {
   EXPECT_EQ(status, 0);
 }
 
-/// `begun`: what the program writes as its last deed before it sleeps.
+/// `begun` is what the program writes last before it sleeps.
 void expect_stops(const TemporaryFolder& folder, const std::string& begun) {
   std::stop_source stop;
   std::thread stopper([&] {
@@ -292,7 +292,7 @@ TEST_F(FakeOpenScad, IsNotStartedOnceStopped) {
   EXPECT_FALSE(folder_.has("begun"));
 }
 
-/// The installed openscad; tests/run installs it.
+/// Uses the installed openscad, which tests/run installs.
 class InstalledOpenScad : public testing::Test {
  protected:
   void SetUp() override {

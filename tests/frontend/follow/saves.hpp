@@ -1,4 +1,4 @@
-// Every way in which editors save a file.
+// All ways in which editors save a file.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace frontend {
 
-/// How an editor saves `text` as the file NAME of a folder.
+/// The way in which an editor saves `text` as the file NAME of a folder.
 struct Save {
   const char* name;
   void (*write)(const TemporaryFolder& folder, const std::string& name, const std::string& text);

@@ -60,7 +60,7 @@ std::vector<Primitive> import_text(const std::string& text) {
   return import_design(parse(text, "a.csg")).scene.primitives;
 }
 
-/// The .csg that the installed OpenSCAD writes for the design.
+/// Returns the .csg that the installed OpenSCAD writes for the design.
 std::string exported(const std::string& scad) {
   const std::filesystem::path path = std::filesystem::temp_directory_path() /
                                      ("healing_test_" + std::to_string(getpid()) + ".scad");
@@ -88,7 +88,7 @@ Vec3 cap_normal(const Primitive& primitive) {
   return glm::normalize(glm::cross(map[0], map[1]));
 }
 
-/// How far the cap of `b` leaves the plane of the cap of `a`, at most.
+/// Returns how far the cap of `b` leaves the plane of the cap of `a`, at most.
 double plane_gap(const Primitive& a, int cap_a, const Primitive& b, int cap_b) {
   const double radius = cap_b == 0 ? b.r_bottom : b.r_top;
   double gap = 0;
@@ -133,7 +133,7 @@ Vec3 side_normal(const Primitive& cube, Side side) {
   return glm::normalize(glm::cross(at[1] - at[0], at[3] - at[0]));
 }
 
-/// How far the side of `b` leaves the plane of the side of `a`, at most.
+/// Returns how far the side of `b` leaves the plane of the side of `a`, at most.
 double side_gap(const Primitive& a, Side side_a, const Primitive& b, Side side_b) {
   double gap = 0;
   for (const Vec3& corner : corners(b, side_b)) {
@@ -230,13 +230,13 @@ TEST(HealingMatrix, LeavesEverythingElseAsItIs) {
   const Mat3 shear(Vec3(1, 0, 0), Vec3(0.2, 1, 0), Vec3(0, 0, 1));
   const Mat3 uneven =
       Mat3(Vec3(2, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)) * euler_rotation(Vec3(17, 23, 41));
-  // A literal mistake of two units in the fifth digit is no rounding.
+  // A mistake of two units in the fifth digit is not rounding.
   Mat3 bent = euler_rotation(Vec3(0, 0, 30));
   bent[0][0] = 0.86605;
   for (const Mat3& matrix : {scale, shear, as_printed(Affine{uneven, {}}).linear, bent}) {
     EXPECT_EQ(heal_matrix({matrix, {}}).map.linear, matrix);
   }
-  // A person's own 17 digits are right already.
+  // A number that a person gave to 17 digits is right already.
   const Mat3 precise = euler_rotation(Vec3(17.123456, 23.234567, 41.345678));
   EXPECT_LT(difference(heal_matrix({precise, {}}).map.linear, precise), 1e-14);
 }
@@ -250,11 +250,11 @@ TEST(HealingMatrix, RandomRotationsAndMirrors) {
     Mat3 design = euler_rotation(Vec3(angle(random), angle(random), angle(random)));
     if (i % 4 == 1) design = design * Mat3(-1.0);
     if (i % 4 == 2) design = euler_rotation(Vec3(0, 0, angle(random)));
-    // An entry of 0, which the file tells exactly.
+    // Half of these have an entry of 0, which the file gives exactly.
     if (i % 4 == 3) design = euler_rotation(Vec3(0, angle(random), angle(random)));
     const Affine file = as_printed(Affine{design, {}});
     const HealedMatrix matrix = heal_matrix(file);
-    // Never further from the design than the bound says.
+    // The result is never further from the design than the bound says.
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) {
         EXPECT_LE(std::abs(matrix.map.linear[c][r] - file.linear[c][r]),
@@ -266,7 +266,7 @@ TEST(HealingMatrix, RandomRotationsAndMirrors) {
       }
     }
     if (unorthogonality(matrix.map.linear) > 1e-14) ++kept;
-    // Healed once, it is healed.
+    // Healing it again changes nothing.
     EXPECT_LT(difference(heal_matrix({matrix.map.linear, {}}).map.linear, matrix.map.linear),
               1e-14);
   }
@@ -284,7 +284,7 @@ TEST(HealingMatrix, OfTranslationsIsTheIdentityWithABound) {
 // --- Features -------------------------------------------------------------------------------
 
 TEST(HealingFeatures, FlushCapsInTurnedFrames) {
-  // The design's angles are not to be guessed, and the caps coincide in the design only.
+  // The design's angles cannot be guessed, and the caps coincide only in the design.
   const std::vector<Primitive> primitives = import_scad(
       "a = [17.12345678, 23.23456789, 41.3456789];"
       "rotate(a) cylinder(r = 5, h = 10);"
@@ -357,7 +357,7 @@ TEST(HealingFeatures, LiteralDifferencesStay) {
     const std::vector<Primitive> primitives = import_text(frame + two);
     EXPECT_NEAR(plane_gap(primitives[0], 1, primitives[1], 1), 1e-6, 1e-10);
     expect_untouched(frame + two);
-    // Numbers that stand in two frames inside it are as literal.
+    // Numbers in two frames inside it are as literal.
     const std::string shifted =
         "multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0]]) { cylinder(h = 1, r = 2); }"
         "multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0]]) { cylinder(h = 0.999999, r = 1); } }";
@@ -399,7 +399,7 @@ TEST(HealingFeatures, AnAxisMovesAlongObliqueCaps) {
 }
 
 TEST(HealingFeatures, BothCapsOfOneCylinderMayBeShared) {
-  // Two plates of different frames, and a bolt of a third between them.
+  // Two plates in different frames, and a bolt in a third between them.
   const std::vector<Primitive> primitives = import_scad(
       "a = [17.12345678, 23.23456789, 41.3456789];"
       "rotate(a) translate([0, 0, 10/3]) cylinder(r = 5, h = 1);"
@@ -412,8 +412,8 @@ TEST(HealingFeatures, BothCapsOfOneCylinderMayBeShared) {
 }
 
 TEST(HealingFeatures, FlushCubesInTurnedFrames) {
-  // The angles are not to be guessed, and the top of the plate is the others' bottom in the design
-  // only.
+  // The angles cannot be guessed, and the top of the plate is the others' bottom only in the
+  // design.
   const std::vector<Primitive> primitives = import_scad(
       "a = [17.12345678, 23.23456789, 41.3456789];"
       "module turned() rotate([0, 0, a.z]) rotate([0, a.y, 0]) rotate([a.x, 0, 0]) children();"
@@ -450,7 +450,7 @@ TEST(HealingFeatures, EachFaceOfACubeMovesAlone) {
 }
 
 TEST(HealingFeatures, AMovedFaceTearsNothingElse) {
-  // A and B stand in one frame and share a plane, A's other side is flush with C's.
+  // A and B are in one frame and share a plane; A's other side is flush with C's.
   const std::vector<Primitive> primitives = import_scad(
       "translate([0, 0, 2/3]) translate([0, 0, -1]) cube(1);"
       "translate([0, 0, 1/3]) translate([0, 0, 1/3]) {"
@@ -461,7 +461,7 @@ TEST(HealingFeatures, AMovedFaceTearsNothingElse) {
 }
 
 TEST(HealingFeatures, AFaceOfAShearedCubeMovesAlongTheOthers) {
-  // Along its normal it would take the leaning top and bottom with it, which B shares.
+  // A move along its normal would take along the leaning top and bottom, which B shares.
   const std::vector<Primitive> primitives = import_scad(
       "translate([2/3, 0, 0]) translate([-1, 0, 0]) cube([1, 9, 9]);"
       "translate([1/3, 0, 0]) translate([1/3, 0, 0])"
@@ -489,7 +489,7 @@ TEST(HealingFeatures, AMovedCapTearsNothingElse) {
 }
 
 TEST(HealingFeatures, TwoFacesThatCannotBothBeReachedDoNotUndoOneAnother) {
-  // Three chains of rounded matrices for one rotation: the plates are not parallel.
+  // Three chains of rounded matrices represent one rotation: the plates are not parallel.
   const std::vector<Primitive> primitives = import_scad(
       "a = [17.12345678, 23.23456789, 41.3456789];"
       "rotate(a) cube([20, 20, 2]);"
@@ -521,8 +521,8 @@ TEST(HealingFeatures, CubeOfAScaledFrame) {
 }
 
 TEST(HealingFeatures, PolyhedraMoveAsAWhole) {
-  // A truncated pyramid on a plate and against a wall. Its top cannot stay without moving its
-  // sides.
+  // A truncated pyramid on a plate and against a wall. Its top cannot stay in place unless its
+  // sides move.
   const std::vector<Primitive> primitives = import_scad(
       "translate([2/3, 0, 2/3]) { translate([0, 0, -1]) cube([9, 9, 1]);"
       "  translate([-1, 0, 0]) cube([1, 9, 9]); }"
@@ -589,7 +589,7 @@ std::shared_ptr<const csgcore::Polyhedron> unit_cube() {
   return cube;
 }
 
-/// Randomly nested frames with cylinders, cubes and spheres that coincide here and there.
+/// Randomly nested frames with cylinders, cubes and spheres, some features of which coincide.
 struct RandomDesign {
   FrameTree frames;
   std::vector<Primitive> primitives;
@@ -634,7 +634,7 @@ TEST(HealingFeatures, NothingMovesByMoreThanTheRoundingExplainsAndTwiceIsOnce) {
     RandomDesign design(seed);
     const std::vector<Primitive> before = design.primitives;
     merge_features(design.primitives, design.frame_of, design.frames, design.box);
-    // No pair's bound is greater than twice the greatest; a primitive follows four leaders at most.
+    // No pair's bound exceeds twice the largest one, and a primitive follows at most four leaders.
     double bound = 0;
     for (const uint32_t frame : design.frame_of) {
       bound = std::max(bound,
@@ -666,7 +666,7 @@ TEST(HealingFeatures, NothingMovesByMoreThanTheRoundingExplainsAndTwiceIsOnce) {
           << seed << ' ' << i;
     }
   }
-  EXPECT_GT(moved, 200);  // the test has something to say
+  EXPECT_GT(moved, 200);  // otherwise the test proves nothing
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the arguments of spheres, cylinders and other nodes mean, and what is wrong with them.
+// Tests the meaning of arguments of spheres, cylinders and other nodes, and the errors in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(ImporterSphere, TakesEverySpellingOfItsRadius) {
   EXPECT_EQ(only_primitive("sphere($fn = 0, $fa = 12, $fs = 2, r = 3);").r_bottom, 3);
   EXPECT_EQ(only_primitive("sphere(3);").r_bottom, 3);
   EXPECT_EQ(only_primitive("sphere(d = 3);").r_bottom, 1.5);
-  EXPECT_EQ(only_primitive("sphere(r = 7, d = 3);").r_bottom, 1.5);  // as OpenSCAD
+  EXPECT_EQ(only_primitive("sphere(r = 7, d = 3);").r_bottom, 1.5);  // as in OpenSCAD
   EXPECT_EQ(only_primitive("sphere();").r_bottom, 1);
   EXPECT_EQ(only_primitive("sphere(r = undef);").r_bottom, 1);
   EXPECT_EQ(only_primitive("sphere(r = 2, colour = [1]);").r_bottom, 2);
@@ -51,7 +51,7 @@ TEST(ImporterCylinder, TakesEverySpellingOfItsSizes) {
   expect_frustum("cylinder();", 0, 1, 1, 1);
 }
 
-/// As OpenSCAD 2021.01 reads them, which for some of them says nothing.
+/// OpenSCAD 2021.01 reads them in this way, and for some gives no warning.
 TEST(ImporterPrimitives, TakeArgumentsOfTheWrongTypeForMissing) {
   const auto expect_as = [](const std::string& text, const std::string& meant,
                             const std::string& warning) {
@@ -118,7 +118,7 @@ TEST(ImporterPrimitives, AreLeftOutWhereNoScaleMakesThemDrawable) {
     EXPECT_THAT(design.warnings[0].text,
                 HasSubstr(" is left out (it is too large, or too far from the origin: scale the "
                           "design to between 1e-90 and 1e90 across)"));
-    // What is cut from it goes with it.
+    // What is cut from it disappears with it.
     EXPECT_EQ(model_of("difference() {" + large + "sphere(); } cube();"), "2") << large;
   }
   EXPECT_THAT(warning_of(far + "cube(); }"), HasSubstr(":1:32: warning: cube is left out (it is"));

@@ -1,4 +1,4 @@
-// color(): the colours that primitives have.
+// Tests color(): the colours that primitives get.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

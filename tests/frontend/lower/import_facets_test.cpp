@@ -1,4 +1,4 @@
-// OpenSCAD's facets of round primitives.
+// Tests OpenSCAD's facets of round primitives.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using csgcore::Vec3;
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
-/// The faces of the only primitive, 0 if it is smooth.
+/// Returns the number of faces of the only primitive; 0 if it is smooth.
 size_t faces_of(const std::string& text, ImportOptions options = {}) {
   const ImportedDesign design = import_text(text, options);
   EXPECT_THAT(design.scene.primitives, SizeIs(1)) << text;
@@ -30,7 +30,7 @@ TEST(ImporterFacets, OfFewFragmentsAreKept) {
   EXPECT_EQ(faces_of("cylinder($fn = 6);"), 8u);
   EXPECT_EQ(faces_of("cylinder($fn = 8, r1 = 0);"), 9u);
   EXPECT_EQ(faces_of("cylinder($fn = 9);"), 0u);
-  EXPECT_EQ(faces_of("cylinder($fn = 8.5);"), 0u);  // as written, not as it is truncated
+  EXPECT_EQ(faces_of("cylinder($fn = 8.5);"), 0u);  // $fn counts as written, not truncated
   EXPECT_EQ(faces_of("cylinder($fn = 1);"), 5u);
   EXPECT_EQ(faces_of("sphere($fn = 6);"), 14u);
   for (const char* fn : {"0", "-3", "inf", "nan", "100"}) {
@@ -50,7 +50,7 @@ TEST(ImporterFacets, AsTheOptionsSay) {
   EXPECT_EQ(faces_of("cylinder($fn = 100);", all), 102u);
   EXPECT_EQ(faces_of("cylinder($fn = 0, $fa = 12, $fs = 2, r = 9);", all), 31u);
   EXPECT_EQ(faces_of("cylinder($fn = inf);", all), 5u);
-  // As if every one had that $fn; cubes have their own faces.
+  // Every primitive is treated as if it had that $fn; cubes have their own faces.
   const ImportOptions forced{.facets = Facets::kAll, .fn = 5};
   EXPECT_EQ(faces_of("cylinder($fn = 100);", forced), 7u);
   EXPECT_EQ(faces_of("cylinder();", forced), 7u);
@@ -127,7 +127,7 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
   for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
   EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
                                   Shape::kPolyhedron, Shape::kPolyhedron));
-  // Many that are small each are too much as well, but for those that their text pays for.
+  // Many small primitives are too much as well, beyond those that the length of the text allows.
   std::string text;
   for (int i = 0; i < 300; ++i) text += "sphere($fn = " + std::to_string(30 + i) + ");";
   text += "cylinder($fn = 6);";

@@ -1,4 +1,4 @@
-// cube() and polyhedron().
+// Tests cube() and polyhedron().
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
   }
 }
 
-/// What OpenSCAD 2021.01 makes of them (frontend/OPENSCAD.md, "Polyhedra").
+/// OpenSCAD 2021.01 treats them in this way (frontend/OPENSCAD.md, "Polyhedra").
 TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
   const auto expect_whole = [](const std::string& faces, const std::string& warning) {
     const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
@@ -143,7 +143,7 @@ TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
                                      {"[1,2,true]", "a list with a boolean"}}) {
     const std::string points =
         "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]," + std::string(point) + "], ";
-    // As if the points beyond it were none.
+    // The points from the bad one on are ignored.
     const std::string late = points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2,4,0],[4,4,9]]);";
     EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: a point is " + std::string(words) +
                                     ", and the faces from there on are left out (it must be a "
@@ -153,7 +153,7 @@ TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
     EXPECT_EQ(model_of(early), "1") << point;
     EXPECT_THAT(warnings_of(early),
                 ElementsAre(HasSubstr("a point is "), HasSubstr("is left out (it is not")));
-    // No face has it.
+    // No face uses the point.
     EXPECT_THAT(warnings_of(points + kFaces + ");"), IsEmpty()) << point;
   }
 }

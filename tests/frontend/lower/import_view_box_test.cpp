@@ -1,4 +1,4 @@
-// What --viewall looks at.
+// Tests the box that --viewall looks at.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using csgcore::Vec3;
 
 TEST(ImporterViewBox, IsTheFacetedPrimitives) {
-  // 5 fragments: the vertex nearest to -x lies at 144 degrees, to ±y at 72 degrees.
+  // 5 fragments: the vertex nearest to -x is at 144 degrees, the one nearest to ±y at 72 degrees.
   expect_box(import_text("cylinder($fn = 0, $fa = 12, $fs = 2, h = 3, r1 = 1, r2 = 0);").view_box,
              Vec3(std::cos(M_PI * 0.8), -std::sin(M_PI * 0.4), 0), Vec3(1, std::sin(M_PI * 0.4), 3),
              1e-15);
@@ -29,7 +29,7 @@ TEST(ImporterViewBox, IsTheFacetedPrimitives) {
 TEST(ImporterViewBox, OfCubesAndPolyhedra) {
   expect_box(import_text("multmatrix([[1,0,0,5]]) { cube([1, 2, 3], center = true); }").view_box,
              Vec3(4.5, -1, -1.5), Vec3(5.5, 1, 1.5), 1e-15);
-  // The box of the corners of the local box, not of the vertices.
+  // The box is that of the local box's corners, not of the vertices.
   const double s = std::sqrt(0.5);
   expect_box(import_text("multmatrix([[0.70710678118654752,-0.70710678118654752,0,0],"
                          "[0.70710678118654752,0.70710678118654752,0,0],[0,0,1,0]]) { polyhedron(" +
@@ -58,7 +58,7 @@ TEST(ImporterViewBox, CountsPositiveLeavesAndMarkedParts) {
   EXPECT_DOUBLE_EQ(width("%" + large + small), 9);
   EXPECT_DOUBLE_EQ(width("difference() {" + small + "#" + large + "}"), 9);
   EXPECT_DOUBLE_EQ(width("difference() {" + small + "%" + large + "}"), 9);
-  // An intersection that the boxes tell to be empty is not seen.
+  // An intersection whose boxes show it to be empty is not viewed.
   EXPECT_DOUBLE_EQ(
       width("intersection() {" + small + "multmatrix([[1,0,0,20]]) {" + large + "} } " + small), 1);
   EXPECT_TRUE(import_text("").view_box.empty());

@@ -1,4 +1,4 @@
-// A .csg's text, imported, and what the tests of the importer ask of it.
+// Imports the text of a .csg, and answers the questions of the importer's tests.
 #pragma once
 
 #include <string>
@@ -11,35 +11,35 @@
 
 namespace frontend {
 
-/// In one pass, and by the tree: both must say the same.
+/// Imports in one pass, and by the tree; both must give the same.
 ImportedDesign import_text(const std::string& text, ImportOptions options = {});
 
-/// What import_text() throws; "no error" if nothing.
+/// Returns the message that import_text() throws; "no error" if nothing.
 std::string error_of(const std::string& text);
 
 std::vector<std::string> warnings_of(const std::string& text);
 
-/// There must be one.
+/// Returns the warning; there must be exactly one.
 std::string warning_of(const std::string& text);
 
-/// The tree with its primitives' ids: "(0-1-(2+3))", "-" for the empty set.
+/// Writes the tree with its primitives' ids: "(0-1-(2+3))", "-" for the empty set.
 std::string shape_of(const csgcore::CsgTree& tree,
                      const std::vector<csgcore::Primitive>& primitives);
 
 std::string model_of(const std::string& text, ImportOptions options = {});
 
-/// "model | background | highlight".
+/// Writes "model | background | highlight".
 std::string trees_of(const std::string& text, ImportOptions options = {});
 
 csgcore::Primitive only_primitive(const std::string& text);
 
-/// Of a polyhedron, which it must be, in the world.
+/// Returns the box in the world of a primitive, which must be a polyhedron.
 csgcore::Box box_of(const csgcore::Primitive& primitive);
 
 void expect_box(const csgcore::Box& box, const csgcore::Vec3& min, const csgcore::Vec3& max,
                 double tolerance);
 
-// A tetrahedron; faces clockwise seen from outside.
+// A tetrahedron; its faces are clockwise seen from outside.
 inline const std::string kCorner = "points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]], ";
 inline const std::string kFaces = "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]";
 

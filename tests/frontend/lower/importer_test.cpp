@@ -1,4 +1,5 @@
-// Matrices, operations, nodes that cannot be drawn, and the import of a text while it is parsed.
+// Tests matrices, operations, nodes that cannot be drawn, and the import of a text while it is
+// parsed.
 #include "frontend/importer.hpp"
 
 #include <gmock/gmock.h>
@@ -145,7 +146,7 @@ TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
 
 // --- A text, while it is parsed -------------------------------------------------------------
 
-/// `!` makes the problems void of all that it does not select.
+/// `!` voids the problems of everything that it does not select.
 TEST(TextImport, TellsWhatIsWrongWithWhatItSelects) {
   const std::string wrong = "sphere(r = \"1\");";
   EXPECT_THAT(

@@ -1,5 +1,5 @@
-// --facets=all against the meshes that OpenSCAD makes of the same files: the exact volume, and the
-// first hits of rays. Prints a table.
+// Tests --facets=all against the meshes that OpenSCAD makes of the same files: the exact volume,
+// and the first hits of rays. Prints a table.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,13 +27,13 @@ namespace {
 
 using csgcore::Vec3;
 
-/// The issue's.
+/// The bar.
 constexpr double kVolumeTolerance = 1e-5;
-/// How far a mesh's surface may be from ours, in shares of the design's size: OpenSCAD does not
-/// heal the file's six digits, snaps vertices to a grid of 2⁻²⁰ and writes them as floats.
+/// The distance of a mesh's surface from ours, as a share of the design's size: OpenSCAD does not
+/// heal the file's six digits, snaps vertices to a grid of 2⁻²⁰, and writes them as floats.
 constexpr double kMeshError = 1e-5;
 
-/// Spheres, cylinders and cones of every kind of fragments, in frames with rounded matrices.
+/// Spheres, cylinders and cones with all kinds of fragments, in frames with rounded matrices.
 const std::string kMixed =
     "difference() {"
     "  multmatrix([[0.689851,-0.544118,0.477537,1],[0.607024,0.79419,0.0280116,2],"
@@ -52,9 +52,9 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The first crossing of the ray with the mesh at s > 0; +∞ if there is none.
+/// Returns the first crossing of the ray with the mesh at s > 0; +∞ if there is none.
 double first_hit(const csgcore::Mesh& triangles, const csgcore::Ray& ray) {
-  // A little larger than they are, so that no ray slips between two (Möller and Trumbore).
+  // Triangles are slightly enlarged, so that no ray slips between two (Möller and Trumbore).
   constexpr double kOutside = -1e-9;
   double first = std::numeric_limits<double>::infinity();
   for (const std::vector<uint32_t>& face : triangles.faces) {
@@ -78,11 +78,11 @@ double first_hit(const csgcore::Mesh& triangles, const csgcore::Ray& ray) {
 
 struct Tally {
   uint64_t hits = 0;
-  uint64_t undecided = 0;  // agree with the mesh only if it is seen a little from the side
+  uint64_t undecided = 0;  // agree with the mesh only if displaced a little
   uint64_t wrong = 0;
 };
 
-/// Holds the tracer's hits against the mesh.
+/// Compares the tracer's hits with the mesh.
 Tally compare(const csgcore::Hits& hits, const csgcore::View& view, const csgcore::Mesh& mesh,
               double margin) {
   Tally tally;
@@ -156,7 +156,7 @@ void expect_openscads_solid(const std::string& name, const std::string& csg) {
       static_cast<unsigned long long>(sum.wrong));
   EXPECT_GT(sum.hits, 500u);
   EXPECT_EQ(sum.wrong, 0u);
-  // Those within the margin of an edge.
+  // These are within the margin of an edge.
   EXPECT_LE(sum.undecided * 100, sum.hits);
 }
 
@@ -172,8 +172,8 @@ TEST_P(FacetedExample, IsOpenScadsSolid) {
   expect_openscads_solid(name, contents(SCADRAY_EXAMPLES_DIR "/" + name + ".csg"));
 }
 
-// OpenSCAD meshes these in up to 20 s of processor time, cc100 in 4 minutes. The knob, t1022, cs100
-// and all larger ones take it more than 5.
+// OpenSCAD meshes these in up to 20 s of processor time, and cc100 in 4 minutes. The knob, t1022,
+// cs100 and all larger ones take more than 5.
 INSTANTIATE_TEST_SUITE_P(, FacetedExample,
                          testing::Values("nut_trap", "bracket", "dodecahedron", "three_spheres",
                                          "r9", "pulley", "flange", "cc100"),

@@ -1,4 +1,4 @@
-// The modifiers % # ! *; compared with OpenSCAD 2021.01's pictures.
+// Tests the modifiers % # ! *, compared with OpenSCAD 2021.01's pictures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -94,7 +94,7 @@ TEST(ImporterModifiers, RootAndDisable) {
   EXPECT_EQ(model_of("sphere(); group() { sphere(); !sphere(); }"), "2");
   EXPECT_EQ(model_of("*group() { !sphere(); } sphere();"), "1");
   EXPECT_EQ(model_of("!*sphere(); sphere();"), "1");
-  // The new root leaves its place and its colour behind.
+  // The new root loses its place and its colour.
   EXPECT_EQ(only_primitive("multmatrix([[1,0,0,3]]) { color([1,0,0]) { !sphere(); } }")
                 .local_to_world.translation,
             Vec3(0.0));

@@ -1,4 +1,4 @@
-// The tight box of a solid, against solids whose box is known.
+// Tests the tight box of a solid, against solids whose box is known.
 #include "picture/seen_box.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(SeenBox, IsWhatTheOperationsLeave) {
       "intersection() { multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) sphere(r = 5);"
       "multmatrix([[1,0,0,-3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) sphere(r = 5); }",
       Vec3(-2, -4, -4), Vec3(2, 4, 4));
-  // Cut flush with the sides: the faces that coincide are no part of it.
+  // The cut is flush with the sides: coincident faces do not belong to the solid.
   expect_box(
       "difference() { cube(size = 20); "
       "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,10],[0,0,0,1]]) cube(size = 20); }",

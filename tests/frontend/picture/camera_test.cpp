@@ -1,4 +1,4 @@
-// The camera's numbers (frontend/OPENSCAD.md, "Camera").
+// Tests the camera's numbers (frontend/OPENSCAD.md, "Camera").
 #include "frontend/camera.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using csgcore::Projection;
 using csgcore::Vec3;
 using csgcore::View;
 
-constexpr double kClose = 1e-12;  // of numbers of the size of 1 to 1000, in double
+constexpr double kClose = 1e-12;  // for numbers of size 1 to 1000, in double
 
 void expect_near(const Vec3& actual, const Vec3& expected, double tolerance = kClose) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// PNG and EXR, read back by the libraries' own readers; the pictures of channels.
+// Tests PNG and EXR, read back by the libraries' own readers, and the pictures of channels.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -118,8 +118,8 @@ std::size_t count_pixel_chunks(const Bytes& file) {
   return count;
 }
 
-/// Noise is not compressed: one picture is longer than a chunk, the other's rows than what is
-/// compressed at a time.
+/// Noise does not compress: one picture is longer than a chunk, and the other has rows longer than
+/// a batch.
 TEST(Png, LargePictures) {
   for (const auto& [width, height] : {std::pair(900u, 800u), std::pair(30000u, 3u)}) {
     const Image image = random_image(width, height);
@@ -237,7 +237,7 @@ TEST(ChannelPicture, EachIdHasAColorOfItsOwn) {
   std::vector<Pixel> colors = image.rgb;
   std::sort(colors.begin(), colors.end());
   EXPECT_EQ(std::unique(colors.begin(), colors.end()), colors.end());
-  // Neighbours differ visibly.
+  // Neighbours are visibly different.
   for (std::size_t i = 1; i < 100; ++i) {
     int difference = 0;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// --view against what OpenSCAD 2021.01 draws (read off its PNGs, 512×512, dist 20).
+// Tests --view against what OpenSCAD 2021.01 draws (read off its PNGs, 512×512, dist 20).
 #include "frontend/overlays.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class Overlay : public testing::Test {
     camera_.distance = 20;
   }
 
-  /// `z`: of every pixel.
+  /// `z` is that of every pixel.
   Image draw(float z) {
     Image image;
     image.width_px = options_.width_px;
@@ -115,7 +115,8 @@ TEST_F(Overlay, AnAxisComesOutOfTheModelWhereItDoes) {
 }
 
 TEST_F(Overlay, DepthIsRightAlongAnObliqueAxis) {
-  // The x axis comes towards the eye, to the right: at x it is 20 − x·cos 45° from the eye's plane.
+  // The x axis comes towards the eye, to the right: at x it is at 20 − x·cos 45° from the eye's
+  // plane.
   camera_.rotation_deg = {0, 45, 0};
   for (const auto projection :
        {csgcore::Projection::kPerspective, csgcore::Projection::kOrthographic}) {
@@ -131,7 +132,7 @@ TEST_F(Overlay, DepthIsRightAlongAnObliqueAxis) {
 }
 
 TEST_F(Overlay, AVerticalAxisStandsInOneColumn) {
-  // Between two columns, where rounding must not send it now to one, now to the other.
+  // The axis is between two columns: rounding must not send it now to one, now to the other.
   for (const double tilt_deg : {50, 55, 61, 73}) {
     for (const double turn_deg : {20, 25, 31}) {
       camera_.rotation_deg = {tilt_deg, 0, turn_deg};
@@ -143,7 +144,8 @@ TEST_F(Overlay, AVerticalAxisStandsInOneColumn) {
 TEST_F(Overlay, ScaleMarksAreOnBothHalvesOfAnAxisAndNumbered) {
   overlays_.scales = true;
   const Image image = draw(kMiss);
-  // At distance 20 a mark each 1, every tenth of double length, every other numbered.
+  // At distance 20 there is a mark at each 1; every tenth has double length, and every other is
+  // numbered.
   EXPECT_EQ(column(image, 384, 257, 279), "####################..");
   EXPECT_EQ(column(image, 127, 257, 279), "..###...###...###.....") << "stippled";
   EXPECT_EQ(row(image, 265, 256, 400),
@@ -211,7 +213,7 @@ class Edges : public Overlay {
     overlays_ = {.edges = true};
   }
 
-  /// 'e' where an edge is drawn, else '.'.
+  /// Returns 'e' where an edge is drawn, else '.'.
   std::vector<std::string> edges_of(const std::string& text) {
     RenderSettings settings;
     settings.measured_channels = true;
@@ -278,7 +280,7 @@ TEST_F(Edges, NoneWhereASurfaceGoesOn) {
       "multmatrix([[1,0,0,0],[0,1,0,3],[0,0,1,0],[0,0,0,1]]) cube(size = [4, 14, 2], center = "
       "true);");
   EXPECT_EQ(count(flush[50]), 2);
-  // A ball has its outline only, however steep it becomes towards it; so have others.
+  // A ball has only its outline, however steep it becomes towards it; so have other round shapes.
   for (const char* round :
        {"sphere(r = 5);", "sphere(r = 0.9);",
         "multmatrix([[8,0,0,0],[0,3,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(r = 1); }",
@@ -290,7 +292,7 @@ TEST_F(Edges, NoneWhereASurfaceGoesOn) {
       for (const std::string& row : edges_of(round)) {
         const std::size_t first = row.find('e');
         if (first == row.npos || count(row) <= 2) continue;
-        // At the top and bottom of an outline it runs along the row.
+        // At its top and bottom the outline runs along the row.
         const std::string outline = row.substr(first, row.rfind('e') + 1 - first);
         EXPECT_EQ(row.find("e.e"), row.npos) << round << outline;
         EXPECT_LE(std::count(outline.begin(), outline.end(), '.') + 2 * count(row), 100) << round;
@@ -303,7 +305,7 @@ TEST_F(Edges, NoneWhereASurfaceGoesOn) {
 }
 
 TEST_F(Edges, CreasesAreFoundInEitherProjection) {
-  // A roof, whose ridge is along y: nothing jumps there, but its normal.
+  // A roof with its ridge along y: only its normal jumps there.
   const std::string roof =
       "multmatrix([[0.70710678,0,0.70710678,0],[0,1,0,0],[-0.70710678,0,0.70710678,0],[0,0,0,1]])"
       " cube(size = [5, 8, 5], center = true);";

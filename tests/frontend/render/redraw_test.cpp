@@ -1,4 +1,4 @@
-// A design that is edited, drawn again: the same picture as drawn anew.
+// Tests drawing an edited design again: the picture equals one that is drawn anew.
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -46,7 +46,7 @@ class Redrawn : public testing::TestWithParam<Way> {
     settings_.measured_channels = true;
   }
 
-  /// False where there is no OpenGL.
+  /// Returns false if there is no OpenGL.
   bool can_draw() {
     try {
       load(csgcore::checks::framed_tree(2, 1));
@@ -64,7 +64,7 @@ class Redrawn : public testing::TestWithParam<Way> {
 
   Image redraw(const csgcore::View& view) { return renderer_->redraw(view, settings_, stats_); }
 
-  /// Compared at the end: OpenGL has one context at a time here.
+  /// Keeps a picture, to be compared at the end: OpenGL has one context at a time here.
   void expect_drawn_anew(Image image, const csgcore::View& view) {
     shown_.push_back({scene_, view, settings_, std::move(image)});
   }
@@ -161,7 +161,7 @@ TEST_P(Redrawn, ASaveComparesTheScenesOnce) {
     expect_drawn_anew(redraw(view), view);
     EXPECT_EQ(stats_.edit.comparisons, 1u);
   }
-  // Of two saves between two pictures, each, and then both together.
+  // Two saves come between two pictures: each alone, and then both together.
   for (int save = 0; save < 2; ++save) {
     design.edit(random);
     load(design.scene());
@@ -185,7 +185,7 @@ TEST_P(Redrawn, ASizeThatComesAndGoesIsNoEdit) {
   view.width_px = view.height_px = kSide_px;
   load(bitten(1, 0.5));
   redraw(view);
-  load(bitten(1, 0.5));      // followed, and not drawn
+  load(bitten(1, 0.5));      // followed, but not drawn
   load(bitten(1e-30, 0.5));  // scaled
   load(bitten(1, 0.7));
   expect_drawn_anew(redraw(view), view);

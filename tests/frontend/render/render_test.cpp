@@ -1,4 +1,4 @@
-// Scenes far from unit size, drawn as the command draws them.
+// Tests scenes far from unit size, drawn as the command draws them.
 #include "frontend/render.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using csgcore::Image;
 using csgcore::Op;
 using csgcore::Projection;
 
-/// A ball of the given size, less a smaller one on its side that faces the camera.
+/// A ball of the given size, minus a smaller one on the side that faces the camera.
 csgcore::Scene bitten_ball(double size) {
   csgcore::Affine aside;
   aside.translation = {0, 0, size};
@@ -25,7 +25,7 @@ csgcore::Scene bitten_ball(double size) {
       Op::kDifference, {csgcore::make_sphere(size), csgcore::make_sphere(0.5 * size, aside)});
 }
 
-/// A cube with vertices of the given size, less a corner whose size is in the matrix.
+/// A cube with vertices of the given size, minus a corner whose size is in the matrix.
 csgcore::Scene bitten_cube(double size) {
   using csgcore::Vec3;
   return test_support::scene_of(
@@ -89,7 +89,7 @@ TEST(Render, PolyhedraOfAnySize) {
   EXPECT_THROW(draw_cube(std::ldexp(1, 305)), Error);
 }
 
-/// Beside something so large nothing shows it, nor does it harm.
+/// Beside so large a part it is not seen, and does no harm.
 TEST(Render, WhatIsTooSmallForTheScaleShowsNothing) {
   const double size = std::ldexp(1, 250);
   for (const auto& tiny :

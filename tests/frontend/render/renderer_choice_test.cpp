@@ -1,4 +1,4 @@
-// What --renderer=auto sees of a machine, on folders made up to look like /dev/dri and
+// Tests what --renderer=auto finds on a machine, with folders that imitate /dev/dri and
 // /sys/class/drm.
 #include "render/renderer_choice.hpp"
 
@@ -22,7 +22,7 @@ class RendererChoice : public testing::Test {
     }
   }
 
-  /// A node of a driver; of a device without one if `driver` is empty.
+  /// Adds a driver's node; if `driver` is empty, one without a device.
   void add_node(const std::string& name, const std::string& driver) {
     std::ofstream(folders_.devices + '/' + name) << "";
     const fs::path device = fs::path(folders_.classes) / name / "device";
@@ -69,7 +69,7 @@ TEST_F(RendererChoice, OneGpuAmongOthersSuffices) {
   EXPECT_EQ(reason(), "a GPU");
 }
 
-/// A folder in the node's place can be opened by nobody, root included, for writing.
+/// Nobody, root included, can open a folder in the node's place for writing.
 TEST_F(RendererChoice, ANodeMustOpen) {
   add_node("renderD128", "i915");
   fs::remove(folders_.devices + "/renderD128");

@@ -1,5 +1,5 @@
-// The command with its two renderers: the same options and the same pictures from both, and what
-// `auto` makes of them.
+// Tests the command with its two renderers: both have the same options and pictures, and `auto`
+// chooses between them.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -50,7 +50,8 @@ class Renderers : public testing::Test {
  protected:
   Renderers() : file_(folder_.write("a.csg", kDesign)) {}
 
-  /// The command with these options beside a small picture; what it drew, before it was encoded.
+  /// Runs the command with these options on a small picture, and returns what it drew, before
+  /// encoding.
   Drawn run(std::vector<std::string> options) {
     Drawn drawn;
     options.insert(options.begin(), {"-o", folder_ / "x.png", "--imgsize=160,120", file_});
@@ -77,7 +78,7 @@ class Renderers : public testing::Test {
     return run(options);
   }
 
-  /// A machine with a GPU, as far as one can see from outside.
+  /// Imitates a machine with a GPU, as far as can be seen from outside.
   void feign_gpu() {
     folders_ = {folder_ / "dri", folder_ / "drm"};
     std::filesystem::create_directories(folders_.devices);
@@ -91,7 +92,7 @@ class Renderers : public testing::Test {
   GpuFolders folders_{folder_ / "none", folder_ / "none"};
 };
 
-/// Two renderers round a colour differently: by a level at most, and one more where it is blended.
+/// Two renderers round a colour differently, by at most a level, and one more where it is blended.
 constexpr int kLevels = 2;
 
 int levels_apart(const Image& a, const Image& b, size_t pixel) {
@@ -102,7 +103,8 @@ int levels_apart(const Image& a, const Image& b, size_t pixel) {
   return most;
 }
 
-/// Pixels whose colours differ. At an edge the one renderer may just miss what the other hits.
+/// Returns the number of pixels whose colours differ. At an edge one renderer may just miss what
+/// the other hits.
 size_t different_pixels(const Image& a, const Image& b) {
   EXPECT_EQ(a.rgb.size(), b.rgb.size());
   size_t count = 0;
@@ -117,7 +119,7 @@ size_t pixels_unlike(const Image& image, const std::array<uint8_t, 3>& color) {
          static_cast<size_t>(std::count(image.rgb.begin(), image.rgb.end(), color));
 }
 
-/// At most so many of the 19,200 pixels may lie that near to an edge.
+/// The most of the 19,200 pixels that may be that near to an edge.
 constexpr size_t kEdgePixels = 4;
 
 TEST_F(Renderers, DrawTheSamePicture) {
@@ -125,13 +127,13 @@ TEST_F(Renderers, DrawTheSamePicture) {
       {},
       {"--shading=phong"},
       {"--projection=o"},
-      {"--camera=-6,-9,0,30,0,0,3"},  // from within the translucent part
-      {"--camera=0,0,0,90,0,0,7"},    // from within the hole
+      {"--camera=-6,-9,0,30,0,0,3"},  // inside the translucent part
+      {"--camera=0,0,0,90,0,0,7"},    // inside the hole
       {"--samples=4"},
       {"--threshold=1", "--leaf-primitives=2"},
       {"--show=cells", "--leaf-primitives=1"},
       {"--show=cells", "--leaf-primitives=1", "--shading=phong", "--projection=o"},
-      {"--show=cells", "--camera=0,0,0,30,20,0,9"},  // from within a cell
+      {"--show=cells", "--camera=0,0,0,30,20,0,9"},  // inside a cell
   };
   for (const auto& options : cases) {
     SCOPED_TRACE(testing::PrintToString(options));
@@ -203,7 +205,7 @@ TEST_F(Renderers, FillTheSameChannels) {
         different += a.z[i] != b.z[i];
         continue;
       }
-      // Float against double: some ulps of the scene's size, more where a ray grazes.
+      // Float against double: some ulps of the scene's size, and more where a ray grazes.
       different += std::abs(a.z[i] - b.z[i]) > 1e-3f ||
                    glm::length(a.position[i] - b.position[i]) > 1e-3f ||
                    glm::length(a.normal[i] - b.normal[i]) > 1e-3f;
@@ -284,8 +286,8 @@ TEST_F(Renderers, StatisticsOfTheCpu) {
   }
 }
 
-/// A ball, one behind it, one inside it, one beside the picture, and one that is taken away from
-/// where nothing is.
+/// A ball, one behind it, one inside it, one beside the picture, and one that is subtracted where
+/// nothing is.
 TEST_F(Renderers, SkippedPrimitivesAreCountedByTheirReason) {
   file_ = folder_.write("a.csg", R"(
 difference() {
@@ -310,7 +312,7 @@ difference() {
     EXPECT_GE(trace.intersected, 1u);
     EXPECT_EQ(skipped.cancelled, 1u);
     EXPECT_EQ(skipped.sub_pixel, 0u);
-    // A cell may hold what the picture does not show.
+    // A cell may contain what the picture does not show.
     EXPECT_EQ(skipped.off_screen, drawn.stats.technique == "tiles" ? 1u : 0u);
     const Drawn plain = cpu({technique, camera, "--projection=o"});
     EXPECT_EQ(plain.stats.trace.skipped.cancelled, 0u) << "not asked for";
@@ -318,7 +320,7 @@ difference() {
   }
 }
 
-/// Nothing is left of the model: no cell has a surface, and no ray meets anything of it.
+/// Nothing is left of the model: no cell has a surface, and no ray meets any of it.
 TEST_F(Renderers, AModelThatIsNowhereLeavesTranslucentPartsAlone) {
   struct Case {
     std::string design;
@@ -351,7 +353,7 @@ TEST_F(Renderers, AModelThatIsNowhereLeavesTranslucentPartsAlone) {
       }
       EXPECT_EQ(by_cpu.image.rgb, plain.image.rgb);
       EXPECT_LE(different_pixels(by_cpu.image, by_gl.image), kEdgePixels);
-      // Cells are the model's alone.
+      // Only the model has cells.
       const bool is_seen = each.is_seen && (way[0] != "--show=cells" || each.design[0] == '#');
       EXPECT_EQ(pixels_unlike(by_cpu.image, {0xff, 0xff, 0xe5}) > 0, is_seen);
     }
@@ -374,7 +376,7 @@ TEST_F(Renderers, StatisticsOfOpenGl) {
   EXPECT_EQ(drawn.stats.trace.rays, 0u);
 }
 
-/// Colours between the two sides of an edge, and no others.
+/// Edges have colours between those of their two sides, and no others.
 TEST_F(Renderers, SamplesSmoothEdges) {
   file_ = folder_.write("ball.csg", "sphere($fn = 0, r = 1);\n");
   const Drawn coarse = cpu({"--show=surface"});
@@ -390,7 +392,7 @@ TEST_F(Renderers, SamplesSmoothEdges) {
 }
 
 TEST_F(Renderers, SamplesLeaveNoSeamAroundTranslucentParts) {
-  // A translucent ball before a wall: at its edge there is nothing but wall and ball.
+  // A translucent ball in front of a wall: at its edge there are only wall and ball.
   file_ = folder_.write("a.csg",
                         "%multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,9],[0,0,0,1]]) sphere(r = 2);"
                         "cylinder(h = 1, r1 = 50, r2 = 50, center = false);");
@@ -421,7 +423,7 @@ TEST_F(Renderers, AutoTakesTheCpuWhereOpenGlRunsInSoftware) {
   EXPECT_EQ(drawn.image.rgb, cpu().image.rgb);
 }
 
-/// In a process of its own, whose EGL finds no driver.
+/// Runs in a process of its own, whose EGL finds no driver.
 class WithoutAnyOpenGl : public Renderers {
  protected:
   WithoutAnyOpenGl() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
@@ -441,7 +443,7 @@ TEST_F(WithoutAnyOpenGl, AutoTakesTheCpu) {
               "renderer: cpu \\(no OpenGL 3.3 context.*\n.*error: no OpenGL 3.3 context");
 }
 
-/// What the program loads, by the dynamic linker's own account.
+/// Lists the libraries that the program loads, as the dynamic linker reports them.
 class Program : public testing::Test {
  protected:
   std::string libraries_after(const std::string& renderer) {
@@ -464,7 +466,7 @@ class Program : public testing::Test {
   std::string file_ = folder_.write("a.csg", kDesign);
 };
 
-/// An empty file in a library's place cannot be loaded, like one that is not there.
+/// An empty file in a library's place cannot be loaded, like one that is missing.
 TEST_F(Program, SaysWhichGraphicsLibraryIsMissing) {
   const auto error_without = [this](const std::vector<std::string>& libraries) {
     for (const std::string& name : libraries) folder_.write(name, "");

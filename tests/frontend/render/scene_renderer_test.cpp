@@ -1,4 +1,4 @@
-// A scene that is drawn again and again: always the picture that render() makes of it.
+// Tests drawing a scene repeatedly: every picture equals that of render().
 #include "frontend/scene_renderer.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ ScenePointer lattice(uint32_t seed = 1) {
   return std::make_shared<const Scene>(test_support::cylinder_minus_spheres(60, seed));
 }
 
-/// By so many times as large as lattice() is.
+/// Views lattice() enlarged by `size`.
 csgcore::View view_of(double turn_deg = 25, Projection projection = Projection::kPerspective,
                       double size = 1) {
   CameraOptions options;
@@ -93,7 +93,7 @@ class EveryMethod : public testing::TestWithParam<Method> {
       GTEST_SKIP() << error.what();
     }
   }
-  /// Before the first draw of `renderer_`: a thread has one OpenGL context.
+  /// To be called before the first draw of `renderer_`, since a thread has one OpenGL context.
   Image rendered(const Scene& scene, const csgcore::View& view) {
     RenderStats stats;
     return render(scene, view, settings_, stats);
@@ -200,7 +200,7 @@ TEST(SceneRenderer, AStoppedPictureEndsEarly) {
   }
 }
 
-/// The scene by so many times as large, about the origin.
+/// Returns the scene enlarged by `size` about the origin.
 Scene resized(const Scene& scene, double size) {
   Scene result = scene;
   for (csgcore::Primitive& primitive : result.primitives) {
@@ -210,7 +210,7 @@ Scene resized(const Scene& scene, double size) {
   return result;
 }
 
-/// At pixels' centres, the very hits of a whole picture.
+/// At pixels' centres, picking gives exactly the hits of a whole picture.
 TEST(SceneRenderer, PicksWhatAPixelShows) {
   const ScenePointer scene = lattice();
   const csgcore::Solid solid(csgcore::canonical_primitives(*scene), scene->model);

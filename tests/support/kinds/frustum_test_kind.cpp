@@ -1,4 +1,4 @@
-// The test kind of the frustum: cylinders, and cones with either end pointed.
+// The test kind of the frustum, for cylinders and for cones with a point at either end.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -22,9 +22,9 @@ using csgcore::reference::Wide;
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
-/// The roots' side of a cone: f(t) = a·t² + 2b·t + c ≤ 0 on the nappe of positive radius. a > 0 is
-/// one segment; a < 0 is two half-lines, one in each nappe, of which the radius's growth along the
-/// ray tells ours; a = 0 is one half-line.
+/// Solves f(t) = a·t² + 2b·t + c ≤ 0 for a cone, on the nappe of positive radius. For a > 0 the
+/// solution is one segment. For a < 0 it is a half-line in each nappe, and the growth of the radius
+/// along the ray tells which is ours. For a = 0 it is one half-line.
 Span solve_cone(Real a, Real b, Real c, Real growth) {
   if (a == 0) {
     if (b == 0) return c <= 0 ? Span{-kInfinity, kInfinity} : Span{};
@@ -33,7 +33,7 @@ Span solve_cone(Real a, Real b, Real c, Real growth) {
   Real discriminant = b * b - a * c;
   if (discriminant < 0) {
     if (a > 0) return {};
-    discriminant = 0;  // rounding: at the apex's height f ≥ 0, so for a < 0 there are roots
+    discriminant = 0;  // by rounding: at the apex's height f ≥ 0, so that there are roots for a < 0
   }
   const Real q = -(b + std::copysign(std::sqrt(discriminant), b));
   if (q == 0) return a > 0 ? Span{} : growth > 0 ? Span{0, kInfinity} : Span{-kInfinity, 0};
@@ -54,7 +54,7 @@ Span cross_slab(const NearRay& ray, Real half_height) {
   return {at_top, at_bottom, Surface::kTop, Surface::kBottom};
 }
 
-/// z is measured from the middle.
+/// Measures z from the middle.
 class FrustumSolid final : public LocalSolid {
  public:
   explicit FrustumSolid(const Primitive& p)
@@ -69,8 +69,8 @@ class FrustumSolid final : public LocalSolid {
   Span span(const NearRay& ray) const override {
     Span span = cross_slab(ray, half_height_);
     if (span.empty()) return span;
-    // The wall as seen from the ray's point next to the axis within the slab: what is subtracted
-    // there is of the primitive's own size, be it ever so long and thin.
+    // The wall is solved from the ray's point nearest to the axis within the slab, so that
+    // differences are of the primitive's own size, however long and thin it is.
     const LongVec3& d = ray.direction;
     const Real dd = d.x * d.x + d.y * d.y;
     const Real next_to_axis = dd > 0 ? -(ray.origin.x * d.x + ray.origin.y * d.y) / dd : Real(0);
@@ -90,12 +90,12 @@ class FrustumSolid final : public LocalSolid {
     if (surface == Surface::kBottom) return {0, 0, -1};
     if (surface == Surface::kTop) return {0, 0, 1};
     const LongVec3 normal{point.x, point.y, -slope_ * std::hypot(point.x, point.y)};
-    // At the very apex every direction on the cone is as good: the axis.
+    // At the very apex all directions on the cone are equally valid: the axis is taken.
     return normal == LongVec3(0) ? LongVec3(0, 0, r_top_ == 0 ? 1 : -1) : normal;
   }
 
  private:
-  /// From the nearer end, so that next to an apex nothing cancels.
+  /// The radius is computed from the nearer end, so that nothing cancels next to an apex.
   Real radius_at(Real z) const {
     return z > 0 ? r_top_ + slope_ * (z - half_height_) : r_bottom_ + slope_ * (z + half_height_);
   }
@@ -104,7 +104,7 @@ class FrustumSolid final : public LocalSolid {
   const Real half_height_, r_bottom_, r_top_, slope_;
 };
 
-/// Around the local origin, upon it, or beyond it.
+/// Places the frustum around the local origin, on it, or beyond it.
 Primitive standing(Sizes& sizes, double r_bottom, double r_top) {
   const double height = sizes.length();
   if (sizes.by_chance(0.5)) return csgcore::make_frustum(-sizes.length(), height, r_bottom, r_top);
@@ -147,7 +147,7 @@ class FrustumTestKind final : public TestKind {
                      : at_top ? p.z_max
                               : p.z_min;
     double radius = at_end ? (at_top ? p.r_top : p.r_bottom) : radius_at(p, z);
-    if (at_end && random() % 3 == 0) radius *= std::sqrt(share(random));  // of the cap, not its rim
+    if (at_end && random() % 3 == 0) radius *= std::sqrt(share(random));  // in the cap, not its rim
     return {radius * std::cos(angle), radius * std::sin(angle), z};
   }
   Vec3 core(const Primitive& p, const Vec3&) const override {
@@ -167,13 +167,13 @@ class FrustumTestKind final : public TestKind {
   std::vector<Side> sides(const Primitive& p, const LongVec3& point) const override {
     const Real above = point.z - p.z_max, below = p.z_min - point.z;
     const Real slope = (Real(p.r_top) - Real(p.r_bottom)) / (Real(p.z_max) - Real(p.z_min));
-    // From the nearer end, so that next to an apex nothing cancels.
+    // The radius is computed from the nearer end, so that nothing cancels next to an apex.
     const Real radius = above > below ? p.r_top + slope * above : p.r_bottom - slope * below;
     const Real across = std::hypot(point.x, point.y);
     const LongVec3 outwards =
         across > 0 ? LongVec3(point.x, point.y, 0) / across : LongVec3(1, 0, 0);
     std::vector<Side> sides{{across - radius, outwards - LongVec3(0, 0, slope)}};
-    // At a pointed end the wall alone ends the primitive.
+    // At a pointed end only the wall bounds the primitive.
     if (p.r_top > 0) sides.push_back({above, {0, 0, 1}});
     if (p.r_bottom > 0) sides.push_back({below, {0, 0, -1}});
     return sides;

@@ -1,5 +1,5 @@
-// What the reference asks of a primitive: one ray through its solid, in local space and in extended
-// precision.
+// The interface by which the reference intersects a primitive with a ray, in local space and in
+// extended precision.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace csgcore::reference {
 
-/// Products of two doubles and sums of them that cancel to the last bit: 113 bits. Where a compiler
-/// has no such type, long double has them (AArch64).
+/// A type with 113 bits, for products of two doubles, and sums of them that cancel to the last bit.
+/// Where a compiler has no such type, long double has them (AArch64).
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Wide = __float128;
 #else
 using Wide = long double;
 #endif
 
-/// A ray near the model, however far from it the eye, or the world's origin, may be: positions are
-/// relative to a point near the model, and t = 0 is where the ray is nearest to it, or about there.
+/// A ray relative to a point near the model, however far away the eye or the world's origin may be.
+/// t = 0 is about where the ray is nearest to that point.
 struct NearRay {
   LongVec3 origin, direction;
 };
 
-/// Of a polyhedron, the half-space of that index.
+/// The surface of a crossing. For a polyhedron, the number is that of a half-space.
 enum class Surface : uint32_t { kBottom = 0, kTop = 1, kSide = 0xFFFFFFFFu };
 
-/// The part of a ray inside a primitive. Empty unless begin < end.
+/// The part of a ray inside a primitive. It is empty unless begin < end.
 struct Span {
   Real begin = 0, end = 0;
   Surface begin_surface = Surface::kSide, end_surface = Surface::kSide;
@@ -39,7 +39,7 @@ class LocalSolid {
   virtual ~LocalSolid() = default;
   virtual Wide middle_z() const { return 0; }
   virtual Span span(const NearRay& ray) const = 0;
-  /// The outward normal, of any length, at a point of that surface.
+  /// Returns the outward normal, of any length, at a point of that surface.
   virtual LongVec3 normal(const LongVec3& point, Surface surface) const = 0;
 };
 

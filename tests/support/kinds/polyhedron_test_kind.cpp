@@ -84,8 +84,7 @@ constexpr Variant kVariants[] = {
        return csgcore::make_polyhedron(Polyhedron::sphere(radius, sizes.fragments()));
      }}};
 
-/// How far a point can go along a direction before it leaves all half-spaces: the least of their
-/// distances.
+/// Returns how far the point can move along a direction before it leaves a half-space.
 double room_along(std::span<const HalfSpace> half_spaces, const Vec3& point,
                   const Vec3& direction) {
   double room = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// The sizes that random primitives are made of.
+// Draws the sizes of random primitives.
 #pragma once
 
 #include <random>
@@ -7,12 +7,12 @@ namespace test_support {
 
 struct SizeRange {
   double low = 0.2, high = 3;
-  /// This share of the lengths are multiples of `step`, so that sizes are equal.
+  /// The share of the lengths that are multiples of `step`, so that some sizes are equal.
   double even_share = 0, step = 1;
   int most_fragments = 40;
 };
 
-/// Draws sizes. The generator must outlive it.
+/// Draws sizes. The generator must outlive this object.
 class Sizes {
  public:
   explicit Sizes(std::mt19937& random, const SizeRange& range = {})
@@ -24,9 +24,9 @@ class Sizes {
   }
   bool by_chance(double share) { return uniform(0, 1) < share; }
 
-  /// Within the range, both ends of which belong to it.
+  /// Returns a length in [low, high].
   double length();
-  /// From 3 to most_fragments.
+  /// Returns a number from 3 to most_fragments.
   int fragments() {
     return 3 + static_cast<int>(random_() % static_cast<uint32_t>(range_.most_fragments - 2));
   }

@@ -13,7 +13,7 @@ using csgcore::Affine;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-// A kind's file defines its test kind.
+// Each kind's own file defines its test kind.
 #define TEST_SUPPORT_DECLARE(Name) extern const TestKind& Name##_test_kind;
 CSGCORE_FOR_EACH_SHAPE(TEST_SUPPORT_DECLARE)
 #undef TEST_SUPPORT_DECLARE

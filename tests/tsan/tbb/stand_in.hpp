@@ -1,7 +1,7 @@
-// A stand-in for the parts of oneTBB that scadray uses, for ThreadSanitizer: the sanitizer does not
+// A stand-in for the parts of oneTBB that scadray uses, for ThreadSanitizer: the sanitizer cannot
 // see how Debian's libtbb, which it has not compiled, hands work from thread to thread, and takes
-// that for races. What runs in parallel here is what may in oneTBB; how work is dealt out is much
-// simpler.
+// that for races. The same work may run in parallel as in oneTBB, but it is dealt out much more
+// simply.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace stand_in {
 
 constexpr int kThreads = 4;  // unless an arena asks for another number
 
-/// How many threads may run at once in the arena of this thread.
+/// The most threads that may run at once in the arena of this thread.
 inline thread_local int concurrency = kThreads;
 inline std::atomic<int> helpers_running{0};
 
@@ -63,7 +63,7 @@ class Helper {
   std::exception_ptr failure_;
 };
 
-/// Calls all of 0 to count − 1, by as many threads as may run.
+/// Calls call(0) to call(count − 1), by as many threads as may run.
 template <class Call>
 void call_all(size_t count, const Call& call) {
   std::atomic<size_t> next{0};

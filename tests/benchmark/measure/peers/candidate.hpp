@@ -16,32 +16,32 @@ struct Run {
   double wall_ms = 0;
   bool timed_out = false;
   std::string failure;             // why it made no picture, else empty
-  std::optional<double> trace_ms;  // the part that it spends tracing, where it says so
+  std::optional<double> trace_ms;  // the time that it spends tracing, if it tells
 };
-/// A process; its failure is what it said last.
+/// Returns the run of a process. The failure is the last of its messages.
 Run run_of(const ProcessResult& result);
 
 struct Candidate {
   std::string series, setting;
   bool is_scadray = false;
-  /// Draws the design itself: what is compared with what others take for an error.
+  /// It draws the design itself: its picture is compared with what others take for an error.
   bool is_answer = false;
   const char* error_by = "pixels";
   uint32_t fragments = 0;  // $fn; 0: the design's own surfaces
-  /// Where it times out, designs of as many primitives, or more, are harder.
+  /// If it times out, designs of as many primitives, or more, are skipped as harder.
   bool makes_solid = false;
   std::function<Run()> run{};
-  /// Of what the last run has made. Throws WrongAnswer.
+  /// Judges what the last run has made. Throws WrongAnswer.
   std::function<PictureErrors()> judge{};
 };
 
-/// In each series from the quick to the slow.
+/// Return candidates, in each series from the quick to the slow.
 std::vector<Candidate> scadray_candidates(ExactDesign& subject);
 std::vector<Candidate> openscad_candidates(ExactDesign& subject, const std::string& display);
 std::vector<Candidate> povray_candidates(ExactDesign& subject);
 std::vector<Candidate> nef_candidates(ExactDesign& subject);
 
-/// $fn of those that make facets; none without an openscad to export them.
+/// The least $fn of programs that make facets; there are none without an openscad to export them.
 constexpr uint32_t kCoarsest = 12;
 std::vector<uint32_t> fragment_counts(const Settings& settings);
 

@@ -1,4 +1,4 @@
-// CGAL's Nef polyhedra: from the .csg to the solid, without a picture.
+// Measures CGAL's Nef polyhedra: from the .csg to the solid, without a picture.
 #include <chrono>
 
 #include "candidate.hpp"

@@ -1,12 +1,12 @@
-// OpenSCAD's preview (OpenCSG) and its full render (CGAL), of the .scad.
+// Measures OpenSCAD's preview (OpenCSG) and its full render (CGAL), of the .scad.
 #include "../designs.hpp"
 #include "candidate.hpp"
 
 namespace measure {
 namespace {
 
-/// OpenSCAD's picture of its facets may differ from the exact one of the same facets in so many of
-/// the pixels; beyond that it shows something else, by another camera or in other colours.
+/// The share of the pixels in which OpenSCAD's picture of its facets may differ from the exact one
+/// of the same facets. If more differ, the camera or the colours are different.
 constexpr double kMostDiffering = 0.02;
 
 Candidate of(ExactDesign& subject, const std::string& display, uint32_t fragments, bool rendered) {
@@ -25,7 +25,7 @@ Candidate of(ExactDesign& subject, const std::string& display, uint32_t fragment
   command.insert(command.end(), source.defines.begin(), source.defines.end());
   command.push_back(source.file);
   candidate.run = [command, display, picture, limit_s = subject.settings().peer_limit_s] {
-    std::filesystem::remove(picture);  // openscad exits 0 where it has written nothing
+    std::filesystem::remove(picture);  // openscad exits with 0 even if it has written nothing
     return run_of(
         run_process(command, {limit_s, {}, {"DISPLAY=" + display, "LIBGL_ALWAYS_SOFTWARE=1"}}));
   };

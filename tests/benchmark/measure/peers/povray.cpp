@@ -1,4 +1,4 @@
-// POV-Ray: the same primitives, camera and shading, in its language.
+// Measures POV-Ray: the same primitives, camera and shading, in its language.
 #include "povray/povray.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ csgcore::ReferenceColors reference_cornfield() {
   return {color(scheme.background), color(scheme.front), color(scheme.back)};
 }
 
-/// Quality 3: neither shadows nor reflections. Shades are what they are, without gamma.
+/// Quality 3 has neither shadows nor reflections. Shades are written without gamma.
 std::vector<std::string> command(const ExactDesign& subject, const std::filesystem::path& scene,
                                  const std::filesystem::path& picture) {
   const csgcore::View& view = subject.view();
@@ -42,7 +42,8 @@ std::optional<double> trace_ms(const std::string& output) {
   return 1000 * std::stod(match[1].str());
 }
 
-/// What each pixel's centre shows, by a picture of the primitives in colours of their own.
+/// Returns what each pixel's centre shows, from a picture of the primitives in colours of their
+/// own.
 csgcore::Hits hits_of(const ExactDesign& subject) {
   const std::filesystem::path scene = subject.file(".id.pov"), picture = subject.file(".id.png");
   std::ofstream(scene) << povray::id_scene_text(subject.scene(), subject.view());

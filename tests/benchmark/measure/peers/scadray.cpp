@@ -1,5 +1,5 @@
-// scadray itself: the program as a user calls it. What its pixels see is asked of the same renderer
-// in this program, whose picture must be that of the process to the bit.
+// Measures scadray itself, called as a user calls it. What its pixels see is asked of the same
+// renderer in this program, whose picture must equal that of the process to the bit.
 #include <cstdio>
 
 #include "candidate.hpp"
@@ -97,12 +97,12 @@ PictureErrors judge(const ExactDesign& subject, const Drawing& drawing,
   return errors;
 }
 
-/// Whether OpenGL draws by tiles; it says so.
+/// Returns whether OpenGL draws by tiles, as it reports.
 bool has_gl_tiles(const ExactDesign& subject) {
   frontend::RenderStats stats;
   try {
     frontend::render(subject.scene(), subject.view(), gl_tiles().settings, stats);
-  } catch (const frontend::Error&) {  // no OpenGL: the other drawings by it will say so
+  } catch (const frontend::Error&) {  // no OpenGL: its other drawings will report that
     return false;
   }
   return stats.technique == "tiles";
@@ -119,7 +119,7 @@ Candidate of(ExactDesign& subject, const Drawing& drawing) {
   return candidate;
 }
 
-/// OpenSCAD's facets, by scadray.
+/// Draws OpenSCAD's facets by scadray.
 Candidate faceted(ExactDesign& subject, uint32_t fragments) {
   const std::filesystem::path picture = subject.file(".scadray.png");
   Candidate candidate{"scadray --facets=all", "$fn=" + std::to_string(fragments), true};
