@@ -49,7 +49,8 @@ Options parse_options(const std::vector<std::string>& words) {
   options.camera.width_px = 640;  // the paper's size (§4.1)
   options.camera.height_px = 480;
   frontend::read_image_size(arguments, options.camera);
-  frontend::read_camera(arguments, options.camera);
+  const std::string warning = frontend::read_camera(arguments, options.camera);
+  if (!warning.empty()) frontend::fail(warning, {});
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   frontend::RenderSettings render;
   frontend::read_cells_and_threads(arguments, render);

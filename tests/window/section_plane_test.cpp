@@ -35,8 +35,8 @@ Scene scene_with_all_parts(uint32_t seed) {
     scene.primitives.push_back(csgcore::make_sphere(radius, {csgcore::Mat3(1.0), at}));
     return tree_of(static_cast<uint32_t>(scene.primitives.size() - 1));
   };
-  scene.background = add(6, {3, 1, -2});
-  scene.highlight = add(5, {-4, 2, 1});
+  scene.layers.push_back({csgcore::Layer::Kind::kBackground, true, add(6, {3, 1, -2})});
+  scene.layers.push_back({csgcore::Layer::Kind::kHighlight, true, add(5, {-4, 2, 1})});
   return scene;
 }
 
@@ -135,8 +135,10 @@ TEST(SectionPlane, HasAnIdOfItsOwn) {
 bool is_unchanged(const Scene& scene, const Scene& opened) {
   return opened.primitives.size() == scene.primitives.size() &&
          opened.model.tokens().size() == scene.model.tokens().size() &&
-         opened.background.tokens().size() == scene.background.tokens().size() &&
-         opened.highlight.tokens().size() == scene.highlight.tokens().size();
+         std::equal(opened.layers.begin(), opened.layers.end(), scene.layers.begin(),
+                    scene.layers.end(), [](const csgcore::Layer& a, const csgcore::Layer& b) {
+                      return a.solid.tokens().size() == b.solid.tokens().size();
+                    });
 }
 
 TEST(SectionPlane, WhereNothingIsItCutsNothing) {

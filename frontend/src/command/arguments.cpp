@@ -70,20 +70,27 @@ void read_image_size(const Arguments& arguments, CameraOptions& camera) {
   camera.height_px = picture_side(sides[1], value);
 }
 
-void read_camera(const Arguments& arguments, CameraOptions& camera) {
+std::string read_camera(const Arguments& arguments, CameraOptions& camera) {
+  std::string warning;
   camera.view_all = arguments.has("viewall");
   camera.auto_center = arguments.has("autocenter");
   if (arguments.has("camera")) {
     const std::string& value = arguments.text("camera");
     std::vector<double> numbers;
     for (const std::string_view part : split_at_commas(value)) {
-      const std::optional<double> number = parse_number<double>(part);
-      if (!number) bad_value("camera", value, "give 6 or 7 finite numbers, with commas between");
+      const std::optional<double> number = parse_any_number<double>(part);
+      if (!number) {
+        warning = "--camera=" + value +
+                  " is not understood, and the standard camera is taken, as "
+                  "in OpenSCAD (give 6 or 7 numbers, with commas between)";
+        break;
+      }
       numbers.push_back(*number);
     }
-    camera.camera = camera_from_numbers(numbers);
+    camera.camera = warning.empty() ? camera_from_numbers(numbers) : Camera{};
   }
   camera.projection = choice(arguments, "projection", kProjections, camera.projection);
+  return warning;
 }
 
 RendererKind read_renderer(const Arguments& arguments) {

@@ -22,15 +22,22 @@ namespace frontend {
 [[noreturn]] void bad_value(const std::string& option, const std::string& value,
                             const std::string& todo);
 
-/// Parses the whole text as a finite number; a leading + is allowed.
+/// Parses the whole text as a number, infinities and nan among them; a leading + is allowed.
 template <typename Number>
-std::optional<Number> parse_number(std::string_view text) {
+std::optional<Number> parse_any_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   Number number{};
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (failed != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// Parses the whole text as a finite number; a leading + is allowed.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  const std::optional<Number> number = parse_any_number<Number>(text);
   if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(number)) return std::nullopt;
+    if (number && !std::isfinite(*number)) return std::nullopt;
   }
   return number;
 }
@@ -110,7 +117,8 @@ Value choice(const Arguments& arguments, const char* option, const Word<Value> (
 /// Reads --imgsize; without it, `camera` keeps its size.
 void read_image_size(const Arguments& arguments, CameraOptions& camera);
 /// Reads --camera, --viewall, --autocenter and --projection.
-void read_camera(const Arguments& arguments, CameraOptions& camera);
+/// Returns a warning: empty, or that words are no numbers, and that the standard camera is taken.
+std::string read_camera(const Arguments& arguments, CameraOptions& camera);
 /// Reads --renderer; without it, returns kAuto.
 RendererKind read_renderer(const Arguments& arguments);
 /// Returns the options that only openscad can follow, as they are handed on to it: -D, -p, -P, -m,

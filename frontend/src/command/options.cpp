@@ -205,6 +205,14 @@ void read_outputs(const Arguments& arguments, Options& options) {
   }
 }
 
+/// OpenSCAD's pictures show crosshairs with --render alone, its window always does.
+void leave_out_crosshairs(Options& options) {
+  const bool is_shown = options.outputs.empty() || options.import.picture == PictureKind::kRendered;
+  if (is_shown || !options.overlays.crosshairs) return;
+  options.overlays.crosshairs = false;
+  options.warnings.push_back("--view=crosshairs has no effect without --render, as in OpenSCAD");
+}
+
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   constexpr const char* kNeverUsed[] = {"csglimit", "debug"};
   constexpr const char* kForScad[] = {
@@ -280,13 +288,19 @@ Options parse_options(const std::vector<std::string>& words) {
   options.has_image_size = arguments.has("imgsize");
   read_picture_kind(arguments, options);
   read_image_size(arguments, options.camera);
-  read_camera(arguments, options.camera);
+  const std::string camera_warning = read_camera(arguments, options.camera);
+  if (!camera_warning.empty()) options.warnings.push_back(camera_warning);
   read_facets(arguments, options.import);
   read_render(arguments, options.render);
   read_view(arguments, options);
   read_outputs(arguments, options);
   if (options.outputs.empty()) options.action = Action::kOpenWindow;
+  leave_out_crosshairs(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
+  if (options.import.picture == PictureKind::kRendered) {
+    // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
+    options.openscad_arguments.insert(options.openscad_arguments.begin(), {"-D", "$preview=false"});
+  }
   options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);
   return options;

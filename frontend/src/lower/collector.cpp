@@ -186,9 +186,10 @@ void Collector::enter_matrix(uint32_t node) {
 
 void Collector::enter_color(uint32_t node) {
   const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
-  if (!color || options_.picture == PictureKind::kRendered || contexts_.back().in_leaf) return;
-  // The outermost one wins that has all of its channels.
-  if (contexts_.back().color && is_whole(*contexts_.back().color)) return;
+  if (options_.picture == PictureKind::kRendered || contexts_.back().in_leaf) return;
+  const std::optional<csgcore::Color>& outer = contexts_.back().color;
+  if (!color && !outer) return;
+  if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
   Context context = contexts_.back();
   context.node = node;
   context.color = color;

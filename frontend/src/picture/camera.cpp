@@ -93,6 +93,10 @@ Camera choose_camera(const CameraOptions& options, const Box& view_box) {
 
 bool sees_nothing(const Camera& camera, csgcore::Projection projection) {
   const bool sees_behind = projection == csgcore::Projection::kOrthographic;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(camera.target[axis]) || !std::isfinite(camera.rotation_deg[axis]))
+      return true;
+  }
   return camera.distance == 0 || !std::isfinite(camera.distance) ||
          (camera.distance < 0 && !sees_behind);
 }

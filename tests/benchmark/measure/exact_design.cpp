@@ -84,7 +84,7 @@ ExactDesign::ExactDesign(std::string design, const Settings& settings)
   hold_against_oracle();
   pictures_ = exact_pictures(scene_, view_);
   frontend::ImportOptions rendered;
-  rendered.rendered = true;
+  rendered.picture = frontend::PictureKind::kRendered;
   rendered_ = exact_pictures(read_csg(csg_, rendered).scene, view_);
 }
 
@@ -143,7 +143,7 @@ const FacetedDesign& ExactDesign::faceted(uint32_t fragments) {
   result.scene = read_csg(result.csg, options).scene;
   result.hits = trace(result.scene, view_);
   result.plain = plain_picture(result.scene, view_);
-  options.rendered = true;
+  options.picture = frontend::PictureKind::kRendered;
   result.rendered = plain_picture(read_csg(result.csg, options).scene, view_);
   return result;
 }

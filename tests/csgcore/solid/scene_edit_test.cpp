@@ -148,21 +148,32 @@ TEST(SceneEdit, WhatChangesTheWholeIsKnownNowhere) {
   EXPECT_EQ(model_edit(Scene{}, difference), TreeEdit::kWithin);
 }
 
-TEST(SceneEdit, TreesAreComparedOneByOne) {
+TEST(SceneEdit, LayersAreComparedApartFromTheModel) {
   Scene before = scene_of(Op::kUnion, balls({0, 1, 2, 3}));
+  Scene after = before;
+  EXPECT_TRUE(compare(before, after).surfaces_only());
   CsgTreeBuilder builder;
   builder.primitive(3);
-  before.background = builder.finish();
-  Scene after = before;
-  after.highlight = before.background;
+  after.layers.push_back({Layer::Kind::kHighlight, true, builder.finish()});
   const SceneEdit edit = compare(before, after);
   EXPECT_EQ(edit.model, TreeEdit::kSame);
-  EXPECT_EQ(edit.background, TreeEdit::kSame);
-  EXPECT_EQ(edit.highlight, TreeEdit::kAnywhere);
+  EXPECT_TRUE(edit.has_other_layers);
   EXPECT_FALSE(edit.surfaces_only());
+  before.layers = after.layers;
+  EXPECT_FALSE(compare(before, after).has_other_layers);
+  after.layers[0].shows_behind = false;
+  EXPECT_TRUE(compare(before, after).has_other_layers);
+  after.layers[0] = {Layer::Kind::kBackground, true, before.layers[0].solid};
+  EXPECT_TRUE(compare(before, after).has_other_layers);
 }
 
-/// Kept primitives are equal, and the solid is unchanged where no other primitive reaches.
+TEST(SceneEdit, OtherCutFacesAreAnotherColor) {
+  const Scene before = scene_of(Op::kUnion, balls({0, 1}));
+  Scene after = before;
+  after.primitives[1].cut_faces = CutFaces::kAlways;
+  EXPECT_EQ(compare(before, after).recolored, std::vector<uint32_t>{1});
+}
+
 TEST(SceneEdit, RandomEditsKeepWhatTheySay) {
   std::mt19937 random(1);
   int partial = 0, same_points = 0;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "command/option_table.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
@@ -59,7 +61,7 @@ TEST(Options, Defaults) {
   EXPECT_EQ(options.render.samples, 1u);
   EXPECT_FALSE(options.has_hard_warnings);
   EXPECT_FALSE(options.overlays.any());
-  EXPECT_FALSE(options.import.rendered);
+  EXPECT_EQ(options.import.picture, PictureKind::kPreview);
   EXPECT_FALSE(options.quiet);
   EXPECT_THAT(options.warnings, IsEmpty());
   EXPECT_THAT(options.stats_path, IsEmpty());
@@ -164,10 +166,30 @@ TEST(Options, CameraFlags) {
   EXPECT_EQ(options.camera.camera->distance, 7);
   EXPECT_TRUE(options.camera.view_all);
   EXPECT_TRUE(options.camera.auto_center);
-  for (const char* value : {"1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,", "1,2,3,4,5,nan",
-                            "1,2,3,4,5,6,inf", "1,2,3,4,5,6,7,8"}) {
+  for (const char* value : {"1,2,3", "1,2,3,4,5,6,7,8"}) {
     EXPECT_THAT(drawing_error({"--camera", value}), HasSubstr("--camera")) << value;
   }
+}
+
+TEST(Options, ACameraThatIsNoNumbersIsTheStandardOneAsInOpenScad) {
+  for (const char* value : {"1,2,3,4,5,x", "1,2,3,4,5,", "a"}) {
+    const Options options = parse_drawing({"--camera", value});
+    EXPECT_THAT(options.warnings, ElementsAre(HasSubstr("--camera"))) << value;
+    ASSERT_TRUE(options.camera.camera);
+    EXPECT_EQ(options.camera.camera->distance, 140);
+    EXPECT_FALSE(options.camera.view_all);
+  }
+}
+
+TEST(Options, ACameraMayBeInfinitelyFar) {
+  EXPECT_TRUE(std::isinf(parse_drawing({"--camera=1,2,3,4,5,6,inf"}).camera.camera->distance));
+  EXPECT_TRUE(std::isnan(parse_drawing({"--camera=nan,2,3,4,5,6,1"}).camera.camera->target.x));
+}
+
+TEST(Options, AFinalRenderIsNoPreviewForTheDesign) {
+  EXPECT_THAT(parse_drawing({"--render", "-q", "-D", "a=1"}).openscad_arguments,
+              ElementsAre("-D", "$preview=false", "-D", "a=1"));
+  EXPECT_THAT(parse_drawing({"--preview"}).openscad_arguments, IsEmpty());
 }
 
 TEST(Options, AutoCenterAloneIsSaidToDoNothing) {
@@ -205,7 +227,7 @@ TEST(Options, View) {
   const Overlays two = parse_drawing({"--view", "edges,axes"}).overlays;
   EXPECT_TRUE(two.axes && two.edges);
   EXPECT_FALSE(two.crosshairs || two.scales);
-  const Options all = parse_drawing({"--view=scales,crosshairs,edges,axes"});
+  const Options all = parse_drawing({"--render", "--view=scales,crosshairs,edges,axes"});
   EXPECT_TRUE(all.overlays.axes && all.overlays.edges && all.overlays.crosshairs &&
               all.overlays.scales);
   EXPECT_THAT(all.warnings, IsEmpty());
@@ -215,15 +237,26 @@ TEST(Options, View) {
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
 }
 
+TEST(Options, APreviewsPictureHasNoCrosshairsButTheWindowHas) {
+  const Options preview = parse_drawing({"--view=crosshairs"});
+  EXPECT_FALSE(preview.overlays.crosshairs);
+  EXPECT_THAT(preview.warnings, ElementsAre(HasSubstr("--view=crosshairs")));
+  EXPECT_TRUE(parse_options({"--view=crosshairs", "a.csg"}).overlays.crosshairs);
+}
+
 TEST(Options, RenderAndPreview) {
-  EXPECT_TRUE(parse_drawing({"--render", "-q"}).import.rendered);
-  EXPECT_TRUE(parse_drawing({"--render=cgal"}).import.rendered);
+  EXPECT_EQ(parse_drawing({"--render", "-q"}).import.picture, PictureKind::kRendered);
+  EXPECT_EQ(parse_drawing({"--render=cgal"}).import.picture, PictureKind::kRendered);
   EXPECT_THAT(parse_drawing({"--render=1"}).warnings, IsEmpty());
   EXPECT_THAT(parse_drawing({"--preview", "-q"}).warnings, IsEmpty());
-  EXPECT_THAT(parse_drawing({"--preview=throwntogether"}).warnings,
-              ElementsAre(HasSubstr("throwntogether")));
+  EXPECT_THAT(parse_drawing({"--preview=cgal"}).warnings, ElementsAre(HasSubstr("cgal")));
+  const Options thrown = parse_drawing({"--preview=throwntogether"});
+  EXPECT_THAT(thrown.warnings, IsEmpty());
+  EXPECT_EQ(thrown.import.picture, PictureKind::kThrownTogether);
+  EXPECT_EQ(thrown.render.from_within, (Rgb{255, 0, 255}));
+  EXPECT_EQ(parse_drawing({"--preview"}).render.from_within, std::nullopt);
   const Options both = parse_drawing({"--render", "--preview", "-q"});
-  EXPECT_FALSE(both.import.rendered);
+  EXPECT_EQ(both.import.picture, PictureKind::kPreview);
   EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("--render has no effect with --preview")));
 }
 
@@ -381,8 +414,8 @@ TEST(Options, SyntaxIsOpenScads) {
 }
 
 TEST(Options, OurOptionsLeaveOpenScadsAbbreviationsClear) {
-  EXPECT_TRUE(parse_drawing({"--rend"}).import.rendered);
-  EXPECT_TRUE(parse_drawing({"--rend=cgal"}).import.rendered);
+  EXPECT_EQ(parse_drawing({"--rend"}).import.picture, PictureKind::kRendered);
+  EXPECT_EQ(parse_drawing({"--rend=cgal"}).import.picture, PictureKind::kRendered);
   EXPECT_THAT(error_of({"-o", "x.png", "--rend", "a.scad"}), HasSubstr("no file"));
   EXPECT_EQ(parse_drawing({"--renderer=cpu"}).render.renderer, RendererKind::kCpu);
 }

@@ -152,7 +152,7 @@ TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
       "text();");
   EXPECT_EQ(design.primitive_nodes, 8u);
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");
-  EXPECT_EQ(shape_of(design.scene.background, design.scene.primitives), "5");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "5");
 }
 
 TEST(ImporterPrimitives, OfExtremeSizesDoNoHarm) {

@@ -45,7 +45,19 @@ TEST(ImporterColor, MayBeWrittenByHand) {
   EXPECT_THAT(color_of("color(\"#f008\") { sphere(); }"), ElementsAre(1, 0, 0, 136 / 255.0f));
   EXPECT_THAT(color_of("color([0, 1]) { sphere(); }"), ElementsAre(0, 1, 1, 1));
   EXPECT_THAT(color_of("color([0, undef, 1]) { sphere(); }"), ElementsAre(0, 0, 1, 1));
-  EXPECT_THAT(color_of("color([0, 3, 0, 1]) { sphere(); }"), ElementsAre(0, 1, 0, 1));
+}
+
+TEST(ImporterColor, AChannelMayBeBrighterThanWhite) {
+  EXPECT_THAT(color_of("color([0, 3, 0, 1]) { sphere(); }"), ElementsAre(0, 3, 0, 1));
+  EXPECT_THAT(color_of("color([1e300, 0, 0, 2]) { sphere(); }"), ElementsAre(1000, 0, 0, 1));
+}
+
+TEST(ImporterColor, ANegativeChannelIsTheSchemesAndLetsInnerColorsWin) {
+  EXPECT_THAT(color_of("color([-1,0,0,1]) { sphere(); }"), ElementsAre(-1, 0, 0, 1));
+  EXPECT_THAT(color_of("color([-1,-1,-1,0.5]) { sphere(); }"), ElementsAre(-1, -1, -1, 0.5f));
+  EXPECT_THAT(color_of("color([-1,0,0,1]) { color([0,0,1,1]) { sphere(); } }"),
+              ElementsAre(0, 0, 1, 1));
+  EXPECT_THAT(color_of("color([-1,0,0,1]) { color([-1,-1,-1,1]) { sphere(); } }"), IsEmpty());
 }
 
 TEST(ImporterColor, AnUnknownNameIsAWarning) {

@@ -95,11 +95,22 @@ std::string model_of(const std::string& text, ImportOptions options) {
   return shape_of(design.scene.model, design.scene.primitives);
 }
 
+std::string layers_of(const csgcore::Scene& scene, csgcore::Layer::Kind kind) {
+  std::vector<std::string> shapes;
+  for (const csgcore::Layer& layer : scene.layers) {
+    if (layer.kind == kind) shapes.push_back(shape_of(layer.solid, scene.primitives));
+  }
+  if (shapes.empty()) return "-";
+  std::string text = shapes[0];
+  for (size_t i = 1; i < shapes.size(); ++i) text += "+" + shapes[i];
+  return shapes.size() == 1 ? text : "(" + text + ")";
+}
+
 std::string trees_of(const std::string& text, ImportOptions options) {
   const csgcore::Scene scene = import_text(text, options).scene;
   return shape_of(scene.model, scene.primitives) + " | " +
-         shape_of(scene.background, scene.primitives) + " | " +
-         shape_of(scene.highlight, scene.primitives);
+         layers_of(scene, csgcore::Layer::Kind::kBackground) + " | " +
+         layers_of(scene, csgcore::Layer::Kind::kHighlight);
 }
 
 Primitive only_primitive(const std::string& text) {

@@ -28,6 +28,9 @@ std::string shape_of(const csgcore::CsgTree& tree,
 
 std::string model_of(const std::string& text, ImportOptions options = {});
 
+/// Writes the layers of a kind, one after another: "((0-1)+2)", "-" if there is none.
+std::string layers_of(const csgcore::Scene& scene, csgcore::Layer::Kind kind);
+
 /// Writes "model | background | highlight".
 std::string trees_of(const std::string& text, ImportOptions options = {});
 

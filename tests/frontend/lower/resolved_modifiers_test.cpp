@@ -68,7 +68,7 @@ TEST(ImporterModifiers, HighlightsNest) {
 
 TEST(ImporterModifiers, RenderedIsTheSolidAlone) {
   ImportOptions rendered;
-  rendered.rendered = true;
+  rendered.picture = PictureKind::kRendered;
   EXPECT_EQ(trees_of("#sphere(); %sphere(); sphere();", rendered), "(0+2) | - | -");
   EXPECT_EQ(trees_of("difference() { sphere(); #group() { %sphere(); #sphere(); } }", rendered),
             "(0-2) | - | -");
@@ -85,7 +85,14 @@ TEST(ImporterModifiers, DeeplyNestedHighlightsStayInProportion) {
   for (int i = 0; i < kLevels; ++i) text += "#difference() { sphere(); ";
   text.append(kLevels, '}');
   const ImportedDesign design = import_text("sphere();" + text);
-  EXPECT_LT(design.scene.highlight.tokens().size(), 20u * kLevels);
+  size_t tokens = 0;
+  for (const csgcore::Layer& layer : design.scene.layers) tokens += layer.solid.tokens().size();
+  EXPECT_LT(tokens, 20u * kLevels);
+}
+
+TEST(ImporterModifiers, AnIntersectionOfDisjointBoxesKeepsItsHighlightedOperands) {
+  const std::string aside = "multmatrix([[1,0,0,2.5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(); }";
+  EXPECT_EQ(trees_of("intersection() { #sphere(); #" + aside + " }"), "(0*1) | - | (0+1)");
 }
 
 TEST(ImporterModifiers, RootAndDisable) {

@@ -1,11 +1,13 @@
 // Tests the tight box of a solid, against solids whose box is known.
-#include "picture/seen_box.hpp"
+#include "lower/seen_box.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
-#include "frontend/render.hpp"
 
 namespace frontend {
 namespace {
@@ -13,15 +15,9 @@ namespace {
 using csgcore::Box;
 using csgcore::Vec3;
 
-Box box_of(const std::string& text) {
-  const ImportedDesign design = import_design(parse(text, "a.csg"));
-  RenderSettings settings;
-  settings.renderer = RendererKind::kCpu;
-  settings.measured_channels = true;
-  return seen_box(design.view_box, [&](const csgcore::View& view) {
-    RenderStats stats;
-    return render(design.scene, view, settings, stats);
-  });
+Box box_of(const std::string& text, const csgcore::Affine& frame = {}) {
+  const csgcore::Scene scene = import_design(parse(text, "a.csg")).scene;
+  return seen_box(scene.primitives, scene.model, frame);
 }
 
 void expect_box(const std::string& text, const Vec3& least, const Vec3& most) {
@@ -51,6 +47,22 @@ TEST(SeenBox, IsWhatTheOperationsLeave) {
       "multmatrix([[1,0,0,0.37],[0,1,0,100.61],[0,0,1,0],[0,0,0,1]])"
       " cylinder(h = 17, r1 = 3, r2 = 0, $fn = 4);",
       Vec3(-2.63, 97.61, 0), Vec3(3.37, 103.61, 17));
+}
+
+// The box stands in the frame that it was made in; what is given are that box's corners.
+TEST(SeenBox, IsThatOfTheFrame) {
+  csgcore::Affine turned;  // by 45 degrees about z, and moved
+  const double s = std::sqrt(0.5);
+  turned.linear = csgcore::Mat3(Vec3(s, s, 0), Vec3(-s, s, 0), Vec3(0, 0, 1));
+  turned.translation = Vec3(7, 0, 0);
+  const Box box = box_of(
+      "multmatrix([[0.70710678118654752,-0.70710678118654752,0,7],"
+      "[0.70710678118654752,0.70710678118654752,0,0],[0,0,1,0],[0,0,0,1]])"
+      " { intersection() { cube(size = 2, center = true); sphere(r = 1.2); } }",
+      turned);
+  EXPECT_NEAR(box.max.x, 7 + std::sqrt(2), 1e-4);
+  EXPECT_NEAR(box.min.y, -std::sqrt(2), 1e-4);
+  EXPECT_NEAR(box.max.z, 1, 1e-4);
 }
 
 TEST(SeenBox, OfNothingIsEmpty) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -189,6 +190,9 @@ TEST(Camera, SeesNothingWhereOpenScadDrawsNothing) {
     EXPECT_TRUE(sees_nothing({1, 2, 3, 1, 2, 3}, projection));           // the eye on the target
     EXPECT_TRUE(sees_nothing({-1e308, 0, 0, 1e308, 0, 0}, projection));  // beyond the doubles
   }
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(sees_nothing({infinity, 0, 0, 0, 0, 0, 1}, Projection::kPerspective));
+  EXPECT_TRUE(sees_nothing({0, 0, 0, 0, NAN, 0, 1}, Projection::kOrthographic));
   EXPECT_TRUE(sees_nothing({0, 0, 0, 0, 0, 0, -1}, Projection::kPerspective));
   EXPECT_FALSE(sees_nothing({0, 0, 0, 0, 0, 0, -1}, Projection::kOrthographic));
 }

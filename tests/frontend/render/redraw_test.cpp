@@ -209,11 +209,11 @@ TEST_P(Redrawn, TranslucentPartsAreDrawnAnew) {
   Scene scene = csgcore::checks::framed_tree(12, 5);
   csgcore::CsgTreeBuilder part;
   part.primitive(1);
-  scene.highlight = part.finish();
+  scene.layers = {{csgcore::Layer::Kind::kHighlight, true, part.finish()}};
   load(scene);
   const csgcore::View view = view_of(*scene_, csgcore::Projection::kPerspective);
   redraw(view);
-  scene.highlight = {};
+  scene.layers.clear();
   load(scene);
   expect_drawn_anew(redraw(view), view);
 }

@@ -1,0 +1,235 @@
+// Tests what a design's picture is composed of: leaves, their cut faces, layers, boxes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lower/imported_text.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::CutFaces;
+using csgcore::Layer;
+using csgcore::Vec3;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const std::string kGlass = "color([1,0,0,0.5]) { sphere(); }";
+const std::string kOther = "color([0,1,0,0.5]) { cube(); }";
+
+ImportOptions for_picture(PictureKind picture) {
+  ImportOptions options;
+  options.picture = picture;
+  return options;
+}
+
+/// The layers of the model, with a `*` behind those that show their far side.
+std::vector<std::string> model_layers(const std::string& text, PictureKind picture = {}) {
+  const csgcore::Scene scene = import_text(text, for_picture(picture)).scene;
+  std::vector<std::string> result;
+  for (const Layer& layer : scene.layers) {
+    if (layer.kind != Layer::Kind::kModel) continue;
+    result.push_back(shape_of(layer.solid, scene.primitives) + (layer.shows_behind ? "*" : ""));
+  }
+  return result;
+}
+
+std::vector<CutFaces> cut_faces(const std::string& text, PictureKind picture = {}) {
+  std::vector<CutFaces> result;
+  const csgcore::Scene scene = import_text(text, for_picture(picture)).scene;
+  for (const csgcore::Primitive& primitive : scene.primitives) {
+    result.push_back(primitive.cut_faces);
+  }
+  return result;
+}
+
+TEST(Layers, AnOpaqueModelHasNone) {
+  EXPECT_THAT(model_layers("color([1,0,0]) { sphere(); } difference() { cube(); sphere(); }"),
+              IsEmpty());
+}
+
+TEST(Layers, OpaqueSummandsThatFollowOneAnotherAreOne) {
+  EXPECT_THAT(model_layers("cube(); difference() { cube(); sphere(); }" + kGlass + "sphere();"),
+              ElementsAre("(0+(1-2))", "3*", "4"));
+  EXPECT_THAT(model_layers("group() { cube(); group() {" + kGlass + "} cube(); } cube();"),
+              ElementsAre("0", "1*", "(2+3)"));
+}
+
+TEST(Layers, AProductOfSeveralLeavesShowsItsNearSideAlone) {
+  EXPECT_THAT(model_layers("difference() {" + kGlass + "cube(); }"), ElementsAre("(0-1)"));
+  EXPECT_THAT(model_layers("intersection() {" + kGlass + kOther + "}"), ElementsAre("(0*1)"));
+  // The cut faces are translucent.
+  EXPECT_THAT(model_layers("difference() { cube();" + kGlass + "}"), ElementsAre("(0-1)"));
+}
+
+TEST(Layers, TranslucentTreesAreMultipliedOut) {
+  EXPECT_THAT(model_layers("difference() { group() {" + kGlass + kOther + "} cylinder(); }"),
+              ElementsAre("(0-2)", "(1-2)"));
+  EXPECT_THAT(model_layers("intersection() { group() {" + kGlass + "cube(); } group() {" + kOther +
+                           "cylinder(); } }"),
+              ElementsAre("(0*2)", "(0*3)", "(1*2)", "(1*3)"));
+  // A - (B - C) = (A - B) + A*C, A - B*C = (A - B) + (A - C).
+  EXPECT_THAT(model_layers("difference() {" + kGlass + "difference() { cube(); cylinder(); } }"),
+              ElementsAre("(0-1)", "(0*2)"));
+  EXPECT_THAT(model_layers("difference() {" + kGlass + "intersection() { cube(); cylinder(); } }"),
+              ElementsAre("(0-1)", "(0-2)"));
+}
+
+TEST(Layers, WhatMissesTheOthersOfItsProductIsLeftOut) {
+  const std::string far = "multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(); }";
+  EXPECT_THAT(model_layers("difference() {" + kGlass + far + "}"), ElementsAre("0*"));
+  EXPECT_THAT(model_layers("intersection() { group() {" + kGlass + kOther + "} group() { cube();" +
+                           far + "} }"),
+              ElementsAre("(0*2)", "(1*2)"));
+}
+
+TEST(Layers, TooManyProductsAreNotMultipliedOut) {
+  std::string text = "intersection() {";
+  for (int i = 0; i < 12; ++i) text += "group() {" + kGlass + kOther + "}";
+  text += "}";
+  EXPECT_THAT(model_layers(text), SizeIs(1));
+  EXPECT_THAT(warning_of(text), HasSubstr("more than 2000 products"));
+}
+
+TEST(Layers, BackgroundPartsAreTranslucentUnlessTheyAreColored) {
+  const csgcore::Scene scene =
+      import_text("%sphere(); %difference() { cube(); sphere(); } %color([1,0,0]) { cube(); }")
+          .scene;
+  ASSERT_THAT(scene.layers, SizeIs(3));
+  EXPECT_TRUE(scene.layers[0].shows_behind);
+  EXPECT_FALSE(scene.layers[1].shows_behind);
+  EXPECT_FALSE(scene.layers[2].shows_behind);
+}
+
+TEST(Layers, HighlightsAreTranslucentWhateverTheirColor) {
+  const csgcore::Scene scene = import_text("#color([1,0,0]) { cube(); } sphere();").scene;
+  ASSERT_THAT(scene.layers, SizeIs(1));
+  EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kHighlight);
+  EXPECT_TRUE(scene.layers[0].shows_behind);
+}
+
+TEST(Leaves, ColorsInsideOfACompoundLeafDoNotCount) {
+  const csgcore::Scene scene =
+      import_text("render() { color([1,0,0]) { cube(); } } color([0,0,1]) { render() { cube(); } }")
+          .scene;
+  EXPECT_FALSE(scene.primitives[0].color);
+  EXPECT_EQ(scene.primitives[1].color->b, 1);
+}
+
+TEST(Leaves, CutFacesFollowTheSignOfTheLeaf) {
+  EXPECT_THAT(cut_faces("render() { difference() { cube(); sphere(); } }"),
+              ElementsAre(CutFaces::kNever, CutFaces::kNever));
+  EXPECT_THAT(cut_faces("difference() { cube(); render() { difference() { cube(); sphere(); } } }"),
+              ElementsAre(CutFaces::kByTree, CutFaces::kAlways, CutFaces::kAlways));
+  // A - (B - C) takes C's part from A.
+  EXPECT_THAT(
+      cut_faces("difference() { cube(); difference() { cube();"
+                "render() { intersection() { cube(); sphere(); } } } }"),
+      ElementsAre(CutFaces::kByTree, CutFaces::kByTree, CutFaces::kNever, CutFaces::kNever));
+}
+
+TEST(Leaves, OfOnePrimitiveOrOfNothingAreNothingSpecial) {
+  EXPECT_THAT(cut_faces("difference() { cube(); render() { sphere(); } }"),
+              ElementsAre(CutFaces::kByTree, CutFaces::kByTree));
+  EXPECT_EQ(
+      model_of("difference() { cube(); render() { } render() { difference() { cube(r = 0); } } }"),
+      "(0-1)");
+  EXPECT_EQ(model_of("intersection() { cube(); render() { group() { } } }"), "-");
+}
+
+TEST(Leaves, ACompoundLeafIsOneProduct) {
+  const std::string leaf =
+      "color([1,0,0,0.5]) { render() { cube(); difference() { sphere(); cube(); } } }";
+  EXPECT_THAT(model_layers(leaf), ElementsAre("(0+(1-2))*"));
+  EXPECT_THAT(model_layers("difference() {" + leaf + "sphere(); }"), ElementsAre("((0+(1-2))-3)"));
+}
+
+TEST(Leaves, NestedRendersAreOneLeaf) {
+  EXPECT_THAT(cut_faces("render() { difference() { cube(); render() { cube(); sphere(); } } }"),
+              ElementsAre(CutFaces::kNever, CutFaces::kNever, CutFaces::kNever));
+}
+
+TEST(Leaves, TheFinalRenderHasNone) {
+  EXPECT_THAT(cut_faces("render() { difference() { cube(); sphere(); } }", PictureKind::kRendered),
+              ElementsAre(CutFaces::kByTree, CutFaces::kByTree));
+}
+
+TEST(Leaves, AHighlightedLeafIsTakenOnce) {
+  EXPECT_EQ(trees_of("difference() { sphere(); #render() { cube(); sphere(); } }"),
+            "(0-1-2) | - | (1+2)");
+}
+
+TEST(LeafBoxes, AreThoseOfWhatTheOperationsLeave) {
+  const std::string cut =
+      "render() { difference() { cube(size = 10);"
+      "multmatrix([[1,0,0,4],[0,1,0,-1],[0,0,1,-1],[0,0,0,1]]) { cube(size = 20); } } }";
+  expect_box(import_text(cut).view_box, Vec3(0), Vec3(4, 10, 10), 1e-4);
+  ImportOptions unmeasured;
+  unmeasured.measures_leaves = false;
+  expect_box(import_text(cut, unmeasured).view_box, Vec3(0), Vec3(10), 1e-4);
+  // In the frame of the leaf: its corners are turned.
+  expect_box(
+      import_text("multmatrix([[0,-1,0,0],[1,0,0,0],[0,0,1,5],[0,0,0,1]]) {" + cut + "}").view_box,
+      Vec3(-10, 0, 5), Vec3(0, 4, 15), 1e-4);
+  // A subtracted leaf does not count, and neither does what it would leave.
+  expect_box(import_text("difference() { cube(size = 3);" + cut + "}").view_box, Vec3(0), Vec3(3),
+             0);
+}
+
+TEST(LeafBoxes, TheFinalRenderHasTheBoxOfTheResult) {
+  const std::string text =
+      "difference() { cube(size = 10);"
+      "multmatrix([[1,0,0,4],[0,1,0,-1],[0,0,1,-1],[0,0,0,1]]) { cube(size = 20); } }";
+  expect_box(import_text(text).view_box, Vec3(0), Vec3(10), 0);
+  expect_box(import_text(text, for_picture(PictureKind::kRendered)).view_box, Vec3(0),
+             Vec3(4, 10, 10), 1e-4);
+}
+
+TEST(ThrownTogether, ShowsEveryLeafWhole) {
+  const auto text = "difference() { cube(); sphere(); } intersection() { cylinder(); sphere(); }";
+  EXPECT_EQ(model_of(text, for_picture(PictureKind::kThrownTogether)), "(0+1+2+3)");
+  EXPECT_THAT(cut_faces(text, PictureKind::kThrownTogether),
+              ElementsAre(CutFaces::kNever, CutFaces::kAlways, CutFaces::kNever, CutFaces::kNever));
+  EXPECT_THAT(model_layers(text, PictureKind::kThrownTogether), IsEmpty());
+}
+
+TEST(ThrownTogether, LeavesOutWhatNoProductHas) {
+  const auto at = [](int x) {
+    return "multmatrix([[1,0,0," + std::to_string(x) +
+           "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(); }";
+  };
+  EXPECT_EQ(model_of("intersection() { group() {" + at(0) + at(4) + "}" + at(2) + "}",
+                     for_picture(PictureKind::kThrownTogether)),
+            "-");
+}
+
+TEST(ThrownTogether, TranslucentAndHighlightedLeavesAreLayersOfTheirOwn) {
+  EXPECT_THAT(model_layers("cube();" + kGlass + "sphere(); cube();", PictureKind::kThrownTogether),
+              ElementsAre("0", "1", "(2+3)"));
+  const csgcore::Scene scene =
+      import_text("difference() { cube(); #sphere(); }", for_picture(PictureKind::kThrownTogether))
+          .scene;
+  ASSERT_THAT(scene.layers, SizeIs(3));
+  EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kModel);
+  EXPECT_EQ(scene.layers[1].kind, Layer::Kind::kHighlight);  // as a leaf
+  EXPECT_EQ(scene.layers[2].kind, Layer::Kind::kHighlight);  // and as an overlay
+}
+
+TEST(ThrownTogether, AnInsideOutPolyhedronHasTheColorOfTheInside) {
+  const auto color_of = [](const std::string& faces, PictureKind picture) {
+    return import_text("polyhedron(" + kCorner + faces + ");", for_picture(picture))
+        .scene.primitives.at(0)
+        .color;
+  };
+  const std::string reversed = "faces = [[2,1,0],[1,3,0],[3,2,0],[2,3,1]]";
+  EXPECT_EQ(color_of(reversed, PictureKind::kThrownTogether), kSeenFromWithin);
+  EXPECT_EQ(color_of(kFaces, PictureKind::kThrownTogether), std::nullopt);
+  EXPECT_EQ(color_of(reversed, PictureKind::kPreview), std::nullopt);
+}
+
+}  // namespace
+}  // namespace frontend
