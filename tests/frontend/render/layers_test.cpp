@@ -1,0 +1,242 @@
+// Tests the layers of a picture, by every renderer: what shines through, what hides what, and the
+// colours of faces (frontend/OPENSCAD.md, "Translucency"). The designs stand under an eye that
+// looks down along -z, so that every face that is seen has the same light.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "frontend/camera.hpp"
+#include "frontend/color_scheme.hpp"
+#include "frontend/error.hpp"
+#include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
+#include "frontend/render.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Image;
+using csgcore::Vec3;
+
+struct Way {
+  RendererKind renderer;
+  Technique technique;
+};
+
+using Color = std::array<double, 3>;  // 0…255
+
+constexpr Color kPaper{255, 255, 229}, kFront{249, 215, 44}, kBack{157, 203, 81};
+constexpr Color kRed{255, 0, 0}, kBlue{0, 0, 255};
+constexpr Color kBackground{180, 180, 180}, kHighlight{255, 81, 81};
+constexpr double kHalf = 128 / 255.0;  // the alpha of `%` and `#` parts
+
+/// A face that looks at the eye, or away from it.
+Color lit(const Color& color) {
+  const double shade = 0.2 + 1 / std::sqrt(3);
+  return {std::min(255.0, shade * color[0]), std::min(255.0, shade * color[1]),
+          std::min(255.0, shade * color[2])};
+}
+
+Color over(const Color& below, const Color& above, double alpha) {
+  Color result;
+  for (size_t i = 0; i < 3; ++i) result[i] = below[i] + alpha * (above[i] - below[i]);
+  return result;
+}
+
+std::string moved(double x, double y, double z, const std::string& text) {
+  return "multmatrix([[1,0,0," + std::to_string(x) + "],[0,1,0," + std::to_string(y) + "],[0,0,1," +
+         std::to_string(z) + "],[0,0,0,1]]) {" + text + "}";
+}
+
+const std::string kCube = "cube(size = 10, center = true);";
+const std::string kSmallCube = "cube(size = 4, center = true);";
+const std::string kTall = "cube(size = [4, 4, 40], center = true);";  // goes through kCube
+
+std::string colored(const std::string& color, const std::string& text) {
+  return "color(" + color + ") {" + text + "}";
+}
+
+class Layers : public testing::TestWithParam<Way> {
+ protected:
+  Layers() {
+    settings_.scheme = color_schemes().front();
+    settings_.renderer = GetParam().renderer;
+    settings_.technique = GetParam().technique;
+  }
+
+  void SetUp() override {
+    try {
+      draw(kCube);
+    } catch (const Error&) {
+      GTEST_SKIP() << "no OpenGL";
+    }
+  }
+
+  Image draw(const std::string& text, double eye_height = 100) {
+    const ImportedDesign design = import_design(parse(text, "a.csg"), import_);
+    CameraOptions camera;
+    camera.width_px = camera.height_px = 33;  // with a pixel in the middle
+    camera.projection = csgcore::Projection::kPerspective;
+    camera.camera = Camera{};
+    camera.camera->target = Vec3(0, 0, eye_height - 1);
+    camera.camera->rotation_deg = Vec3(0);
+    camera.camera->distance = 1;
+    return render(design.scene, make_view(*camera.camera, camera), settings_, stats_);
+  }
+
+  /// What the middle of the picture shows.
+  void expect_middle(const std::string& text, const Color& wanted, double eye_height = 100) {
+    const Image image = draw(text, eye_height);
+    const auto& pixel = image.rgb[16 * 33 + 16];
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(pixel[i], wanted[i], 2) << text << " channel " << i;  // rounded layer by layer
+    }
+  }
+
+  ImportOptions import_;
+  RenderSettings settings_;
+  RenderStats stats_;
+};
+
+const std::string kRedGlass = "[1, 0, 0, 0.5]";
+
+TEST_P(Layers, OneTranslucentLeafHasTwo) {
+  const Color once = over(kPaper, lit(kRed), 0.5);
+  expect_middle(colored(kRedGlass, kCube), over(once, lit(kRed), 0.5));
+}
+
+TEST_P(Layers, ADifferenceHasOne) {
+  expect_middle("difference() {" + colored(kRedGlass, kCube) + moved(4, 4, 0, kSmallCube) + "}",
+                over(kPaper, lit(kRed), 0.5));
+}
+
+TEST_P(Layers, TheColorsAlphaIsTheSchemesColorThere) {
+  const Color once = over(kPaper, lit(kFront), 0.25);
+  expect_middle(colored("[-1, -1, -1, 0.25]", kCube), over(once, lit(kFront), 0.25));
+}
+
+TEST_P(Layers, WhatComesLaterIsHiddenBehindWhatIsTranslucent) {
+  const Color glass = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
+  expect_middle(colored(kRedGlass, kCube) + moved(0, 0, -20, kCube), glass);
+}
+
+TEST_P(Layers, WhatComesEarlierShinesThrough) {
+  const Color glass = over(over(lit(kFront), lit(kRed), 0.5), lit(kRed), 0.5);
+  expect_middle(moved(0, 0, -20, kCube) + colored(kRedGlass, kCube), glass);
+}
+
+TEST_P(Layers, WhatIsBehindAnEarlierFaceIsNotDrawn) {
+  // The far side of the glass lies within the body.
+  expect_middle(moved(0, 0, -2, kCube) + colored(kRedGlass, kCube),
+                over(lit(kFront), lit(kRed), 0.5));
+  expect_middle(moved(0, 0, 20, kCube) + colored(kRedGlass, kCube), lit(kFront));
+}
+
+TEST_P(Layers, ATranslucentCutFaceHasItsOwnAlpha) {
+  const std::string hole = colored("[0, 0, 1, 0.25]", moved(0, 0, 4, kSmallCube));
+  expect_middle("difference() {" + kCube + hole + "}", over(kPaper, lit(kBlue), 0.25));
+}
+
+TEST_P(Layers, AlphaZeroHidesWhatComesLater) {
+  const std::string hole = colored("[0, 0, 1, 0]", moved(0, 0, 4, kSmallCube));
+  expect_middle("difference() {" + kCube + hole + "}" + moved(0, 0, -20, kCube), kPaper);
+  expect_middle(colored("[1, 0, 0, 0]", kCube) + moved(0, 0, -20, kCube), kPaper);
+}
+
+TEST_P(Layers, OfCoincidentFacesTheLaterIsDrawn) {
+  const Color red = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
+  expect_middle(colored(kRedGlass, kCube) + kCube, lit(kFront));
+  // The far side of the later one lies behind the near side of the earlier.
+  expect_middle(colored(kRedGlass, kCube) + colored("[0, 0, 1, 0.5]", kCube),
+                over(red, lit(kBlue), 0.5));
+}
+
+TEST_P(Layers, BackgroundPartsHaveTheirGreyOrTheirColor) {
+  const Color once = over(kPaper, lit(kBackground), kHalf);
+  expect_middle("%" + kCube, over(once, lit(kBackground), kHalf));
+  expect_middle("%difference() {" + kCube + moved(4, 4, 0, kSmallCube) + "}", once);
+  expect_middle("%" + colored("[1, 0, 0, 1]", kCube), lit(kRed));
+  // The cut faces of a `%` part have no colour of the scheme's.
+  expect_middle("%difference() {" + kCube + moved(0, 0, 4, kSmallCube) + "}", once);
+}
+
+TEST_P(Layers, AHighlightLiesOverItsOwnBody) {
+  expect_middle("#" + kCube, over(lit(kFront), lit(kHighlight), kHalf));
+  expect_middle("#" + colored("[0, 0, 1, 1]", kCube), over(lit(kBlue), lit(kHighlight), kHalf));
+  // Beside a sibling it is translucent only.
+  const Color once = over(kPaper, lit(kHighlight), kHalf);
+  expect_middle("#" + kCube + moved(100, 0, 0, kCube), over(once, lit(kHighlight), kHalf));
+}
+
+TEST_P(Layers, BackgroundPartsAreDrawnBeforeHighlights) {
+  const Color grey = over(over(kPaper, lit(kBackground), kHalf), lit(kBackground), kHalf);
+  const Color red = over(over(grey, lit(kHighlight), kHalf), lit(kHighlight), kHalf);
+  expect_middle("#" + moved(0, 0, 20, kCube) + "%" + kCube + moved(100, 0, 0, kCube), red);
+  // In front of the highlight, which hides nothing that was drawn before.
+  expect_middle("%" + moved(0, 0, 20, kCube) + "#" + kCube + moved(100, 0, 0, kCube), grey);
+}
+
+TEST_P(Layers, ACompoundLeafHasNoCutFacesOfItsOwn) {
+  const std::string with_hole = "difference() {" + kCube + moved(0, 0, 4, kSmallCube) + "}";
+  expect_middle(with_hole, lit(kBack));
+  expect_middle("render() {" + with_hole + "}", lit(kFront));
+  expect_middle("difference() { " + moved(0, 0, -2, kCube) + "render() { difference() {" + kTall +
+                    moved(0, 0, -22, kTall) + "} } }",
+                lit(kBack));
+  import_.picture = PictureKind::kRendered;
+  expect_middle("render() {" + with_hole + "}", lit(kBack));
+}
+
+TEST_P(Layers, ChannelsAreMeasuredOfTheModelWhateverIsTranslucent) {
+  settings_.measured_channels = true;
+  const Image image =
+      draw(colored(kRedGlass, kCube) + moved(0, 0, 20, kCube) + "%" + moved(0, 0, 40, kCube));
+  EXPECT_NEAR(image.z[16 * 33 + 16], 75, 1e-4);
+  EXPECT_EQ(image.id[16 * 33 + 16], 1u);
+  EXPECT_EQ(image.id[0], csgcore::kNoPrimitive);
+}
+
+TEST_P(Layers, AColorMayBeBrighterThanWhite) {
+  expect_middle(colored("[2, 0.5, 0, 1]", kCube), lit({510, 127.5, 0}));
+}
+
+TEST_P(Layers, TheThrownTogetherPictureShowsLeavesWhole) {
+  import_.picture = PictureKind::kThrownTogether;
+  settings_.from_within = Rgb{255, 0, 255};
+  expect_middle("difference() {" + kCube + kTall + "}", lit(kBack));
+  expect_middle("intersection() {" + kCube + kTall + "}", lit(kFront));
+  expect_middle("difference() {" + colored(kRedGlass, kCube) + kSmallCube + "}",
+                over(kPaper, lit(kRed), 0.5));
+  expect_middle(kCube, lit({255, 0, 255}), 1);  // from within
+}
+
+TEST_P(Layers, FromWithinFacesHaveTheFrontColorInAPreview) { expect_middle(kCube, lit(kFront), 1); }
+
+TEST_P(Layers, ManyLayersAreDrawnWhereTheyAre) {
+  std::string text;
+  for (int i = -3; i <= 3; ++i) {
+    for (int j = -3; j <= 3; ++j) text += moved(12 * i, 12 * j, 0, colored(kRedGlass, kCube));
+  }
+  const Image image = draw(text);
+  const Color glass = over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5);
+  EXPECT_NEAR(image.rgb[16 * 33 + 16][1], glass[1], 2);
+  EXPECT_NEAR(image.rgb[16 * 33 + 16 + 5][1], kPaper[1], 0) << "between two cubes";
+}
+
+std::string name_of(const testing::TestParamInfo<Way>& info) {
+  return std::string(info.param.renderer == RendererKind::kGl ? "Gl" : "Cpu") +
+         (info.param.technique == Technique::kTiles ? "Tiles" : "Cells");
+}
+
+INSTANTIATE_TEST_SUITE_P(, Layers,
+                         testing::Values(Way{RendererKind::kCpu, Technique::kTiles},
+                                         Way{RendererKind::kCpu, Technique::kCells},
+                                         Way{RendererKind::kGl, Technique::kCells},
+                                         Way{RendererKind::kGl, Technique::kTiles}),
+                         name_of);
+
+}  // namespace
+}  // namespace frontend
