@@ -22,6 +22,7 @@ struct FrameSettings {
   std::optional<glm::vec3> from_within;
   Shading shading = Shading::kOpenScad;
   bool measured_channels = false;  // fill Image's z, normal, position and id
+  bool depth_and_id_only = false;  // of the measured channels fill z and id alone
   /// The box that the light and, in GL, the precision are fitted to; empty: the solid's own bounds.
   /// Pictures that are laid over each other need the same box, which holds all of their solids.
   Box scene_box;

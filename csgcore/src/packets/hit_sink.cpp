@@ -99,6 +99,7 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
                      Image& image)
     : frame_(frame),
       measured_(settings.measured_channels),
+      measures_all_(settings.measured_channels && !settings.depth_and_id_only),
       shade_(shade_settings(settings, frame.view, solid_bounds)),
       background_(to_rgb8(settings.background)),
       image_(image) {
@@ -108,8 +109,8 @@ ImageSink::ImageSink(const FrameRays& frame, const FrameSettings& settings, cons
   const size_t measured = measured_ ? pixels : 0;
   image.rgb.resize(pixels);
   image.z.resize(measured);
-  image.normal.resize(measured);
-  image.position.resize(measured);
+  image.normal.resize(measures_all_ ? pixels : 0);
+  image.position.resize(measures_all_ ? pixels : 0);
   image.id.resize(measured);
 }
 
@@ -123,9 +124,10 @@ void ImageSink::clear(const Tile& tile) {
   for_each_row(tile, image_.width_px, [&](size_t first) {
     const auto at = [first](auto& channel) { return channel.begin() + static_cast<long>(first); };
     std::fill_n(at(image_.z), tile.width, std::numeric_limits<float>::infinity());
+    std::fill_n(at(image_.id), tile.width, kNoPrimitive);
+    if (!measures_all_) return;
     std::fill_n(at(image_.normal), tile.width, glm::vec3{0.0f});
     std::fill_n(at(image_.position), tile.width, glm::vec3{0.0f});
-    std::fill_n(at(image_.id), tile.width, kNoPrimitive);
   });
 }
 
@@ -146,11 +148,12 @@ void ImageSink::store_channels(const PacketBlock& block, const RayPacket& rays,
     const uint32_t test = hit ? hits.index[lane] : 0;
     image_.z[pixel] = hit ? static_cast<float>(frame_.base_s + hits.t[lane])
                           : std::numeric_limits<float>::infinity();
+    image_.id[pixel] =
+        hit ? list.primitives[list.list->primitive[test] & kPrimitiveBits].id : kNoPrimitive;
+    if (!measures_all_) return;
     image_.normal[pixel] = hit ? glm::vec3(lane_of(hits.normal, lane)) : glm::vec3{0.0f};
     image_.position[pixel] =
         hit ? glm::vec3(position_of(frame_, rays, hits, lane)) : glm::vec3{0.0f};
-    image_.id[pixel] =
-        hit ? list.primitives[list.list->primitive[test] & kPrimitiveBits].id : kNoPrimitive;
   });
 }
 

@@ -49,7 +49,7 @@ class ImageSink final : public HitSink {
                       const PacketHits& hits);
 
   const FrameRays& frame_;
-  bool measured_;
+  bool measured_, measures_all_;
   ShadeSettings shade_;
   Rgb8 background_;
   Image& image_;

@@ -71,6 +71,7 @@ PreparedLayer::PreparedLayer(const CanonicalPrimitives& primitives, const Layer&
 }
 
 csgcore::FrameSettings PreparedLayer::frame(csgcore::FrameSettings scene_frame) const {
+  scene_frame.depth_and_id_only = true;
   if (is_of_model()) return scene_frame;
   const LayerColor& color = color_of(kind_);
   scene_frame.front = scene_frame.back = glm::vec3(color.r, color.g, color.b) / 255.0f;
@@ -98,8 +99,7 @@ void Compositor::add(const PreparedLayer& layer, const Image& side,
       for (size_t channel = 0; channel < 3; ++channel) {
         const float below = image_.rgb[pixel][channel];
         const float above = side.rgb[pixel][channel];
-        image_.rgb[pixel][channel] =
-            static_cast<uint8_t>(std::lround(below + alpha * (above - below)));
+        image_.rgb[pixel][channel] = static_cast<uint8_t>(below + alpha * (above - below) + 0.5f);
       }
     }
   }
