@@ -33,9 +33,13 @@ constexpr double kWholeShare = 0.85;
 std::string line_of(std::string_view csg, const frontend::PrimitivePlace& place) {
   std::size_t start = csg.rfind('\n', place.offset) + 1;  // npos + 1 = 0 on the first line
   start = csg.find_first_not_of(" \t", start);
-  return "line " + std::to_string(place.line) + ": " +
-         std::string(
-             csg.substr(start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
+  std::string text = "line " + std::to_string(place.line) + ": " +
+                     std::string(csg.substr(
+                         start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
+  if (place.leaf_line == 0) return text;
+  const std::string_view leaf = csg.substr(place.leaf_offset);
+  return text + " in " + std::string(leaf.substr(0, leaf.find('('))) + "() of line " +
+         std::to_string(place.leaf_line);
 }
 
 bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCells; }

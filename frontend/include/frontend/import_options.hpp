@@ -19,8 +19,8 @@ enum class Facets : uint8_t {
 /// Which of OpenSCAD's pictures the design is imported for.
 enum class PictureKind : uint8_t {
   kPreview,
-  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and `%`
-  /// parts are left out.
+  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and
+  /// `%` parts are left out.
   kRendered,
   /// --preview=throwntogether: every leaf whole, and no operation.
   kThrownTogether,

@@ -14,6 +14,9 @@ namespace frontend {
 struct PrimitivePlace {
   uint32_t line = 0;    // from 1
   uint32_t offset = 0;  // of its name, in bytes from the text's start
+  /// The same of the compound leaf that the node is a part of; 0: the node is a leaf by itself.
+  uint32_t leaf_line = 0;
+  uint32_t leaf_offset = 0;
 };
 
 struct ImportedDesign {
@@ -24,6 +27,10 @@ struct ImportedDesign {
   csgcore::Box view_box;
   /// Primitive nodes in the file, empty, invalid and `%` ones included.
   uint32_t primitive_nodes = 0;
+  /// The leaves of OpenSCAD's preview (frontend/OPENSCAD.md, "Leaves") that are drawn, and those of
+  /// them that hold several primitives.
+  uint32_t leaves = 0;
+  uint32_t compound_leaves = 0;
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;

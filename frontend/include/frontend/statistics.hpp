@@ -14,6 +14,9 @@ struct RunStats {
   uint64_t file_bytes = 0;       // size of the .csg text that is parsed
   uint64_t nodes = 0;            // of the syntax tree
   uint64_t primitive_nodes = 0;  // in the file, empty and invalid ones included
+  uint64_t leaves = 0;           // of OpenSCAD's preview
+  uint64_t compound_leaves = 0;  // those of them that hold several primitives
+  uint64_t layers = 0;           // that are drawn one over another; 0: the model alone
   uint32_t width_px = 0;
   uint32_t height_px = 0;
   RenderStats render;

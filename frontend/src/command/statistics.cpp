@@ -16,6 +16,8 @@ std::string to_json(const RunStats& stats) {
       {"technique", render.technique},
       {"nodes", stats.nodes},
       {"primitive_nodes", stats.primitive_nodes},
+      {"design_leaves", {{"total", stats.leaves}, {"compound", stats.compound_leaves}}},
+      {"layers", stats.layers},
       {"primitives", render.primitives},
       {"cells", render.cells},
       {"leaves",

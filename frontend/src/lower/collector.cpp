@@ -81,7 +81,7 @@ Fit fit_of(const Primitive& primitive) {
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
     : tree_(tree), options_(options) {
-  contexts_.push_back({0, 0, std::nullopt, false, false});
+  contexts_.push_back({0, 0, std::nullopt, false, false, 0, 0});
 }
 
 void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
@@ -110,7 +110,7 @@ void Collector::take(uint32_t index, uint32_t offset) {
   if (skipped_ && is_within(index, *skipped_)) return;
   any_modifiers = any_modifiers || node.modifiers != 0;
   while (contexts_.size() > 1 && !is_within(index, contexts_.back().node)) contexts_.pop_back();
-  if (is_disabled || !visit(index, id)) skipped_ = index;
+  if (is_disabled || !visit(index, id, offset)) skipped_ = index;
 }
 
 void Collector::finish() {
@@ -145,7 +145,7 @@ void Collector::select(uint32_t root) {
 }
 
 /// False: the children do not matter.
-bool Collector::visit(uint32_t index, uint32_t id) {
+bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
   switch (role_of(node.kind)) {
     case Role::kSolid:
@@ -154,7 +154,7 @@ bool Collector::visit(uint32_t index, uint32_t id) {
     case Role::kOperation:
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
-      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index);
+      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index, offset);
       return true;
     case Role::kUnsupportedOperation:
       leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
@@ -196,11 +196,13 @@ void Collector::enter_color(uint32_t node) {
   contexts_.push_back(context);
 }
 
-void Collector::enter_leaf(uint32_t node) {
+void Collector::enter_leaf(uint32_t node, uint32_t offset) {
   if (contexts_.back().in_leaf) return;
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = true;
+  context.leaf_line = tree_.nodes[node].location.line;
+  context.leaf_offset = offset;
   compound_leaves.push_back({node, context.frame});
   contexts_.push_back(context);
 }
@@ -239,6 +241,10 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
 
 void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
+  if (options_.keeps_places) {
+    places.back().leaf_line = context.leaf_line;
+    places.back().leaf_offset = context.leaf_offset;
+  }
   Primitive primitive;
   csgcore::FacetSettings facets;
   bool is_inside_out = false;

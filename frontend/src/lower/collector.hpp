@@ -60,8 +60,9 @@ class Collector final : public NodeSink {
     uint32_t node;
     uint32_t frame;  // coordinates
     std::optional<csgcore::Color> color;
-    bool flattened;  // a matrix with inf or nan on the way: nothing is left
-    bool in_leaf;    // a compound one, whose nodes have no colours of their own
+    bool flattened;                   // a matrix with inf or nan on the way: nothing is left
+    bool in_leaf;                     // a compound one, whose nodes have no colours of their own
+    uint32_t leaf_line, leaf_offset;  // of that one
   };
   struct LeftOut {
     uint32_t node;
@@ -73,11 +74,11 @@ class Collector final : public NodeSink {
     return node < tree_.nodes[ancestor].subtree_end;
   }
   void select(uint32_t root);
-  bool visit(uint32_t node, uint32_t id);
+  bool visit(uint32_t node, uint32_t id, uint32_t offset);
   void leave_out(uint32_t node, std::string_view why, bool unless_empty = false);
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
-  void enter_leaf(uint32_t node);
+  void enter_leaf(uint32_t node, uint32_t offset);
   void add_solid(uint32_t node, uint32_t id);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);

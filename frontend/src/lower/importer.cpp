@@ -257,6 +257,20 @@ void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, boo
   }
 }
 
+/// A leaf that several trees name counts once for each.
+void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& design) {
+  const auto count = [&](const LeafTree& tree) {
+    for (const csgcore::CsgToken& token : tree.tokens()) {
+      if (!token.is_primitive) continue;
+      ++design.leaves;
+      if (leaves.is_compound(token.value)) ++design.compound_leaves;
+    }
+  };
+  count(trees.model);
+  for (const LeafTree& part : trees.background) count(part);
+  for (const LeafTree& part : trees.highlight) count(part);
+}
+
 /// What comes after the last node was taken. Frees what the collector holds as soon as it can: of a
 /// large design each part of it has hundreds of MB.
 ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
@@ -277,6 +291,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
   const Design trees = Emitter(tree, collected, modifiers, leaves).design();
+  count_leaves(trees, leaves, design);
   std::vector<Box> boxes = std::move(collected.boxes);
   add_boxes_of_compound(collected, leaves, options.measures_leaves, boxes);
   design.view_box = view_box(trees, boxes);

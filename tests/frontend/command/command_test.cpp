@@ -305,12 +305,13 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
   };
-  EXPECT_THAT(keys(json),
-              ElementsAre("cells", "cells_drawn", "draw_calls", "edge_pixels", "file", "file_bytes",
-                          "height_px", "intersections", "leaf_primitives", "leaves", "nodes",
-                          "paper_ms", "primitive_nodes", "primitives", "primitives_intersected",
-                          "primitives_skipped", "rays", "renderer", "resolved_rays",
-                          "subdivision_bytes", "technique", "tiles", "times_ms", "width_px"));
+  EXPECT_THAT(
+      keys(json),
+      ElementsAre("cells", "cells_drawn", "design_leaves", "draw_calls", "edge_pixels", "file",
+                  "file_bytes", "height_px", "intersections", "layers", "leaf_primitives", "leaves",
+                  "nodes", "paper_ms", "primitive_nodes", "primitives", "primitives_intersected",
+                  "primitives_skipped", "rays", "renderer", "resolved_rays", "subdivision_bytes",
+                  "technique", "tiles", "times_ms", "width_px"));
   EXPECT_THAT(keys(json["leaves"]), ElementsAre("dropped", "empty", "full", "general", "given_up",
                                                 "pair", "total", "union"));
   EXPECT_THAT(keys(json["primitives_skipped"]),

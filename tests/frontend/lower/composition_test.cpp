@@ -163,6 +163,25 @@ TEST(Leaves, AHighlightedLeafIsTakenOnce) {
             "(0-1-2) | - | (1+2)");
 }
 
+TEST(Leaves, AreCounted) {
+  const ImportedDesign design = import_text(
+      "cube(); render() { cube(); sphere(); } %render() { cube(); sphere(); } #cube();");
+  EXPECT_EQ(design.leaves, 4u);
+  EXPECT_EQ(design.compound_leaves, 2u);
+}
+
+TEST(Leaves, APlaceNamesTheLeafAroundIt) {
+  ImportOptions options;
+  options.keeps_places = true;
+  const std::string text = "cube();\nrender() {\n  render() {\n    cube(); } }\ncube();";
+  const ImportedDesign design = TextImport(text, "a.csg", options).finish();
+  ASSERT_THAT(design.places, SizeIs(3));
+  EXPECT_EQ(design.places[0].leaf_line, 0u);
+  EXPECT_EQ(design.places[1].leaf_line, 2u);
+  EXPECT_EQ(text.substr(design.places[1].leaf_offset, 6), "render");
+  EXPECT_EQ(design.places[2].leaf_line, 0u);
+}
+
 TEST(LeafBoxes, AreThoseOfWhatTheOperationsLeave) {
   const std::string cut =
       "render() { difference() { cube(size = 10);"
