@@ -81,7 +81,7 @@ Fit fit_of(const Primitive& primitive) {
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
     : tree_(tree), options_(options) {
-  contexts_.push_back({0, 0, std::nullopt, false, false, 0, 0});
+  contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
 void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
@@ -147,6 +147,7 @@ void Collector::select(uint32_t root) {
 /// False: the children do not matter.
 bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
   switch (role_of(node.kind)) {
     case Role::kSolid:
       add_solid(index, id);
@@ -186,7 +187,7 @@ void Collector::enter_matrix(uint32_t node) {
 
 void Collector::enter_color(uint32_t node) {
   const std::optional<csgcore::Color> color = read_color(tree_, tree_.nodes[node], problems);
-  if (options_.picture == PictureKind::kRendered || contexts_.back().in_leaf) return;
+  if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
   if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
@@ -201,9 +202,19 @@ void Collector::enter_leaf(uint32_t node, uint32_t offset) {
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = true;
+  context.leaf_color = context.color;
   context.leaf_line = tree_.nodes[node].location.line;
   context.leaf_offset = offset;
   compound_leaves.push_back({node, context.frame});
+  contexts_.push_back(context);
+}
+
+/// A `%` part is drawn beside the compound leaf that it stands in.
+void Collector::leave_leaf(uint32_t node) {
+  Context context = contexts_.back();
+  context.node = node;
+  context.in_leaf = false;
+  context.leaf_line = context.leaf_offset = 0;
   contexts_.push_back(context);
 }
 
@@ -259,7 +270,9 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
     case Fit::kFlat:
       return;
   }
-  primitive.color = is_inside_out ? kSeenFromWithin : context.color;
+  primitive.color = is_inside_out     ? kSeenFromWithin
+                    : context.in_leaf ? context.leaf_color
+                                      : context.color;
   primitive.id = id;
   primitive_of[index] = static_cast<uint32_t>(primitives.size());
   boxes.push_back(faceted_box(primitive, facets));

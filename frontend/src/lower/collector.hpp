@@ -60,6 +60,7 @@ class Collector final : public NodeSink {
     uint32_t node;
     uint32_t frame;  // coordinates
     std::optional<csgcore::Color> color;
+    std::optional<csgcore::Color> leaf_color;  // of the compound leaf, where in_leaf is true
     bool flattened;                   // a matrix with inf or nan on the way: nothing is left
     bool in_leaf;                     // a compound one, whose nodes have no colours of their own
     uint32_t leaf_line, leaf_offset;  // of that one
@@ -79,6 +80,7 @@ class Collector final : public NodeSink {
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
   void enter_leaf(uint32_t node, uint32_t offset);
+  void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);

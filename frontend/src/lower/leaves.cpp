@@ -73,6 +73,31 @@ CsgTree Leaves::expanded(const LeafTree& tree) const {
   return builder.finish();
 }
 
+LeafTree pruned(const LeafTree& tree, std::span<const Box> boxes) {
+  const std::span<const CsgToken> tokens = tree.tokens();
+  const std::vector<Box> subtree = subtree_boxes(tokens, boxes);
+  std::vector<bool> is_empty(tokens.size());
+  std::vector<uint32_t> operands;  // the roots of those that no operation has taken
+  for (uint32_t i = 0; i < tokens.size(); ++i) {
+    if (!tokens[i].is_primitive) {
+      const auto first = operands.end() - tokens[i].value;
+      for (auto operand = first + 1; operand != operands.end(); ++operand) {
+        is_empty[*operand] = is_empty[*operand] ||
+                             (tokens[i].op == Op::kDifference &&
+                              csgcore::intersection(subtree[*first], subtree[*operand]).empty());
+      }
+      operands.erase(first, operands.end());
+    }
+    is_empty[i] = subtree[i].empty();
+    operands.push_back(i);
+  }
+  CsgTreeBuilder builder;
+  rebuild(
+      tokens, builder, [](CsgTreeBuilder& to, uint32_t leaf) { to.primitive(leaf); },
+      [&](uint32_t root) { return is_empty[root]; });
+  return builder.finish();
+}
+
 std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const Box> boxes) {
   const std::span<const CsgToken> tokens = tree.tokens();
   const std::vector<Box> subtree = subtree_boxes(tokens, boxes);

@@ -52,10 +52,11 @@ class Leaves {
 };
 
 /// Calls `builder` as for the subtree whose tokens these are, with add(builder, index) for each
-/// leaf.
-template <typename Add>
+/// leaf. Subtrees whose root is_empty(root) is true for, given the index of its token, are empty
+/// operands.
+template <typename Add, typename IsEmpty>
 void rebuild(std::span<const csgcore::CsgToken> tokens, csgcore::CsgTreeBuilder& builder,
-             const Add& add) {
+             const Add& add, const IsEmpty& is_empty) {
   // By the index of a token the operations whose first operand starts there, from the innermost.
   std::vector<std::vector<uint32_t>> opened_at(tokens.size());
   std::vector<uint32_t> starts;  // of the subtrees that are no operands yet
@@ -67,17 +68,37 @@ void rebuild(std::span<const csgcore::CsgToken> tokens, csgcore::CsgTreeBuilder&
     starts.resize(starts.size() - tokens[i].value + 1);
     opened_at[starts.back()].push_back(i);
   }
+  uint32_t next = 0;  // the first token that no empty subtree has taken
   for (uint32_t i = 0; i < tokens.size(); ++i) {
-    for (auto op = opened_at[i].rbegin(); op != opened_at[i].rend(); ++op) {
-      builder.open(tokens[*op].op);
+    for (auto op = opened_at[i].rbegin(); op != opened_at[i].rend() && i >= next; ++op) {
+      if (is_empty(*op)) {
+        builder.empty();
+        next = *op + 1;
+      } else {
+        builder.open(tokens[*op].op);
+      }
     }
-    if (tokens[i].is_primitive) {
-      add(builder, tokens[i].value);
-    } else {
+    if (i < next) continue;
+    if (!tokens[i].is_primitive) {
       builder.close();
+    } else if (is_empty(i)) {
+      builder.empty();
+    } else {
+      add(builder, tokens[i].value);
     }
   }
 }
+
+template <typename Add>
+void rebuild(std::span<const csgcore::CsgToken> tokens, csgcore::CsgTreeBuilder& builder,
+             const Add& add) {
+  rebuild(tokens, builder, add, [](uint32_t) { return false; });
+}
+
+/// The tree without what boxes tell is empty: an intersection of disjoint boxes, and subtracted
+/// operands whose box misses what they are subtracted from. OpenSCAD leaves these out. `boxes`
+/// holds the boxes of all leaves, in world space.
+LeafTree pruned(const LeafTree& tree, std::span<const csgcore::Box> boxes);
 
 /// A leaf as an operand of the tree's operations.
 struct LeafUse {

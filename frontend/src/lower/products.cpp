@@ -201,8 +201,9 @@ class ProductList {
 
 }  // namespace
 
-Products products_of(const LeafTree& tree, std::span<const Box> boxes,
+Products products_of(const LeafTree& whole, std::span<const Box> boxes,
                      const std::function<bool(uint32_t)>& is_translucent) {
+  const LeafTree tree = pruned(whole, boxes);
   const std::span<const CsgToken> tokens = tree.tokens();
   const std::vector<uint32_t> firsts = first_tokens(tokens);
   std::vector<uint32_t> translucent_before(tokens.size() + 1, 0);  // leaves

@@ -157,7 +157,9 @@ class ModifierResolver {
                               (parent.kind != NodeKind::kDifference || is_first);
       const bool in_render = parent.kind == NodeKind::kRender;
       if (own_background && !in_render) resolved_.background.push_back(i);
-      if (node_state.highlighted && !carried_on && !in_render &&
+      // What a `%` part has of `#` as a whole stays within it, but its own.
+      const bool is_taken = own_background && (node.modifiers & kHighlight) == 0;
+      if (node_state.highlighted && !carried_on && !in_render && !is_taken &&
           highlight_ends.size() < kMostNestedHighlights) {
         resolved_.highlight.push_back(i);
         highlight_ends.push_back(node.subtree_end);

@@ -87,6 +87,18 @@ TEST(Layers, WhatMissesTheOthersOfItsProductIsLeftOut) {
               ElementsAre("(0*2)", "(1*2)"));
 }
 
+TEST(Layers, EmptyOperandsAreLeftOutBeforeTreesAreMultipliedOut) {
+  const auto at = [](int x) {
+    return "multmatrix([[1,0,0," + std::to_string(x) +
+           "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(); }";
+  };
+  // An intersection of disjoint boxes; as factors of products its operands would count.
+  EXPECT_THAT(model_layers("difference() {" + kGlass + "intersection() {" + at(0) + at(3) + "} }"),
+              ElementsAre("0*"));
+  EXPECT_THAT(model_layers("difference() {" + kGlass + "difference() {" + at(7) + at(0) + "} }"),
+              ElementsAre("0*"));
+}
+
 TEST(Layers, TooManyProductsAreNotMultipliedOut) {
   std::string text = "intersection() {";
   for (int i = 0; i < 12; ++i) text += "group() {" + kGlass + kOther + "}";
@@ -118,6 +130,14 @@ TEST(Leaves, ColorsInsideOfACompoundLeafDoNotCount) {
           .scene;
   EXPECT_FALSE(scene.primitives[0].color);
   EXPECT_EQ(scene.primitives[1].color->b, 1);
+}
+
+TEST(Leaves, ABackgroundPartInsideOfALeafHasItsOwnColor) {
+  const csgcore::Scene scene =
+      import_text("render() { group() { color([1,0,0]) { %cube(); } cube(); } }").scene;
+  ASSERT_THAT(scene.primitives, SizeIs(2));
+  EXPECT_EQ(scene.primitives[0].color->r, 1);
+  EXPECT_FALSE(scene.primitives[1].color);
 }
 
 TEST(Leaves, CutFacesFollowTheSignOfTheLeaf) {

@@ -61,6 +61,7 @@ TEST(ImporterModifiers, HighlightsNest) {
   EXPECT_EQ(trees_of("#difference() { sphere(); #sphere(); } sphere();"), "2 | - | ((0-1)+1)");
   EXPECT_EQ(trees_of("%difference() { sphere(); #sphere(); } sphere();"), "2 | (0-1) | 1");
   EXPECT_EQ(trees_of("#group() { sphere(); %sphere(); } sphere();"), "2 | 1 | 0");
+  EXPECT_EQ(trees_of("%difference() { #sphere(); sphere(); } sphere();"), "2 | (0-1) | -");
   EXPECT_EQ(trees_of("%#sphere(); sphere();"), "1 | 0 | 0");
   EXPECT_EQ(trees_of("render() { #sphere(); } sphere();"), "(0+1) | - | -");
   EXPECT_EQ(trees_of("render() { %sphere(); sphere(); } sphere();"), "(1+2) | - | -");
