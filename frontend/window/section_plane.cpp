@@ -36,6 +36,7 @@ csgcore::Scene cut_open(const csgcore::Scene& scene, const SectionPlane& plane, 
   result.model = csgcore::subtract(result.model, index);
   for (csgcore::Layer& layer : result.layers) {
     layer.solid = csgcore::subtract(layer.solid, index);
+    layer.parts.clear();  // they would show beyond the plane
   }
   return result;
 }

@@ -43,9 +43,11 @@ void main() {
   // A complement's normal is turned round (paper §3.2, step 4).
   vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
   if (seen.complement) normal = -normal;
-  vec3 color = u_eye_inside && u_from_within.a != 0.0
+  // The boundary behind the first one is traced as if the eye were on its other side.
+  bool eye_inside = u_eye_inside != (BEHIND != 0);
+  vec3 color = eye_inside && u_from_within.a != 0.0
                    ? u_from_within.rgb
-                   : base_color(seen.primitive, seen.complement, u_eye_inside);
+                   : base_color(seen.primitive, seen.complement, eye_inside);
   o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? 0.0 : 1.0);
 #if MEASURED
   o_measured = vec4(normal, seen.t);

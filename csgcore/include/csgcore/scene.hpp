@@ -20,6 +20,14 @@ struct Layer {
   /// Its far side is drawn before its near side, which lets it shine through.
   bool shows_behind = false;
   CsgTree solid;
+  /// An operand of the solid.
+  struct Part {
+    CsgTree solid;
+    bool is_subtracted = false;
+  };
+  /// The operands whose surfaces are blended once more wherever the picture shows a surface that
+  /// coincides with theirs, though the layer is not seen there.
+  std::vector<Part> parts{};
 };
 
 /// The trees hold indices into `primitives`, each of which is valid (is_valid).

@@ -17,11 +17,18 @@ bool same_tokens(const CsgTree& a, const CsgTree& b) {
                     });
 }
 
+bool same_parts(const Layer& a, const Layer& b) {
+  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+                    [](const Layer::Part& x, const Layer::Part& y) {
+                      return x.is_subtracted == y.is_subtracted && same_tokens(x.solid, y.solid);
+                    });
+}
+
 bool same_layers(const Scene& a, const Scene& b) {
   return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                     [](const Layer& x, const Layer& y) {
                       return x.kind == y.kind && x.shows_behind == y.shows_behind &&
-                             same_tokens(x.solid, y.solid);
+                             same_tokens(x.solid, y.solid) && same_parts(x, y);
                     });
 }
 

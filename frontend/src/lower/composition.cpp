@@ -87,9 +87,22 @@ class Composer {
         products_of(tree, boxes_, [&](uint32_t leaf) { return !is_opaque_leaf(leaf, kind); });
     has_all_layers_ = has_all_layers_ && !products.are_too_many;
     for (const Product& product : products.list) {
-      scene_.layers.push_back(
-          {kind, product.is_leaf && !product.is_opaque, leaves_.expanded(product.solid)});
+      Layer layer{kind, product.is_leaf && !product.is_opaque, leaves_.expanded(product.solid)};
+      if (!product.is_leaf && !product.is_opaque && !products.are_too_many) {
+        layer.parts = parts_of(product.solid);
+      }
+      scene_.layers.push_back(std::move(layer));
     }
+  }
+
+  /// OpenSCAD blends each leaf of a product wherever the depths of its surface are those that are
+  /// seen, also where an earlier product has drawn them.
+  std::vector<Layer::Part> parts_of(const LeafTree& product) const {
+    std::vector<Layer::Part> parts;
+    for (const LeafUse& use : uses_of_leaves(product, boxes_)) {
+      parts.push_back({leaves_.expanded(union_of({&use.leaf, 1})), use.is_subtracted});
+    }
+    return parts;
   }
 
   /// A face's colour follows its leaf's sign, whatever the leaf is made of.

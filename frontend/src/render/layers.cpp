@@ -31,35 +31,36 @@ const LayerColor& color_of(Layer::Kind kind) {
   return kind == Layer::Kind::kBackground ? kBackgroundColor : kHighlightColor;
 }
 
-/// The primitives that the tree names, index for index as in `tree` afterwards: most layers name
-/// few of a design's primitives.
-std::shared_ptr<const CanonicalPrimitives> named_primitives(const CanonicalPrimitives& primitives,
-                                                            Layer::Kind kind, CsgTree& tree) {
+/// Makes the solid of a tree, of the primitives alone that it names: most layers name few of a
+/// design's. A part that is subtracted shows its cut faces.
+csgcore::Solid solid_of(const CanonicalPrimitives& primitives, Layer::Kind kind,
+                        const CsgTree& tree, bool is_subtracted = false) {
   auto named = std::make_shared<CanonicalPrimitives>();
   std::unordered_map<uint32_t, uint32_t> new_indices;
-  tree = csgcore::renamed(tree, [&](uint32_t index) {
+  const CsgTree renamed = csgcore::renamed(tree, [&](uint32_t index) {
     const auto next = static_cast<uint32_t>(named->size());
     const auto [entry, is_new] = new_indices.try_emplace(index, next);
     if (is_new) {
-      named->push_back(primitives[index]);
+      CanonicalPrimitive& primitive = named->emplace_back(primitives[index]);
       // color() does not count in `#` parts.
-      if (kind == Layer::Kind::kHighlight) named->back().color.reset();
+      if (kind == Layer::Kind::kHighlight) primitive.color.reset();
+      if (is_subtracted) primitive.cut_faces = csgcore::CutFaces::kAlways;
     }
     return entry->second;
   });
-  return named;
-}
-
-csgcore::Solid solid_of(const CanonicalPrimitives& primitives, const Layer& layer) {
-  CsgTree tree = layer.solid;
-  auto named = named_primitives(primitives, layer.kind, tree);
-  return csgcore::Solid(std::move(named), tree);
+  return csgcore::Solid(std::move(named), renamed);
 }
 
 }  // namespace
 
 PreparedLayer::PreparedLayer(const CanonicalPrimitives& primitives, const Layer& layer)
-    : kind_(layer.kind), shows_behind_(layer.shows_behind), solid_(solid_of(primitives, layer)) {
+    : kind_(layer.kind),
+      shows_behind_(layer.shows_behind),
+      solid_(solid_of(primitives, layer.kind, layer.solid)) {
+  for (const Layer::Part& part : layer.parts) {
+    parts_.push_back(
+        {solid_of(primitives, kind_, part.solid, part.is_subtracted), part.is_subtracted});
+  }
   const float layer_opacity = is_of_model() ? 1.0f : color_of(kind_).a / 255.0f;
   for (const CanonicalPrimitive& primitive : solid_.primitives()) {
     own_opacity_[primitive.id] = primitive.color ? primitive.color->a : layer_opacity;
@@ -83,18 +84,21 @@ float PreparedLayer::opacity(uint32_t id) const {
 }
 
 Compositor::Compositor(Image& image, std::vector<float> depth, double scene_size)
-    : image_(image), scene_size_(scene_size), depth_(std::move(depth)) {}
+    : image_(image),
+      scene_size_(scene_size),
+      depth_(std::move(depth)),
+      last_layer_(depth_.size(), nullptr) {}
 
-void Compositor::add(const PreparedLayer& layer, const Image& side,
-                     const csgcore::PixelArea& area) {
+template <typename Shows>
+void Compositor::blend(const PreparedLayer& layer, const Image& side,
+                       const csgcore::PixelArea& area, const Shows& shows) {
   for (uint32_t y = area.y; y < area.y + area.height; ++y) {
     const size_t row = size_t{y} * image_.width_px;
     for (size_t pixel = row + area.x; pixel < row + area.x + area.width; ++pixel) {
-      // A miss of the layer is at infinity, and in front of nothing.
+      // A miss is at infinity, and in front of nothing.
       if (std::isinf(side.z[pixel])) continue;
       const double reach = (std::abs(side.z[pixel]) + scene_size_) * kSameDepth;
-      if (side.z[pixel] - reach > depth_[pixel]) continue;
-      depth_[pixel] = std::min(depth_[pixel], side.z[pixel]);
+      if (!shows(pixel, reach)) continue;
       const float alpha = layer.opacity(side.id[pixel]);
       for (size_t channel = 0; channel < 3; ++channel) {
         const float below = image_.rgb[pixel][channel];
@@ -103,6 +107,23 @@ void Compositor::add(const PreparedLayer& layer, const Image& side,
       }
     }
   }
+}
+
+void Compositor::add(const PreparedLayer& layer, const Image& side,
+                     const csgcore::PixelArea& area) {
+  blend(layer, side, area, [&](size_t pixel, double reach) {
+    if (side.z[pixel] - reach > depth_[pixel]) return false;
+    depth_[pixel] = std::min(depth_[pixel], side.z[pixel]);
+    last_layer_[pixel] = &layer;
+    return true;
+  });
+}
+
+void Compositor::add_part(const PreparedLayer& layer, const Image& side,
+                          const csgcore::PixelArea& area) {
+  blend(layer, side, area, [&](size_t pixel, double reach) {
+    return last_layer_[pixel] != &layer && std::abs(side.z[pixel] - depth_[pixel]) <= reach;
+  });
 }
 
 }  // namespace frontend

@@ -74,10 +74,14 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   SolidRenderer::Sides sides;
   for (const auto& layer : layers_) {
     if (request.settings.stop.stop_requested()) break;
-    renderer.draw_sides(layer->solid(), layer->frame(frame), request, layer->shows_behind(), sides);
-    if (sides.area.empty()) continue;
+    const csgcore::FrameSettings of_layer = layer->frame(frame);
+    renderer.draw_sides(layer->solid(), of_layer, request, layer->shows_behind(), sides);
     if (layer->shows_behind()) compositor.add(*layer, sides.behind, sides.area);
     compositor.add(*layer, sides.front, sides.area);
+    for (const PreparedLayer::Part& part : layer->parts()) {
+      renderer.draw_sides(part.solid, of_layer, request, part.is_subtracted, sides);
+      compositor.add_part(*layer, part.is_subtracted ? sides.behind : sides.front, sides.area);
+    }
   }
   return image;
 }
