@@ -174,7 +174,7 @@ bool compose(const Design& design, const Leaves& leaves, std::span<const Box> bo
 Box view_box(const Design& design, std::span<const Box> boxes) {
   Box result;
   const auto add = [&](const LeafTree& tree) {
-    for (const LeafUse& use : uses_of_leaves(tree, boxes)) {
+    for (const LeafUse& use : uses_of_leaves(pruned(tree, boxes), boxes)) {
       if (!use.is_subtracted && use.meets_others) result.merge(boxes[use.leaf]);
     }
   };

@@ -234,13 +234,23 @@ Box box_of_operands(const csgcore::CsgTree& solid, std::span<const Box> boxes) {
   return view_box(design, boxes);
 }
 
-/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of
-/// it. `facets` is the box of its operands as OpenSCAD's facets, which what is round may exceed
-/// here.
+bool is_axis_aligned(const csgcore::Affine& map) {
+  for (int column = 0; column < 3; ++column) {
+    int entries = 0;
+    for (int row = 0; row < 3; ++row) entries += map.linear[column][row] != 0;
+    if (entries > 1) return false;
+  }
+  return true;
+}
+
+/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of it.
+/// `facets` is the box of its operands as OpenSCAD's facets. What is round may exceed it here; in a
+/// frame that is turned, the corners of the solid's own box may as well.
 Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore::CsgTree& solid,
                   const csgcore::Affine& frame_to_world, const Box& facets) {
   const Box seen = seen_box(primitives, solid, frame_to_world);
-  return seen.empty() ? facets : csgcore::intersection(seen, facets);
+  if (seen.empty()) return facets;
+  return is_axis_aligned(frame_to_world) ? csgcore::intersection(seen, facets) : seen;
 }
 
 /// Adds the boxes of the compound leaves to those of the primitives.
