@@ -32,6 +32,12 @@ void add_box(Open& open, const csgcore::Box& box) {
   }
 }
 
+/// OpenSCAD drops a subtracted operand whose box misses the body's, with its highlight.
+bool misses_body(const Open& open, const ResolvedNode& operand, const csgcore::Box& box) {
+  return open.kind == NodeKind::kDifference && open.has_first && open.any_solid &&
+         operand.presence == Presence::kSolid && csgcore::intersection(open.box, box).empty();
+}
+
 void add_operand(Open& open, const ResolvedNode& node_state, const csgcore::Box& box) {
   if (node_state.presence == Presence::kAbsent) return;
   if (node_state.presence == Presence::kBackground) {
@@ -123,6 +129,7 @@ class ModifierResolver {
 
   void finish(uint32_t node, ResolvedNode node_state, const csgcore::Box& box) {
     apply_modifiers(node_state, tree_.nodes[node].modifiers);
+    if (misses_body(open_.back(), node_state, box)) node_state.highlighted = false;
     resolved_.nodes[node] = node_state;
     add_operand(open_.back(), node_state, box);
   }
