@@ -253,6 +253,14 @@ Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore:
   return is_axis_aligned(frame_to_world) ? csgcore::intersection(seen, facets) : seen;
 }
 
+/// Whether boxes decide about products: what is opaque needs none.
+bool needs_layers(const Collector& collected, PictureKind picture) {
+  const auto& primitives = collected.primitives;
+  return picture == PictureKind::kThrownTogether || collected.any_modifiers ||
+         std::any_of(primitives.begin(), primitives.end(),
+                     [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
+}
+
 /// Adds the boxes of the compound leaves to those of the primitives.
 void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, bool measures_leaves,
                            std::vector<Box>& boxes) {
@@ -303,7 +311,8 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   const Design trees = Emitter(tree, collected, modifiers, leaves).design();
   count_leaves(trees, leaves, design);
   std::vector<Box> boxes = std::move(collected.boxes);
-  add_boxes_of_compound(collected, leaves, options.measures_leaves, boxes);
+  const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
+  add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
   design.view_box = view_box(trees, boxes);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
     design.view_box = box_of_result(collected.primitives, trees.model, {}, design.view_box);

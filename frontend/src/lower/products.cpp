@@ -174,7 +174,7 @@ class ProductList {
     }
     builder.close();
     for (const auto& [leaf, is_subtracted] : term.leaves) {
-      if (is_subtracted) add_leaf(leaf);
+      if (is_subtracted && !are_disjoint(boxes_[leaf], *term.box)) add_leaf(leaf);
     }
     builder.close();
     add({builder.finish(), is_opaque, count == 1});
