@@ -243,9 +243,9 @@ bool is_axis_aligned(const csgcore::Affine& map) {
   return true;
 }
 
-/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of it.
-/// `facets` is the box of its operands as OpenSCAD's facets. What is round may exceed it here; in a
-/// frame that is turned, the corners of the solid's own box may as well.
+/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of
+/// it. `facets` is the box of its operands as OpenSCAD's facets. What is round may exceed it here;
+/// in a frame that is turned, the corners of the solid's own box may as well.
 Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore::CsgTree& solid,
                   const csgcore::Affine& frame_to_world, const Box& facets) {
   const Box seen = seen_box(primitives, solid, frame_to_world);

@@ -140,10 +140,9 @@ class ModifierResolver {
       uint32_t end;
       NodeKind kind;
       bool keeps_highlighted;
-      bool has_first;
     };
     std::vector<Parent> parents{
-        {selected_.end, NodeKind::kGroup, false, false}};  // overlaid whatever it consists of
+        {selected_.end, NodeKind::kGroup, false}};  // overlaid whatever it consists of
     std::vector<uint32_t> highlight_ends;
     for (uint32_t i = selected_.begin; i < selected_.end;) {
       const SyntaxNode& node = tree_.nodes[i];
@@ -157,11 +156,7 @@ class ModifierResolver {
       Parent& parent = parents.back();
       const bool own_background =
           (node.modifiers & kBackground) != 0 && node_state.presence == Presence::kBackground;
-      const bool is_operand = node_state.presence != Presence::kBackground;
-      const bool is_first = is_operand && !parent.has_first;
-      parent.has_first = parent.has_first || is_operand;
-      const bool carried_on = !own_background && parent.keeps_highlighted &&
-                              (parent.kind != NodeKind::kDifference || is_first);
+      const bool carried_on = !own_background && parent.keeps_highlighted;
       const bool in_render = parent.kind == NodeKind::kRender;
       if (own_background && !in_render) resolved_.background.push_back(i);
       // What a `%` part has of `#` as a whole stays within it, but its own.
@@ -171,7 +166,7 @@ class ModifierResolver {
         resolved_.highlight.push_back(i);
         highlight_ends.push_back(node.subtree_end);
       }
-      parents.push_back({node.subtree_end, node.kind, node_state.keeps_highlighted, false});
+      parents.push_back({node.subtree_end, node.kind, node_state.keeps_highlighted});
       ++i;
     }
   }

@@ -52,6 +52,16 @@ TEST(ImporterModifiers, AHighlightedFirstOperandHighlightsTheDifference) {
   EXPECT_EQ(trees_of("intersection() { #sphere(); #sphere(); } sphere();"), "2 | - | (0*1)");
 }
 
+TEST(ImporterModifiers, AHighlightedDifferenceHidesTheHighlightsOfWhatItTakesAway) {
+  EXPECT_EQ(trees_of("difference() { #sphere(); #sphere(); }"), "(0-1) | - | (0-1)");
+  EXPECT_EQ(trees_of("difference() { #sphere(); sphere(); #sphere(); }"), "(0-1-2) | - | (0-1-2)");
+}
+
+TEST(ImporterModifiers, WhatMissesTheBodyIsNotHighlighted) {
+  const std::string aside = "multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(); }";
+  EXPECT_EQ(trees_of("difference() { sphere(); #" + aside + " }"), "(0-1) | - | -");
+}
+
 TEST(ImporterModifiers, WhereAllIsHighlightedItIsDrawnToo) {
   EXPECT_EQ(trees_of("#sphere();"), "0 | - | 0");
   EXPECT_EQ(trees_of("#sphere(); group() { #sphere(); }"), "(0+1) | - | (0+1)");
