@@ -127,6 +127,18 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
   return Error(file, location, text.substr(0, file_at), kTodo);
 }
 
+/// OpenSCAD 2021.01 prints on standard output, before the .csg, the characters of a .scad that no
+/// token has: backslashes outside of strings, as in MCAD's fonts.scad. Makes them blanks; returns
+/// whether the text holds nothing else.
+bool blank_echoes(std::span<char> text) {
+  constexpr std::string_view kInNoToken = "\\@~'`";
+  for (char& c : text) {
+    if (kInNoToken.find(c) == std::string_view::npos) return false;
+    c = ' ';
+  }
+  return true;
+}
+
 /// Reads what the running openscad writes and prints.
 class Listener {
  public:
@@ -185,6 +197,7 @@ class Listener {
       messages_.add({said.data(), bytes});
       return bytes;
     }
+    if (is_start_) is_start_ = blank_echoes(room.first(bytes));
     csg_.add(bytes);
     if (csg_.is_too_large()) {
       throw Error(scad_path_, {}, "its .csg is larger than 4 GiB", "split the design");
@@ -210,6 +223,7 @@ class Listener {
   Messages& messages_;
   const std::string& scad_path_;
   GrowingText csg_{0};
+  bool is_start_ = true;  // nothing of the .csg was read yet
   StartCheck check_{is_beyond_repair, 0};
   bool is_hopeless_ = false;
 };

@@ -67,6 +67,11 @@ TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
             "<-o>\n<->\n<--export-format=csg>\n<-D>\n<s=\"$(x) ;`y` 'z'\">\n<-->\n<dir/a.scad>\n");
 }
 
+TEST_F(FakeOpenScad, WhatItEchoesBeforeTheCsgIsBlank) {
+  EXPECT_EQ(run("printf '%s' '\\\\'; sleep 0.1; printf '%s' '\\@text(text = \"\\\");'").csg,
+            "   text(text = \"\\\");");
+}
+
 TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
   const std::string path = folder_.write("a.scad", "");
