@@ -69,7 +69,7 @@ TEST_F(FakeOpenScad, GetsItsArgumentsWithoutAShell) {
 
 TEST_F(FakeOpenScad, WhatItEchoesBeforeTheCsgIsBlank) {
   EXPECT_EQ(run("printf '%s' '\\\\'; sleep 0.1; printf '%s' '\\@text(text = \"\\\");'").csg,
-            "   text(text = \"\\\");");
+            "    text(text = \"\\\");");
 }
 
 TEST_F(FakeOpenScad, ThatDoesNotSayWhatItReadsIsAnError) {
