@@ -19,7 +19,7 @@ constexpr int kSettled = 200;
 /// 0.4 MB: keeping one in every save, or in every tenth, would take far more.
 constexpr std::size_t kLeeway_bytes = std::size_t{8} << 20;
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SCADRAY_SANITIZED)
 constexpr bool kMemoryIsMeasured = false;  // freed memory is kept, to find its use; leaks are found
 #else
 constexpr bool kMemoryIsMeasured = true;
