@@ -24,11 +24,11 @@ class ExactTwin {
   /// `magnification`.
   virtual void add_surfaces(const csgcore::Primitive& primitive, const Exact& magnification,
                             Target<Exact>& target) const = 0;
-  /// The wall of a ray, o + t·d in the target's local space; all zero if the kind has no wall.
-  virtual Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
-                                const Vector<Exact>& d) const;
-  virtual Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
-                                   const Vector<Interval>& d) const;
+  /// The walls of a ray, o + t·d in the target's local space; all zero if the kind has none.
+  virtual Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
+                             const Vector<Exact>& d) const;
+  virtual Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
+                                const Vector<Interval>& d) const;
   /// Half the gradient of the wall at a local point.
   virtual Vector<Interval> wall_normal(const Target<Interval>& target,
                                        const Vector<Interval>& point) const;
