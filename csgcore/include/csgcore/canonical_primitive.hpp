@@ -50,10 +50,6 @@ Classification classify_within_bounds(const CanonicalPrimitive& primitive, const
 /// The point furthest along a direction, in world space but for rounding.
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
-/// Whether the two are certainly more than `margin` apart, in world units: a plane was found
-/// between them. Of what is long and thin, it often is not.
-bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin);
-
 /// Upper bound of how far from its centre the primitive reaches, in world units; tight for what is
 /// not sheared.
 double reach(const CanonicalPrimitive& primitive);

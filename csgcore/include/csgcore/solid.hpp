@@ -53,9 +53,6 @@ class Solid {
   const CellList* cell_list() const { return cell_list_.get(); }
   /// The same with operands in groups.
   const OperandGroups& groups() const { return *groups_; }
-  /// The same without what rays do not get to that start outside of the solid that is left, and end
-  /// where they enter it (hidden_operands.hpp). What is left holds wherever the whole does.
-  const OperandGroups& outer_groups() const { return *outer_groups_; }
   /// Box of the solid, by the operations: a union's is the union of its operands' boxes, an
   /// intersection's their intersection, a difference's that of its first operand. Empty if the
   /// solid is.
@@ -66,14 +63,12 @@ class Solid {
  private:
   /// The one that the list and the groups are made of.
   const CsgTree& used_of(const CsgTree& tree) const;
-  void make_groups(const CsgTree& tree, Extents extents);
-  void find_outer_groups(const CsgTree& tree);
 
   std::shared_ptr<const CanonicalPrimitives> primitives_;
   std::shared_ptr<const LeanTree> lean_;  // null: all operands count
   Blist list_;
   std::shared_ptr<const CellList> cell_list_;
-  std::shared_ptr<const OperandGroups> groups_, outer_groups_;
+  std::shared_ptr<const OperandGroups> groups_;
   Box bounds_;
 };
 

@@ -13,20 +13,6 @@
 
 namespace csgcore {
 
-/// Primitives that nobody sees who looks at the solid from outside (hidden_operands.hpp); each of
-/// them stands in the tree once.
-struct HiddenOperands {
-  /// Voids in the solid's inside, and parts there. The operands, these among them, are all that
-  /// stand in groups or take away. Around these the solid holds by the rest alone, and no other
-  /// operand reaches in. Without them it is another solid, but no ray from outside gets to know: it
-  /// has ended where it would get to one of them.
-  std::vector<uint32_t> inside;
-  /// Where they are, the solid does not depend on them.
-  std::vector<uint32_t> cancelled;
-
-  size_t count() const { return inside.size() + cancelled.size(); }
-};
-
 /// The operands of a large union, and what a difference takes away if that is much, stand in groups
 /// of some that are alike in size and near each other: a group is a union of operands, or of
 /// smaller groups. In a list it is a test like a primitive's, of an index beyond the
@@ -38,8 +24,8 @@ struct HiddenOperands {
 class OperandGroups {
  public:
   OperandGroups() = default;
-  /// `extents`: of the primitives, index for index. `hidden` are taken for empty.
-  OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden = {});
+  /// `extents`: of the primitives, index for index.
+  OperandGroups(const CsgTree& tree, Extents extents);
 
   /// For the same tree, of whose primitives only `moved` have other extents: groups keep what they
   /// hold, and grow where that reaches further. Null if the groups would have to hold others, or
@@ -55,10 +41,6 @@ class OperandGroups {
   /// Indices below are primitives'.
   uint32_t first_group() const { return first_group_; }
   bool is_group(uint32_t index) const { return index >= first_group_; }
-  /// Whether it is a group, and its members' operation no other than its own.
-  bool is_union(uint32_t index) const {
-    return is_group(index) && members_[index - first_group_].is_union;
-  }
   /// How many primitives and groups there are.
   uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
 
@@ -98,8 +80,6 @@ class OperandGroups {
   BallRows balls(uint32_t group) const;
   /// The primitives and groups that stand in no group, or in the tree more than once.
   std::span<const uint32_t> common() const { return common_; }
-  /// What was left out.
-  const HiddenOperands& hidden() const { return hidden_; }
 
  private:
   class Builder;
@@ -111,7 +91,6 @@ class OperandGroups {
 
   CellList list_;
   Extents extents_;
-  HiddenOperands hidden_;
   uint32_t first_group_ = 0;
   uint32_t moved_ = 0;               // primitives that moved since the groups were made
   std::vector<Range> members_;       // by group

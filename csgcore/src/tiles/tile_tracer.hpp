@@ -124,17 +124,6 @@ class TileTracer {
     double t = std::numeric_limits<double>::infinity();
   };
 
-  /// What rays can get to.
-  struct Seen {
-    const OperandGroups& groups;
-    std::optional<bool> last_value;  // as TileCuller's
-  };
-  static Seen find_seen(const Solid& solid, const FrameRays& frame,
-                        const TraceParameters& parameters);
-
-  TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
-             const TraceParameters& parameters, const TileRules& rules, CullReasons& cull_reasons);
-
   void divide(const Tile& tile, const CellList& list, Cut cut, size_t level, Workspace& workspace,
               TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const Cut& cut, Workspace& workspace,
