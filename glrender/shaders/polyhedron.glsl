@@ -37,7 +37,7 @@ Segment polyhedron_cut(CanonicalRay ray, Segment segment) {
   return segment;
 }
 
-vec3 polyhedron_cut_gradient(int face, vec3 gradient) {
+vec3 polyhedron_cut_gradient(CanonicalRay ray, vec3 point, int face, vec3 gradient) {
   if (face > 0) gradient = texelFetch(u_polyhedra, face).xyz;
   return gradient;
 }

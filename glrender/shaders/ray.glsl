@@ -122,8 +122,9 @@ Segment fallback_segment(CanonicalRay ray) {
 // Returns the part of the enclosure's segment that belongs to the primitive. A kind's cut leaves
 // the segments of other kinds as they are.
 Segment cut_segment(CanonicalRay ray, Segment segment);
-// Returns the canonical gradient of the face if a cut has noted one, else the enclosure's.
-vec3 cut_gradient(int face, vec3 gradient);
+// Returns the canonical gradient at a point of the primitive's surface: that of the face if a cut has noted
+// one, else the enclosure's, unless the primitive's kind has another there.
+vec3 cut_gradient(CanonicalRay ray, vec3 point, int face, vec3 gradient);
 
 Segment intersect(Ray ray, uint primitive) {
   CanonicalRay canonical = canonical_ray(ray, primitive);
@@ -151,7 +152,7 @@ vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   vec3 q = canonical.origin + (t - canonical.base_t) * canonical.direction;
   vec3 gradient = enclosure_gradient(canonical, q);
 #if HAS_CUTS
-  gradient = cut_gradient(face, gradient);
+  gradient = cut_gradient(canonical, q, face, gradient);
 #endif
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);

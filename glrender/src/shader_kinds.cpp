@@ -84,8 +84,9 @@ std::string kinds_source(KindSet enclosures, KindSet cuts) {
   if (cutting.empty()) return source;
   source += "Segment cut_segment(CanonicalRay ray, Segment segment) {\n" +
             call_each_cut(cutting, "segment", "_cut", "(ray, segment)") + "}\n";
-  source += "vec3 cut_gradient(int face, vec3 gradient) {\n" +
-            call_each_cut(cutting, "gradient", "_cut_gradient", "(face, gradient)") + "}\n";
+  source += "vec3 cut_gradient(CanonicalRay ray, vec3 point, int face, vec3 gradient) {\n" +
+            call_each_cut(cutting, "gradient", "_cut_gradient", "(ray, point, face, gradient)") +
+            "}\n";
   return source;
 }
 

@@ -5,7 +5,7 @@
 // frame of the 1,000 alone, too: `ratio`, `least_ratio` and `cpu_ratio` compare the medians, the
 // minima and the processor's times of the two, taken at the same time. The time that Google
 // Benchmark prints is the grown scene's. Bars for 99,000: 1.8 behind a body, 1.5 off screen or
-// hidden otherwise.
+// behind a wall.
 #include <benchmark/benchmark.h>
 
 #include <map>

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -14,7 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "csgcore/polyhedron.hpp"
+#include "kinds/povray_text.hpp"
+#include "kinds/test_kind.hpp"
 
 namespace povray {
 namespace {
@@ -25,25 +25,13 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::ReferenceColors;
 using csgcore::Scene;
-using csgcore::Shape;
 using csgcore::Vec3;
 using csgcore::View;
+using test_support::povray::number;
+using test_support::povray::vector;
 
 /// Two steps of 8 bits, which a surface's ambient part must exceed to be told from a miss.
 constexpr double kBrighterThanBlack = 2.0 / 255;
-
-/// The margin of a polyhedron's bounds beyond its rounded vertices, as a share of its size.
-constexpr double kBoundsMargin = 1e-6;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string vector(const Vec3& v) {
-  return std::string("<") + number(v.x) + "," + number(v.y) + "," + number(v.z) + ">";
-}
 
 std::string matrix(const Affine& map) {
   std::string text = "matrix <";
@@ -59,35 +47,9 @@ Vec3 base_color(const Primitive& p, bool subtracted, const ReferenceColors& colo
   return subtracted ? colors.back : colors.front;
 }
 
-/// A face becomes a plane, whose inside is what lies behind it. POV-Ray cannot tell that the faces
-/// bound a solid.
-std::string convex(const csgcore::Polyhedron& polyhedron) {
-  csgcore::Box box;
-  for (const Vec3& vertex : polyhedron.vertices()) box.merge(vertex);
-  const Vec3 margin(kBoundsMargin * box.diagonal());
-  std::string text = "intersection {";
-  for (const csgcore::HalfSpace& half_space : polyhedron.half_spaces()) {
-    const double length = glm::length(half_space.normal);
-    text += std::string(" plane { ") + vector(half_space.normal / length) + "," +
-            number(half_space.offset / length) + " }";
-  }
-  return text + " bounded_by { box { " + vector(box.min - margin) + "," + vector(box.max + margin) +
-         " } }";
-}
-
-std::string shape(const Primitive& p) {
-  if (p.shape == Shape::kPolyhedron) return convex(*p.polyhedron);
-  const std::string bottom = vector({0, 0, p.z_min}), top = vector({0, 0, p.z_max});
-  if (p.shape == Shape::kSphere) return std::string("sphere { <0,0,0>,") + number(p.r_bottom);
-  if (p.r_bottom == p.r_top)
-    return std::string("cylinder { ") + bottom + "," + top + "," + number(p.r_bottom);
-  return std::string("cone { ") + bottom + "," + number(p.r_bottom) + "," + top + "," +
-         number(p.r_top);
-}
-
 std::string primitive_text(const Primitive& p, const Vec3& color) {
-  return shape(p) + " texture { pigment { rgb " + vector(color) + " } finish { Lit } } " +
-         matrix(p.local_to_world) + " }\n";
+  return test_support::test_kind_of(p.shape).as_povray(p) + " texture { pigment { rgb " +
+         vector(color) + " } finish { Lit } } " + matrix(p.local_to_world) + " }\n";
 }
 
 const char* keyword(Op op) {

@@ -289,7 +289,7 @@ void check_pixel(const Scene& scene, const Vec3& origin, const Vec3& direction, 
 
 TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
   int hits = 0, inside = 0;
-  const uint32_t seeds = test_support::full_run() ? 60 : 15;
+  const uint32_t seeds = test_support::full_run() ? 60 : 30;
   for (uint32_t seed = 0; seed < seeds; ++seed) {
     const Scene scene = RandomScene(seed).make();
     View view = from_above(seed % 3 == 0 ? 0.1 : 4,

@@ -54,10 +54,6 @@ Classification classify_within_bounds(const CanonicalPrimitive& primitive, const
 /// Returns the primitive's point furthest along a direction, in world space, up to rounding.
 Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_world);
 
-/// Returns true if a plane was found that separates the two with more than `margin` world units
-/// between them. False proves nothing: for long and thin primitives the search often fails.
-bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin);
-
 /// Returns an upper bound of the distance, in world units, from the primitive's `center` to any of
 /// its points. It is tight if the primitive is not sheared.
 double reach(const CanonicalPrimitive& primitive);

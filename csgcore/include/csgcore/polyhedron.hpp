@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "csgcore/half_space.hpp"
-#include "csgcore/primitive.hpp"
 
 namespace csgcore {
 
@@ -59,8 +58,6 @@ class Polyhedron {
   static std::shared_ptr<const Polyhedron> sphere(double radius, int fragments);
   static std::shared_ptr<const Polyhedron> frustum(double z_min, double z_max, double r_bottom,
                                                    double r_top, int fragments);
-  /// Returns OpenSCAD's facets of a valid sphere or frustum, in the primitive's local frame.
-  static std::shared_ptr<const Polyhedron> faceted(const Primitive& primitive, int fragments);
   static std::shared_ptr<const Polyhedron> box(const Box& box);
   /// Returns null if the mesh does not bound one convex solid (see half_spaces(const Mesh&)).
   static std::shared_ptr<const Polyhedron> from(const Mesh& mesh);

@@ -54,10 +54,6 @@ class Solid {
   const CellList* cell_list() const { return cell_list_.get(); }
   /// list() with its operands in a BVH (operand_groups.hpp).
   const OperandGroups& groups() const { return *groups_; }
-  /// The same without operands that rays from outside never reach (hidden_operands.hpp). Its solid
-  /// contains the whole solid, and looks the same to rays that start outside of it and end where
-  /// they enter it.
-  const OperandGroups& outer_groups() const { return *outer_groups_; }
   /// A box around the solid, computed along the tree: for a union it is the union of the operands'
   /// boxes, for an intersection their intersection, for a difference the first operand's box. It is
   /// empty if the solid is known to be.
@@ -68,14 +64,12 @@ class Solid {
  private:
   /// Returns the tree that the list and the groups are made of: `tree` without redundant operands.
   const CsgTree& used_of(const CsgTree& tree) const;
-  void make_groups(const CsgTree& tree, Extents extents);
-  void find_outer_groups(const CsgTree& tree);
 
   std::shared_ptr<const CanonicalPrimitives> primitives_;
   std::shared_ptr<const LeanTree> lean_;  // null: no operand is redundant
   Blist list_;
   std::shared_ptr<const CellList> cell_list_;
-  std::shared_ptr<const OperandGroups> groups_, outer_groups_;
+  std::shared_ptr<const OperandGroups> groups_;
   Box bounds_;
 };
 

@@ -57,10 +57,10 @@ std::optional<Part> within_planes(const Target<Number>& target, const LocalRay<N
 template <class Number>
 std::optional<Part> within_wall(const Target<Number>& target, const LocalRay<Number>& ray) {
   if (!target.has_wall) return Part{};
-  const Quadratic<Number>& wall = ray.wall;
+  const Quadratic<Number>& wall = ray.walls.enter;
   const int a = sign_of(wall.a);
   if (a > 0) {
-    const bool meets = sign_of(wall.discriminant) > 0;
+    const bool meets = sign_of(wall.discriminant) > 0 && sign_of(ray.walls.leave.discriminant) > 0;
     return meets ? std::optional(Part{Surface::kWall, Surface::kWall}) : std::nullopt;
   }
   if (a < 0) {
@@ -131,12 +131,21 @@ LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& r
     local.d[i] = dot(target.to_local[i], ray.direction);
     local.o[i] = dot(target.to_local[i], offset) + Number(base) * local.d[i];
   }
-  if (target.has_wall) local.wall = target.twin->wall(target, local.o, local.d);
+  if (target.has_wall) local.walls = target.twin->walls(target, local.o, local.d);
   return local;
 }
 
 template LocalRay<Exact> localize(const Target<Exact>&, const NearRay<Exact>&, double);
 template LocalRay<Interval> localize(const Target<Interval>&, const NearRay<Interval>&, double);
+
+namespace {
+
+Quadratic<Interval> enclose(const Quadratic<Exact>& wall) {
+  return {oracle::enclose(wall.a), oracle::enclose(wall.b), oracle::enclose(wall.c),
+          oracle::enclose(wall.discriminant)};
+}
+
+}  // namespace
 
 LocalRay<Interval> enclose(const LocalRay<Exact>& ray) {
   LocalRay<Interval> result;
@@ -144,14 +153,13 @@ LocalRay<Interval> enclose(const LocalRay<Exact>& ray) {
     result.o[i] = enclose(ray.o[i]);
     result.d[i] = enclose(ray.d[i]);
   }
-  result.wall = {enclose(ray.wall.a), enclose(ray.wall.b), enclose(ray.wall.c),
-                 enclose(ray.wall.discriminant)};
+  result.walls = {enclose(ray.walls.enter), enclose(ray.walls.leave)};
   return result;
 }
 
 Interval enclose_crossing(const Target<Exact>& target, const LocalRay<Exact>& exact,
                           const LocalRay<Interval>& enclosed, Surface surface, bool enters) {
-  if (surface == Surface::kWall) return root_of(enclosed.wall, enters);
+  if (surface == Surface::kWall) return root_of(enclosed.wall(enters), enters);
   const ExactRoot t = crossing_of(target, exact, surface, enters);
   return enclose(t.p) / enclose(t.r);
 }
@@ -225,11 +233,10 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 }
 
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
-                      const Interval& t, Surface surface) {
-  // Half the gradient times the direction is half the derivative along the ray, which is
-  // ±√discriminant at a root.
+                      const Interval& t, Surface surface, bool enters) {
+  // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
   const Interval across = surface == Surface::kWall
-                              ? CGAL::sqrt(ray.wall.discriminant)
+                              ? CGAL::sqrt(ray.wall(enters).discriminant)
                               : CGAL::abs(dot(target.planes[uint32_t(surface)].normal, ray.d));
   return across / length(normal_at(target, ray, t, surface));
 }

@@ -49,7 +49,14 @@ struct Plane {
   Number limit;
 };
 
-/// The oracles' interface to a kind of primitive (exact_twin.hpp).
+/// The walls by which a ray enters a primitive and leaves it. A kind of one wall names it twice. Of
+/// a kind of several walls the ray misses the primitive if it misses either, and each a is > 0.
+template <class Number>
+struct Walls {
+  Quadratic<Number> enter, leave;
+};
+
+/// What the oracles ask of a kind of primitive (exact_twin.hpp).
 class ExactTwin;
 
 /// A valid primitive, prepared for rays relative to a pivot: the solid within its wall, if it has
@@ -90,7 +97,9 @@ struct Ends {
 template <class Number>
 struct LocalRay {
   Vector<Number> o, d;
-  Quadratic<Number> wall;
+  Walls<Number> walls;
+
+  const Quadratic<Number>& wall(bool enters) const { return enters ? walls.enter : walls.leave; }
 };
 
 /// Maps a ray into the target's local space. `base` is the ray's parameter that becomes t = 0; a
@@ -105,7 +114,7 @@ double base_of(const Target<Interval>& target, const NearRay<Interval>& ray);
 template <class Number>
 auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
                  bool enters) {
-  if (surface == Surface::kWall) return root_of(ray.wall, enters);
+  if (surface == Surface::kWall) return root_of(ray.wall(enters), enters);
   const Plane<Number>& plane = target.planes[uint32_t(surface)];
   return quotient(Number(plane.limit - dot(plane.normal, ray.o)), dot(plane.normal, ray.d));
 }
@@ -130,7 +139,7 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 
 /// Returns |n·d| there, with the unit normal n and the ray's direction d in world space.
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
-                      const Interval& t, Surface surface);
+                      const Interval& t, Surface surface, bool enters);
 
 inline Interval length(const Vector<Interval>& v) {
   return CGAL::sqrt(CGAL::square(v[0]) + CGAL::square(v[1]) + CGAL::square(v[2]));

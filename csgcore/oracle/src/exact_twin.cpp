@@ -20,13 +20,13 @@ const ExactTwin& twin_of(csgcore::Shape shape) {
   throw std::logic_error("a shape that is none");
 }
 
-Quadratic<Exact> ExactTwin::wall(const Target<Exact>&, const Vector<Exact>&,
-                                 const Vector<Exact>&) const {
+Walls<Exact> ExactTwin::walls(const Target<Exact>&, const Vector<Exact>&,
+                              const Vector<Exact>&) const {
   return {};
 }
 
-Quadratic<Interval> ExactTwin::wall(const Target<Interval>&, const Vector<Interval>&,
-                                    const Vector<Interval>&) const {
+Walls<Interval> ExactTwin::walls(const Target<Interval>&, const Vector<Interval>&,
+                                 const Vector<Interval>&) const {
   return {};
 }
 

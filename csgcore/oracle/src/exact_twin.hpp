@@ -23,13 +23,12 @@ class ExactTwin {
   /// Sets the target's wall, planes and weight. `magnification` is λ of exact_primitive.hpp.
   virtual void add_surfaces(const csgcore::Primitive& primitive, const Exact& magnification,
                             Target<Exact>& target) const = 0;
-  /// Returns the wall along the ray o + t·d in the target's local space; all zero if the kind has
-  /// no wall.
-  virtual Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
-                                const Vector<Exact>& d) const;
-  virtual Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
-                                   const Vector<Interval>& d) const;
-  /// Returns half the gradient of the wall's function at a local point.
+  /// The walls of a ray, o + t·d in the target's local space; all zero if the kind has none.
+  virtual Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
+                             const Vector<Exact>& d) const;
+  virtual Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
+                                const Vector<Interval>& d) const;
+  /// Half the gradient of the wall at a local point.
   virtual Vector<Interval> wall_normal(const Target<Interval>& target,
                                        const Vector<Interval>& point) const;
   /// Extends the box, which is relative to a world point, by the primitive: tightly, but for

@@ -198,7 +198,7 @@ std::optional<ExactWalk::Coincidence> ExactWalk::first_turning_coincidence() {
 Interval ExactWalk::steepness(const Crossing& crossing) const {
   const Candidate& candidate = candidates_[crossing.candidate];
   return steepness_at(scene_.intervals[candidate.primitive], candidate.local,
-                      candidate.u[crossing.at_end], surface_of(crossing));
+                      candidate.u[crossing.at_end], surface_of(crossing), !crossing.at_end);
 }
 
 /// Returns the distance along the normal of the surface that the ray meets more squarely, in the

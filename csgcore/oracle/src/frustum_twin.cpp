@@ -26,8 +26,8 @@ Number radius_at(const Target<Number>& target, const Number& z) {
 }
 
 template <class Number>
-Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
-                          const Vector<Number>& d) {
+Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
+                       const Vector<Number>& d) {
   Quadratic<Number> wall;
   const Number& w = target.squared_height;
   const Number radius = radius_at(target, o[2]), growth = target.growth * d[2];
@@ -39,7 +39,7 @@ Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
   const Number x = radius * d[0] - growth * o[0], y = radius * d[1] - growth * o[1];
   const Number moment = o[0] * d[1] - o[1] * d[0];
   wall.discriminant = w * (CGAL::square(x) + CGAL::square(y) - w * CGAL::square(moment));
-  return wall;
+  return {wall, wall};
 }
 
 class FrustumTwin final : public ExactTwin {
@@ -60,13 +60,13 @@ class FrustumTwin final : public ExactTwin {
     target.planes = {{{0, 0, -1}, half_height}, {{0, 0, 1}, half_height}};
     target.weight = {1, 1, 0};
   }
-  Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
-                        const Vector<Exact>& d) const override {
-    return wall_of(target, o, d);
+  Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
+                     const Vector<Exact>& d) const override {
+    return walls_of(target, o, d);
   }
-  Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
-                           const Vector<Interval>& d) const override {
-    return wall_of(target, o, d);
+  Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
+                        const Vector<Interval>& d) const override {
+    return walls_of(target, o, d);
   }
   Vector<Interval> wall_normal(const Target<Interval>& target,
                                const Vector<Interval>& point) const override {

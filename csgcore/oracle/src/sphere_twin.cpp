@@ -12,8 +12,8 @@ using csgcore::Primitive;
 using csgcore::Vec3;
 
 template <class Number>
-Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
-                          const Vector<Number>& d) {
+Walls<Number> walls_of(const Target<Number>& target, const Vector<Number>& o,
+                       const Vector<Number>& d) {
   Quadratic<Number> wall;
   const Number radius2 = CGAL::square(target.radius);
   wall.a = dot(d, d);
@@ -22,7 +22,7 @@ Quadratic<Number> wall_of(const Target<Number>& target, const Vector<Number>& o,
   // Lagrange's identity avoids the squares of o, which would cancel.
   const Vector<Number> moment = cross(o, d);
   wall.discriminant = radius2 * wall.a - dot(moment, moment);
-  return wall;
+  return {wall, wall};
 }
 
 class SphereTwin final : public ExactTwin {
@@ -34,13 +34,13 @@ class SphereTwin final : public ExactTwin {
     target.radius = magnification * Exact(primitive.r_bottom);
     target.weight = Vec3(1.0);
   }
-  Quadratic<Exact> wall(const Target<Exact>& target, const Vector<Exact>& o,
-                        const Vector<Exact>& d) const override {
-    return wall_of(target, o, d);
+  Walls<Exact> walls(const Target<Exact>& target, const Vector<Exact>& o,
+                     const Vector<Exact>& d) const override {
+    return walls_of(target, o, d);
   }
-  Quadratic<Interval> wall(const Target<Interval>& target, const Vector<Interval>& o,
-                           const Vector<Interval>& d) const override {
-    return wall_of(target, o, d);
+  Walls<Interval> walls(const Target<Interval>& target, const Vector<Interval>& o,
+                        const Vector<Interval>& d) const override {
+    return walls_of(target, o, d);
   }
   Vector<Interval> wall_normal(const Target<Interval>&,
                                const Vector<Interval>& point) const override {

@@ -183,13 +183,6 @@ std::shared_ptr<const Polyhedron> Polyhedron::frustum(double z_min, double z_max
                 0.5 * (top - bottom)});
 }
 
-std::shared_ptr<const Polyhedron> Polyhedron::faceted(const Primitive& primitive, int fragments) {
-  return primitive.shape == Shape::kSphere
-             ? sphere(primitive.r_bottom, fragments)
-             : frustum(primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top,
-                       fragments);
-}
-
 std::shared_ptr<const Polyhedron> Polyhedron::box(const Box& box) {
   return std::make_shared<const Polyhedron>(csgcore::half_spaces(box), box_mesh(box).vertices);
 }

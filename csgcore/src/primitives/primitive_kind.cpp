@@ -175,27 +175,6 @@ Vec3 furthest_point(const CanonicalPrimitive& primitive, const Vec3& direction_w
   return primitive.center + primitive.canonical_to_world * furthest;
 }
 
-/// Searches for a separating direction by reflections, as FrustumKind::classify does. It starts
-/// from the direction between the centres, which is the right one for balls.
-bool are_apart(const CanonicalPrimitive& a, const CanonicalPrimitive& b, double margin) {
-  constexpr int kSteps = 12;
-  margin += kTermRounding * (largest_coordinate(a) + largest_coordinate(b));
-  const Vec3 between = b.center - a.center;
-  const double distance = glm::length(between);
-  if (!(distance > 0)) return false;
-  Vec3 direction = between / distance;
-  for (int step = 0; step < kSteps; ++step) {
-    const Vec3 furthest = furthest_point(a, direction);
-    const Vec3 nearest = furthest_point(b, -direction);
-    const Vec3 gap = nearest - furthest;
-    const double along = glm::dot(gap, direction);
-    if (along > margin) return true;
-    if (contains(a, nearest) || contains(b, furthest)) return false;
-    direction -= (2.0 * along / glm::dot(gap, gap)) * gap;
-  }
-  return false;
-}
-
 double reach(const CanonicalPrimitive& primitive) {
   if (primitive.ball_radius > 0) return primitive.ball_radius;
   const Mat3& map = primitive.canonical_to_world;

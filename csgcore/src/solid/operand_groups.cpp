@@ -119,15 +119,12 @@ class OperandGroups::Builder {
 
   void build() {
     const std::vector<Box> boxes = relevant_boxes(tokens_, groups_.extents_);
-    std::vector<uint8_t> is_hidden(groups_.extents_.size());
-    for (const uint32_t primitive : groups_.hidden_.inside) is_hidden[primitive] = 1;
-    for (const uint32_t primitive : groups_.hidden_.cancelled) is_hidden[primitive] = 1;
     for (size_t i = 0; i < tokens_.size(); ++i) {
       const CsgToken& token = tokens_[i];
       const uint32_t end = static_cast<uint32_t>(output_.size());
       if (!token.is_primitive) {
         close(token, boxes[i]);
-      } else if (boxes[i].empty() || is_hidden[token.value]) {
+      } else if (boxes[i].empty()) {
         operands_.push_back({end, end, boxes[i]});
       } else {
         output_.push_back(token);
@@ -298,10 +295,8 @@ class OperandGroups::Builder {
   CellList list_;
 };
 
-OperandGroups::OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden)
-    : extents_(std::move(extents)),
-      hidden_(std::move(hidden)),
-      first_group_(static_cast<uint32_t>(extents_.size())) {
+OperandGroups::OperandGroups(const CsgTree& tree, Extents extents)
+    : extents_(std::move(extents)), first_group_(static_cast<uint32_t>(extents_.size())) {
   Builder(*this, tree.tokens()).build();
 }
 

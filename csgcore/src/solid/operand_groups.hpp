@@ -14,19 +14,6 @@
 
 namespace csgcore {
 
-/// Primitives that cannot be seen from outside the solid (hidden_operands.hpp), each of which
-/// stands in the tree once.
-struct HiddenOperands {
-  /// Voids inside the solid, and parts inside it. All of them are in groups or subtracted. Around
-  /// them the solid is true without them, and no other operand reaches in. Without them the solid
-  /// is another one, but no ray from outside can tell: it ends before it gets to any of them.
-  std::vector<uint32_t> inside;
-  /// Primitives that the solid does not depend on.
-  std::vector<uint32_t> cancelled;
-
-  size_t count() const { return inside.size() + cancelled.size(); }
-};
-
 /// The operands of a large union, and those that a difference subtracts if they are many, are put
 /// into groups of operands that are alike in size and near each other. A group is a union of
 /// operands or of smaller groups; the groups form a BVH (bounding volume hierarchy). In a list a
@@ -39,9 +26,8 @@ struct HiddenOperands {
 class OperandGroups {
  public:
   OperandGroups() = default;
-  /// `extents` are those of the primitives, with the same indices. The `hidden` operands are taken
-  /// for empty.
-  OperandGroups(const CsgTree& tree, Extents extents, HiddenOperands hidden = {});
+  /// `extents` are those of the primitives, with the same indices.
+  OperandGroups(const CsgTree& tree, Extents extents);
 
   /// Returns the BVH for the same tree after an edit, in which only the primitives `moved` have
   /// other extents. Groups keep their members, and grow if these reach further. Returns null if the
@@ -57,11 +43,6 @@ class OperandGroups {
   /// The first index of a group; those below are primitives.
   uint32_t first_group() const { return first_group_; }
   bool is_group(uint32_t index) const { return index >= first_group_; }
-  /// Returns whether it is a group and its list is the plain union of its members
-  /// (Members::is_union).
-  bool is_union(uint32_t index) const {
-    return is_group(index) && members_[index - first_group_].is_union;
-  }
   /// The number of primitives and groups together.
   uint32_t count() const { return static_cast<uint32_t>(extents_.size()); }
 
@@ -104,8 +85,6 @@ class OperandGroups {
   BallRows balls(uint32_t group) const;
   /// The primitives and groups that the whole list names, or that more than one test names.
   std::span<const uint32_t> common() const { return common_; }
-  /// The hidden operands that were left out.
-  const HiddenOperands& hidden() const { return hidden_; }
 
  private:
   class Builder;
@@ -117,7 +96,6 @@ class OperandGroups {
 
   CellList list_;
   Extents extents_;
-  HiddenOperands hidden_;
   uint32_t first_group_ = 0;
   uint32_t moved_ = 0;               // how many primitives have moved since the groups were made
   std::vector<Range> members_;       // by group

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "csgcore/tolerance.hpp"
-#include "solid/hidden_operands.hpp"
 #include "solid/operand_groups.hpp"
 #include "solid/redundant_operands.hpp"
 #include "tree/cell_list.hpp"
@@ -86,7 +85,7 @@ std::shared_ptr<const CanonicalPrimitives> canonical_primitives(const Scene& sce
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree)
     : primitives_(std::move(primitives)), bounds_(bounds_of(*primitives_, tree)) {
   if (tree.empty()) {
-    groups_ = outer_groups_ = std::make_shared<const OperandGroups>();
+    groups_ = std::make_shared<const OperandGroups>();
     return;
   }
   Extents extents = extents_of(*primitives_);
@@ -97,8 +96,7 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   auto list = std::make_shared<CellList>();
   assign(*list, list_.tests);
   cell_list_ = std::move(list);
-  make_groups(used_of(tree), std::move(extents));
-  find_outer_groups(used_of(tree));
+  groups_ = std::make_shared<const OperandGroups>(used_of(tree), std::move(extents));
 }
 
 Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTree& tree,
@@ -115,7 +113,6 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   cell_list_ = earlier.cell_list_;
   if (edit.added.empty()) {
     groups_ = earlier.groups_;
-    outer_groups_ = earlier.outer_groups_;
     bounds_ = earlier.bounds_;
     return;
   }
@@ -125,23 +122,10 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
   for (const uint32_t i : edit.added) extents[i] = extent_of((*primitives_)[i]);
   const CsgTree& used = used_of(tree);
   groups_ = OperandGroups::with_moved(earlier.groups_, used, extents, edit.added);
-  if (!groups_) make_groups(used, std::move(extents));
-  find_outer_groups(used);
+  if (!groups_) groups_ = std::make_shared<const OperandGroups>(used, std::move(extents));
 }
 
 const CsgTree& Solid::used_of(const CsgTree& tree) const { return lean_ ? lean_->tree : tree; }
-
-void Solid::make_groups(const CsgTree& tree, Extents extents) {
-  groups_ = std::make_shared<const OperandGroups>(tree, std::move(extents));
-}
-
-void Solid::find_outer_groups(const CsgTree& tree) {
-  outer_groups_ = groups_;
-  HiddenOperands hidden = find_hidden_operands(*groups_, *primitives_, cell_overlap(bounds_));
-  if (hidden.count() == 0) return;
-  Extents same(extents().begin(), extents().end());
-  outer_groups_ = std::make_shared<const OperandGroups>(tree, std::move(same), std::move(hidden));
-}
 
 std::span<const uint32_t> Solid::inner() const {
   return lean_ ? std::span<const uint32_t>(lean_->inner) : std::span<const uint32_t>();

@@ -150,10 +150,11 @@ bool has_groups(const OperandGroups& groups, const CellList& list) {
   });
 }
 
-/// Returns the value at which rays end, which is the opposite of that at the eye; nothing unless
-/// all rays start with the same value.
-std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& groups,
-                                    const FrameRays& frame, const TraceParameters& parameters) {
+/// A ray ends where the value is no longer that at the eye, if that is the same for all rays.
+std::optional<bool> find_last_value(const Solid& solid, const FrameRays& frame,
+                                    const TraceParameters& parameters) {
+  if (parameters.boundary == Boundary::kBehind) return std::nullopt;
+  const OperandGroups& groups = solid.groups();
   if (groups.list().is_constant()) return std::nullopt;
   if (frame.view.projection == Projection::kOrthographic) return true;
   // Rays start within a few tolerances of the eye; the distance is largest in the picture's
@@ -185,31 +186,16 @@ std::optional<bool> find_last_value(const Solid& solid, const OperandGroups& gro
 
 }  // namespace
 
-TileTracer::Seen TileTracer::find_seen(const Solid& solid, const FrameRays& frame,
-                                       const TraceParameters& parameters) {
-  const OperandGroups& outer = solid.outer_groups();
-  if (parameters.boundary == Boundary::kBehind) return {solid.groups(), std::nullopt};
-  const std::optional<bool> last_value = find_last_value(solid, outer, frame, parameters);
-  if (&outer == &solid.groups() || last_value == true) return {outer, last_value};
-  return {solid.groups(), find_last_value(solid, solid.groups(), frame, parameters)};
-}
-
 TileTracer::TileTracer(const Solid& solid, const FrameRays& frame,
                        const TraceParameters& parameters, const TileRules& rules,
                        CullReasons& cull_reasons)
-    : TileTracer(solid, find_seen(solid, frame, parameters), frame, parameters, rules,
-                 cull_reasons) {}
-
-TileTracer::TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
-                       const TraceParameters& parameters, const TileRules& rules,
-                       CullReasons& cull_reasons)
     : solid_(solid),
-      groups_(seen.groups),
+      groups_(solid.groups()),
       frame_(frame),
       parameters_(parameters),
       rules_(rules),
       cull_reasons_(cull_reasons),
-      last_value_(seen.last_value),
+      last_value_(find_last_value(solid, frame, parameters)),
       bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
 
 TileTracer::~TileTracer() = default;
@@ -455,9 +441,6 @@ TileTracer::Counts TileTracer::counts() const {
 }
 
 void TileTracer::note_screen_cull_reasons() {
-  for (const uint32_t primitive : groups_.hidden().inside) {
-    cull_reasons_.note(primitive, CullReason::kInside);
-  }
   bounds_.bound_all();
   for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
     const ScreenCullReason cull_reason = cull_reason_on_screen(bounds_.extents()[primitive]);

@@ -123,17 +123,6 @@ class TileTracer {
     double t = std::numeric_limits<double>::infinity();
   };
 
-  /// The operand BVH that has all operands which rays can reach.
-  struct Seen {
-    const OperandGroups& groups;
-    std::optional<bool> last_value;  // see TileCuller
-  };
-  static Seen find_seen(const Solid& solid, const FrameRays& frame,
-                        const TraceParameters& parameters);
-
-  TileTracer(const Solid& solid, const Seen& seen, const FrameRays& frame,
-             const TraceParameters& parameters, const TileRules& rules, CullReasons& cull_reasons);
-
   void divide(const Tile& tile, const CellList& list, Cut cut, size_t level, Workspace& workspace,
               TileVisitor& visitor);
   void visit_leaf(const Tile& tile, const CellList& list, const Cut& cut, Workspace& workspace,

@@ -55,9 +55,9 @@ class FrustumTraits final : public PrimitiveTraits {
     return {csgcore::make_frustum(0, 1, p.r_bottom / radius, p.r_top / radius), Vec3(0, 0, p.z_min),
             Vec3(radius, radius, p.z_max - p.z_min), static_cast<uint64_t>(fragments) + 2};
   }
-  std::shared_ptr<const csgcore::Polyhedron> faceted(const Primitive& primitive,
+  std::shared_ptr<const csgcore::Polyhedron> faceted(const Primitive& p,
                                                      int fragments) const override {
-    return csgcore::Polyhedron::faceted(primitive, fragments);
+    return csgcore::Polyhedron::frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments);
   }
 
   Roundness roundness(const Primitive& p) const override {

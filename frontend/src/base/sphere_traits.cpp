@@ -54,7 +54,7 @@ class SphereTraits final : public PrimitiveTraits {
   }
   std::shared_ptr<const csgcore::Polyhedron> faceted(const Primitive& primitive,
                                                      int fragments) const override {
-    return csgcore::Polyhedron::faceted(primitive, fragments);
+    return csgcore::Polyhedron::sphere(primitive.r_bottom, fragments);
   }
 
   Roundness roundness(const Primitive& primitive) const override {

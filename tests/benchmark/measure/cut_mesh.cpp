@@ -3,8 +3,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "csgcore/facets.hpp"
-#include "csgcore/half_space.hpp"
+#include "kinds/test_kind.hpp"
 
 namespace measure {
 namespace {
@@ -12,9 +11,7 @@ namespace {
 using csgcore::Affine;
 using csgcore::Box;
 using csgcore::HalfSpace;
-using csgcore::Mesh;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 using Polygon = std::vector<Vec3>;
@@ -24,8 +21,8 @@ constexpr double kFlat = 1e-12;
 
 /// A faceted primitive in world space.
 struct Part {
-  Mesh mesh;
-  std::vector<HalfSpace> half_spaces;  // their normals have unit length
+  csgcore::Mesh mesh;
+  std::vector<HalfSpace> half_spaces;  // normals of unit length
   Box box;
   /// The centre of a ball inside it and of one around it.
   Vec3 center{0.0};
@@ -33,18 +30,11 @@ struct Part {
 };
 
 Part part_of(const Primitive& primitive, int fragments) {
+  auto faceted = test_support::test_kind_of(primitive.shape).faceted(primitive, fragments);
+  if (!faceted) throw std::invalid_argument("cut_mesh: a primitive is not round");
   Part part;
-  if (primitive.shape == Shape::kSphere) {
-    part.mesh = csgcore::sphere_mesh(primitive.r_bottom, fragments);
-    part.half_spaces = half_spaces(csgcore::faceted_sphere(primitive.r_bottom, fragments));
-  } else if (primitive.shape == Shape::kFrustum) {
-    part.mesh = csgcore::frustum_mesh(primitive.z_min, primitive.z_max, primitive.r_bottom,
-                                      primitive.r_top, fragments);
-    part.half_spaces = half_spaces(csgcore::faceted_frustum(
-        primitive.z_min, primitive.z_max, primitive.r_bottom, primitive.r_top, fragments));
-  } else {
-    throw std::invalid_argument("cut_mesh: a primitive is not round");
-  }
+  part.mesh = std::move(faceted->mesh);
+  part.half_spaces = std::move(faceted->half_spaces);
   const Affine& map = primitive.local_to_world;
   const auto to_world = glm::transpose(csgcore::inverse(map.linear));
   for (HalfSpace& half_space : part.half_spaces) {

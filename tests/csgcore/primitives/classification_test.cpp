@@ -245,52 +245,6 @@ TEST_P(ClassificationOf, HoldsBallsThatLieInside) {
   EXPECT_TRUE(held > 50 || !is_told_tightly(make(random))) << held;
 }
 
-TEST_P(ClassificationOf, KnowsWhatIsApart) {
-  std::mt19937 random(8);
-  constexpr int kPairs = 300;
-  int apart = 0, overlapping = 0, missed = 0;
-  for (int i = 0; i < kPairs; ++i) {
-    const Primitive a = make(random);
-    Primitive b = checks::random_primitive(random);
-    const CanonicalPrimitive canonical_a = canonicalize(a);
-    // b begins at a distance beyond the plane in which a ends along some direction.
-    const Vec3 direction = checks::random_direction(random);
-    const auto shift = [&](double gap) {
-      const CanonicalPrimitive canonical_b = canonicalize(b);
-      const Vec3 end = furthest_point(canonical_a, direction);
-      const Vec3 start = furthest_point(canonical_b, -direction);
-      b.local_to_world.translation += end + gap * direction - start;
-      return canonicalize(b);
-    };
-    const double size = glm::length(canonical_a.bounds.size());
-    const double gap = size * checks::uniform(random, 0.01, 0.1);
-    const bool tightly = is_told_tightly(a) && is_told_tightly(b);
-    missed += !are_apart(canonical_a, shift(gap), 0.01 * gap) && tightly;
-    // They may or may not be disjoint.
-    b.local_to_world.translation +=
-        size * (0.2 * checks::random_direction(random) - 0.15 * direction);
-    const CanonicalPrimitive near = canonicalize(b);
-    const auto any_in = [](const Primitive& of, const Primitive& in) {
-      const std::vector<Vec3> points = surface_points(of, 1000);
-      return std::any_of(points.begin(), points.end(),
-                         [&](const Vec3& point) { return checks::holds(in, point); });
-    };
-    const bool overlap = any_in(a, b) || any_in(b, a);
-    const bool is_apart = are_apart(canonical_a, near, 0);
-    ASSERT_FALSE(overlap && is_apart);
-    overlapping += overlap;
-    apart += is_apart;
-  }
-  EXPECT_LT(missed, kPairs / 50);
-  EXPECT_GT(apart, 5);
-  EXPECT_GT(overlapping, 5);
-}
-
-TEST(Classification, SharedCentersAreNotApart) {
-  const CanonicalPrimitive ball = canonicalize(make_sphere(1));
-  EXPECT_FALSE(are_apart(ball, ball, 0));
-}
-
 INSTANTIATE_TEST_SUITE_P(, ClassificationOf,
                          testing::Combine(testing::ValuesIn(test_support::all_variants()),
                                           testing::ValuesIn(kMaps)),

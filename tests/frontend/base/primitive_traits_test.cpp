@@ -1,52 +1,38 @@
 // Tests the traits of every kind of primitive, against the solid itself and the defaults.
 #include "base/primitive_traits.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
-#include <set>
 #include <vector>
 
 #include "base/plane_faces.hpp"
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "support/kinds/test_kind.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Box;
 using csgcore::Primitive;
-using csgcore::Shape;
 using csgcore::Vec3;
 
 constexpr double kRounding = 1e-12;  // the solids below are of size 1 to 10
 
 class Defaults final : public PrimitiveTraits {};
 
-/// Returns some primitives of each kind.
+/// Some of each variant of each kind.
 std::vector<Primitive> samples() {
-  std::vector<Primitive> primitives{
-      csgcore::make_sphere(1),
-      csgcore::make_sphere(2.5),
-      csgcore::make_frustum(0, 3, 1, 1),
-      csgcore::make_frustum(-1, 2, 2, 0.5),
-      csgcore::make_frustum(-4, -1, 0, 3),
-      csgcore::make_frustum(2, 5, 1.5, 0),
-      csgcore::make_polyhedron(csgcore::Polyhedron::box({Vec3(-1, 0, 2), Vec3(3, 1, 4)})),
-      csgcore::make_polyhedron(csgcore::Polyhedron::sphere(2, 7)),
-      csgcore::make_polyhedron(csgcore::Polyhedron::frustum(0, 1, 2, 0, 5)),
-  };
-  std::set<Shape> missing{
-#define FRONTEND_SHAPE(Name) Shape::k##Name,
-      CSGCORE_FOR_EACH_SHAPE(FRONTEND_SHAPE)
-#undef FRONTEND_SHAPE
-  };
-  for (const Primitive& primitive : primitives) missing.erase(primitive.shape);
-  EXPECT_THAT(missing, testing::IsEmpty()) << "give a sample of each kind";
+  std::mt19937 random(1);
+  test_support::Sizes sizes(random, {.low = 0.5, .high = 3, .most_fragments = 12});
+  std::vector<Primitive> primitives;
+  for (const test_support::Variant& variant : test_support::all_variants()) {
+    for (int i = 0; i < 3; ++i) primitives.push_back(variant.make(sizes));
+  }
   return primitives;
 }
 

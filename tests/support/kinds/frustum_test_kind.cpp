@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kinds/povray_text.hpp"
 #include "kinds/test_kind.hpp"
 
 namespace test_support {
@@ -195,6 +196,19 @@ class FrustumTestKind final : public TestKind {
   std::optional<double> apex(const Primitive& p) const override {
     if (p.r_top == p.r_bottom) return std::nullopt;
     return p.z_min + (p.z_max - p.z_min) * p.r_bottom / (p.r_bottom - p.r_top);
+  }
+
+  std::string as_povray(const Primitive& p) const override {
+    const std::string bottom = povray::vector({0, 0, p.z_min});
+    const std::string top = povray::vector({0, 0, p.z_max});
+    const std::string r_bottom = povray::number(p.r_bottom), r_top = povray::number(p.r_top);
+    if (p.r_bottom == p.r_top) return "cylinder { " + bottom + "," + top + "," + r_bottom;
+    return "cone { " + bottom + "," + r_bottom + "," + top + "," + r_top;
+  }
+  std::optional<FacetedSolid> faceted(const Primitive& p, int fragments) const override {
+    return FacetedSolid{
+        csgcore::frustum_mesh(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments),
+        half_spaces(csgcore::faceted_frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments))};
   }
 };
 

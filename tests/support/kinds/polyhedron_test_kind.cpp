@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "csgcore/polyhedron.hpp"
+#include "kinds/povray_text.hpp"
 #include "kinds/test_kind.hpp"
 #include "models.hpp"
 
@@ -96,6 +97,9 @@ double room_along(std::span<const HalfSpace> half_spaces, const Vec3& point,
   return room;
 }
 
+/// Bounds in POV-Ray reach beyond the rounded vertices by this share of the polyhedron's size.
+constexpr double kBoundsMargin = 1e-6;
+
 class PolyhedronTestKind final : public TestKind {
  public:
   std::span<const Variant> variants() const override { return kVariants; }
@@ -157,6 +161,22 @@ class PolyhedronTestKind final : public TestKind {
     if (glm::length(sideways) == 0) return on_axis;
     const Vec3 direction = glm::normalize(sideways);
     return on_axis + room_along(p.polyhedron->half_spaces(), on_axis, direction) * sideways;
+  }
+
+  /// A face is a plane, whose inside is what lies behind it. POV-Ray does not see that they are
+  /// bounded.
+  std::string as_povray(const Primitive& p) const override {
+    csgcore::Box box;
+    for (const Vec3& vertex : p.polyhedron->vertices()) box.merge(vertex);
+    const Vec3 margin(kBoundsMargin * box.diagonal());
+    std::string text = "intersection {";
+    for (const HalfSpace& half_space : p.polyhedron->half_spaces()) {
+      const double length = glm::length(half_space.normal);
+      text += " plane { " + povray::vector(half_space.normal / length) + "," +
+              povray::number(half_space.offset / length) + " }";
+    }
+    return text + " bounded_by { box { " + povray::vector(box.min - margin) + "," +
+           povray::vector(box.max + margin) + " } }";
   }
 };
 

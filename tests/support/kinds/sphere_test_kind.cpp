@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "kinds/povray_text.hpp"
 #include "kinds/test_kind.hpp"
 
 namespace test_support {
@@ -78,6 +79,14 @@ class SphereTestKind final : public TestKind {
   }
   Vec3 upwards(const Primitive&, const Vec3& sideways, const Vec3& point) const override {
     return glm::cross(point, Vec3{-sideways.y, sideways.x, 0});
+  }
+
+  std::string as_povray(const Primitive& p) const override {
+    return "sphere { <0,0,0>," + povray::number(p.r_bottom);
+  }
+  std::optional<FacetedSolid> faceted(const Primitive& p, int fragments) const override {
+    return FacetedSolid{csgcore::sphere_mesh(p.r_bottom, fragments),
+                        half_spaces(csgcore::faceted_sphere(p.r_bottom, fragments))};
   }
 };
 

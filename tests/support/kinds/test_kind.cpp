@@ -36,6 +36,8 @@ Vec3 TestKind::upwards(const Primitive& primitive, const Vec3& sideways, const V
 
 std::optional<double> TestKind::apex(const Primitive&) const { return std::nullopt; }
 
+std::optional<FacetedSolid> TestKind::faceted(const Primitive&, int) const { return std::nullopt; }
+
 double Sizes::length() {
   const double length = uniform(range_.low, range_.high);
   if (!by_chance(range_.even_share)) return length;

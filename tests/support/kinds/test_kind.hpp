@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/facets.hpp"
+#include "csgcore/half_space.hpp"
 #include "csgcore/primitive.hpp"
 #include "kinds/local_solid.hpp"
 #include "kinds/sizes.hpp"
@@ -31,8 +33,14 @@ struct Side {
   csgcore::LongVec3 gradient;
 };
 
-/// The test kind of a kind. Each function takes a valid primitive of that kind. Points, directions
-/// and heights are local, unless a name says otherwise.
+/// A local solid in OpenSCAD's facets.
+struct FacetedSolid {
+  csgcore::Mesh mesh;
+  std::vector<csgcore::HalfSpace> half_spaces;
+};
+
+/// The test kind of a kind. All questions are about a valid primitive of that kind. Points,
+/// directions and heights are local, unless a name says otherwise.
 class TestKind {
  public:
   /// Returns at least one variant. Each special form that may fail by itself is a variant.
@@ -90,6 +98,14 @@ class TestKind {
                                 const csgcore::Vec3& point) const;
   /// Returns the height at which the wall's lines meet, if they do, inside the solid or beyond it.
   virtual std::optional<double> apex(const csgcore::Primitive& primitive) const;
+
+  // For programs that the renderers are compared with:
+
+  /// Opens the solid in POV-Ray's language. Its texture, its matrix and the closing brace follow.
+  virtual std::string as_povray(const csgcore::Primitive& primitive) const = 0;
+  /// `fragments` is 3 or more. By default the kind has no facets of its own.
+  virtual std::optional<FacetedSolid> faceted(const csgcore::Primitive& primitive,
+                                              int fragments) const;
 
  protected:
   ~TestKind() = default;
