@@ -19,8 +19,8 @@ enum class Facets : uint8_t {
 /// Which of OpenSCAD's pictures the design is imported for.
 enum class PictureKind : uint8_t {
   kPreview,
-  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and `%`
-  /// parts are left out.
+  /// --render, OpenSCAD's F6: the solid alone. No color() counts, `#` parts are like others, and
+  /// `%` parts are left out.
   kRendered,
   /// --preview=throwntogether: every leaf whole, and no operation.
   kThrownTogether,
@@ -41,6 +41,8 @@ struct ImportOptions {
   bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
   bool keeps_places = false;
+  /// Fill ImportedDesign::meshes, which pictures with edges need.
+  bool keeps_meshes = false;
 };
 
 }  // namespace frontend

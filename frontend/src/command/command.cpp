@@ -249,7 +249,7 @@ class Run {
     const Clock::time_point start = Clock::now();
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
-    draw_overlays(image, view, camera, options_.overlays, scheme);
+    draw_overlays(image, view, camera, options_.overlays, scheme, design_);
     for (const Output& output : options_.outputs) {
       outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
     }

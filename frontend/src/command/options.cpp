@@ -141,6 +141,7 @@ void read_view(const Arguments& arguments, Options& options) {
                                  "scales)");
     }
   }
+  options.import.keeps_meshes = options.overlays.edges;
   if (options.overlays.scales && !options.overlays.axes) {
     options.warnings.push_back("--view=scales has no effect without axes, as in OpenSCAD");
   }
