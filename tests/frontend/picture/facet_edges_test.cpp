@@ -86,12 +86,18 @@ TEST_F(FacetEdges, FadeOutOnTheFacesBesideThem) {
 
 TEST_F(FacetEdges, AreWiderAslant) {
   const Image image = draw(
-      "multmatrix([[0.8, -0.6, 0, 0], [0.6, 0.8, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])"
+      "multmatrix([[0.70710678,-0.70710678,0,0],[0.70710678,0.70710678,0,0],[0,0,1,0],[0,0,0,1]])"
       " cube(size = [10, 10, 2], center = true);");
-  const std::string row = row_of(image, 50);
+  const std::string row = row_of(image, 35);
   const std::size_t first = row.find('e');
-  // The edge runs 3 pixels along x for 4 along y, and fades out over 1.41 · (1 + 3/4) pixels.
-  EXPECT_EQ(row.find('.', first) - first, 2u) << row;
+  // At 45° the line fades out over 2 · 1.41 pixels of a row. The face begins at 29.14.
+  EXPECT_EQ(first, 29u);
+  EXPECT_EQ(row.find('.', first), 32u) << row;
+}
+
+TEST_F(FacetEdges, OfAPrimitivesFarSideAreHidden) {
+  camera_.rotation_deg = {0, 30, 0};
+  EXPECT_THAT(lines_of(draw("cube(size = 10, center = true);"), 50), testing::SizeIs(3));
 }
 
 TEST_F(FacetEdges, AreThoseOfTheMeshesAndNotOfTheSolid) {
@@ -133,6 +139,15 @@ TEST_F(FacetEdges, SmoothPrimitivesHaveNone) {
   // A ball on a plate: its outline, where the two meet, and the plate's own edges.
   const Image image = draw("cube(size = [14, 14, 1], center = true); sphere(r = 3);");
   EXPECT_EQ(lines_of(image, 50).size(), 4u);
+}
+
+TEST_F(FacetEdges, LieOnTheirOwnPrimitiveAlone) {
+  // Of two plates that are flush the one that stands last in the file is seen.
+  const Image image =
+      draw("cube(size = [10, 10, 2], center = true); cube(size = [4, 14, 2], center = true);");
+  const std::string side = std::string(25, '.') + 'e' + std::string(14, '.') + 'e';
+  EXPECT_EQ(row_of(image, 50),
+            side + std::string(18, '.') + std::string(side.rbegin(), side.rend()));
 }
 
 TEST_F(FacetEdges, AreHiddenByOtherPrimitives) {
