@@ -51,6 +51,7 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
   result.openscad_arguments = options.openscad_arguments;
   result.import = options.import;
   result.import.keeps_places = true;
+  result.import.keeps_meshes = true;  // edges may be switched on at any time
   return result;
 }
 

@@ -185,7 +185,7 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
                                         : renderer_.draw(view, settings, painting.stats);
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
     frontend::draw_overlays(painting.image, view, order.navigation.camera(), order.overlays,
-                            settings.scheme);
+                            settings.scheme, *order.design);
     if (samples == 1 && painting.stats.edit.pixels_traced > 0) {
       ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.edit.pixels_traced);
     }

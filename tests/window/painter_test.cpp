@@ -69,7 +69,8 @@ csgcore::Image command_picture(const PaintOrder& order) {
       order.section.is_on ? cut_open(scene, order.section, order.design->view_box) : scene, view,
       settings, stats);
   frontend::show_channel(image, settings.show, settings.scheme.background);
-  frontend::draw_overlays(image, view, order.navigation.camera(), order.overlays, settings.scheme);
+  frontend::draw_overlays(image, view, order.navigation.camera(), order.overlays, settings.scheme,
+                          *order.design);
   return image;
 }
 

@@ -41,6 +41,8 @@ struct ImportOptions {
   bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
   bool keeps_places = false;
+  /// Fill ImportedDesign::meshes, which pictures with edges need.
+  bool keeps_meshes = false;
 };
 
 }  // namespace frontend

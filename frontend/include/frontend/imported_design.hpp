@@ -7,6 +7,7 @@
 #include "csgcore/geometry.hpp"
 #include "csgcore/scene.hpp"
 #include "frontend/error.hpp"
+#include "frontend/facet_mesh.hpp"
 
 namespace frontend {
 
@@ -34,6 +35,8 @@ struct ImportedDesign {
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
+  /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
+  FacetMeshes meshes;
 };
 
 }  // namespace frontend

@@ -4,6 +4,7 @@
 #include "csgcore/image.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/camera.hpp"
+#include "frontend/imported_design.hpp"
 #include "frontend/render_settings.hpp"
 
 namespace frontend {
@@ -12,16 +13,21 @@ struct Overlays {
   bool axes = false;        // the world's axes, and a small red, green and blue set in the lower
                             // left corner
   bool crosshairs = false;  // the diagonals of a cube around what the camera looks at
-  bool edges = false;       // the solid's creases and outlines
+  bool edges = false;       // the edges of OpenSCAD's meshes; of what is smooth, its creases and
+                            // outlines
   bool scales = false;      // marks and numbers on the axes; no effect without `axes`
+  bool wireframe = false;   // the edges and vertices of the whole solid in place of its surface
 
-  bool any() const { return axes || crosshairs || edges || scales; }
+  bool any() const { return axes || crosshairs || edges || scales || wireframe; }
   bool operator==(const Overlays&) const = default;
 };
 
-/// Draws the overlays in the scheme's colours, 1 px wide, where the model is not in front.
-/// Precondition: the image has the view's size and, if any overlay is drawn, its measured channels.
+/// Draws the overlays, but for the wireframe (wireframe.hpp), in the scheme's colours, 1 px wide
+/// except for edges, where the model is not in front. The edges are drawn over what the image shows
+/// of `design`: a primitive of which it keeps no mesh counts as smooth. Precondition: the image has
+/// the view's size and, if any overlay is drawn, its measured channels.
 void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
-                   const Overlays& overlays, const ColorScheme& scheme);
+                   const Overlays& overlays, const ColorScheme& scheme,
+                   const ImportedDesign& design);
 
 }  // namespace frontend

@@ -64,6 +64,8 @@ std::shared_ptr<const csgcore::Polyhedron> PrimitiveTraits::faceted(const Primit
   return nullptr;
 }
 
+FacetMesh PrimitiveTraits::facet_mesh(const Primitive&, int) const { return {}; }
+
 Roundness PrimitiveTraits::roundness(const Primitive&) const { return {}; }
 
 void PrimitiveTraits::find_plane_faces(const Primitive&, PlaneFaces&) const {}

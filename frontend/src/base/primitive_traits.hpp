@@ -12,6 +12,7 @@
 #include "csgcore/facets.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
+#include "frontend/facet_mesh.hpp"
 
 namespace frontend {
 
@@ -63,6 +64,9 @@ class PrimitiveTraits {
   /// there is none: then `scadray validate` does not compare the design with CGAL.
   virtual std::shared_ptr<const csgcore::Polyhedron> faceted(const csgcore::Primitive& primitive,
                                                              int fragments) const;
+  /// Returns the mesh of that polyhedron as OpenSCAD makes it. Empty for a polyhedron, which keeps
+  /// no mesh.
+  virtual FacetMesh facet_mesh(const csgcore::Primitive& primitive, int fragments) const;
 
   virtual Roundness roundness(const csgcore::Primitive& primitive) const;
   /// Writes the solid's plane faces into `faces`, which is empty before. Writes none if there are

@@ -56,6 +56,9 @@ class SphereTraits final : public PrimitiveTraits {
                                                      int fragments) const override {
     return csgcore::Polyhedron::sphere(primitive.r_bottom, fragments);
   }
+  FacetMesh facet_mesh(const Primitive& primitive, int fragments) const override {
+    return frontend::facet_mesh(csgcore::sphere_mesh(primitive.r_bottom, fragments), true);
+  }
 
   Roundness roundness(const Primitive& primitive) const override {
     return {Roundness::About::kCenter, {primitive.r_bottom, 0}, {}};

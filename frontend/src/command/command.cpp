@@ -22,6 +22,7 @@
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
+#include "frontend/wireframe.hpp"
 
 namespace frontend {
 namespace {
@@ -230,8 +231,9 @@ class Run {
     };
     const Clock::time_point start = Clock::now();
     Image image;
-    if ((scene.model.empty() && scene.layers.empty()) || sees_nothing) {
-      // A picture of nothing needs no renderer.
+    if ((scene.model.empty() && scene.layers.empty()) || sees_nothing ||
+        options_.overlays.wireframe) {
+      // A picture without surfaces needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";
       stats_.render.render_ms = ms_since(start);
@@ -252,7 +254,8 @@ class Run {
     const Clock::time_point start = Clock::now();
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
-    draw_overlays(image, view, camera, options_.overlays, scheme);
+    if (options_.overlays.wireframe) add_wireframe(image, view, camera);
+    draw_overlays(image, view, camera, options_.overlays, scheme, design_);
     for (const Output& output : options_.outputs) {
       outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
     }
@@ -260,6 +263,16 @@ class Run {
     stats_.height_px = image.height_px;
     stats_.encode_ms = ms_since(start);
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
+  }
+
+  void add_wireframe(Image& image, const csgcore::View& view, const Camera& camera) {
+    show_progress("finding edges", -1);
+    const SolidEdges edges = solid_edges(design_);
+    if (!edges.is_complete) {
+      say("warning: --view=wireframe shows a part of the edges: the design has too many faces that "
+          "may cross (give a smaller $fn)");
+    }
+    draw_wireframe(image, view, camera, edges, options_.render.scheme);
   }
 
   std::string rule() const { return rule_of(files_); }

@@ -33,7 +33,9 @@ constexpr OptionRow kOpenScadOptions[] = {
      kOneOf<kProjections>},
     {"colorscheme", Takes::kText, "NAME", "colour scheme:", kAnyScheme},
     {"view", Takes::kText, "WHAT",
-     "axes, crosshairs, edges, scales, with commas between; scales with axes only", kViewList},
+     "axes, crosshairs, edges, scales, wireframe, with commas between; scales with axes, "
+     "wireframe with --render only",
+     kViewList},
     {"animate", Takes::kText, "N",
      "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name; at most 4096 "
      "pictures in all"},

@@ -26,12 +26,12 @@ constexpr Word<csgcore::Projection> kProjections[] = {
     {"orthogonal", csgcore::Projection::kOrthographic},
     {"p", csgcore::Projection::kPerspective},
     {"perspective", csgcore::Projection::kPerspective}};
-/// Each with what it draws; OpenSCAD's preview has no wireframe either.
+/// Each with what it draws.
 constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
                                              {"crosshairs", &Overlays::crosshairs},
                                              {"edges", &Overlays::edges},
                                              {"scales", &Overlays::scales},
-                                             {"wireframe", nullptr}};
+                                             {"wireframe", &Overlays::wireframe}};
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
 constexpr Word<Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
                                        {"phong", Shading::kPhong}};

@@ -130,15 +130,12 @@ void read_view(const Arguments& arguments, Options& options) {
   if (!arguments.has("view")) return;
   for (const std::string_view name : split_at_commas(arguments.text("view"))) {
     bool Overlays::*const* overlay = find_word(kViews, name);
-    if (overlay && *overlay) {
+    if (overlay) {
       options.overlays.*(*overlay) = true;
-    } else if (overlay) {
-      options.warnings.push_back("--view=" + std::string(name) +
-                                 " has no effect, as in OpenSCAD's preview");
     } else {
       options.warnings.push_back("--view=" + std::string(name) +
-                                 " is not known and ignored (give axes, crosshairs, edges or "
-                                 "scales)");
+                                 " is not known and ignored (give axes, crosshairs, edges, "
+                                 "scales or wireframe)");
     }
   }
   if (options.overlays.scales && !options.overlays.axes) {
@@ -211,6 +208,19 @@ void leave_out_crosshairs(Options& options) {
   if (is_shown || !options.overlays.crosshairs) return;
   options.overlays.crosshairs = false;
   options.warnings.push_back("--view=crosshairs has no effect without --render, as in OpenSCAD");
+}
+
+/// A wireframe is drawn of the final solid's mesh, also where the picture would be smooth.
+void settle_edges(Options& options) {
+  if (options.overlays.wireframe && options.outputs.empty()) {
+    options.overlays.wireframe = false;
+    options.warnings.push_back("--view=wireframe has no effect in a window");
+  } else if (options.overlays.wireframe && options.import.picture != PictureKind::kRendered) {
+    options.overlays.wireframe = false;
+    options.warnings.push_back("--view=wireframe has no effect without --render, as in OpenSCAD");
+  }
+  if (options.overlays.wireframe) options.import.facets = Facets::kAll;
+  options.import.keeps_meshes = options.overlays.edges || options.overlays.wireframe;
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
@@ -296,6 +306,7 @@ Options parse_options(const std::vector<std::string>& words) {
   read_outputs(arguments, options);
   if (options.outputs.empty()) options.action = Action::kOpenWindow;
   leave_out_crosshairs(options);
+  settle_edges(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
   if (options.import.picture == PictureKind::kRendered) {
     // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.

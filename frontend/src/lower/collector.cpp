@@ -80,7 +80,7 @@ Fit fit_of(const Primitive& primitive) {
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
-    : tree_(tree), options_(options) {
+    : polyhedra(options.keeps_meshes), tree_(tree), options_(options) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 

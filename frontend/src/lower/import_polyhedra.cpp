@@ -61,7 +61,11 @@ Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_wo
   const bool is_finite = std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z);
   const bool is_solid = is_finite && size.x > 0 && size.y > 0 && size.z > 0;
   if (!is_solid) return csgcore::make_polyhedron(nullptr);
-  if (!unit_box_) unit_box_ = csgcore::Polyhedron::box({Vec3(0.0), Vec3(1.0)});
+  if (!unit_box_) {
+    const csgcore::Box unit{Vec3(0.0), Vec3(1.0)};
+    unit_box_ = csgcore::Polyhedron::box(unit);
+    if (keeps_meshes_) meshes_of_[unit_box_.get()] = facet_mesh(csgcore::box_mesh(unit), false);
+  }
   return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
 }
 
@@ -77,7 +81,12 @@ Convexity PolyhedronPool::convex(const PolyhedronArguments& arguments, const Aff
     for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], -exponent);
   }
   const auto [entry, is_new] = meshes_.try_emplace(numbers_of(mesh));
-  if (is_new) entry->second = csgcore::Polyhedron::from(mesh);
+  if (is_new) {
+    entry->second = csgcore::Polyhedron::from(mesh);
+    if (keeps_meshes_ && entry->second) {
+      meshes_of_[entry->second.get()] = facet_mesh(mesh, false);
+    }
+  }
   if (!entry->second) return Convexity::kNot;
   primitive = csgcore::make_polyhedron(
       entry->second, resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent))));
@@ -107,7 +116,10 @@ PolyhedronPool::Shared PolyhedronPool::faceted(const Faceting& faceting, int fra
     if (facets_ + faceting.faces > kMostFacets) return nullptr;
     facets_ += faceting.faces;
   }
-  return faceted_[key] = traits_of(faceting.unit.shape).faceted(faceting.unit, fragments);
+  const PrimitiveTraits& traits = traits_of(faceting.unit.shape);
+  Shared polyhedron = traits.faceted(faceting.unit, fragments);
+  if (keeps_meshes_) meshes_of_[polyhedron.get()] = traits.facet_mesh(faceting.unit, fragments);
+  return faceted_[key] = std::move(polyhedron);
 }
 
 }  // namespace frontend

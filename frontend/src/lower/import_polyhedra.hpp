@@ -34,6 +34,9 @@ bool faces_inwards(const PolyhedronArguments& arguments);
 
 class PolyhedronPool {
  public:
+  /// `keeps_meshes`: take_meshes() returns OpenSCAD's mesh of every polyhedron that the pool makes.
+  explicit PolyhedronPool(bool keeps_meshes) : keeps_meshes_(keeps_meshes) {}
+
   /// Has no polyhedron if the box is empty, flat or infinite.
   csgcore::Primitive box(const csgcore::Box& box, const csgcore::Affine& local_to_world);
 
@@ -45,6 +48,8 @@ class PolyhedronPool {
   /// fragments (≥ 3). False: it stays as it is, since there would be more than kMostFacets.
   bool facet(csgcore::Primitive& primitive, int fragments);
 
+  FacetMeshes take_meshes() { return std::move(meshes_of_); }
+
  private:
   using Shared = std::shared_ptr<const csgcore::Polyhedron>;
   /// Fragments, and Faceting::unit.
@@ -55,7 +60,9 @@ class PolyhedronPool {
   Shared unit_box_;
   std::map<FacetedKey, Shared> faceted_;
   std::map<std::vector<double>, Shared> meshes_;  // by all their numbers; null: not convex
-  uint64_t facets_ = 0;                           // of those of more than kFewFacets
+  const bool keeps_meshes_;
+  FacetMeshes meshes_of_;
+  uint64_t facets_ = 0;  // of those of more than kFewFacets
 };
 
 }  // namespace frontend

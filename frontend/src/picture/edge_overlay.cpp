@@ -25,8 +25,9 @@ constexpr float kLeastBend = 0.01f;
 /// Finds edges between neighbours in a row or a column.
 class EdgeFinder {
  public:
-  EdgeFinder(const Image& image, const View& view)
+  EdgeFinder(const Image& image, const View& view, const MeshLookup& meshes)
       : image_(image),
+        meshes_(meshes),
         view_(view),
         width_(image.width_px),
         height_(image.height_px),
@@ -54,6 +55,10 @@ class EdgeFinder {
     return csgcore::pixel_ray(view_, x_px, y_px).direction;
   }
   bool is_hit(std::size_t pixel) const { return std::isfinite(image_.z[pixel]); }
+  /// Returns whether the pixel shows a surface whose edges are not those of a mesh.
+  bool is_smooth(std::size_t pixel) const {
+    return is_hit(pixel) && !meshes_.mesh_of(image_.id[pixel]);
+  }
 
   /// Returns the depth that is linear over a plane on the screen: 1/z in a perspective view, else
   /// z.
@@ -98,17 +103,23 @@ class EdgeFinder {
       if (is_hit(a) && is_hit(b) && is_continuous(a, slope_a, b, slope_b)) {
         turns_[i + 1] = glm::distance(image_.normal[a], image_.normal[b]);
       } else if (is_hit(a) || is_hit(b)) {
-        is_edge_[image_.z[a] <= image_.z[b] ? a : b] = 1;  // the nearer one; a miss is at infinity
+        const std::size_t nearer = image_.z[a] <= image_.z[b] ? a : b;  // a miss is at infinity
+        if (is_smooth(nearer)) is_edge_[nearer] = 1;
       }
       slope_a = slope_b;
     }
     for (std::size_t i = 0; i + 1 < count; ++i) {
       const float around = std::max({turns_[i], turns_[i + 2], 0.0f});
-      if (turns_[i + 1] > kMostGrowth * around + kLeastBend) is_edge_[first + i * stride] = 1;
+      const std::size_t pixel = first + i * stride;
+      if (turns_[i + 1] > kMostGrowth * around + kLeastBend &&
+          (is_smooth(pixel) || is_smooth(pixel + stride))) {
+        is_edge_[pixel] = 1;
+      }
     }
   }
 
   const Image& image_;
+  const MeshLookup& meshes_;
   const View& view_;
   std::size_t width_, height_;
   double pixel_;
@@ -119,8 +130,8 @@ class EdgeFinder {
 
 }  // namespace
 
-void draw_edges(Image& image, const View& view, Rgb background) {
-  const std::vector<uint8_t> is_edge = EdgeFinder(image, view).find();
+void draw_edges(Image& image, const View& view, Rgb background, const MeshLookup& meshes) {
+  const std::vector<uint8_t> is_edge = EdgeFinder(image, view, meshes).find();
   const std::array<unsigned, 3> target = {background.r, background.g, background.b};
   for (std::size_t pixel = 0; pixel < is_edge.size(); ++pixel) {
     if (is_edge[pixel] == 0) continue;

@@ -23,35 +23,43 @@ double snapped(double position_px) { return std::round(position_px * kSubpixels)
 }  // namespace
 
 LinePainter::LinePainter(Canvas& canvas, const csgcore::View& view, const Camera& camera)
-    : canvas_(canvas),
-      view_(view),
-      distance_(std::abs(camera.distance)),
-      is_perspective_(view.projection == csgcore::Projection::kPerspective) {}
+    : canvas_(canvas), projector_(view, camera), distance_(std::abs(camera.distance)) {}
 
 void LinePainter::draw(const Vec3& from, const Vec3& to, LineStyle style) {
-  Vec3 a = to_eye(from);
-  Vec3 b = to_eye(to);
-  if (!clip(a, b) || !clip(b, a)) return;
+  const auto ends = projector_.line(from, to);
+  if (!ends) return;
   walk_line(
-      canvas_, to_screen(a), to_screen(b),
+      canvas_, ends->front(), ends->back(),
       [&](int64_t column, int64_t row, double depth, double step) {
         if (style == LineStyle::kStippled && std::fmod(step, 2 * kStippleRun_px) < kStippleRun_px) {
           return;
         }
-        const double s = is_perspective_ ? 1 / depth : depth;
+        const double s = projector_.s_of(depth);
         if (s <= canvas_.z(column, row) + kCoincidence * distance_) canvas_.draw(column, row);
       });
 }
 
+Projector::Projector(const csgcore::View& view, const Camera& camera)
+    : view_(view),
+      distance_(std::abs(camera.distance)),
+      is_perspective_(view.projection == csgcore::Projection::kPerspective) {}
+
+std::optional<std::array<ScreenPoint, 2>> Projector::line(const Vec3& from, const Vec3& to) const {
+  Vec3 a = to_eye(from);
+  Vec3 b = to_eye(to);
+  if (!clip(a, b) || !clip(b, a)) return std::nullopt;
+  return std::array{to_screen(a), to_screen(b)};
+}
+
 /// Returns (right, up, s).
-Vec3 LinePainter::to_eye(const Vec3& point) const {
+Vec3 Projector::to_eye(const Vec3& point) const {
   const Vec3 offset = point - view_.eye;
   return Vec3(glm::dot(offset, view_.right), glm::dot(offset, view_.up),
               glm::dot(offset, view_.forward));
 }
 
 /// Moves `point` onto the near plane if it lies in front of it. Returns false if `other` does, too.
-bool LinePainter::clip(Vec3& point, const Vec3& other) const {
+bool Projector::clip(Vec3& point, const Vec3& other) const {
   const double near = kNearPlane * distance_;
   if (!is_perspective_ || point.z >= near) return true;
   if (other.z <= near) return false;
@@ -59,7 +67,7 @@ bool LinePainter::clip(Vec3& point, const Vec3& other) const {
   return true;
 }
 
-ScreenPoint LinePainter::to_screen(const Vec3& p) const {
+ScreenPoint Projector::to_screen(const Vec3& p) const {
   const double half_height = is_perspective_ ? p.z * view_.half_height : view_.half_height;
   const double scale = view_.height_px / (2 * half_height);
   return {snapped(view_.width_px / 2.0 + p.x * scale), snapped(view_.height_px / 2.0 - p.y * scale),

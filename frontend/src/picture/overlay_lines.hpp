@@ -1,6 +1,9 @@
 // Draws lines in space over a finished picture, where the model does not hide them.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "csgcore/geometry.hpp"
 #include "csgcore/view.hpp"
 #include "frontend/camera.hpp"
@@ -11,6 +14,29 @@ namespace frontend {
 enum class LineStyle : uint8_t {
   kSolid,
   kStippled,  // 3 pixels off, 3 on, as in OpenSCAD
+};
+
+/// Brings lines in space to the screen.
+class Projector {
+ public:
+  /// The view must outlive the projector. A perspective view clips at a tenth of the camera's
+  /// distance, as OpenSCAD does.
+  Projector(const csgcore::View& view, const Camera& camera);
+
+  /// Returns the ends of a line in world space, clipped; nothing if nothing is left of it.
+  std::optional<std::array<ScreenPoint, 2>> line(const csgcore::Vec3& from,
+                                                 const csgcore::Vec3& to) const;
+  /// Returns View's s of a depth on the screen.
+  double s_of(double depth) const { return is_perspective_ ? 1 / depth : depth; }
+
+ private:
+  csgcore::Vec3 to_eye(const csgcore::Vec3& point) const;
+  bool clip(csgcore::Vec3& point, const csgcore::Vec3& other) const;
+  ScreenPoint to_screen(const csgcore::Vec3& point_eye) const;
+
+  const csgcore::View& view_;
+  double distance_;
+  bool is_perspective_;
 };
 
 class LinePainter {
@@ -24,14 +50,9 @@ class LinePainter {
             LineStyle style = LineStyle::kSolid);
 
  private:
-  csgcore::Vec3 to_eye(const csgcore::Vec3& point) const;
-  bool clip(csgcore::Vec3& point, const csgcore::Vec3& other) const;
-  ScreenPoint to_screen(const csgcore::Vec3& point_eye) const;
-
   Canvas& canvas_;
-  const csgcore::View& view_;
+  Projector projector_;
   double distance_;
-  bool is_perspective_;
 };
 
 }  // namespace frontend

@@ -2,6 +2,8 @@
 
 #include "picture/axes_overlay.hpp"
 #include "picture/edge_overlay.hpp"
+#include "picture/facet_edges.hpp"
+#include "picture/mesh_lookup.hpp"
 #include "picture/scale_marks.hpp"
 
 namespace frontend {
@@ -23,10 +25,15 @@ void draw_crosshairs(LinePainter& painter, const Camera& camera) {
 }  // namespace
 
 void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
-                   const Overlays& overlays, const ColorScheme& scheme) {
+                   const Overlays& overlays, const ColorScheme& scheme,
+                   const ImportedDesign& design) {
   Canvas canvas(image, scheme.crosshair);
   if (!sees_nothing(camera, view.projection)) {
-    if (overlays.edges) draw_edges(image, view, scheme.background);
+    if (overlays.edges) {
+      const MeshLookup meshes(design);
+      draw_edges(image, view, scheme.background, meshes);
+      draw_facet_edges(image, view, camera, scheme, meshes);
+    }
     LinePainter painter(canvas, view, camera);
     if (overlays.crosshairs) draw_crosshairs(painter, camera);
     canvas.set_color(scheme.axes);

@@ -232,9 +232,23 @@ TEST(Options, View) {
               all.overlays.scales);
   EXPECT_THAT(all.warnings, IsEmpty());
   EXPECT_THAT(parse_drawing({"--view=scales"}).warnings, ElementsAre(HasSubstr("without axes")));
-  EXPECT_THAT(parse_drawing({"--view=wireframe"}).warnings, ElementsAre(HasSubstr("wireframe")));
+  EXPECT_TRUE(two.edges && parse_drawing({"--view=edges"}).import.keeps_meshes);
+  EXPECT_FALSE(parse_drawing({"--view=axes"}).import.keeps_meshes);
   // OpenSCAD continues, too.
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
+}
+
+TEST(Options, AWireframeIsOfTheRenderedMesh) {
+  const Options preview = parse_drawing({"--view=wireframe"});
+  EXPECT_THAT(preview.warnings, ElementsAre(HasSubstr("--view=wireframe")));
+  EXPECT_FALSE(preview.overlays.wireframe || preview.import.facets == Facets::kAll);
+  const Options rendered = parse_drawing({"--render", "--view=wireframe"});
+  EXPECT_THAT(rendered.warnings, IsEmpty());
+  EXPECT_TRUE(rendered.overlays.wireframe && rendered.import.keeps_meshes);
+  EXPECT_EQ(rendered.import.facets, Facets::kAll);
+  const Options window = parse_options({"--render=1", "--view=wireframe", "a.csg"});
+  EXPECT_THAT(window.warnings, ElementsAre(HasSubstr("--view=wireframe")));
+  EXPECT_FALSE(window.overlays.wireframe);
 }
 
 TEST(Options, APreviewsPictureHasNoCrosshairsButTheWindowHas) {

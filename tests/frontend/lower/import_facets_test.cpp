@@ -77,6 +77,42 @@ TEST(ImporterFacets, HaveOpenScadsVertices) {
                   csgcore::frustum_mesh(-2, 2, 0, 3, 5));
 }
 
+/// The numbers of the edges between faces and of the diagonals.
+TEST(ImporterFacets, HaveTheEdgesThatOpenScadDraws) {
+  const ImportOptions options{.keeps_meshes = true};
+  const auto edges_of = [&](const std::string& text) {
+    const ImportedDesign design = import_text(text, options);
+    const FacetMesh& mesh = design.meshes.at(design.scene.primitives.at(0).polyhedron.get());
+    size_t diagonals = 0;
+    for (const FacetMesh::Edge& edge : mesh.edges) diagonals += edge.is_diagonal() ? 1 : 0;
+    return std::to_string(mesh.edges.size() - diagonals) + " + " + std::to_string(diagonals);
+  };
+  EXPECT_EQ(edges_of("cube();"), "12 + 0");
+  EXPECT_EQ(edges_of("polyhedron(" + kCorner + kFaces + ");"), "6 + 0");
+  EXPECT_EQ(edges_of("cylinder($fn = 6);"), "18 + 0");
+  EXPECT_EQ(edges_of("cylinder($fn = 4, r1 = 2, r2 = 1);"), "12 + 4");
+  EXPECT_EQ(edges_of("cylinder($fn = 4, r2 = 0);"), "8 + 0");
+  EXPECT_EQ(edges_of("sphere($fn = 6);"), "30 + 12");
+  EXPECT_THAT(import_text("sphere($fn = 9); cube();", options).meshes, SizeIs(1));
+  EXPECT_THAT(import_text("sphere($fn = 6); cube();").meshes, SizeIs(0));
+}
+
+TEST(ImporterFacets, DiagonalsRunFromAnUpperCornerToTheNextLowerOne) {
+  const ImportedDesign design =
+      import_text("cylinder($fn = 4, r1 = 2, r2 = 1);", {.keeps_meshes = true});
+  const FacetMesh& mesh = design.meshes.begin()->second;
+  size_t found = 0;
+  for (const FacetMesh::Edge& edge : mesh.edges) {
+    if (!edge.is_diagonal()) continue;
+    const Vec3& from = mesh.mesh.vertices[edge.from];
+    const Vec3& to = mesh.mesh.vertices[edge.to];
+    EXPECT_GT(from.z, to.z);
+    EXPECT_GT(from.x * to.y - from.y * to.x, 0);
+    ++found;
+  }
+  EXPECT_EQ(found, 4u);
+}
+
 TEST(ImporterFacets, AreSharedWhereOnlyTheSizeDiffers) {
   const auto polyhedra = [](const std::string& text) {
     std::vector<const csgcore::Polyhedron*> result;

@@ -42,7 +42,7 @@ class Overlay : public testing::Test {
     scheme.background = {254, 254, 254};
     scheme.axes = kAxesColor;
     scheme.crosshair = kCrosshairColor;
-    draw_overlays(image, make_view(camera_, options_), camera_, overlays_, scheme);
+    draw_overlays(image, make_view(camera_, options_), camera_, overlays_, scheme, {});
   }
 
   static char letter(const std::array<uint8_t, 3>& c) {
