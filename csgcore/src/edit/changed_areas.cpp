@@ -91,7 +91,7 @@ class Screen {
     return csgcore::extent_of(of_box);
   }
 
-  /// Of what lies within all of at most two extents.
+  /// Returns the area of what lies within both, or the one, of these extents.
   std::optional<PixelArea> area_of(std::span<const Extent> extents) const {
     const uint32_t indices[] = {0, 1};
     Extent on_screen[2];

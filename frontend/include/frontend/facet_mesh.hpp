@@ -19,8 +19,8 @@ struct FacetMesh {
   /// An edge between two vertices of the mesh.
   struct Edge {
     uint32_t from, to;
-    /// Of the diagonal of a quadrilateral that OpenSCAD cuts into two triangles: the two other
-    /// corners. The mesh has the quadrilateral as one face. Otherwise kNoVertex.
+    /// If the edge is the diagonal of a quadrilateral that OpenSCAD cuts into two triangles: the
+    /// other two corners. The mesh has the quadrilateral as one face. Otherwise kNoVertex.
     uint32_t left = kNoVertex, right = kNoVertex;
     bool is_diagonal() const { return left != kNoVertex; }
   };

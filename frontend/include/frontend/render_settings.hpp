@@ -40,7 +40,7 @@ struct RenderSettings {
   ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
                      {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00},
                      {0xff, 0xec, 0x5e}, {0xab, 0xd8, 0x56}};
-  /// Of faces that are seen from within the solid; none: they are coloured as from outside.
+  /// The colour of faces that are seen from within the solid; none: they have that of the outside.
   std::optional<Rgb> from_within;
   Shading shading = Shading::kOpenScad;
   Show show = Show::kSurface;

@@ -27,7 +27,7 @@ struct Body {
   /// A point that is no further from a plane counts as lying in it.
   double tolerance = 0;
   FaceTree faces;
-  /// Of a smooth body, and of one with many faces.
+  /// The primitive of a smooth body, or of one with many faces.
   std::optional<csgcore::CanonicalPrimitive> canonical;
   csgcore::Box box;
   std::vector<uint32_t> neighbours;  // the bodies whose boxes touch this one's, without itself

@@ -51,7 +51,7 @@ class SolidAround {
   std::span<const Body> bodies_;
   TreeValue tree_;
   uint64_t& steps_;
-  // Of the point at hand:
+  // What is known of the point that is being looked at:
   std::vector<uint32_t> near_;  // the primitives of the closed bodies that hold the point
   struct Through {
     uint32_t place;  // in near_

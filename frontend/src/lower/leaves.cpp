@@ -91,6 +91,7 @@ LeafTree pruned(const LeafTree& tree, std::span<const Box> boxes) {
     is_empty[i] = subtree[i].empty();
     operands.push_back(i);
   }
+  if (std::find(is_empty.begin(), is_empty.end(), true) == is_empty.end()) return tree;
   CsgTreeBuilder builder;
   rebuild(
       tokens, builder, [](CsgTreeBuilder& to, uint32_t leaf) { to.primitive(leaf); },

@@ -25,7 +25,7 @@ struct Products {
   bool are_too_many = false;
 };
 
-/// What OpenSCAD draws in tens of seconds, and nobody can tell apart.
+/// More products take OpenSCAD tens of seconds, and cannot be told apart in a picture.
 constexpr size_t kMostProducts = 2000;
 
 /// Opaque products that follow one another are one, without being multiplied out: a tree whose
