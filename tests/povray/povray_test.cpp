@@ -243,7 +243,7 @@ Picture scadray(const Judged& judged, frontend::RendererKind renderer) {
   frontend::RenderSettings settings;
   settings.renderer = renderer;
   settings.scheme = {"test",         rgb(kColors.background), rgb(kColors.front), rgb(kColors.back),
-                     rgb(Vec3(0.0)), rgb(Vec3(0.0))};
+                     rgb(Vec3(0.0)), rgb(Vec3(0.0)),          rgb(Vec3(0.0)),     rgb(Vec3(0.0))};
   settings.shading = frontend::Shading::kPhong;
   settings.measured_channels = true;
   frontend::RenderStats stats;

@@ -26,7 +26,7 @@ csgcore::Primitive box(const Vec3& min, const Vec3& max) {
 Scene union_of(std::vector<csgcore::Primitive> primitives) {
   csgcore::CsgTreeBuilder builder;
   for (uint32_t i = 0; i < primitives.size(); ++i) builder.primitive(i);
-  return {std::move(primitives), builder.finish(), {}, {}};
+  return {std::move(primitives), builder.finish(), {}};
 }
 
 constexpr double kSize = 10, kThickness = 1e-8;

@@ -58,8 +58,12 @@ TEST(SectionPlane, CutsOffWhatLiesOnOneSideOfAllParts) {
       const SectionPlane plane{true, axis, is_flipped, 1.5};
       const Scene opened = cut_open(scene, plane, kBounds);
       const auto primitives = csgcore::canonical_primitives(opened);
-      for (CsgTree Scene::*const tree : {&Scene::model, &Scene::background, &Scene::highlight}) {
-        const Solid whole(all, scene.*tree), half(primitives, opened.*tree);
+      std::vector<std::pair<CsgTree, CsgTree>> trees = {{scene.model, opened.model}};
+      for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        trees.emplace_back(scene.layers[i].solid, opened.layers.at(i).solid);
+      }
+      for (const auto& [tree, opened_tree] : trees) {
+        const Solid whole(all, tree), half(primitives, opened_tree);
         for (int i = 0; i < 1000; ++i) {
           const Vec3 point{coordinate(random), coordinate(random), coordinate(random)};
           const bool was_in = whole.contains(point);

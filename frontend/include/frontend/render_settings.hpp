@@ -32,7 +32,7 @@ struct Rgb {
 struct ColorScheme {
   const char* name;
   Rgb background, front, back, axes, crosshair;
-  Rgb edge, cut_edge;  // of a wireframe
+  Rgb edge{}, cut_edge{};  // of a wireframe
 };
 
 /// Every setting of a picture but the camera's. The defaults are the command's.
