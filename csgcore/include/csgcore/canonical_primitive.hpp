@@ -20,6 +20,7 @@ struct alignas(64) CanonicalPrimitive {
   /// The quadric, kSphere or kFrustum, that encloses a polyhedron in canonical space. A primitive
   /// of another kind is its own enclosure.
   Shape enclosure = Shape::kSphere;
+  CutFaces cut_faces = CutFaces::kByTree;
   double radius_mid = 1;
   double radius_slope = 0;
   Vec3 center{0.0};  // world position of the canonical origin
@@ -38,7 +39,6 @@ struct alignas(64) CanonicalPrimitive {
   double inversion_error = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // null unless shape is kPolyhedron
   std::optional<Color> color;
-  CutFaces cut_faces = CutFaces::kByTree;
   uint32_t id = 0;
 };
 

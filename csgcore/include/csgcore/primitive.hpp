@@ -32,6 +32,7 @@ enum class CutFaces : uint8_t {
 /// A primitive as the design describes it. Only valid ones (see `is_valid`) may enter a Scene.
 struct Primitive {
   Shape shape = Shape::kSphere;
+  CutFaces cut_faces = CutFaces::kByTree;
   double r_bottom = 0;  // the sphere's radius, or the frustum's at z_min (0: pointed)
   double r_top = 0;     // the frustum's radius at z_max (0: pointed)
   double z_min = 0;     // frustum only, z_min < z_max
@@ -39,7 +40,6 @@ struct Primitive {
   std::shared_ptr<const Polyhedron> polyhedron;  // a polyhedron's local solid, else null
   Affine local_to_world;                         // nonsingular; a mirror (det < 0) is fine
   std::optional<Color> color;  // none: the scheme's front colour, or its back colour on cut faces
-  CutFaces cut_faces = CutFaces::kByTree;
   /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
   uint32_t id = 0;
 };
