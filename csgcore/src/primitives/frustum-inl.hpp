@@ -194,6 +194,10 @@ HWY_INLINE hn::Mask<D> lies_apart(D d, const CanonicalPrimitive& primitive, cons
 /// than this.
 constexpr double kNearApex = 0x1p-20;
 
+/// A point whose squared distance from the axis is less is the apex: a gradient of its coordinates
+/// would have no length, since squares of smaller numbers underflow in world space.
+constexpr double kApex2 = 1e-200;
+
 }  // namespace frustum_rays
 
 /// See kind_rays-inl.hpp. An end lies on a cap or on the wall.
@@ -230,7 +234,7 @@ struct FrustumRays {
       const auto near_apex = hn::Lt(radius, hn::Set(d, frustum_rays::kNearApex));
       if (!hn::AllFalse(d, near_apex)) {
         const auto exact = hn::Mul(across2, inverse_sqrt(d, across2));
-        const auto is_apex = hn::Eq(exact, hn::Zero(d));
+        const auto is_apex = hn::Lt(across2, hn::Set(d, frustum_rays::kApex2));
         const auto there =
             hn::IfThenElse(is_apex, hn::CopySign(one, downhill), hn::Mul(downhill, exact));
         wall_z = hn::IfThenElse(near_apex, there, wall_z);

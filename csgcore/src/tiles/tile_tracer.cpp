@@ -19,10 +19,9 @@ constexpr uint32_t kLeastSide_px = 2;
 /// The halves of tiles with more pixels become two tasks.
 constexpr uint32_t kTaskPixels = 64 * 64;
 
-/// Culling (TileCuller) takes several passes over a list. So lists longer than kLongList are culled
-/// at the sizes kSimplifiedPixels of the tile, and lists longer than kVeryLongList at every size.
+/// Longer lists are culled (TileCuller) at some sizes of tile, since it takes several passes over
+/// the list.
 constexpr uint32_t kLongList = 24;
-constexpr uint32_t kVeryLongList = 4096;
 constexpr uint32_t kSimplifiedPixels[] = {128 * 128, 64 * 64, 16 * 32};
 
 /// A group is expanded if it is at least this share of the tile: smaller ones are mostly separated
@@ -47,7 +46,7 @@ bool is_culled(const Tile& tile, const CellList& list, bool is_new, bool is_cut)
   const bool is_time =
       std::any_of(std::begin(kSimplifiedPixels), std::end(kSimplifiedPixels),
                   [&](uint32_t size) { return pixels <= size && 2 * pixels > size; });
-  return is_time || is_new || list.count() > kVeryLongList;
+  return is_time || is_new;
 }
 
 }  // namespace
