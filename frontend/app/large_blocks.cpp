@@ -1,6 +1,7 @@
 // The program's operator new, which asks the kernel for huge pages for large blocks, where it gives
 // them on request only (its "madvise" setting). A design of a million primitives takes hundreds of
 // MB; in pages of 4 KB, the kernel spends a third of the run on handing them out.
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstdint>
@@ -12,6 +13,11 @@ namespace {
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 // In smaller blocks a huge page is mostly empty, and clearing it costs more than it saves.
 constexpr std::size_t kLarge = std::size_t{1} << 19;
+
+// Large blocks go back to the kernel when they are freed. Otherwise glibc keeps blocks of up to 32
+// MB once it has freed one, and what an import needs for a moment leaves holes of tens of MB.
+[[maybe_unused]] const bool kReturnsLargeBlocks =
+    mallopt(M_MMAP_THRESHOLD, static_cast<int>(kLarge)) == 1;
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (size > PTRDIFF_MAX) return nullptr;  // rounding it up might overflow to 0

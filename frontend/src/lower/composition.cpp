@@ -20,15 +20,16 @@ class Composer {
       : leaves_(leaves), boxes_(boxes), scene_(scene) {}
 
   /// OpenSCAD's preview and its final render.
-  void compose_preview(const Design& design) {
-    scene_.model = leaves_.expanded(design.model);
+  void compose_preview(Design& design) {
     if (has_translucent(design.model)) add_products(design.model, Layer::Kind::kModel);
     for (const LeafTree& part : design.background) add_products(part, Layer::Kind::kBackground);
     for (const LeafTree& part : design.highlight) add_products(part, Layer::Kind::kHighlight);
-    if (!leaves_.has_compound()) return;
-    set_cut_faces(design.model);
-    for (const LeafTree& part : design.background) set_cut_faces(part);
-    for (const LeafTree& part : design.highlight) set_cut_faces(part);
+    if (leaves_.has_compound()) {
+      set_cut_faces(design.model);
+      for (const LeafTree& part : design.background) set_cut_faces(part);
+      for (const LeafTree& part : design.highlight) set_cut_faces(part);
+    }
+    scene_.model = leaves_.expanded(std::move(design.model));
   }
 
   /// Every leaf of a product whole. Opaque leaves that follow one another are drawn at once.
@@ -160,8 +161,8 @@ bool Design::is_highlighted(uint32_t leaf) const {
   return std::binary_search(highlighted_leaves.begin(), highlighted_leaves.end(), leaf);
 }
 
-bool compose(const Design& design, const Leaves& leaves, std::span<const Box> boxes,
-             PictureKind picture, Scene& scene) {
+bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, PictureKind picture,
+             Scene& scene) {
   Composer composer(leaves, boxes, scene);
   if (picture == PictureKind::kThrownTogether) {
     composer.compose_thrown_together(design);
@@ -173,11 +174,7 @@ bool compose(const Design& design, const Leaves& leaves, std::span<const Box> bo
 
 Box view_box(const Design& design, std::span<const Box> boxes) {
   Box result;
-  const auto add = [&](const LeafTree& tree) {
-    for (const LeafUse& use : uses_of_leaves(pruned(tree, boxes), boxes)) {
-      if (!use.is_subtracted && use.meets_others) result.merge(boxes[use.leaf]);
-    }
-  };
+  const auto add = [&](const LeafTree& tree) { result.merge(box_of_positive_leaves(tree, boxes)); };
   add(design.model);
   for (const LeafTree& part : design.background) add(part);
   for (const LeafTree& part : design.highlight) add(part);

@@ -24,7 +24,7 @@ struct Design {
 /// Sets the scene's trees, and the cut faces of its primitives, which are there already. `boxes`
 /// holds the boxes of all leaves. Returns whether all translucent parts have the layers that
 /// OpenSCAD gives them: a design with too many has fewer (products.hpp).
-bool compose(const Design& design, const Leaves& leaves, std::span<const csgcore::Box> boxes,
+bool compose(Design design, const Leaves& leaves, std::span<const csgcore::Box> boxes,
              PictureKind picture, csgcore::Scene& scene);
 
 /// The box that OpenSCAD's --viewall looks at (frontend/OPENSCAD.md, "Camera").

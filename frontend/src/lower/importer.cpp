@@ -309,7 +309,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   throw_if_stopped(stop);
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
-  const Design trees = Emitter(tree, collected, modifiers, leaves).design();
+  Design trees = Emitter(tree, collected, modifiers, leaves).design();
   count_leaves(trees, leaves, design);
   std::vector<Box> boxes = std::move(collected.boxes);
   const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
@@ -320,7 +320,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);
-  if (!compose(trees, leaves, boxes, options.picture, design.scene)) {
+  if (!compose(std::move(trees), leaves, boxes, options.picture, design.scene)) {
     design.warnings.push_back(make_warning(tree.file_name, {},
                                            "the translucent parts make more than " +
                                                std::to_string(kMostProducts) +

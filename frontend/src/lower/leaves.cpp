@@ -46,36 +46,8 @@ struct OpenOperation {
   Box context;             // where the operands can be seen
 };
 
-}  // namespace
-
-uint32_t Leaves::add(CsgTree solid, uint32_t frame) {
-  compound_.push_back({std::move(solid), frame});
-  return primitive_count_ + static_cast<uint32_t>(compound_.size()) - 1;
-}
-
-uint32_t Leaves::first_primitive(uint32_t leaf) const {
-  return is_compound(leaf) ? solid(leaf).tokens().front().value : leaf;
-}
-
-CsgTree Leaves::expanded(const LeafTree& tree) const {
-  if (!has_compound()) return tree;
-  const auto add_primitive = [](CsgTreeBuilder& builder, uint32_t index) {
-    builder.primitive(index);
-  };
-  CsgTreeBuilder builder;
-  rebuild(tree.tokens(), builder, [&](CsgTreeBuilder& to, uint32_t leaf) {
-    if (is_compound(leaf)) {
-      rebuild(solid(leaf).tokens(), to, add_primitive);
-    } else {
-      to.primitive(leaf);
-    }
-  });
-  return builder.finish();
-}
-
-LeafTree pruned(const LeafTree& tree, std::span<const Box> boxes) {
-  const std::span<const CsgToken> tokens = tree.tokens();
-  const std::vector<Box> subtree = subtree_boxes(tokens, boxes);
+/// By the tokens' order, whether boxes tell that the subtree is empty, or of no consequence.
+std::vector<bool> empty_subtrees(std::span<const CsgToken> tokens, std::span<const Box> subtree) {
   std::vector<bool> is_empty(tokens.size());
   std::vector<uint32_t> operands;  // the roots of those that no operation has taken
   for (uint32_t i = 0; i < tokens.size(); ++i) {
@@ -91,20 +63,15 @@ LeafTree pruned(const LeafTree& tree, std::span<const Box> boxes) {
     is_empty[i] = subtree[i].empty();
     operands.push_back(i);
   }
-  if (std::find(is_empty.begin(), is_empty.end(), true) == is_empty.end()) return tree;
-  CsgTreeBuilder builder;
-  rebuild(
-      tokens, builder, [](CsgTreeBuilder& to, uint32_t leaf) { to.primitive(leaf); },
-      [&](uint32_t root) { return is_empty[root]; });
-  return builder.finish();
+  return is_empty;
 }
 
-std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const Box> boxes) {
-  const std::span<const CsgToken> tokens = tree.tokens();
-  const std::vector<Box> subtree = subtree_boxes(tokens, boxes);
+/// Calls visit(LeafUse) for each leaf, from the last one to the first.
+template <typename Visit>
+void visit_uses(std::span<const CsgToken> tokens, std::span<const Box> subtree,
+                const Visit& visit) {
   const Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                        Vec3(std::numeric_limits<double>::infinity())};
-  std::vector<LeafUse> uses;
   std::vector<OpenOperation> open;
   for (size_t i = tokens.size(); i-- > 0;) {
     bool is_subtracted = false;
@@ -123,11 +90,72 @@ std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const Box> b
       continue;
     }
     const bool meets_others = !csgcore::intersection(subtree[i], context).empty();
-    uses.push_back({tokens[i].value, is_subtracted, meets_others});
+    visit(LeafUse{tokens[i].value, is_subtracted, meets_others});
     while (!open.empty() && --open.back().operands_left == 0) open.pop_back();
   }
+}
+
+}  // namespace
+
+uint32_t Leaves::add(CsgTree solid, uint32_t frame) {
+  compound_.push_back({std::move(solid), frame});
+  return primitive_count_ + static_cast<uint32_t>(compound_.size()) - 1;
+}
+
+uint32_t Leaves::first_primitive(uint32_t leaf) const {
+  return is_compound(leaf) ? solid(leaf).tokens().front().value : leaf;
+}
+
+CsgTree Leaves::expanded(LeafTree tree) const {
+  if (!has_compound()) return tree;
+  const auto add_primitive = [](CsgTreeBuilder& builder, uint32_t index) {
+    builder.primitive(index);
+  };
+  CsgTreeBuilder builder;
+  rebuild(tree.tokens(), builder, [&](CsgTreeBuilder& to, uint32_t leaf) {
+    if (is_compound(leaf)) {
+      rebuild(solid(leaf).tokens(), to, add_primitive);
+    } else {
+      to.primitive(leaf);
+    }
+  });
+  return builder.finish();
+}
+
+LeafTree pruned(const LeafTree& tree, std::span<const Box> boxes) {
+  const std::span<const CsgToken> tokens = tree.tokens();
+  const std::vector<bool> is_empty = empty_subtrees(tokens, subtree_boxes(tokens, boxes));
+  CsgTreeBuilder builder;
+  rebuild(
+      tokens, builder, [](CsgTreeBuilder& to, uint32_t leaf) { to.primitive(leaf); },
+      [&](uint32_t root) { return is_empty[root]; });
+  return builder.finish();
+}
+
+std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const Box> boxes) {
+  std::vector<LeafUse> uses;
+  visit_uses(tree.tokens(), subtree_boxes(tree.tokens(), boxes),
+             [&](const LeafUse& use) { uses.push_back(use); });
   std::reverse(uses.begin(), uses.end());
   return uses;
+}
+
+Box box_of_positive_leaves(const LeafTree& tree, std::span<const Box> boxes) {
+  // A large design has few trees, and hundreds of MB: its subtrees' boxes are found once.
+  std::vector<Box> subtree = subtree_boxes(tree.tokens(), boxes);
+  const std::vector<bool> is_empty = empty_subtrees(tree.tokens(), subtree);
+  LeafTree without_empty;
+  std::span<const CsgToken> tokens = tree.tokens();
+  if (std::find(is_empty.begin(), is_empty.end(), true) != is_empty.end()) {
+    without_empty = pruned(tree, boxes);
+    tokens = without_empty.tokens();
+    subtree = subtree_boxes(tokens, boxes);
+  }
+  Box result;
+  visit_uses(tokens, subtree, [&](const LeafUse& use) {
+    if (!use.is_subtracted && use.meets_others) result.merge(boxes[use.leaf]);
+  });
+  return result;
 }
 
 }  // namespace frontend

@@ -40,7 +40,7 @@ class Leaves {
   uint32_t first_primitive(uint32_t leaf) const;
 
   /// The same solid as a tree over primitives.
-  csgcore::CsgTree expanded(const LeafTree& tree) const;
+  csgcore::CsgTree expanded(LeafTree tree) const;
 
  private:
   struct Compound {
@@ -111,5 +111,10 @@ struct LeafUse {
 
 /// The leaves of the tree, in its order. `boxes` holds the boxes of all leaves, in world space.
 std::vector<LeafUse> uses_of_leaves(const LeafTree& tree, std::span<const csgcore::Box> boxes);
+
+/// The union of the boxes of the leaves that are not subtracted and meet the others: what
+/// OpenSCAD's
+/// --viewall looks at of a tree.
+csgcore::Box box_of_positive_leaves(const LeafTree& tree, std::span<const csgcore::Box> boxes);
 
 }  // namespace frontend
