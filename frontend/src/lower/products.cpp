@@ -47,7 +47,7 @@ class Multiplier {
  public:
   explicit Multiplier(std::span<const Box> boxes) : boxes_(boxes) {}
 
-  /// Nothing: there would be more than kMostProducts terms.
+  /// Nothing: there would be more than kMostProducts terms, or they would take too long to write.
   std::optional<Terms> multiply(std::span<const CsgToken> tokens) {
     find_signs(tokens);
     std::vector<Terms> operands;
@@ -69,7 +69,7 @@ class Multiplier {
         } else {
           terms = product(terms, *operand);
         }
-        if (terms.size() > kMostProducts) return std::nullopt;
+        if (terms.size() > kMostProducts || steps_ > kMostSteps) return std::nullopt;
       }
       operands.erase(first, operands.end());
       operands.push_back(std::move(terms));
@@ -101,7 +101,7 @@ class Multiplier {
     }
   }
 
-  static Terms product(const Terms& a, const Terms& b) {
+  Terms product(const Terms& a, const Terms& b) {
     Terms result;
     for (const Term& left : a) {
       for (const Term& right : b) {
@@ -114,12 +114,16 @@ class Multiplier {
           term.box = right.box;
         }
         result.push_back(std::move(term));
-        if (result.size() > kMostProducts) return result;
+        steps_ += result.back().leaves.size();
+        if (result.size() > kMostProducts || steps_ > kMostSteps) return result;
       }
     }
     return result;
   }
 
+  // Leaves of terms that are written: nested differences have terms as long as they are deep.
+  static constexpr size_t kMostSteps = 1'000'000;
+  size_t steps_ = 0;
   std::span<const Box> boxes_;
   std::vector<bool> is_subtracted_;
 };

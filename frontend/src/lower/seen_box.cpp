@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/hits.hpp"
 #include "csgcore/solid.hpp"
 #include "csgcore/tracer.hpp"
@@ -29,6 +30,10 @@ constexpr uint32_t kOverview_px = 256;  // a side of the first look
 constexpr uint32_t kCloseUp_px = 32;    // of those at the pixel that comes out farthest
 constexpr double kCloseUpReach = 1.5;   // pixels around that one's centre: its neighbours, too
 constexpr int kCloseUps = 3;            // each nearer by 32 / 3
+
+/// How far a point is moved towards a primitive's centre before it is asked for, so that rounding
+/// does not decide: a share of its distance.
+constexpr double kInwards = 1e-6;
 
 /// Looks at the solid from outside along an axis, the nearest point of it being its farthest that
 /// way.
@@ -62,7 +67,9 @@ std::optional<double> farthest(const Solid& solid, int axis, double sign) {
   for (int look = 0; look <= kCloseUps; ++look) {
     Hits hits;
     csgcore::TraceStats stats;
-    csgcore::trace(solid, view, {}, hits, stats);
+    csgcore::TraceOptions options;
+    options.threads = 1;  // a look takes less time than to start threads
+    csgcore::trace(solid, view, options, hits, stats);
     const std::optional<std::size_t> pixel = nearest_pixel(hits);
     if (!pixel) break;
     const double found = view.eye[axis] - sign * hits.s[*pixel];
@@ -76,13 +83,49 @@ std::optional<double> farthest(const Solid& solid, int axis, double sign) {
   return result;
 }
 
+/// Whether a point of a primitive is left that reaches the side of the solid's bounds: most solids
+/// keep the corners, or the middles, of the faces that bound their operands.
+bool reaches_bounds(const Solid& solid, int axis, double sign) {
+  constexpr size_t kMostPrimitives = 64;  // that are asked
+  constexpr double kTilt = 1e-3;          // finds the corners of a face that lies in the side
+  const double size = solid.bounds().diagonal();
+  const auto side_of = [&](const Box& box) { return sign > 0 ? box.max[axis] : box.min[axis]; };
+  const double side = side_of(solid.bounds());
+  const auto is_left = [&](const Vec3& point, const Vec3& center) {
+    const Vec3 within = point + kInwards * (center - point);
+    return std::abs(within[axis] - side) <= 2 * kInwards * size && solid.contains(within);
+  };
+  size_t asked = 0;
+  for (const csgcore::CanonicalPrimitive& primitive : solid.primitives()) {
+    if (std::abs(side_of(primitive.bounds) - side) > kInwards * size) continue;
+    if (++asked > kMostPrimitives) break;
+    Vec3 middle(0.0);
+    for (const double u : {-kTilt, kTilt}) {
+      for (const double v : {-kTilt, kTilt}) {
+        Vec3 direction(0.0);
+        direction[axis] = sign;
+        direction[(axis + 1) % 3] = u;
+        direction[(axis + 2) % 3] = v;
+        const Vec3 corner = csgcore::furthest_point(primitive, direction);
+        if (is_left(corner, primitive.center)) return true;
+        middle += 0.25 * corner;
+      }
+    }
+    if (is_left(middle, primitive.center)) return true;
+  }
+  return false;
+}
+
 Box tight_box(const Solid& solid) {
   Box box;
   if (solid.bounds().empty()) return box;
   Vec3 least, most;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> low = farthest(solid, axis, -1);
-    const std::optional<double> high = farthest(solid, axis, 1);
+    const Box& bounds = solid.bounds();
+    const std::optional<double> low =
+        reaches_bounds(solid, axis, -1) ? bounds.min[axis] : farthest(solid, axis, -1);
+    const std::optional<double> high =
+        reaches_bounds(solid, axis, 1) ? bounds.max[axis] : farthest(solid, axis, 1);
     if (!low || !high) return box;
     least[axis] = *low;
     most[axis] = *high;
