@@ -176,15 +176,19 @@ Scene crowd(uint32_t seed) {
   const auto within = [&](double reach) {
     return moved(random_point(random, {Vec3(-reach), Vec3(reach)}));
   };
+  const auto add_sphere = [&](double least, double most, double reach) {
+    const double radius = uniform(random, least, most);  // before the place, by every compiler
+    add(make_sphere(radius, within(reach)));
+  };
   builder.open(Op::kUnion);
   for (int group = 0; group < 3; ++group) {
     builder.open(Op::kDifference);
     builder.open(Op::kUnion);
-    for (int i = 0; i < 150; ++i) add(make_sphere(uniform(random, 0.1, 1), within(4)));
-    add(make_sphere(uniform(random, 3, 5), within(2)));
+    for (int i = 0; i < 150; ++i) add_sphere(0.1, 1, 4);
+    add_sphere(3, 5, 2);
     builder.close();
     for (int i = 0; i < 50; ++i) add(make_frustum(-1, 1, 0.3, 0.2, within(4)));
-    add(make_sphere(uniform(random, 2, 5), within(4)));
+    add_sphere(2, 5, 4);
     builder.close();
   }
   builder.close();

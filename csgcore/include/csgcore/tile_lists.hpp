@@ -31,7 +31,8 @@ struct TileListOptions {
 struct ListedTile {
   PixelArea area;
   /// Of TileLists::tests, a function that equals the solid's wherever the tile's rays go, up to
-  /// cut_s. Not constant.
+  /// cut_s. Not constant. For first boundaries it may also hold in voids that the solid encloses,
+  /// which no ray from outside gets to.
   uint32_t first_test = 0;
   uint32_t test_count = 0;
   /// View's s at which every ray of the tile has met its first boundary: the function is without
