@@ -89,7 +89,7 @@ int main(int count, char** words) {
   struct sigaction action {};
   action.sa_handler = [](int) { is_interrupted = 1; };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes
+#if !defined(SCADRAY_SANITIZED)  // sanitizers reserve terabytes
   const rlimit memory{kMostMemory, kMostMemory};
   setrlimit(RLIMIT_AS, &memory);
 #endif

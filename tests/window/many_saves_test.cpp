@@ -17,7 +17,7 @@ constexpr int kSettled = 200;
 /// 0.4 MB: one that is kept in every save, or in every tenth, is far beyond.
 constexpr std::size_t kLeeway_bytes = std::size_t{8} << 20;
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SCADRAY_SANITIZED)
 constexpr bool kMemoryIsMeasured = false;  // freed memory is kept, to find its use; leaks are found
 #else
 constexpr bool kMemoryIsMeasured = true;

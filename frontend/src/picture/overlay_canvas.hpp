@@ -73,10 +73,11 @@ void walk_line(const Canvas& canvas, const ScreenPoint& a, const ScreenPoint& b,
     const double t = std::clamp((major + 0.5 - from) / (to - from), 0.0, 1.0);
     const double column = along_x ? major : column_of(a.x + t * (b.x - a.x));
     const double row = along_x ? row_of(a.y + t * (b.y - a.y)) : major;
-    if (column < 0 || row < 0 || column >= static_cast<double>(canvas.width()) ||
-        row >= static_cast<double>(canvas.height())) {
-      continue;
-    }
+    // One of them is not a number where both ends lie infinitely far to one side.
+    const bool is_inside = column >= 0 && row >= 0 &&
+                           column < static_cast<double>(canvas.width()) &&
+                           row < static_cast<double>(canvas.height());
+    if (!is_inside) continue;
     visit(static_cast<int64_t>(column), static_cast<int64_t>(row),
           a.depth + t * (b.depth - a.depth), step);
   }
