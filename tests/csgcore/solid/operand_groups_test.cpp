@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <latch>
 #include <limits>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "checks.hpp"
 #include "made.hpp"
@@ -280,6 +282,56 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
     if (name == "Perspective") {
       EXPECT_LT(area, 0.9 * box_area);
     }
+  }
+}
+
+/// Which members of the groups that the cell shows lie outside of it: 64 a word.
+std::vector<uint64_t> members_outside(const OperandGroups& groups, const ScreenBounds& bounds,
+                                      const Box& cell) {
+  std::vector<uint64_t> result;
+  const std::span<const uint32_t> all = groups.list().primitives();
+  std::vector<uint32_t> shown(all.begin(), all.end());
+  for (size_t next = 0; next < shown.size(); ++next) {
+    const uint32_t group = shown[next] & kPrimitiveBits;
+    if (!groups.is_group(group)) continue;
+    if (cull_reason_on_screen(bounds.extents()[group]) != ScreenCullReason::kVisible) continue;
+    const OperandGroups::Members members = groups.members(group);
+    const auto count = static_cast<uint32_t>(members.primitive.size());
+    for (uint32_t first = 0; first < count; first += 64) {
+      const uint32_t some = std::min(count - first, 64u);
+      const uint64_t outside = bounds.members_outside(members, first, some, cell).value();
+      result.push_back(outside);
+      for (uint32_t i = 0; i < some; ++i) {
+        if ((outside >> i & 1) == 0) shown.push_back(members.primitive[first + i]);
+      }
+    }
+  }
+  return result;
+}
+
+/// Threads that begin with the same groups bound the same members: ThreadSanitizer looks on.
+TEST_P(GroupsOf, RandomTreeAreBoundedByThreadsAtOnce) {
+  constexpr int kThreads = 4;
+  constexpr int kRounds = 10;
+  const View view = checks::trace_views(solid_.bounds(), 640, 480).front().view;
+  const FrameRays frame = frame_rays(view, solid_.bounds());
+  const Box cell{Vec3(100, 100, -1e9), Vec3(500, 400, 1e9)};
+  const ScreenBounds alone(solid_.primitives(), groups_, frame, true);
+  const std::vector<uint64_t> expected = members_outside(groups_, alone, cell);
+  ASSERT_FALSE(expected.empty());
+  for (int round = 0; round < kRounds; ++round) {
+    const ScreenBounds bounds(solid_.primitives(), groups_, frame, true);
+    std::vector<uint64_t> found[kThreads];
+    std::latch start(kThreads);
+    std::vector<std::jthread> threads;
+    for (std::vector<uint64_t>& own : found) {
+      threads.emplace_back([&] {
+        start.arrive_and_wait();
+        own = members_outside(groups_, bounds, cell);
+      });
+    }
+    threads.clear();  // joins them
+    for (const std::vector<uint64_t>& own : found) EXPECT_EQ(own, expected);
   }
 }
 
