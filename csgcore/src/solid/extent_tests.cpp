@@ -226,7 +226,8 @@ ExtentAnswers test_extents(const Extent* extents, const uint32_t* primitives, ui
 }
 
 uint64_t find_outside(const RectangleRows& rows, uint32_t count, const Box& cell) {
-  return CSGCORE_SIMD(find_outside)(rows, count, cell);
+  const uint64_t all = CSGCORE_SIMD(find_outside)(rows, count, cell);
+  return all & first_bits(count);  // vectors read past the last member
 }
 
 void count_ends(const Extent* extents, const uint32_t* primitives, uint32_t count, const Box& cell,

@@ -299,9 +299,7 @@ std::vector<uint64_t> members_outside(const OperandGroups& groups, const ScreenB
     const auto count = static_cast<uint32_t>(members.primitive.size());
     for (uint32_t first = 0; first < count; first += 64) {
       const uint32_t some = std::min(count - first, 64u);
-      // Bits beyond the members tell nothing.
-      const uint64_t asked = some == 64 ? ~uint64_t{0} : (uint64_t{1} << some) - 1;
-      const uint64_t outside = bounds.members_outside(members, first, some, cell).value() & asked;
+      const uint64_t outside = bounds.members_outside(members, first, some, cell).value();
       result.push_back(outside);
       for (uint32_t i = 0; i < some; ++i) {
         if ((outside >> i & 1) == 0) shown.push_back(members.primitive[first + i]);
