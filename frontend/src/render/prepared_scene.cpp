@@ -1,5 +1,6 @@
 #include "render/prepared_scene.hpp"
 
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -8,6 +9,53 @@
 namespace frontend {
 
 using csgcore::Image;
+
+namespace {
+
+/// The most pixels of a picture that is made smaller: they take 1.5 GB.
+constexpr uint64_t kMostFinePixels = uint64_t{1} << 26;
+
+Image blank(const csgcore::View& view) {
+  Image image;
+  image.width_px = view.width_px;
+  image.height_px = view.height_px;
+  image.rgb.resize(size_t{image.width_px} * image.height_px);
+  return image;
+}
+
+/// Returns the side of a square of at least as many rays a pixel as are asked for, or as memory
+/// allows.
+uint32_t rays_along_pixel(const PictureRequest& request) {
+  const uint32_t samples = samples_of(request.settings);
+  const uint64_t pixels = uint64_t{request.view.width_px} * request.view.height_px;
+  uint32_t side = 1;
+  while (side * side < samples && (side + 1) * (side + 1) * pixels <= kMostFinePixels) ++side;
+  return side;
+}
+
+/// Returns the averages of squares of pixels, `side` on a side.
+std::vector<std::array<uint8_t, 3>> averaged(const Image& fine, uint32_t side) {
+  const uint32_t width = fine.width_px / side, height = fine.height_px / side;
+  const uint32_t count = side * side;
+  std::vector<std::array<uint8_t, 3>> result(size_t{width} * height);
+  for (size_t y = 0; y < height; ++y) {
+    for (size_t x = 0; x < width; ++x) {
+      std::array<uint32_t, 3> sum{};
+      for (size_t row = y * side; row < (y + 1) * side; ++row) {
+        for (size_t column = x * side; column < (x + 1) * side; ++column) {
+          const auto& pixel = fine.rgb[row * fine.width_px + column];
+          for (size_t channel = 0; channel < 3; ++channel) sum[channel] += pixel[channel];
+        }
+      }
+      for (size_t channel = 0; channel < 3; ++channel) {
+        result[y * width + x][channel] = static_cast<uint8_t>((sum[channel] + count / 2) / count);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
 
 PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene)
     : scene_(std::move(scene)),
@@ -51,12 +99,7 @@ Image PreparedScene::draw_base(SolidRenderer& renderer, const csgcore::FrameSett
                                const PictureRequest& request) const {
   const bool wants_model = !model_is_layered_ || request.settings.measured_channels ||
                            request.settings.show == Show::kCells;
-  if (wants_model) return renderer.draw_model(model_, frame, request);
-  Image image;
-  image.width_px = request.view.width_px;
-  image.height_px = request.view.height_px;
-  image.rgb.resize(size_t{image.width_px} * image.height_px);
-  return image;
+  return wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
 }
 
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
@@ -64,16 +107,31 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   Image image = draw_base(renderer, frame, request);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
   if (layers_.empty() || request.settings.show == Show::kCells) return image;
-  std::vector<float> depth = image.z;
-  if (model_is_layered_) {
-    const Rgb& background = request.settings.scheme.background;
-    image.rgb.assign(image.rgb.size(), {background.r, background.g, background.b});
-    depth.assign(image.rgb.size(), std::numeric_limits<float>::infinity());
+  if (!model_is_layered_) {
+    Compositor compositor(image, image.z, scene_box_.diagonal());
+    draw_layers(renderer, frame, request, compositor);
+    return image;
   }
-  Compositor compositor(image, std::move(depth), scene_box_.diagonal());
+  // Layers have one ray a pixel. So a smooth picture of them is one of more pixels, made smaller.
+  const uint32_t side = rays_along_pixel(request);
+  csgcore::View view = request.view;
+  view.width_px *= side;
+  view.height_px *= side;
+  Image fine = blank(view);
+  const Rgb& background = request.settings.scheme.background;
+  fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
+  std::vector<float> depth(fine.rgb.size(), std::numeric_limits<float>::infinity());
+  Compositor compositor(fine, std::move(depth), scene_box_.diagonal());
+  draw_layers(renderer, frame, {view, request.settings, request.stats}, compositor);
+  image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
+  return image;
+}
+
+void PreparedScene::draw_layers(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                                const PictureRequest& request, Compositor& compositor) const {
   SolidRenderer::Sides sides;
   for (const auto& layer : layers_) {
-    if (request.settings.stop.stop_requested()) break;
+    if (request.settings.stop.stop_requested()) return;
     const csgcore::FrameSettings of_layer = layer->frame(frame);
     renderer.draw_sides(layer->solid(), of_layer, request, layer->shows_behind(), sides);
     if (layer->shows_behind()) compositor.add(*layer, sides.behind, sides.area);
@@ -83,7 +141,6 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
       compositor.add_part(*layer, part.is_subtracted ? sides.behind : sides.front, sides.area);
     }
   }
-  return image;
 }
 
 void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& request,

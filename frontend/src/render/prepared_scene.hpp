@@ -32,6 +32,8 @@ class PreparedScene {
  private:
   void add_layers();
   csgcore::FrameSettings frame_settings(const RenderSettings& settings) const;
+  void draw_layers(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+                   const PictureRequest& request, Compositor& compositor) const;
   csgcore::Image draw_base(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
                            const PictureRequest& request) const;
 

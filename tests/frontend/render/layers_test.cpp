@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "frontend/camera.hpp"
@@ -214,6 +215,20 @@ TEST_P(Layers, TheThrownTogetherPictureShowsLeavesWhole) {
 }
 
 TEST_P(Layers, FromWithinFacesHaveTheFrontColorInAPreview) { expect_middle(kCube, lit(kFront), 1); }
+
+TEST_P(Layers, EdgesOfTranslucentPartsAreSmooth) {
+  const std::string glass = colored(kRedGlass, moved(6.3, 0, 0, kCube));
+  const auto greens = [&](uint32_t samples) {
+    settings_.samples = samples;
+    const Image image = draw(glass);
+    std::set<uint8_t> result;
+    for (size_t x = 0; x < 33; ++x) result.insert(image.rgb[16 * 33 + x][1]);
+    return result.size();
+  };
+  EXPECT_GT(greens(16), greens(1));
+  settings_.samples = 16;
+  expect_middle(colored(kRedGlass, kCube), over(over(kPaper, lit(kRed), 0.5), lit(kRed), 0.5));
+}
 
 TEST_P(Layers, ManyLayersAreDrawnWhereTheyAre) {
   std::string text;
