@@ -247,8 +247,8 @@ bool is_axis_aligned(const csgcore::Affine& map) {
 /// it. `facets` is the box of its operands as OpenSCAD's facets. What is round may exceed it here;
 /// in a frame that is turned, the corners of the solid's own box may as well.
 Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore::CsgTree& solid,
-                  const csgcore::Affine& frame_to_world, const Box& facets) {
-  const Box seen = seen_box(primitives, solid, frame_to_world);
+                  const csgcore::Affine& frame_to_world, uint32_t overview_px, const Box& facets) {
+  const Box seen = seen_box(primitives, solid, frame_to_world, overview_px);
   if (seen.empty()) return facets;
   return is_axis_aligned(frame_to_world) ? csgcore::intersection(seen, facets) : seen;
 }
@@ -261,15 +261,20 @@ bool needs_layers(const Collector& collected, PictureKind picture) {
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
 }
 
+/// The most compound leaves that are looked at, which takes up to a millisecond each. The others
+/// have the boxes of their operands.
+constexpr uint32_t kMostMeasuredLeaves = 200;
+
 /// Adds the boxes of the compound leaves to those of the primitives.
 void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, bool measures_leaves,
                            std::vector<Box>& boxes) {
-  for (uint32_t leaf = static_cast<uint32_t>(boxes.size()); leaf < leaves.size(); ++leaf) {
+  const auto first = static_cast<uint32_t>(boxes.size());
+  for (uint32_t leaf = first; leaf < leaves.size(); ++leaf) {
     const csgcore::CsgTree& solid = leaves.solid(leaf);
     Box box = box_of_operands(solid, boxes);
-    if (measures_leaves) {
+    if (measures_leaves && leaf < first + kMostMeasuredLeaves) {
       const csgcore::Affine& frame_to_world = collected.frames[leaves.frame(leaf)].to_world;
-      box = box_of_result(collected.primitives, solid, frame_to_world, box);
+      box = box_of_result(collected.primitives, solid, frame_to_world, kOverviewOfLeaf_px, box);
     }
     boxes.push_back(box);
   }
@@ -316,7 +321,8 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
   design.view_box = view_box(trees, boxes);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    design.view_box = box_of_result(collected.primitives, trees.model, {}, design.view_box);
+    design.view_box =
+        box_of_result(collected.primitives, trees.model, {}, kOverviewOfDesign_px, design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);

@@ -26,10 +26,9 @@ using csgcore::Solid;
 using csgcore::Vec3;
 using csgcore::View;
 
-constexpr uint32_t kOverview_px = 256;  // a side of the first look
-constexpr uint32_t kCloseUp_px = 32;    // of those at the pixel that comes out farthest
-constexpr double kCloseUpReach = 1.5;   // pixels around that one's centre: its neighbours, too
-constexpr int kCloseUps = 3;            // each nearer by 32 / 3
+constexpr uint32_t kCloseUp_px = 32;   // a side of the looks at the pixel that comes out farthest
+constexpr double kCloseUpReach = 1.5;  // pixels around that one's centre: its neighbours, too
+constexpr int kCloseUps = 3;           // each nearer by 32 / 3
 
 /// How far a point is moved towards a primitive's centre before it is asked for, so that rounding
 /// does not decide: a share of its distance.
@@ -37,7 +36,7 @@ constexpr double kInwards = 1e-6;
 
 /// Looks at the solid from outside along an axis, the nearest point of it being its farthest that
 /// way.
-View outside_view(const Box& around, int axis, double sign) {
+View outside_view(const Box& around, int axis, double sign, uint32_t side_px) {
   View view;
   view.projection = csgcore::Projection::kOrthographic;
   view.forward = view.right = view.up = Vec3(0.0);
@@ -49,7 +48,7 @@ View outside_view(const Box& around, int axis, double sign) {
   const double reach = 1.01 * std::max({half.x, half.y, half.z});
   view.eye = around.center() - reach * view.forward;
   view.half_height = reach;
-  view.width_px = view.height_px = kOverview_px;
+  view.width_px = view.height_px = side_px;
   return view;
 }
 
@@ -61,8 +60,8 @@ std::optional<std::size_t> nearest_pixel(const Hits& hits) {
 }
 
 /// The solid's farthest coordinate that way.
-std::optional<double> farthest(const Solid& solid, int axis, double sign) {
-  View view = outside_view(solid.bounds(), axis, sign);
+std::optional<double> farthest(const Solid& solid, int axis, double sign, uint32_t overview_px) {
+  View view = outside_view(solid.bounds(), axis, sign, overview_px);
   std::optional<double> result;
   for (int look = 0; look <= kCloseUps; ++look) {
     Hits hits;
@@ -116,16 +115,16 @@ bool reaches_bounds(const Solid& solid, int axis, double sign) {
   return false;
 }
 
-Box tight_box(const Solid& solid) {
+Box tight_box(const Solid& solid, uint32_t overview_px) {
   Box box;
   if (solid.bounds().empty()) return box;
   Vec3 least, most;
   for (int axis = 0; axis < 3; ++axis) {
     const Box& bounds = solid.bounds();
     const std::optional<double> low =
-        reaches_bounds(solid, axis, -1) ? bounds.min[axis] : farthest(solid, axis, -1);
+        reaches_bounds(solid, axis, -1) ? bounds.min[axis] : farthest(solid, axis, -1, overview_px);
     const std::optional<double> high =
-        reaches_bounds(solid, axis, 1) ? bounds.max[axis] : farthest(solid, axis, 1);
+        reaches_bounds(solid, axis, 1) ? bounds.max[axis] : farthest(solid, axis, 1, overview_px);
     if (!low || !high) return box;
     least[axis] = *low;
     most[axis] = *high;
@@ -138,7 +137,7 @@ Box tight_box(const Solid& solid) {
 }  // namespace
 
 Box seen_box(std::span<const Primitive> primitives, const csgcore::CsgTree& solid,
-             const Affine& frame_to_world) {
+             const Affine& frame_to_world, uint32_t overview_px) {
   csgcore::Scene scene;
   std::unordered_map<uint32_t, uint32_t> new_indices;
   scene.model = csgcore::renamed(solid, [&](uint32_t index) {
@@ -156,7 +155,7 @@ Box seen_box(std::span<const Primitive> primitives, const csgcore::CsgTree& soli
     if (!csgcore::is_valid(primitive)) return {};  // beyond what doubles hold
   }
   const Solid in_frame(csgcore::canonical_primitives(scene), scene.model);
-  const Box box = tight_box(in_frame);
+  const Box box = tight_box(in_frame, overview_px);
   return box.empty() ? box : mapped(frame_to_world, box);
 }
 

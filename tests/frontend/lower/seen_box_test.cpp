@@ -17,7 +17,7 @@ using csgcore::Vec3;
 
 Box box_of(const std::string& text, const csgcore::Affine& frame = {}) {
   const csgcore::Scene scene = import_design(parse(text, "a.csg")).scene;
-  return seen_box(scene.primitives, scene.model, frame);
+  return seen_box(scene.primitives, scene.model, frame, kOverviewOfDesign_px);
 }
 
 void expect_box(const std::string& text, const Vec3& least, const Vec3& most) {
