@@ -32,12 +32,6 @@ void add_box(Open& open, const csgcore::Box& box) {
   }
 }
 
-/// OpenSCAD drops a subtracted operand whose box misses the body's, with its highlight.
-bool misses_body(const Open& open, const ResolvedNode& operand, const csgcore::Box& box) {
-  return open.kind == NodeKind::kDifference && open.has_first && open.any_solid &&
-         operand.presence == Presence::kSolid && csgcore::intersection(open.box, box).empty();
-}
-
 void add_operand(Open& open, const ResolvedNode& node_state, const csgcore::Box& box) {
   if (node_state.presence == Presence::kAbsent) return;
   if (node_state.presence == Presence::kBackground) {
@@ -129,7 +123,6 @@ class ModifierResolver {
 
   void finish(uint32_t node, ResolvedNode node_state, const csgcore::Box& box) {
     apply_modifiers(node_state, tree_.nodes[node].modifiers);
-    if (misses_body(open_.back(), node_state, box)) node_state.highlighted = false;
     resolved_.nodes[node] = node_state;
     add_operand(open_.back(), node_state, box);
   }
@@ -159,9 +152,7 @@ class ModifierResolver {
       const bool carried_on = !own_background && parent.keeps_highlighted;
       const bool in_render = parent.kind == NodeKind::kRender;
       if (own_background && !in_render) resolved_.background.push_back(i);
-      // What a `%` part has of `#` as a whole stays within it, but its own.
-      const bool is_taken = own_background && (node.modifiers & kHighlight) == 0;
-      if (node_state.highlighted && !carried_on && !in_render && !is_taken &&
+      if (node_state.highlighted && !carried_on && !in_render &&
           highlight_ends.size() < kMostNestedHighlights) {
         resolved_.highlight.push_back(i);
         highlight_ends.push_back(node.subtree_end);

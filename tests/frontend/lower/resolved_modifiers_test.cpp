@@ -57,9 +57,9 @@ TEST(ImporterModifiers, AHighlightedDifferenceHidesTheHighlightsOfWhatItTakesAwa
   EXPECT_EQ(trees_of("difference() { #sphere(); sphere(); #sphere(); }"), "(0-1-2) | - | (0-1-2)");
 }
 
-TEST(ImporterModifiers, WhatMissesTheBodyIsNotHighlighted) {
+TEST(ImporterModifiers, WhatMissesTheBodyIsHighlightedAllTheSame) {
   const std::string aside = "multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(); }";
-  EXPECT_EQ(trees_of("difference() { sphere(); #" + aside + " }"), "(0-1) | - | -");
+  EXPECT_EQ(trees_of("difference() { sphere(); #" + aside + " }"), "(0-1) | - | 1");
 }
 
 TEST(ImporterModifiers, WhereAllIsHighlightedItIsDrawnToo) {
@@ -71,7 +71,7 @@ TEST(ImporterModifiers, HighlightsNest) {
   EXPECT_EQ(trees_of("#difference() { sphere(); #sphere(); } sphere();"), "2 | - | ((0-1)+1)");
   EXPECT_EQ(trees_of("%difference() { sphere(); #sphere(); } sphere();"), "2 | (0-1) | 1");
   EXPECT_EQ(trees_of("#group() { sphere(); %sphere(); } sphere();"), "2 | 1 | 0");
-  EXPECT_EQ(trees_of("%difference() { #sphere(); sphere(); } sphere();"), "2 | (0-1) | -");
+  EXPECT_EQ(trees_of("%difference() { #sphere(); sphere(); } sphere();"), "2 | (0-1) | (0-1)");
   EXPECT_EQ(trees_of("%#sphere(); sphere();"), "1 | 0 | 0");
   EXPECT_EQ(trees_of("render() { #sphere(); } sphere();"), "(0+1) | - | -");
   EXPECT_EQ(trees_of("render() { %sphere(); sphere(); } sphere();"), "(1+2) | - | -");
