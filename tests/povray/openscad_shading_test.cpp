@@ -121,7 +121,7 @@ TEST_F(PovRayScenes, AreThoseThatScadrayDraws) {
   EXPECT_GT(hits, ids.size() / 10);
   // An edge may run through a pixel's centre; none was seen to.
   EXPECT_LE(other_colour, hits / 1000);
-  // Of faces that parts share, POV-Ray shows the first.
+  // Where parts share a face, POV-Ray shows the first part.
   EXPECT_LE(other_primitive, hits / 100);
 }
 #endif

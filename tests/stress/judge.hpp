@@ -53,7 +53,8 @@ struct Tally {
   /// Wrong pixels with at least three of their four direct neighbours right and showing the
   /// primitive (or the miss) that this pixel ought to show.
   uint64_t speckle = 0;
-  /// Of right hits: as shares of the model's size, and as lengths of differences of unit normals.
+  /// The errors of right hits, as shares of the model's size, and as lengths of differences of unit
+  /// normals.
   ErrorHistogram position_errors, normal_errors;
   /// The largest error of positions that the rounding of the picture's coordinates alone explains,
   /// as a share of the model's size.

@@ -227,13 +227,6 @@ Box union_of(std::span<const Box> boxes) {
   return result;
 }
 
-/// The union of the boxes of the leaves in a tree over primitives that are not subtracted there.
-Box box_of_operands(const csgcore::CsgTree& solid, std::span<const Box> boxes) {
-  Design design;
-  design.model = solid;
-  return view_box(design, boxes);
-}
-
 bool is_axis_aligned(const csgcore::Affine& map) {
   for (int column = 0; column < 3; ++column) {
     int entries = 0;
@@ -271,7 +264,7 @@ void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, boo
   const auto first = static_cast<uint32_t>(boxes.size());
   for (uint32_t leaf = first; leaf < leaves.size(); ++leaf) {
     const csgcore::CsgTree& solid = leaves.solid(leaf);
-    Box box = box_of_operands(solid, boxes);
+    Box box = box_of_positive_leaves(solid, boxes);
     if (measures_leaves && leaf < first + kMostMeasuredLeaves) {
       const csgcore::Affine& frame_to_world = collected.frames[leaves.frame(leaf)].to_world;
       box = box_of_result(collected.primitives, solid, frame_to_world, kOverviewOfLeaf_px, box);

@@ -76,8 +76,9 @@ ResolvedNode close(const Open& open) {
 }
 
 void apply_modifiers(ResolvedNode& node_state, uint8_t modifiers) {
-  if ((modifiers & kHighlight) != 0)
+  if ((modifiers & kHighlight) != 0) {
     node_state.highlighted = node_state.presence == Presence::kSolid;
+  }
   if ((modifiers & kBackground) != 0 && node_state.presence != Presence::kLeftOut) {
     node_state.presence = Presence::kBackground;
   }

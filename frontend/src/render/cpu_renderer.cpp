@@ -66,15 +66,15 @@ class CpuRenderer final : public SolidRenderer {
   }
 
   void draw_sides(const Solid& solid, const FrameSettings& frame, const PictureRequest& request,
-                  bool shows_behind, Sides& sides) override {
+                  Wanted wanted, Sides& sides) override {
     note_renderer(request);
     sides.area = csgcore::area_of(solid, request.view);
     if (sides.area.empty()) return;
     if (uses_cells(request.settings)) {
       const Subdivision& subdivision = subdivisions_.of(solid, request).subdivision;
-      trace_sides(subdivision, frame, request, shows_behind, sides);
+      trace_sides(subdivision, frame, request, wanted, sides);
     } else {
-      trace_sides(solid, frame, request, shows_behind, sides);
+      trace_sides(solid, frame, request, wanted, sides);
     }
   }
 
@@ -136,7 +136,7 @@ class CpuRenderer final : public SolidRenderer {
 
   template <typename Traced>
   static void trace_sides(const Traced& traced, const FrameSettings& frame,
-                          const PictureRequest& request, bool shows_behind, Sides& sides) {
+                          const PictureRequest& request, Wanted wanted, Sides& sides) {
     const auto trace_side = [&](Boundary boundary, Image& side) {
       csgcore::TraceOptions options = trace_options(request.settings, boundary);
       options.area = sides.area;
@@ -144,8 +144,8 @@ class CpuRenderer final : public SolidRenderer {
       csgcore::draw(traced, request.view, frame, options, side, frame_stats);
       add(frame_stats, request.stats);
     };
-    trace_side(Boundary::kFirst, sides.front);
-    if (shows_behind) trace_side(Boundary::kBehind, sides.behind);
+    if (wanted != Wanted::kBehind) trace_side(Boundary::kFirst, sides.front);
+    if (wanted != Wanted::kFront) trace_side(Boundary::kBehind, sides.behind);
   }
 
   SceneSubdivisions subdivisions_;

@@ -47,7 +47,7 @@ class GlRenderer final : public SolidRenderer {
   }
 
   void draw_sides(const Solid& solid, const csgcore::FrameSettings& frame,
-                  const PictureRequest& request, bool shows_behind, Sides& sides) override {
+                  const PictureRequest& request, Wanted wanted, Sides& sides) override {
     translate_errors([&] {
       request.stats.renderer = "gl: " + context_.renderer_name();
       sides.area = csgcore::area_of(solid, request.view);
@@ -58,7 +58,7 @@ class GlRenderer final : public SolidRenderer {
         Sides drawn{sides.area, {}, {}};
         drawn.front = count(
             [&](auto& stats) { return renderer.draw(request.view, gl_frame, stats); }, request);
-        if (!shows_behind) return drawn;
+        if (wanted == Wanted::kFront) return drawn;
         drawn.behind =
             count([&](auto& stats) { return renderer.draw_behind(request.view, gl_frame, stats); },
                   request);

@@ -133,11 +133,14 @@ void PreparedScene::draw_layers(SolidRenderer& renderer, const csgcore::FrameSet
   for (const auto& layer : layers_) {
     if (request.settings.stop.stop_requested()) return;
     const csgcore::FrameSettings of_layer = layer->frame(frame);
-    renderer.draw_sides(layer->solid(), of_layer, request, layer->shows_behind(), sides);
+    using Wanted = SolidRenderer::Wanted;
+    renderer.draw_sides(layer->solid(), of_layer, request,
+                        layer->shows_behind() ? Wanted::kBoth : Wanted::kFront, sides);
     if (layer->shows_behind()) compositor.add(*layer, sides.behind, sides.area);
     compositor.add(*layer, sides.front, sides.area);
     for (const PreparedLayer::Part& part : layer->parts()) {
-      renderer.draw_sides(part.solid, of_layer, request, part.is_subtracted, sides);
+      renderer.draw_sides(part.solid, of_layer, request,
+                          part.is_subtracted ? Wanted::kBehind : Wanted::kFront, sides);
       compositor.add_part(*layer, part.is_subtracted ? sides.behind : sides.front, sides.area);
     }
   }

@@ -55,17 +55,18 @@ class SolidRenderer {
                                 const PictureRequest&, std::span<const csgcore::PixelArea>,
                                 csgcore::Image&) {}
 
+  enum class Wanted : uint8_t { kFront, kBehind, kBoth };
   /// The pictures of a layer, with measured channels.
   struct Sides {
     csgcore::PixelArea area;  // outside of it the solid is not seen, and the pictures are undefined
     csgcore::Image front;     // where each ray enters the solid
-    csgcore::Image behind;    // and where it leaves it again, if that was asked for
+    csgcore::Image behind;    // and where it leaves it again; either is defined if it was wanted
   };
   /// Draws a layer, with one ray a pixel: at the edge of what is blended later, a colour mixed with
   /// the background's would show as a seam. `sides` may hold those of another layer of the same
   /// view.
   virtual void draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
-                          const PictureRequest& request, bool shows_behind, Sides& sides) = 0;
+                          const PictureRequest& request, Wanted wanted, Sides& sides) = 0;
 
   /// What was made of `before` follows the edit of its tree to `after`, before `before` ends; what
   /// was made of other solids is forgotten.

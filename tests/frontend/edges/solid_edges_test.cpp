@@ -83,7 +83,7 @@ TEST(SolidEdgesOf, FacesThatCrossAslant) {
       "multmatrix([[0.70710678,-0.70710678,0,0],[0.70710678,0.70710678,0,0],[0,0,1,0],[0,0,0,1]])"
       " cube(size = [10, 10, 10], center = true);");
   EXPECT_EQ(solid.vertices.size(), 2 * 16u);
-  // Of each cube's edges: four upright ones, and the two points of each side's rims.
+  // Each cube has four upright edges, and each side's rims give two points.
   const double tip = 10 / std::sqrt(2.0) - 5;  // from the cube's side out to the bar's edge
   const double rims = 2 * 16 * tip * std::sqrt(2.0);
   EXPECT_NEAR(total_length(solid), rims + 16 * 10, 1e-5);

@@ -142,7 +142,7 @@ TEST_F(FacetEdges, SmoothPrimitivesHaveNone) {
 }
 
 TEST_F(FacetEdges, LieOnTheirOwnPrimitiveAlone) {
-  // Of two plates that are flush the one that stands last in the file is seen.
+  // Where two plates are flush, the one that stands last in the file is seen.
   const Image image =
       draw("cube(size = [10, 10, 2], center = true); cube(size = [4, 14, 2], center = true);");
   const std::string side = std::string(25, '.') + 'e' + std::string(14, '.') + 'e';
