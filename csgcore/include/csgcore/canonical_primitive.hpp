@@ -15,12 +15,15 @@ enum class Classification : uint8_t { kOutside, kInside, kCrosses };
 ///   kSphere:  the unit ball.
 ///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
 ///   kPolyhedron: see polyhedron.hpp.
+///   kMesh: see triangle_mesh.hpp.
 struct alignas(64) CanonicalPrimitive {
   Shape shape = Shape::kSphere;
-  /// The quadric, kSphere or kFrustum, that encloses a polyhedron in canonical space. A primitive
-  /// of another kind is its own enclosure.
+  /// The quadric, kSphere or kFrustum, that encloses a polyhedron or a mesh in canonical space. A
+  /// primitive of another kind is its own enclosure.
   Shape enclosure = Shape::kSphere;
   CutFaces cut_faces = CutFaces::kByTree;
+  bool is_convex = true;  // a ray meets it in one segment at most
+  uint32_t id = 0;
   double radius_mid = 1;
   double radius_slope = 0;
   Vec3 center{0.0};  // world position of the canonical origin
@@ -34,13 +37,14 @@ struct alignas(64) CanonicalPrimitive {
   /// Bound of the rounding error of canonical coordinates, per unit of the largest number that they
   /// are computed from: a world coordinate or an offset from the centre.
   double canonical_error = 0;
-  /// Bound of the part of this error that the rounding of world_to_canonical causes, per unit of
-  /// the largest canonical coordinate.
-  double inversion_error = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // null unless shape is kPolyhedron
+  std::shared_ptr<const TriangleMesh> mesh;      // null unless shape is kMesh
   std::optional<Color> color;
-  uint32_t id = 0;
+  /// Bound of the part of canonical_error that the rounding of world_to_canonical causes, per unit
+  /// of the largest canonical coordinate. A float keeps primitives within five cache lines.
+  float inversion_error = 0;
 };
+static_assert(sizeof(CanonicalPrimitive) == 320);
 
 /// Returns the canonical form of a primitive. Precondition: is_valid(primitive).
 CanonicalPrimitive canonicalize(const Primitive& primitive);

@@ -1,5 +1,5 @@
-// The primitives: convex solids, each the image of a simple local solid under an affine map
-// (paper §3.2). Every affine image of a primitive is a primitive, too.
+// The primitives: solids, each the image of a local solid under an affine map (paper §3.2). Every
+// affine image of a primitive is a primitive, too.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 namespace csgcore {
 
 class Polyhedron;
+class TriangleMesh;
 
 /// RGBA as the file gives it; no gamma curve is applied to it. A channel above 1 makes a surface
 /// brighter than white would; a negative r, g or b stands for that channel of the scheme's colour.
@@ -38,6 +39,7 @@ struct Primitive {
   double z_min = 0;     // frustum only, z_min < z_max
   double z_max = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // a polyhedron's local solid, else null
+  std::shared_ptr<const TriangleMesh> mesh;      // a mesh's local solid, else null
   Affine local_to_world;                         // nonsingular; a mirror (det < 0) is fine
   std::optional<Color> color;  // none: the scheme's front colour, or its back colour on cut faces
   /// Index of the node in the file among all primitive nodes, in file order (the `id` channel).
@@ -50,6 +52,7 @@ Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top
                        const Affine& local_to_world = {});
 Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
                           const Affine& local_to_world = {});
+Primitive make_mesh(std::shared_ptr<const TriangleMesh> mesh, const Affine& local_to_world = {});
 
 /// Returns false for what OpenSCAD takes for the empty set (a size that is ≤ 0, infinite or nan; a
 /// matrix that is not finite), and for a singular matrix, which flattens the solid to nothing.

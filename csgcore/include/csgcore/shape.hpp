@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-/// Lists the kinds of primitives, X(Name) for Shape::kName. All code that answers for a kind is
+/// These list the kinds of primitives, X(Name) for Shape::kName: those of convex solids, which a
+/// ray meets in one segment at most, and the others, which it may meet in any number of them. All code that answers for a kind is
 /// looked up by this list, so that a kind for which some of it is missing does not build
 /// (CONTRIBUTING.md, "Adding a primitive"). The dimensions are members of Primitive
 /// (primitive.hpp):
@@ -13,7 +14,13 @@
 /// Frustum: local z in [z_min, z_max]; radius r_bottom at z_min, r_top at z_max, linear between.
 ///
 /// Polyhedron: the convex solid that `polyhedron` points to.
-#define CSGCORE_FOR_EACH_SHAPE(X) X(Sphere) X(Frustum) X(Polyhedron)
+///
+/// Mesh: the solid that `mesh` points to.
+#define CSGCORE_FOR_EACH_CONVEX_SHAPE(X) X(Sphere) X(Frustum) X(Polyhedron)
+#define CSGCORE_FOR_EACH_OTHER_SHAPE(X) X(Mesh)
+#define CSGCORE_FOR_EACH_SHAPE(X)  \
+  CSGCORE_FOR_EACH_CONVEX_SHAPE(X) \
+  CSGCORE_FOR_EACH_OTHER_SHAPE(X)
 
 namespace csgcore {
 

@@ -77,6 +77,7 @@ class CellTracer::Traversal {
  public:
   Traversal(CellTracer& owner, const PacketBlock& block, Workspace& workspace)
       : owner_(owner), tree_(owner.subdivision_), block_(block), workspace_(workspace) {
+    workspace.packets.segment_store.clear();
     make_block_rays(owner.frame_, block, rays_);
     invert_directions(rays_, inverses_);
   }

@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 
 #include "packets/walk-inl.hpp"
 #include "tree/list_expression.hpp"
@@ -129,7 +130,7 @@ class CoincidenceFinder {
       lanes &= ~here;
       const LaneMask on_cap = at_end ? segment.end_on_cap : segment.start_on_cap;
       Lanes3<Wide> normals[kChunks];
-      find_normals(frame_, rays_, here, segments_.primitive(index), t, on_cap, normals);
+      segments_.find_normals(index, here, t, on_cap, normals);
       hits.hits |= here;
       hits.on_cap = (hits.on_cap & ~here) | (on_cap & here);
       fill_lanes(here, index, hits.index);
@@ -181,6 +182,7 @@ class CoincidenceFinder {
     LaneMask behind = 0;
     if (asked != 0) {
       const PacketSegments& segment = segments_.compute(index, asked);
+      if (!segments_.is_convex(index)) aim_at_near_crossings(index, asked);
       LaneMask starts = 0;
       LaneMask ends = 0;
       PacketV start, end;
@@ -218,6 +220,29 @@ class CoincidenceFinder {
     }
   }
 
+  /// Moves the windows of a primitive that is not convex to its near crossings. A coincidence with
+  /// several of them is not plain.
+  HWY_NOINLINE void aim_at_near_crossings(uint32_t index, LaneMask lanes) {
+    double t[kPacketRays], near[kPacketRays], from[kPacketRays];
+    PacketV last_near;
+    for (int c = 0; c < kChunks; ++c) {
+      hn::StoreU(t_.chunk[c], Wide(), t + first_lane(c));
+      hn::StoreU(near_.chunk[c], Wide(), near + first_lane(c));
+      hn::StoreU(from_.chunk[c], Wide(), from + first_lane(c));
+      // Twice as far is beyond any rounding.
+      last_near.chunk[c] = hn::Add(t_.chunk[c], hn::Add(near_.chunk[c], near_.chunk[c]));
+    }
+    const LaneMask several = segments_.find_near(
+        index, lanes, t_, last_near,
+        [&](uint32_t lane, double crossing) {
+          return std::abs(crossing - t[lane]) < near[lane] && from[lane] < crossing;
+        },
+        gap_);
+    for (int c = 0; c < kChunks; ++c) {
+      gap_.chunk[c] = hn::IfThenElse(mask_of(several, c), hn::Zero(Wide()), gap_.chunk[c]);
+    }
+  }
+
   /// Updates gap_, the distance to the nearest crossing outside of the coincidence, and end_, the
   /// last crossing in it.
   HWY_INLINE void keep_gap(WideM is_near, WideV crossing, int c) {
@@ -232,7 +257,7 @@ class CoincidenceFinder {
   HWY_INLINE void keep_facing(uint32_t index, LaneMask lanes, LaneMask on_cap, const PacketV& t) {
     if (lanes == 0) return;
     Lanes3<Wide> normals[kChunks];
-    find_normals(frame_, rays_, lanes, segments_.primitive(index), t, on_cap, normals);
+    segments_.find_normals(index, lanes, t, on_cap, normals);
     for (const int c : ChunksOf(lanes)) {
       const Lanes3<Wide> direction = load3(Wide(), rays_.direction, first_lane(c));
       const WideV own = hn::Abs(dot(Wide(), normals[c], direction));

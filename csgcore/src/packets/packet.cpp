@@ -31,18 +31,6 @@ HWY_INLINE WideV outward_sign(const TraceList& list, uint32_t index) {
   return hn::Set(Wide(), is_complement(list, index) ? -1.0 : 1.0);
 }
 
-/// Returns the normals at the crossings t of the test's primitive, outward of the solid.
-HWY_INLINE Lanes3<Wide> outward_normal(const FrameRays& frame, const RayPacket& rays,
-                                       const TraceList& list, uint32_t index, WideV t,
-                                       LaneMask on_cap, int chunk) {
-  const Wide d;
-  const uint32_t entry = list.list->primitive[index];
-  const CanonicalPrimitive& primitive = list.primitives[entry & kPrimitiveBits];
-  return scaled(normal_of(d, primitive, frame.pivot, load_rays(d, rays, first_lane(chunk)), t,
-                          mask_of(on_cap, chunk)),
-                outward_sign(list, index));
-}
-
 /// The crossings at the lanes' t.
 struct Crossings {
   Lanes3<Wide> normal[kChunks];
@@ -50,11 +38,22 @@ struct Crossings {
   LaneMask unclear;  // lanes without a crossing at t, or whose crossing may coincide
 };
 
+/// Moves the windows of a primitive that is not convex to its crossings at t. Lowers `gap` to the
+/// distance of the nearest crossing outside of the windows.
+HWY_NOINLINE static HWY_MAYBE_UNUSED void aim_at_crossings(ListSegments& segments, uint32_t index,
+                                                           LaneMask lanes, const PacketV& t,
+                                                           PacketV& gap) {
+  double at[kPacketRays];
+  for (int c = 0; c < kChunks; ++c) hn::StoreU(t.chunk[c], Wide(), at + first_lane(c));
+  segments.find_near(
+      index, lanes, t, t, [&](uint32_t lane, double crossing) { return crossing == at[lane]; },
+      gap);
+}
+
 /// Finds the crossings at the lanes' t, and stores their index, normal and on_cap in `hits`.
-HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& rays,
-                                    const TraceList& trace, const TraceParameters& parameters,
-                                    ListSegments& segments, const Walk& walk, LaneMask lanes,
-                                    PacketHits& hits) {
+HWY_INLINE Crossings show_crossings(const RayPacket& rays, const TraceList& trace,
+                                    const TraceParameters& parameters, ListSegments& segments,
+                                    const Walk& walk, LaneMask lanes, PacketHits& hits) {
   const Wide d;
   Crossings result;
   PacketV gap;  // in t, to the nearest other crossing
@@ -86,6 +85,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
       if (reached == 0) continue;
     }
     const PacketSegments& segment = segments.compute(index, reached);
+    if (!segments.is_convex(index)) aim_at_crossings(segments, index, reached, walk.t, gap);
     LaneMask at_start = 0;
     LaneMask at_end = 0;
     for (int c = 0; c < kChunks; ++c) {
@@ -108,7 +108,7 @@ HWY_INLINE Crossings show_crossings(const FrameRays& frame, const RayPacket& ray
     hits.on_cap |= on_cap & own;
     fill_lanes(own, index, hits.index);
     Lanes3<Wide> normals[kChunks];
-    find_normals(frame, rays, own, segments.primitive(index), walk.t, on_cap, normals);
+    segments.find_normals(index, own, walk.t, on_cap, normals);
     const WideV sign = outward_sign(trace, index);
     for (const int c : ChunksOf(own)) {
       result.normal[c] = if_then_else(mask_of(own, c), scaled(normals[c], sign), result.normal[c]);
@@ -159,20 +159,16 @@ HWY_INLINE void resolve_lanes(const FrameRays& frame, const RayPacket& rays, Lan
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
     const LaneMask bit = LaneMask{1} << lane;
-    RayResolver resolver(frame, rays, lane, list, parameters, workspace);
+    RayResolver resolver(frame, rays, lane, list, parameters, segments, workspace);
     const auto shown = resolver.resolve(hits.t[lane], (hits.eye_inside & bit) != 0);
     if (!shown) continue;
     hits.hits |= bit;
-    hits.t[lane] = shown->event.t;
-    hits.index[lane] = shown->event.index;
+    hits.t[lane] = shown->t;
+    hits.index[lane] = shown->index;
     hits.on_cap = (hits.on_cap & ~bit) | (shown->on_cap ? bit : 0);
-    const int chunk = static_cast<int>(lane / kLanes);
-    const WideV t = hn::Set(Wide(), shown->event.t);
-    const auto normal =
-        outward_normal(frame, rays, list, shown->event.index, t, hits.on_cap, chunk);
-    hn::BlendedStore(normal.x, mask_of(bit, chunk), Wide(), hits.normal[0] + first_lane(chunk));
-    hn::BlendedStore(normal.y, mask_of(bit, chunk), Wide(), hits.normal[1] + first_lane(chunk));
-    hn::BlendedStore(normal.z, mask_of(bit, chunk), Wide(), hits.normal[2] + first_lane(chunk));
+    const Vec3 normal = segments.normal_at(shown->index, lane, shown->t, shown->on_cap);
+    const double sign = is_complement(list, shown->index) ? -1 : 1;
+    for (int axis = 0; axis < 3; ++axis) hits.normal[axis][lane] = sign * normal[axis];
   }
 }
 
@@ -226,6 +222,7 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   std::fill_n(start, kPacketRays, frame.first_t);
   std::fill_n(leave, kPacketRays, kEndless);
   workspace.rays += static_cast<uint64_t>(std::popcount(lanes));
+  workspace.segment_store.clear();
   ListSegments segments(frame, rays, list, parameters, workspace);
   Walk walk = walk_from(start, lanes);
   if (list.earliest_t > frame.first_t) {
@@ -241,7 +238,7 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
   const LaneMask unclear =
       parameters.boundary == Boundary::kBehind
           ? arrived
-          : show_crossings(frame, rays, list, parameters, segments, walk, arrived, hits).unclear;
+          : show_crossings(rays, list, parameters, segments, walk, arrived, hits).unclear;
   resolve_coincidences(frame, rays, unclear, list, parameters, leave, walk, segments, workspace,
                        hits);
 }
@@ -261,7 +258,7 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   const LaneMask left = arrived & ~hits.undecided;
   if (left == 0) return;
   const Crossings crossings =
-      show_crossings(frame, rays, list, parameters, segments, walk, left, hits);
+      show_crossings(rays, list, parameters, segments, walk, left, hits);
   hits.undecided |= crossings.unclear;
   // All crossings that may coincide with the hit must lie where the list is valid.
   const auto thinnest2 =

@@ -12,8 +12,7 @@
 #include <numeric>
 #include <optional>
 
-#include "packets/trace_list.hpp"
-#include "primitives/primitive-inl.hpp"
+#include "packets/list_segments-inl.hpp"
 #include "tree/list_expression.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,9 +31,10 @@ class RayResolver {
  public:
   /// The segments of all of the list's primitives must be computed for the lane.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
-              const TraceList& trace, const TraceParameters& parameters, PacketWorkspace& workspace)
+              const TraceList& trace, const TraceParameters& parameters, ListSegments& list_segments,
+              PacketWorkspace& workspace)
       : frame_(frame),
-        rays_(load_rays(Single(), packet, lane)),
+        direction_(load3(Single(), packet.direction, lane)),
         length_(std::sqrt(1.0 / packet.inverse_length2[lane])),
         lane_(lane),
         trace_(trace),
@@ -48,15 +48,12 @@ class RayResolver {
         has_changed_(workspace.has_changed),
         operands_(workspace.operands),
         expression_(workspace.expression),
+        list_segments_(list_segments),
         segments_(workspace.segments) {}
 
-  struct Shown {
-    Event event;
-    bool on_cap;
-  };
   /// Returns the crossing that the ray shows, if any. No boundary may lie before t; `value` is the
   /// solid's value at the eye.
-  std::optional<Shown> resolve(double t, bool value) {
+  std::optional<Event> resolve(double t, bool value) {
     collect();
     const auto at_t = std::lower_bound(events_.begin(), events_.end(), t,
                                        [](const Event& event, double at) { return event.t < at; });
@@ -65,10 +62,7 @@ class RayResolver {
     size_t begin = 0;
     for (size_t first = next_boundary(value); first < events_.size();) {
       const Coincidence coincidence = coincidence_of(begin, first, value);
-      if (coincidence.turns && --turns_left == 0) {
-        const Event event = shown_of(coincidence, value);
-        return Shown{event, is_on_cap(event)};
-      }
+      if (coincidence.turns && --turns_left == 0) return shown_of(coincidence, value);
       if (coincidence.turns) value = !value;
       begin = coincidence.last + 1;
       first = coincidence.end;
@@ -96,17 +90,29 @@ class RayResolver {
     events_.clear();
     inside_.resize(list().count());
     for (uint32_t i = 0; i < list().count(); ++i) {
-      const double start = segments_[i].start[lane_];
-      const double end = segments_[i].end[lane_];
-      inside_[i] = start <= frame_.first_t && end > frame_.first_t;
-      if (!(start < end) || !is_first_[i]) continue;
-      if (start > frame_.first_t) events_.push_back({start, i, false});
-      if (end > frame_.first_t) events_.push_back({end, i, true});
+      inside_[i] = 0;
+      if (!list_segments_.is_convex(i)) {
+        for (const RaySegment& segment : list_segments_.all_segments(i, lane_)) {
+          collect(i, segment.start, segment.end, false, false);
+        }
+        continue;
+      }
+      const PacketSegments& segments = segments_[i];
+      collect(i, segments.start[lane_], segments.end[lane_],
+              (segments.start_on_cap >> lane_ & 1) != 0, (segments.end_on_cap >> lane_ & 1) != 0);
     }
     std::sort(events_.begin(), events_.end(), [&](const Event& a, const Event& b) {
       return a.t != b.t ? a.t < b.t : primitive_of(a) < primitive_of(b);
     });
     passed_ = 0;
+  }
+
+  /// Collects the ends of a segment.
+  void collect(uint32_t index, double start, double end, bool start_on_cap, bool end_on_cap) {
+    if (start <= frame_.first_t && end > frame_.first_t) inside_[index] = 1;
+    if (!(start < end) || !is_first_[index]) return;
+    if (start > frame_.first_t) events_.push_back({start, index, false, start_on_cap});
+    if (end > frame_.first_t) events_.push_back({end, index, true, end_on_cap});
   }
 
   /// Finds, for each test, the next test of the same primitive.
@@ -170,18 +176,11 @@ class RayResolver {
     }
   }
 
-  bool is_on_cap(const Event& event) const {
-    const PacketSegments& segments = segments_[event.index];
-    return ((event.at_end ? segments.end_on_cap : segments.start_on_cap) >> lane_ & 1) != 0;
-  }
-
   /// Returns |n·d| at the crossing: thickness per unit of t.
   double facing(const Event& event) const {
     const Single d;
-    const auto on_cap = hn::Eq(hn::Set(d, is_on_cap(event) ? 1.0 : 0.0), hn::Set(d, 1.0));
-    const auto normal = normal_of(d, trace_.primitives[primitive_of(event)], frame_.pivot, rays_,
-                                  hn::Set(d, event.t), on_cap);
-    return std::abs(hn::GetLane(dot(d, normal, rays_.direction)));
+    const Vec3 normal = list_segments_.normal_at(event.index, lane_, event.t, event.on_cap);
+    return std::abs(hn::GetLane(dot(d, broadcast(d, normal), direction_)));
   }
 
   bool together(const Event& a, const Event& b) const {
@@ -215,19 +214,18 @@ class RayResolver {
     drop_what_came_back();
   }
 
-  /// Drops both crossings of primitives that are entered and left.
+  /// Keeps the first crossing of each primitive that is crossed an odd number of times, and none of
+  /// others.
   void drop_what_came_back() {
     std::sort(changed_.begin(), changed_.end(), [&](const Event& a, const Event& b) {
       const uint32_t primitives[] = {primitive_of(a), primitive_of(b)};
-      return primitives[0] != primitives[1] ? primitives[0] < primitives[1] : a.index < b.index;
+      if (primitives[0] != primitives[1]) return primitives[0] < primitives[1];
+      return a.index != b.index ? a.index < b.index : a.t < b.t;
     });
     size_t kept = 0;
-    for (size_t i = 0; i < changed_.size(); ++i) {
-      if (i + 1 < changed_.size() && changed_[i + 1].index == changed_[i].index) {
-        ++i;
-      } else {
-        changed_[kept++] = changed_[i];
-      }
+    for (size_t begin = 0, end = 0; begin < changed_.size(); begin = end) {
+      while (end < changed_.size() && changed_[end].index == changed_[begin].index) ++end;
+      if ((end - begin) % 2 == 1) changed_[kept++] = changed_[begin];
     }
     changed_.resize(kept);
   }
@@ -293,7 +291,7 @@ class RayResolver {
   }
 
   const FrameRays& frame_;
-  const Rays<Single> rays_;
+  const Lanes3<Single> direction_;
   const double length_;
   const uint32_t lane_;
   const TraceList& trace_;
@@ -307,6 +305,7 @@ class RayResolver {
   std::vector<uint8_t>& has_changed_;
   std::vector<int32_t>& operands_;
   ListExpression& expression_;
+  ListSegments& list_segments_;
   const std::vector<PacketSegments>& segments_;
   size_t passed_ = 0;
 };

@@ -7,6 +7,7 @@
 
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/hits.hpp"
+#include "packets/segment_lists.hpp"
 #include "primitives/packet_segments.hpp"
 #include "rays/ray_packet.hpp"
 #include "tree/cell_list.hpp"
@@ -48,6 +49,8 @@ struct PacketWorkspace {
                                           // is (ListSegments::program_counter)
   std::vector<uint8_t> was_computed;      // by index: intersected for any packet of the list; empty
                                           // if not wanted
+  SegmentStore segment_store;             // of primitives that are not convex; must be cleared before
+                                          // other rays are traced
   uint64_t rays = 0;                      // those traced along their whole length
   uint64_t intersections = 0;             // of rays with primitives
   uint64_t resolved_rays = 0;
@@ -60,6 +63,7 @@ struct PacketWorkspace {
     double t;
     uint32_t index;  // in the list
     bool at_end;
+    bool on_cap;  // see PacketSegments
   };
   std::vector<Event> events, changed;
   std::vector<uint8_t> inside;  // by index in the list

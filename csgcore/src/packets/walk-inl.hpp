@@ -8,153 +8,13 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "packets/trace_list.hpp"
-#include "primitives/apart-inl.hpp"
-#include "primitives/primitive-inl.hpp"
+#include "packets/list_segments-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
-
-/// Returns all lanes of the groups of four that hold any of the given lanes. Lanes are intersected
-/// in these groups, so that it does not depend on the vectors' width which segments are known.
-HWY_INLINE LaneMask whole_fours(LaneMask lanes) {
-  lanes |= lanes >> 1;
-  lanes |= lanes >> 2;
-  return (lanes & 0x11111111u) * 0xFu;
-}
-
-/// The segments of a list's primitives, which are computed when first needed. Once a primitive's
-/// segment is known for any lane, the segments of other lanes are either right or empty.
-class ListSegments {
- public:
-  ListSegments(const FrameRays& frame, const RayPacket& rays, const TraceList& list,
-               const TraceParameters& parameters, PacketWorkspace& workspace)
-      : frame_(frame),
-        rays_(rays),
-        list_(list),
-        apart_(kApart * parameters.thickness_tolerance),
-        workspace_(workspace) {
-    const uint32_t count = list.list->count();
-    if (workspace.program_counter.size() < count + CellList::kFirst) {
-      workspace.segments.resize(count);
-      workspace.computed.resize(count);
-      workspace.reached.resize(count);
-      workspace.apart.resize(count);
-      workspace.program_counter.resize(count + CellList::kFirst, 0);
-    }
-    entries_ = list.list->primitive.data();
-    segments_ = workspace.segments.data();
-    computed_ = workspace.computed.data();
-    reached_ = workspace.reached.data();
-    apart_of_ = workspace.apart.data();
-    const uint32_t* const if_inside = list.list->if_inside.data();
-    const uint32_t* const if_outside = list.list->if_outside.data();
-    uint32_t next = CellList::kTrue;
-    for (uint32_t i = 0; i < count; ++i) {
-      const LaneMask reached = list.reached ? list.reached[i] : kAllLanes;
-      reached_[i] = reached;
-      computed_[i] = apart_of_[i] = 0;
-      // The primitives of a large scene are scattered in memory.
-      if (reached != 0) prefetch_rays_part(primitive(i));
-      all_must_hold_ &= (if_inside[i] == CellList::kFalse && if_outside[i] == next) ||
-                        (if_inside[i] == next && if_outside[i] == CellList::kFalse);
-      next = i + CellList::kFirst;
-    }
-    all_must_hold_ &= list.list->root == next;
-  }
-  /// Returns whether the list is an intersection of its tests' operands: each test makes it false
-  /// or leads on to the next one.
-  HWY_INLINE bool all_must_hold() const { return all_must_hold_; }
-  /// Returns the lanes that may meet the primitive. The others lie outside of it throughout.
-  HWY_INLINE LaneMask reached(uint32_t index) const { return reached_[index]; }
-  /// Returns whether the segments of all these lanes are computed.
-  HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
-    return (lanes & ~computed_[index]) == 0;
-  }
-  /// Returns the segments, after computing those of `lanes`.
-  HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
-    PacketSegments& segments = segments_[index];
-    if (!are_known(index, lanes)) {
-      LaneMask& computed = computed_[index];
-      const LaneMask missing = whole_fours(lanes & ~computed);
-      if (computed == 0 && missing != kAllLanes) clear(segments);
-      intersect_lanes(frame_, rays_, missing, primitive(index), segments);
-      computed |= missing;
-      if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
-      workspace_.intersections += static_cast<uint64_t>(std::popcount(missing));
-    }
-    return segments;
-  }
-  /// Returns those of `lanes` whose points at t are separated from the primitive by kApart
-  /// thickness tolerances. For a ball the test costs as much as the intersection, so that it
-  /// returns none.
-  HWY_INLINE LaneMask apart(uint32_t index, const PacketV& t, LaneMask lanes) {
-    if (primitive(index).ball_radius > 0) return 0;
-    LaneMask& known = apart_of_[index];
-    if ((lanes & ~known) != 0) {
-      if (!has_points_) find_points(rays_, t, apart_, points_);
-      known |= lanes_apart(primitive(index), frame_.pivot, points_, apart_);
-      has_points_ = any_apart_ = true;
-    }
-    return lanes & known;
-  }
-  /// Must be called when lanes have changed their t.
-  HWY_INLINE void forget_apart(LaneMask lanes) {
-    has_points_ = false;
-    if (!any_apart_) return;
-    for (uint32_t i = 0; i < list_.list->count(); ++i) apart_of_[i] &= ~lanes;
-  }
-
-  /// Computes the segments of all primitives for the lanes; those of primitives that they cannot
-  /// meet become empty.
-  void compute_all(LaneMask lanes) {
-    for (uint32_t i = 0; i < list_.list->count(); ++i) {
-      const LaneMask wanted = lanes & reached(i);
-      if (wanted != 0) {
-        compute(i, wanted);
-      } else if (computed_[i] == 0) {
-        clear(segments_[i]);
-      }
-    }
-  }
-  HWY_INLINE const CanonicalPrimitive& primitive(uint32_t index) const {
-    return list_.primitives[entries_[index] & kPrimitiveBits];
-  }
-  /// The program counters of an evaluation: by the number of a test or of a constant, the lanes
-  /// that evaluate this test next, or that have this value. Between evaluations the entries of
-  /// tests are 0.
-  HWY_INLINE LaneMask* program_counter() { return workspace_.program_counter.data(); }
-
- private:
-  static HWY_INLINE void clear(PacketSegments& segments) {
-    const Wide d;
-    for (int c = 0; c < kChunks; ++c) {
-      hn::Store(hn::Set(d, kInfinity), d, segments.start + first_lane(c));
-      hn::Store(hn::Set(d, -kInfinity), d, segments.end + first_lane(c));
-    }
-  }
-
-  const FrameRays& frame_;
-  const RayPacket& rays_;
-  const TraceList& list_;
-  const double apart_;
-  // These point into the vectors of the list and the workspace. The compiler would read the
-  // vectors' own pointers again after every store of a mask.
-  const uint32_t* entries_;
-  PacketSegments* segments_;
-  LaneMask* computed_;
-  LaneMask* reached_;
-  LaneMask* apart_of_;
-  bool all_must_hold_ = true;
-  bool any_apart_ = false;
-  bool has_points_ = false;
-  PacketPoints points_;  // the lanes' points at their t
-  PacketWorkspace& workspace_;
-};
 
 /// The state of a packet's walk.
 struct Walk {
@@ -244,7 +104,7 @@ HWY_INLINE void evaluate(const TraceList& trace, ListSegments& segments, const W
         if (active == 0) continue;
       }
     }
-    const PacketSegments& segment = segments.compute(index, active);
+    const PacketSegments& segment = segments.at(index, active, walk.t);
     const LaneMask may_leave = active & changing(if_outside[index]);
     LaneMask inside = 0;
     for (int c = 0; c < kChunks; ++c) {
@@ -359,7 +219,7 @@ HWY_INLINE LaneMask walk_to_all(const TraceList& trace, ListSegments& segments, 
       }
       LaneMask moves = 0;
       if (active != 0) {
-        const PacketSegments& segment = segments.compute(index, active);
+        const PacketSegments& segment = segments.at(index, active, walk.t);
         const Sides sides = sides_of(segment, walk.t);
         moves = active & (must_be_outside ? sides.within : sides.before);
         if (!must_be_outside) end(active & ~sides.before & ~sides.within);

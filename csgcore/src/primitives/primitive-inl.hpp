@@ -16,16 +16,20 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// Calls visit(NameRays()) for the primitive's kind, so that loops inside `visit` need not look it
-/// up.
+/// Calls visit(NameRays()) for the kind of a convex primitive, so that loops inside `visit` need not
+/// look it up.
 template <class Visit>
 HWY_INLINE void with_rays_of_kind(const CanonicalPrimitive& primitive, Visit&& visit) {
   switch (primitive.shape) {
 #define CSGCORE_CASE(Name) \
   case Shape::k##Name:     \
     return visit(Name##Rays());
-    CSGCORE_FOR_EACH_SHAPE(CSGCORE_CASE)
+    CSGCORE_FOR_EACH_CONVEX_SHAPE(CSGCORE_CASE)
 #undef CSGCORE_CASE
+#define CSGCORE_CASE(Name) case Shape::k##Name:
+    CSGCORE_FOR_EACH_OTHER_SHAPE(CSGCORE_CASE)
+#undef CSGCORE_CASE
+    break;
   }
 }
 
@@ -69,6 +73,7 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame
       end_on_cap |= bits_of(segment.end_on_cap, c);
     }
   });
+  segments.more = 0;
   segments.start_on_cap = (segments.start_on_cap & ~done) | start_on_cap;
   segments.end_on_cap = (segments.end_on_cap & ~done) | end_on_cap;
 }

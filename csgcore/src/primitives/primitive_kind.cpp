@@ -70,6 +70,10 @@ double inversion_error(const CanonicalPrimitive& primitive) {
          4 * kEpsilon * largest_row_sum(absolute(w) * absolute(c));
 }
 
+float rounded_up(double bound) {
+  return std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity());
+}
+
 /// Returns a bound of the rounding of a cell's canonical coordinates. `terms` bounds the world
 /// coordinates that they are computed from. A quick bound is enough if it is small; maps that are
 /// nearly singular need the sharp one.
@@ -123,9 +127,9 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
   const Mat3& map = result.world_to_canonical;
   result.canonical_stretch =
       std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
-  result.inversion_error = inversion_error(result);
-  result.canonical_error =
-      (kTermRounding + result.inversion_error) * largest_row_sum(result.world_to_canonical);
+  const double from_inversion = inversion_error(result);
+  result.inversion_error = rounded_up(from_inversion);
+  result.canonical_error = (kTermRounding + from_inversion) * largest_row_sum(result.world_to_canonical);
   result.color = primitive.color;
   result.cut_faces = primitive.cut_faces;
   result.id = primitive.id;

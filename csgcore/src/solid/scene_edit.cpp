@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "solid/restriction.hpp"
 #include "tree/cell_list.hpp"
 
@@ -106,7 +107,8 @@ bool same_shape(const Primitive& a, const Primitive& b) {
          a.z_min == b.z_min && a.z_max == b.z_max &&
          a.local_to_world.linear == b.local_to_world.linear &&
          a.local_to_world.translation == b.local_to_world.translation &&
-         same_polyhedron(a.polyhedron.get(), b.polyhedron.get());
+         same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) &&
+         same_mesh(a.mesh.get(), b.mesh.get());
 }
 
 bool SceneEdit::surfaces_only() const {

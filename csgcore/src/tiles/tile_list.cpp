@@ -101,6 +101,7 @@ bool TileCuller::find_covers(const Tile& tile, const CellList& list) {
       is_partly_covered_ |= covers_more_than(e, tile);
       continue;
     }
+    if (!primitives_[primitive].is_convex) continue;
     covers_.push_back({primitive, nearest_t(e), furthest_t(e)});
   }
   if (covers_.empty()) return false;

@@ -1,0 +1,102 @@
+// Triangle meshes: solids of any shape, as OpenSCAD's polyhedron(), imported files and height
+// fields give them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+
+namespace csgcore {
+
+/// An immutable solid in local coordinates that is bounded by triangles, with a bounding volume
+/// hierarchy (BVH) over them. Meshes are large, and primitives share them.
+///
+/// The mesh is *closed* if each edge is passed as often in one direction as in the other. Then the
+/// solid is where the winding number is not 0: a mesh that is inside out is the same solid,
+/// overlapping shells are united, and a shell of the other orientation within one is a cavity.
+/// A mesh that is not closed has no inside of its own. NUMERICS.md, "Meshes", defines what a ray
+/// sees of it.
+///
+/// Canonical space is given by x_local = center + scale · x_canonical, coordinate by coordinate.
+/// There the mesh lies in the unit ball.
+class TriangleMesh {
+ public:
+  /// Indices of vertices, counterclockwise as seen from outside.
+  using Triangle = std::array<uint32_t, 3>;
+
+  struct Canonical {
+    Vec3 center, scale;
+  };
+
+  /// A node of the BVH. Its box holds its triangles in canonical space, and more by kBoxMargin.
+  struct Node {
+    std::array<float, 3> min, max;
+    /// A leaf has triangles()[first] and the next `count`. A branch (count = 0) has the children
+    /// nodes()[first] and nodes()[first + 1].
+    uint32_t first;
+    uint32_t count;
+  };
+  /// The boxes of nodes are larger than need be by this, in canonical units: far more than the
+  /// rounding of float in a test of a ray against them.
+  static constexpr float kBoxMargin = 0x1p-20f;
+  /// The most triangles of a leaf.
+  static constexpr uint32_t kLeafTriangles = 4;
+
+  /// The plane normal · x = offset of a triangle in canonical space. The normal points outwards and
+  /// has unit length there. A triangle without an area has some normal that is perpendicular to its
+  /// longest edge.
+  struct Plane {
+    Vec3 normal;
+    double offset;
+  };
+
+  /// Makes a mesh. Vertices at the same place must be one vertex; all must be finite and are at
+  /// least one. Triangles that name a vertex twice are left out; the others get another order. If
+  /// the mesh is not closed, triangles are turned so that neighbours across an edge which only they
+  /// share agree, by the majority of each connected part.
+  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+
+  /// The solid's definition in local coordinates, whose doubles are exact.
+  std::span<const Vec3> vertices() const { return vertices_; }
+  /// In the order of the BVH's leaves.
+  std::span<const Triangle> triangles() const { return triangles_; }
+
+  /// The edges that are passed more often in one direction than in the other.
+  uint64_t open_edges() const { return open_edges_; }
+  bool is_closed() const { return open_edges_ == 0; }
+
+  const Canonical& canonical() const { return canonical_; }
+  /// By vertex: its place in canonical space, up to rounding.
+  std::span<const Vec3> canonical_vertices() const { return canonical_vertices_; }
+  /// By triangle.
+  std::span<const Plane> planes() const { return planes_; }
+  /// The BVH, whose root comes first. Empty if there are no triangles.
+  std::span<const Node> nodes() const { return nodes_; }
+
+  /// Returns the winding number at a canonical point. On the surface it may be that of either side.
+  int winding(const Vec3& point_canonical) const;
+  /// Returns the vertex furthest along a direction; both are canonical.
+  Vec3 support(const Vec3& direction_canonical) const;
+
+ private:
+  void find_canonical();
+  void build_bvh();
+  void find_planes();
+
+  std::vector<Vec3> vertices_;
+  std::vector<Triangle> triangles_;
+  uint64_t open_edges_ = 0;
+  Canonical canonical_{Vec3(0.0), Vec3(1.0)};
+  std::vector<Vec3> canonical_vertices_;
+  std::vector<Plane> planes_;
+  std::vector<Node> nodes_;
+};
+
+/// Returns whether both are null, or both have the same vertices and triangles.
+bool same_mesh(const TriangleMesh* a, const TriangleMesh* b);
+
+}  // namespace csgcore

@@ -1,0 +1,53 @@
+// The crossings of rays with the surface of a primitive that is not convex.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "rays/ray_packet.hpp"
+
+namespace csgcore {
+
+/// A place where a ray passes a face.
+struct Crossing {
+  double t = -std::numeric_limits<double>::infinity();
+  uint32_t face = 0;
+  int32_t turn = 0;  // by how much the winding number grows there
+
+  friend bool operator<(const Crossing& a, const Crossing& b) {
+    return a.t != b.t ? a.t < b.t : a.face < b.face;
+  }
+};
+
+/// A search for the next crossings of a packet's rays.
+struct CrossingSearch {
+  struct Lane {
+    Crossing after;               // only later crossings are wanted
+    std::vector<Crossing> found;  // in order
+  };
+  Lane lanes[kPacketRays];
+  /// A part of a hierarchy of faces that lanes have yet to pass.
+  struct Visit {
+    uint32_t node;
+    LaneMask lanes;
+  };
+  std::vector<Visit> stack;  // working memory
+  /// So many crossings of each lane are wanted, and those with the same t as the last of them.
+  size_t most = 0;
+
+  /// Adds a crossing of the lane if it is wanted. Returns the t beyond which no more are.
+  double add(uint32_t lane_index, const Crossing& crossing) {
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    Lane& lane = lanes[lane_index];
+    std::vector<Crossing>& found = lane.found;
+    if (lane.after < crossing && (found.size() < most || crossing.t <= found[most - 1].t)) {
+      found.insert(std::upper_bound(found.begin(), found.end(), crossing), crossing);
+      while (found.size() > most && found.back().t > found[most - 1].t) found.pop_back();
+    }
+    return found.size() < most ? kEndless : found[most - 1].t;
+  }
+};
+
+}  // namespace csgcore

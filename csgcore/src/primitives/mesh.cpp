@@ -1,0 +1,143 @@
+// The triangle mesh under affine maps. triangle_mesh.hpp describes its canonical space.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
+#include <vector>
+
+#include "csgcore/triangle_mesh.hpp"
+#include "primitives/canonical_slack.hpp"
+#include "primitives/primitive_kind.hpp"
+
+namespace csgcore {
+namespace {
+
+/// The cell as a box around the canonical parallelepiped, with its slack.
+Box box_around(const CanonicalCell& cell) {
+  Vec3 half(cell.slack + TriangleMesh::kBoxMargin);
+  for (int i = 0; i < 3; ++i) half += glm::abs(cell.half[i]);
+  return {cell.center - half, cell.center + half};
+}
+
+bool meets(const TriangleMesh::Node& node, const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    if (node.min[i] > box.max[axis] || node.max[i] < box.min[axis]) return false;
+  }
+  return true;
+}
+
+/// Returns whether the triangle may meet the cell: neither its plane nor a face of the cell
+/// separates the two. `to_cell` maps canonical offsets from the cell's centre to shares of its half
+/// edges.
+bool may_meet(const TriangleMesh& mesh, uint32_t triangle, const CanonicalCell& cell,
+              const Mat3& to_cell, double slack) {
+  const TriangleMesh::Plane& plane = mesh.planes()[triangle];
+  double reach = cell.slack;
+  for (int i = 0; i < 3; ++i) reach += std::abs(glm::dot(plane.normal, cell.half[i]));
+  if (std::abs(glm::dot(plane.normal, cell.center) - plane.offset) > reach) return false;
+  Box shares;
+  for (const uint32_t vertex : mesh.triangles()[triangle]) {
+    shares.merge(to_cell * (mesh.canonical_vertices()[vertex] - cell.center));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (shares.min[axis] > 1 + slack || shares.max[axis] < -1 - slack) return false;
+  }
+  return true;
+}
+
+class MeshKind final : public PrimitiveKind {
+ public:
+  bool has_valid_shape(const Primitive& primitive) const override {
+    return primitive.mesh != nullptr && !primitive.mesh->triangles().empty();
+  }
+
+  CanonicalPrimitive canonicalize(const Primitive& primitive) const override {
+    const TriangleMesh& mesh = *primitive.mesh;
+    const TriangleMesh::Canonical& canonical = mesh.canonical();
+    CanonicalPrimitive result;
+    result.shape = Shape::kMesh;
+    result.is_convex = false;
+    result.mesh = primitive.mesh;
+    const Mat3& linear = primitive.local_to_world.linear;
+    result.center = primitive.local_to_world.point(canonical.center);
+    for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
+    result.world_to_canonical = inverse(result.canonical_to_world);
+    // The support along a world axis is that of the local solid along the axis' row of the map.
+    const Mat3 rows = glm::transpose(result.canonical_to_world);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto reach = [&](const Vec3& direction) {
+        return glm::dot(direction, mesh.support(direction));
+      };
+      result.bounds.min[axis] = result.center[axis] - reach(-rows[axis]);
+      result.bounds.max[axis] = result.center[axis] + reach(rows[axis]);
+    }
+    return result;
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    const TriangleMesh& mesh = *primitive.mesh;
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    if (may_cross(mesh, cell)) return Classification::kCrosses;
+    // Without a face in the cell, all of it lies on one side. Sheets are on both sides of a face.
+    if (!mesh.is_closed()) return Classification::kCrosses;
+    return mesh.winding(cell.center) != 0 ? Classification::kInside : Classification::kOutside;
+  }
+
+  /// An open mesh is crossed where its sheets are, but is nothing in itself.
+  bool contains(const CanonicalPrimitive& primitive, const Vec3& point) const override {
+    return primitive.mesh->winding(point) != 0;
+  }
+
+  Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) const override {
+    return primitive.mesh->support(direction);
+  }
+
+ private:
+  /// Returns whether any triangle may meet the cell.
+  static bool may_cross(const TriangleMesh& mesh, const CanonicalCell& cell) {
+    const Box box = box_around(cell);
+    const double flatness = std::abs(glm::determinant(cell.half));
+    const bool is_flat = !(flatness > 0);
+    const Mat3 to_cell = is_flat ? Mat3(0.0) : glm::inverse(cell.half);
+    // As a share of the half edges; a flat cell is judged by its box alone.
+    double slack = kCanonicalSlack;
+    for (int i = 0; i < 3; ++i) {
+      slack = std::max(slack, cell.slack * glm::length(glm::transpose(to_cell)[i]) * 2);
+    }
+    std::vector<uint32_t> open{0};
+    while (!open.empty()) {
+      const TriangleMesh::Node& node = mesh.nodes()[open.back()];
+      open.pop_back();
+      if (!meets(node, box)) continue;
+      if (node.count == 0) {
+        open.push_back(node.first);
+        open.push_back(node.first + 1);
+        continue;
+      }
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if (is_flat || may_meet(mesh, i, cell, to_cell, slack)) return true;
+      }
+    }
+    return false;
+  }
+};
+
+constexpr MeshKind kKind;
+
+}  // namespace
+
+constinit const PrimitiveKind& Mesh_kind = kKind;
+
+Primitive make_mesh(std::shared_ptr<const TriangleMesh> mesh, const Affine& local_to_world) {
+  Primitive primitive;
+  primitive.shape = Shape::kMesh;
+  primitive.mesh = std::move(mesh);
+  primitive.local_to_world = local_to_world;
+  return primitive;
+}
+
+}  // namespace csgcore

@@ -1,0 +1,386 @@
+#include "csgcore/triangle_mesh.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "primitives/mesh_edges.hpp"
+#include "primitives/planar_turn.hpp"
+
+namespace csgcore {
+namespace {
+
+using Triangle = TriangleMesh::Triangle;
+using Node = TriangleMesh::Node;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Loops are divided into parts of at least so many triangles or vertices.
+constexpr size_t kAtOnce = 4096;
+
+template <typename Visit>
+void for_each_index(size_t count, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce), [&](const auto& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) visit(i);
+  });
+}
+
+/// A box in float, which holds what it is merged with.
+struct FloatBox {
+  std::array<float, 3> min, max;
+
+  static FloatBox empty() {
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    return {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
+  }
+  void merge(const FloatBox& other) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      min[axis] = std::min(min[axis], other.min[axis]);
+      max[axis] = std::max(max[axis], other.max[axis]);
+    }
+  }
+  /// Half the surface; 0 if the box is empty.
+  float area() const {
+    const float x = max[0] - min[0], y = max[1] - min[1], z = max[2] - min[2];
+    return x < 0 ? 0 : x * y + y * z + z * x;
+  }
+};
+
+/// The box of a triangle, larger than need be by kBoxMargin, which covers the rounding to float.
+FloatBox box_of(const Triangle& triangle, std::span<const Vec3> vertices) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = vertices[triangle[0]][axis], b = vertices[triangle[1]][axis],
+                 c = vertices[triangle[2]][axis];
+    const auto i = static_cast<size_t>(axis);
+    box.min[i] = static_cast<float>(std::min({a, b, c})) - TriangleMesh::kBoxMargin;
+    box.max[i] = static_cast<float>(std::max({a, b, c})) + TriangleMesh::kBoxMargin;
+  }
+  return box;
+}
+
+/// Builds a BVH top down, by the surface area heuristic over equal bins of the triangles' middles
+/// along the longest side (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
+/// 2007).
+class BvhBuilder {
+ public:
+  BvhBuilder(std::span<const Triangle> triangles, std::span<const Vec3> vertices)
+      : items_(triangles.size()), nodes_(2 * triangles.size()) {
+    for_each_index(triangles.size(), [&](size_t i) {
+      items_[i] = {box_of(triangles[i], vertices), static_cast<uint32_t>(i)};
+    });
+    build(0, 0, static_cast<uint32_t>(items_.size()));
+  }
+
+  /// Returns the triangles in the order of the leaves.
+  std::vector<uint32_t> order() const {
+    std::vector<uint32_t> result(items_.size());
+    for (size_t i = 0; i < items_.size(); ++i) result[i] = items_[i].triangle;
+    return result;
+  }
+
+  /// Returns the nodes in an order that does not depend on the threads: those next to the root come
+  /// first, so that a ray's first steps stay in few cache lines.
+  std::vector<Node> nodes() const {
+    std::vector<Node> result(used_);
+    result[0] = nodes_[0];
+    uint32_t end = 1;
+    for (uint32_t i = 0; i < end; ++i) {
+      if (result[i].count > 0) continue;
+      const uint32_t children = result[i].first;
+      result[i].first = end;
+      result[end++] = nodes_[children];
+      result[end++] = nodes_[children + 1];
+    }
+    return result;
+  }
+
+ private:
+  struct Item {
+    FloatBox box;
+    uint32_t triangle;
+    /// Twice the middle of the box.
+    float middle(size_t axis) const { return box.min[axis] + box.max[axis]; }
+  };
+  static constexpr size_t kBins = 16;
+  struct Bin {
+    FloatBox box = FloatBox::empty();
+    uint32_t count = 0;
+  };
+
+  void build(uint32_t node, uint32_t begin, uint32_t end) {
+    FloatBox box = FloatBox::empty(), middles = FloatBox::empty();
+    for (uint32_t i = begin; i < end; ++i) {
+      box.merge(items_[i].box);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const float middle = items_[i].middle(axis);
+        middles.min[axis] = std::min(middles.min[axis], middle);
+        middles.max[axis] = std::max(middles.max[axis], middle);
+      }
+    }
+    nodes_[node] = {box.min, box.max, begin, end - begin};
+    if (end - begin <= TriangleMesh::kLeafTriangles) return;
+    const uint32_t split = divide(middles, begin, end);
+    const uint32_t children = used_.fetch_add(2, std::memory_order_relaxed);
+    nodes_[node].first = children;
+    nodes_[node].count = 0;
+    const auto below = [&] { build(children, begin, split); };
+    const auto above = [&] { build(children + 1, split, end); };
+    if (end - begin > kAtOnce) {
+      tbb::parallel_invoke(below, above);
+    } else {
+      below();
+      above();
+    }
+  }
+
+  /// Returns where the second half begins; both have triangles.
+  uint32_t divide(const FloatBox& middles, uint32_t begin, uint32_t end) {
+    size_t axis = 0;
+    float length = -1;
+    for (size_t i = 0; i < 3; ++i) {
+      if (middles.max[i] - middles.min[i] > length) {
+        length = middles.max[i] - middles.min[i];
+        axis = i;
+      }
+    }
+    const uint32_t half = begin + (end - begin) / 2;
+    if (!(length > 0)) return half;
+    const float scale = static_cast<float>(kBins) / length;
+    const auto bin_of = [&](const Item& item) {
+      const auto bin = static_cast<size_t>((item.middle(axis) - middles.min[axis]) * scale);
+      return std::min(bin, kBins - 1);
+    };
+    std::array<Bin, kBins> bins;
+    for (uint32_t i = begin; i < end; ++i) {
+      Bin& bin = bins[bin_of(items_[i])];
+      bin.box.merge(items_[i].box);
+      ++bin.count;
+    }
+    std::array<float, kBins> cost_above{};
+    FloatBox box = FloatBox::empty();
+    uint32_t count = 0;
+    for (size_t bin = kBins; bin-- > 1;) {
+      box.merge(bins[bin].box);
+      count += bins[bin].count;
+      cost_above[bin] = box.area() * static_cast<float>(count);
+    }
+    box = FloatBox::empty();
+    count = 0;
+    float least = std::numeric_limits<float>::infinity();
+    size_t best = 0;
+    for (size_t bin = 1; bin < kBins; ++bin) {
+      box.merge(bins[bin - 1].box);
+      count += bins[bin - 1].count;
+      if (count == 0 || count == end - begin) continue;
+      const float cost = box.area() * static_cast<float>(count) + cost_above[bin];
+      if (cost < least) least = cost, best = bin;
+    }
+    if (best == 0) return half;
+    const auto at = [&](uint32_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto split = std::partition(at(begin), at(end),
+                                      [&](const Item& item) { return bin_of(item) < best; });
+    return static_cast<uint32_t>(split - items_.begin());
+  }
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;
+  std::atomic<uint32_t> used_ = 1;
+};
+
+struct LongVec3 {
+  long double x, y, z;
+};
+LongVec3 operator-(const LongVec3& a, const LongVec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+LongVec3 cross(const LongVec3& a, const LongVec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+long double dot(const LongVec3& a, const LongVec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Returns a vector of length 1 that is perpendicular to another one.
+LongVec3 perpendicular(const LongVec3& v) {
+  const LongVec3 other = cross(v, std::abs(v.x) < std::abs(v.y) ? LongVec3{1, 0, 0}
+                                                                : LongVec3{0, 1, 0});
+  const long double length = std::sqrt(dot(other, other));
+  if (!(length > 0)) return {0, 0, 1};
+  return {other.x / length, other.y / length, other.z / length};
+}
+
+/// Returns the plane of a triangle. Differences of coordinates may cancel, and are taken in long
+/// double.
+TriangleMesh::Plane plane_of(const TriangleMesh::Canonical& canonical, const Vec3& a, const Vec3& b,
+                             const Vec3& c) {
+  const auto to_canonical = [&](const Vec3& v) {
+    return LongVec3{(static_cast<long double>(v.x) - canonical.center.x) / canonical.scale.x,
+                    (static_cast<long double>(v.y) - canonical.center.y) / canonical.scale.y,
+                    (static_cast<long double>(v.z) - canonical.center.z) / canonical.scale.z};
+  };
+  const LongVec3 corner = to_canonical(a);
+  const LongVec3 ab = to_canonical(b) - corner, ac = to_canonical(c) - corner, bc = ac - ab;
+  LongVec3 normal = cross(ab, ac);
+  const long double length = std::sqrt(dot(normal, normal));
+  if (length > 0) {
+    normal = {normal.x / length, normal.y / length, normal.z / length};
+  } else {
+    const long double lengths2[] = {dot(ab, ab), dot(ac, ac), dot(bc, bc)};
+    const auto longest = std::max_element(lengths2, lengths2 + 3) - lengths2;
+    normal = perpendicular(longest == 0 ? ab : longest == 1 ? ac : bc);
+  }
+  return {{static_cast<double>(normal.x), static_cast<double>(normal.y),
+           static_cast<double>(normal.z)},
+          static_cast<double>(dot(normal, corner))};
+}
+
+}  // namespace
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
+  std::erase_if(triangles_,
+                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  open_edges_ = count_open_edges(triangles_);
+  if (open_edges_ > 0) {
+    face_alike(triangles_);
+    open_edges_ = count_open_edges(triangles_);
+  }
+  find_canonical();
+  build_bvh();
+  find_planes();
+}
+
+void TriangleMesh::find_canonical() {
+  Box box;
+  for (const Vec3& vertex : vertices_) box.merge(vertex);
+  canonical_.center = box.center();
+  Vec3 half = 0.5 * box.max - 0.5 * box.min;
+  const double largest = std::max({half.x, half.y, half.z});
+  if (!(largest > 0)) half = Vec3(1.0);
+  // A flat mesh gets a thickness, so that its space is one.
+  constexpr double kLeastHalf = 0x1p-20;
+  half = glm::max(half, Vec3(kLeastHalf * largest));
+  double radius2 = 0;
+  for (const Vec3& vertex : vertices_) {
+    const Vec3 place = (vertex - canonical_.center) / half;
+    radius2 = std::max(radius2, glm::dot(place, place));
+  }
+  constexpr double kBeyondRounding = 1 + 1e-9;
+  if (radius2 > 0) half *= std::sqrt(radius2) * kBeyondRounding;
+  canonical_.scale = half;
+  canonical_vertices_.resize(vertices_.size());
+  for_each_index(vertices_.size(), [&](size_t i) {
+    canonical_vertices_[i] = (vertices_[i] - canonical_.center) / canonical_.scale;
+  });
+}
+
+void TriangleMesh::build_bvh() {
+  if (triangles_.empty()) return;
+  const BvhBuilder builder(triangles_, canonical_vertices_);
+  nodes_ = builder.nodes();
+  const std::vector<uint32_t> order = builder.order();
+  std::vector<Triangle> ordered(triangles_.size());
+  for_each_index(order.size(), [&](size_t i) { ordered[i] = triangles_[order[i]]; });
+  triangles_ = std::move(ordered);
+}
+
+void TriangleMesh::find_planes() {
+  planes_.resize(triangles_.size());
+  for_each_index(triangles_.size(), [&](size_t i) {
+    const Triangle& triangle = triangles_[i];
+    planes_[i] = plane_of(canonical_, vertices_[triangle[0]], vertices_[triangle[1]],
+                          vertices_[triangle[2]]);
+  });
+}
+
+int TriangleMesh::winding(const Vec3& point) const {
+  // The crossings of a ray along the x axis.
+  if (nodes_.empty()) return 0;
+  int winding = 0;
+  std::vector<uint32_t> open{0};
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (point.x > node.max[0] || point.y < node.min[1] || point.y > node.max[1] ||
+        point.z < node.min[2] || point.z > node.max[2]) {
+      continue;
+    }
+    if (node.count == 0) {
+      open.push_back(node.first);
+      open.push_back(node.first + 1);
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Vec3 corners[] = {canonical_vertices_[triangles_[i][0]],
+                              canonical_vertices_[triangles_[i][1]],
+                              canonical_vertices_[triangles_[i][2]]};
+      const auto seen = [&](int corner) {
+        return PlanarPoint{corners[corner].y - point.y, corners[corner].z - point.z};
+      };
+      const int turn = winding_of(seen(0), seen(1), seen(2));
+      if (turn == 0) continue;
+      const auto [nearest, furthest] =
+          std::minmax({corners[0].x, corners[1].x, corners[2].x});
+      const Plane& plane = planes_[i];
+      const double gap = (plane.offset - glm::dot(plane.normal, point)) / plane.normal.x;
+      const double x = std::isnan(gap) ? nearest : std::clamp(point.x + gap, nearest, furthest);
+      if (x > point.x) winding += turn;
+    }
+  }
+  return winding;
+}
+
+Vec3 TriangleMesh::support(const Vec3& direction) const {
+  Vec3 best = canonical_vertices_.front();
+  double furthest = -kInfinity;
+  const auto reach_of = [&](const Node& node) {
+    double reach = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<size_t>(axis);
+      reach += std::max(direction[axis] * double{node.min[i]}, direction[axis] * double{node.max[i]});
+    }
+    return reach;
+  };
+  std::vector<std::pair<double, uint32_t>> open;
+  if (!nodes_.empty()) open.emplace_back(reach_of(nodes_[0]), 0u);
+  while (!open.empty()) {
+    const auto [reach, index] = open.back();
+    open.pop_back();
+    if (reach <= furthest) continue;
+    const Node& node = nodes_[index];
+    if (node.count == 0) {
+      std::pair<double, uint32_t> children[] = {{reach_of(nodes_[node.first]), node.first},
+                                                {reach_of(nodes_[node.first + 1]), node.first + 1}};
+      if (children[0].first > children[1].first) std::swap(children[0], children[1]);
+      open.push_back(children[0]);
+      open.push_back(children[1]);
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      for (const uint32_t vertex : triangles_[i]) {
+        const double along = glm::dot(direction, canonical_vertices_[vertex]);
+        if (along > furthest) furthest = along, best = canonical_vertices_[vertex];
+      }
+    }
+  }
+  return best;
+}
+
+bool same_mesh(const TriangleMesh* a, const TriangleMesh* b) {
+  if (a == b) return true;
+  if (!a || !b) return false;
+  return std::ranges::equal(a->vertices(), b->vertices()) &&
+         std::ranges::equal(a->triangles(), b->triangles());
+}
+
+}  // namespace csgcore
