@@ -4,10 +4,10 @@
 #include <cstdint>
 
 /// These list the kinds of primitives, X(Name) for Shape::kName: those of convex solids, which a
-/// ray meets in one segment at most, and the others, which it may meet in any number of them. All code that answers for a kind is
-/// looked up by this list, so that a kind for which some of it is missing does not build
-/// (CONTRIBUTING.md, "Adding a primitive"). The dimensions are members of Primitive
-/// (primitive.hpp):
+/// ray meets in one segment at most, and the others, which it may meet in any number of them. All
+/// code that answers for a kind is looked up by this list, so that a kind for which some of it is
+/// missing does not build (CONTRIBUTING.md, "Adding a primitive"). The dimensions are members of
+/// Primitive (primitive.hpp):
 ///
 /// Sphere: centred at the local origin, radius r_bottom.
 ///

@@ -22,10 +22,10 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// A search looks for so many crossings of a ray with a primitive that is not convex; the first one
-/// for the ends of one segment, and each further one for twice as many.
-constexpr uint32_t kFirstCrossings = 2, kMostCrossings = 1 << 16;
-constexpr size_t kAllCrossings = std::numeric_limits<size_t>::max();
+/// A search looks for so many crossings of a ray with a primitive that is not convex: the first one
+/// for the ends of one segment, and each further one for twice as many, but for all that are left
+/// after kMostCrossings.
+constexpr size_t kFirstCrossings = 2, kMostCrossings = 32;
 
 /// The sheets of open meshes (NUMERICS.md, "Meshes"): their thickness in thickness tolerances, and
 /// the least cosine at which it is measured along the normal.
@@ -92,8 +92,8 @@ class ListSegments {
   HWY_INLINE bool are_known(uint32_t index, LaneMask lanes) const {
     return (lanes & ~computed_[index]) == 0;
   }
-  /// Returns the segments, after computing those of `lanes`. The windows that were not known are the
-  /// first segments.
+  /// Returns the segments, after computing those of `lanes`. The windows that were not known are
+  /// the first segments.
   HWY_INLINE const PacketSegments& compute(uint32_t index, LaneMask lanes) {
     PacketSegments& segments = segments_[index];
     if (!are_known(index, lanes)) {
@@ -271,8 +271,7 @@ class ListSegments {
     find_beyond(index, lanes, t);
     PacketSegmentLists& lists = lists_of(index);
     for_each_lane(lanes, [&](uint32_t lane) {
-      set_window(index, lists, lane,
-                 static_cast<uint32_t>(lists.lanes[lane].ended_at(t[lane])));
+      set_window(index, lists, lane, static_cast<uint32_t>(lists.lanes[lane].ended_at(t[lane])));
     });
   }
 
@@ -309,10 +308,11 @@ class ListSegments {
   HWY_NOINLINE void extend(uint32_t index, LaneMask lanes, PacketSegmentLists& lists) {
     CrossingSearch& search = workspace_.segment_store.search;
     const bool is_closed = csgcore::HWY_NAMESPACE::is_closed(primitive(index));
-    for_each_lane(lanes, [&](uint32_t lane) { search.lanes[lane].after = lists.lanes[lane].last(); });
+    for_each_lane(lanes,
+                  [&](uint32_t lane) { search.lanes[lane].after = lists.lanes[lane].last(); });
     lists.begun |= lanes;
-    lists.most = std::clamp(2 * lists.most, kFirstCrossings, kMostCrossings);
-    search.most = is_closed ? lists.most : kAllCrossings;
+    lists.most = lists.most == 0 ? kFirstCrossings : 2 * lists.most;
+    search.most = is_closed && lists.most <= kMostCrossings ? lists.most : CrossingSearch::kAll;
     find_crossings(frame_, rays_, lanes, primitive(index), search);
     for_each_lane(lanes, [&](uint32_t lane) {
       const std::vector<Crossing>& found = search.lanes[lane].found;

@@ -257,8 +257,7 @@ void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMa
   hits.undecided = parameters.boundary == Boundary::kBehind ? arrived : arrived & ~walk.moved;
   const LaneMask left = arrived & ~hits.undecided;
   if (left == 0) return;
-  const Crossings crossings =
-      show_crossings(rays, list, parameters, segments, walk, left, hits);
+  const Crossings crossings = show_crossings(rays, list, parameters, segments, walk, left, hits);
   hits.undecided |= crossings.unclear;
   // All crossings that may coincide with the hit must lie where the list is valid.
   const auto thinnest2 =

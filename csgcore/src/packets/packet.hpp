@@ -12,10 +12,10 @@ void trace_packet(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                   const TraceList& list, const TraceParameters& parameters,
                   PacketWorkspace& workspace, PacketHits& hits);
 
-/// Does the same within a range. Before the first range of a packet, workspace.segment_store must be
-/// cleared. `eye_inside` is the solid's value at the eye for the lanes in
-/// `known`; for other lanes it is the value at range.enter. Lanes that the range alone cannot
-/// decide are returned in hits.undecided.
+/// Does the same within a range. Before the first range of a packet, workspace.segment_store must
+/// be cleared. `eye_inside` is the solid's value at the eye for the lanes in `known`; for other
+/// lanes it is the value at range.enter. Lanes that the range alone cannot decide are returned in
+/// hits.undecided.
 void trace_packet_in_range(const FrameRays& frame, const RayPacket& rays, LaneMask lanes,
                            const PacketRange& range, const TraceList& list,
                            const TraceParameters& parameters, LaneMask known, LaneMask eye_inside,

@@ -31,8 +31,8 @@ class RayResolver {
  public:
   /// The segments of all of the list's primitives must be computed for the lane.
   RayResolver(const FrameRays& frame, const RayPacket& packet, uint32_t lane,
-              const TraceList& trace, const TraceParameters& parameters, ListSegments& list_segments,
-              PacketWorkspace& workspace)
+              const TraceList& trace, const TraceParameters& parameters,
+              ListSegments& list_segments, PacketWorkspace& workspace)
       : frame_(frame),
         direction_(load3(Single(), packet.direction, lane)),
         length_(std::sqrt(1.0 / packet.inverse_length2[lane])),

@@ -40,7 +40,6 @@ void SegmentList::take(std::span<const Crossing> crossings, bool are_last) {
 
 void PacketSegmentLists::clear() {
   for (; begun != 0; begun &= begun - 1) lanes[std::countr_zero(begun)].clear();
-  std::fill_n(window, kPacketRays, 0u);
   most = 0;
 }
 

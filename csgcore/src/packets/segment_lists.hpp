@@ -16,8 +16,8 @@ struct RaySegment {
   uint32_t start_face, end_face;
 };
 
-/// The segments of one ray, in order along its whole line. They are found from the front, a few at a
-/// time.
+/// The segments of one ray, in order along its whole line. They are found from the front, a few at
+/// a time.
 class SegmentList {
  public:
   std::span<const RaySegment> segments() const { return segments_; }
@@ -56,9 +56,8 @@ class SegmentList {
 /// The lists of a packet's rays.
 struct PacketSegmentLists {
   SegmentList lanes[kPacketRays];
-  LaneMask begun = 0;               // lanes whose lists have been asked for
-  uint32_t window[kPacketRays]{};   // the segment that PacketSegments holds
-  uint32_t most = 0;                // crossings of a lane that the next search looks for
+  LaneMask begun = 0;  // lanes whose lists have been asked for
+  size_t most = 0;     // crossings of a lane that the last search looked for
 
   void clear();
 };

@@ -49,10 +49,10 @@ struct PacketWorkspace {
                                           // is (ListSegments::program_counter)
   std::vector<uint8_t> was_computed;      // by index: intersected for any packet of the list; empty
                                           // if not wanted
-  SegmentStore segment_store;             // of primitives that are not convex; must be cleared before
-                                          // other rays are traced
-  uint64_t rays = 0;                      // those traced along their whole length
-  uint64_t intersections = 0;             // of rays with primitives
+  SegmentStore segment_store;  // of primitives that are not convex; must be cleared before
+                               // other rays are traced
+  uint64_t rays = 0;           // those traced along their whole length
+  uint64_t intersections = 0;  // of rays with primitives
   uint64_t resolved_rays = 0;
 
   // For coincidences:

@@ -25,7 +25,7 @@ struct Crossing {
 struct CrossingSearch {
   struct Lane {
     Crossing after;               // only later crossings are wanted
-    std::vector<Crossing> found;  // in order
+    std::vector<Crossing> found;  // in the end they are in order
   };
   Lane lanes[kPacketRays];
   /// A part of a hierarchy of faces that lanes have yet to pass.
@@ -36,15 +36,21 @@ struct CrossingSearch {
   std::vector<Visit> stack;  // working memory
   /// So many crossings of each lane are wanted, and those with the same t as the last of them.
   size_t most = 0;
+  static constexpr size_t kAll = std::numeric_limits<size_t>::max();
 
-  /// Adds a crossing of the lane if it is wanted. Returns the t beyond which no more are.
+  /// Adds a crossing of the lane if it is wanted. Returns the t beyond which no more are. If all
+  /// are wanted, they get their order at the end only.
   double add(uint32_t lane_index, const Crossing& crossing) {
     constexpr double kEndless = std::numeric_limits<double>::infinity();
     Lane& lane = lanes[lane_index];
     std::vector<Crossing>& found = lane.found;
-    if (lane.after < crossing && (found.size() < most || crossing.t <= found[most - 1].t)) {
-      found.insert(std::upper_bound(found.begin(), found.end(), crossing), crossing);
-      while (found.size() > most && found.back().t > found[most - 1].t) found.pop_back();
+    if (lane.after < crossing) {
+      if (most == kAll) {
+        found.push_back(crossing);
+      } else if (found.size() < most || crossing.t <= found[most - 1].t) {
+        found.insert(std::upper_bound(found.begin(), found.end(), crossing), crossing);
+        while (found.size() > most && found.back().t > found[most - 1].t) found.pop_back();
+      }
     }
     return found.size() < most ? kEndless : found[most - 1].t;
   }

@@ -13,6 +13,9 @@
 #define CSGCORE_KIND_CROSSINGS_INL_HPP
 #endif
 
+#include <algorithm>
+#include <bit>
+
 #include "primitives/mesh-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,8 +46,13 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void find_crossings(const FrameRays& frame,
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     search.lanes[std::countr_zero(left)].found.clear();
   }
-  with_crossings_of_kind(
-      primitive, [&](auto kind) { kind.find(frame, packet, lanes, primitive, search); });
+  with_crossings_of_kind(primitive,
+                         [&](auto kind) { kind.find(frame, packet, lanes, primitive, search); });
+  if (search.most != CrossingSearch::kAll) return;
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    std::vector<Crossing>& found = search.lanes[std::countr_zero(left)].found;
+    std::sort(found.begin(), found.end());
+  }
 }
 
 HWY_INLINE bool is_closed(const CanonicalPrimitive& primitive) {

@@ -2,9 +2,9 @@
 //
 // Each vertex is sheared into a plane in which the ray is the origin (Woop, Benthin, Wald,
 // "Watertight Ray/Triangle Intersection", JCGT 2013), by the same operations for all triangles that
-// share it. The signs of the triangles' edges in that plane are exact (planar_turn.hpp), so that the
-// triangles are a consistent drawing whatever the shear has rounded: the crossings of a closed mesh
-// cancel on every ray.
+// share it. The signs of the triangles' edges in that plane are exact (planar_turn.hpp), so that
+// the triangles are a consistent drawing whatever the shear has rounded: the crossings of a closed
+// mesh cancel on every ray.
 #if defined(CSGCORE_MESH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef CSGCORE_MESH_INL_HPP
 #undef CSGCORE_MESH_INL_HPP
@@ -38,8 +38,8 @@ struct alignas(64) PacketRays {
   double origin[3][kPacketRays];
   double direction[3][kPacketRays];
   double base[kPacketRays];
-  double shear[2][kPacketRays];     // of the two other axes, per unit of the longest
-  double inverse[kPacketRays];      // of the direction along the longest axis
+  double shear[2][kPacketRays];  // of the two other axes, per unit of the longest
+  double inverse[kPacketRays];   // of the direction along the longest axis
   float near_origin[3][kPacketRays];
   float near_inverse[3][kPacketRays];
   float first_t[kPacketRays];  // relative to base: crossings before it are not wanted
@@ -137,8 +137,9 @@ struct SeenCorners {
   WideV x[3], y[3], depth[3];
 };
 
-HWY_INLINE SeenCorners seen_corners(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
-                                    const PacketRays& rays, int longest, size_t first) {
+HWY_INLINE SeenCorners seen_corners(const TriangleMesh& mesh,
+                                    const TriangleMesh::Triangle& triangle, const PacketRays& rays,
+                                    int longest, size_t first) {
   const Wide d;
   const int across[] = {(longest + 1) % 3, (longest + 2) % 3};
   const WideV origin_x = hn::Load(d, rays.origin[across[0]] + first);
@@ -225,8 +226,7 @@ HWY_INLINE void cross_triangle(const TriangleMesh& mesh, uint32_t index, LaneMas
       const double t = std::isnan(at) ? a : std::clamp(at, std::min(a, b), std::max(a, b));
       // A triangle is seen from outside if its corners are counterclockwise against the ray.
       const bool leaves = (windings.positive >> lane & 1) == (inverse > 0 ? 1u : 0u);
-      const double last_t =
-          search.add(lane, {rays.base[lane] + t, index, leaves ? -1 : 1});
+      const double last_t = search.add(lane, {rays.base[lane] + t, index, leaves ? -1 : 1});
       rays.last_t[lane] = float_above(last_t - rays.base[lane]);
     }
   }
@@ -283,9 +283,7 @@ struct MeshCrossings {
     }
   }
 
-  static bool is_closed(const CanonicalPrimitive& primitive) {
-    return primitive.mesh->is_closed();
-  }
+  static bool is_closed(const CanonicalPrimitive& primitive) { return primitive.mesh->is_closed(); }
 
   static Vec3 normal(const CanonicalPrimitive& primitive, uint32_t face) {
     return primitive.mesh->planes()[face].normal * primitive.world_to_canonical;

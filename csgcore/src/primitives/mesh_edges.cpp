@@ -54,8 +54,8 @@ void for_each_edge(std::span<const Side> sides, const Visit& visit) {
   }
 }
 
-/// Returns whether all edges are balanced. An edge is added for one direction and subtracted for the
-/// other, as two random numbers. A mesh that is not closed has a sum of 0 with a probability of
+/// Returns whether all edges are balanced. An edge is added for one direction and subtracted for
+/// the other, as two random numbers. A mesh that is not closed has a sum of 0 with a probability of
 /// 2⁻¹²⁸.
 bool is_balanced(std::span<const Triangle> triangles) {
   uint64_t sums[2] = {};

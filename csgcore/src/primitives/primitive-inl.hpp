@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace csgcore {
 namespace HWY_NAMESPACE {
 
-/// Calls visit(NameRays()) for the kind of a convex primitive, so that loops inside `visit` need not
-/// look it up.
+/// Calls visit(NameRays()) for the kind of a convex primitive, so that loops inside `visit` need
+/// not look it up.
 template <class Visit>
 HWY_INLINE void with_rays_of_kind(const CanonicalPrimitive& primitive, Visit&& visit) {
   switch (primitive.shape) {

@@ -129,7 +129,8 @@ CanonicalPrimitive canonicalize(const Primitive& primitive) {
       std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
   const double from_inversion = inversion_error(result);
   result.inversion_error = rounded_up(from_inversion);
-  result.canonical_error = (kTermRounding + from_inversion) * largest_row_sum(result.world_to_canonical);
+  result.canonical_error =
+      (kTermRounding + from_inversion) * largest_row_sum(result.world_to_canonical);
   result.color = primitive.color;
   result.cut_faces = primitive.cut_faces;
   result.id = primitive.id;

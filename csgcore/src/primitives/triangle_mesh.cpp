@@ -187,8 +187,8 @@ class BvhBuilder {
     }
     if (best == 0) return half;
     const auto at = [&](uint32_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto split = std::partition(at(begin), at(end),
-                                      [&](const Item& item) { return bin_of(item) < best; });
+    const auto split =
+        std::partition(at(begin), at(end), [&](const Item& item) { return bin_of(item) < best; });
     return static_cast<uint32_t>(split - items_.begin());
   }
 
@@ -206,14 +206,12 @@ LongVec3 operator-(const LongVec3& a, const LongVec3& b) {
 LongVec3 cross(const LongVec3& a, const LongVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-long double dot(const LongVec3& a, const LongVec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+long double dot(const LongVec3& a, const LongVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Returns a vector of length 1 that is perpendicular to another one.
 LongVec3 perpendicular(const LongVec3& v) {
-  const LongVec3 other = cross(v, std::abs(v.x) < std::abs(v.y) ? LongVec3{1, 0, 0}
-                                                                : LongVec3{0, 1, 0});
+  const LongVec3 other =
+      cross(v, std::abs(v.x) < std::abs(v.y) ? LongVec3{1, 0, 0} : LongVec3{0, 1, 0});
   const long double length = std::sqrt(dot(other, other));
   if (!(length > 0)) return {0, 0, 1};
   return {other.x / length, other.y / length, other.z / length};
@@ -239,9 +237,9 @@ TriangleMesh::Plane plane_of(const TriangleMesh::Canonical& canonical, const Vec
     const auto longest = std::max_element(lengths2, lengths2 + 3) - lengths2;
     normal = perpendicular(longest == 0 ? ab : longest == 1 ? ac : bc);
   }
-  return {{static_cast<double>(normal.x), static_cast<double>(normal.y),
-           static_cast<double>(normal.z)},
-          static_cast<double>(dot(normal, corner))};
+  return {
+      {static_cast<double>(normal.x), static_cast<double>(normal.y), static_cast<double>(normal.z)},
+      static_cast<double>(dot(normal, corner))};
 }
 
 }  // namespace
@@ -329,8 +327,7 @@ int TriangleMesh::winding(const Vec3& point) const {
       };
       const int turn = winding_of(seen(0), seen(1), seen(2));
       if (turn == 0) continue;
-      const auto [nearest, furthest] =
-          std::minmax({corners[0].x, corners[1].x, corners[2].x});
+      const auto [nearest, furthest] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
       const Plane& plane = planes_[i];
       const double gap = (plane.offset - glm::dot(plane.normal, point)) / plane.normal.x;
       const double x = std::isnan(gap) ? nearest : std::clamp(point.x + gap, nearest, furthest);
@@ -347,7 +344,8 @@ Vec3 TriangleMesh::support(const Vec3& direction) const {
     double reach = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<size_t>(axis);
-      reach += std::max(direction[axis] * double{node.min[i]}, direction[axis] * double{node.max[i]});
+      reach +=
+          std::max(direction[axis] * double{node.min[i]}, direction[axis] * double{node.max[i]});
     }
     return reach;
   };
