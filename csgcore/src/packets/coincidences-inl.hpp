@@ -182,7 +182,7 @@ class CoincidenceFinder {
     LaneMask behind = 0;
     if (asked != 0) {
       const PacketSegments& segment = segments_.compute(index, asked);
-      if (!segments_.is_convex(index)) aim_at_near_crossings(index, asked);
+      if (segments_.has_windows(index)) aim_at_near_crossings(index, asked);
       LaneMask starts = 0;
       LaneMask ends = 0;
       PacketV start, end;

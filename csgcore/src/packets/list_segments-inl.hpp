@@ -114,10 +114,13 @@ class ListSegments {
   /// Does the same, and moves windows on to the first segment that has not ended at t.
   HWY_INLINE const PacketSegments& at(uint32_t index, LaneMask lanes, const PacketV& t) {
     const PacketSegments& segments = compute(index, lanes);
-    if ((segments.more & lanes) != 0) move_windows(index, segments.more & lanes, t);
+    if (has_windows(index)) move_windows(index, segments.more & lanes, t);
     return segments;
   }
-  HWY_INLINE bool is_convex(uint32_t index) const { return primitive(index).is_convex; }
+  /// Returns whether the primitive, whose segments are computed for some lane, is not convex.
+  HWY_INLINE bool has_windows(uint32_t index) const {
+    return any_windows_ && !primitive(index).is_convex;
+  }
 
   /// Moves the windows of a primitive that is not convex to the segments that have a near crossing,
   /// or else to the first ones that have not ended at t. is_near(lane, crossing) tells which
@@ -174,16 +177,16 @@ class ListSegments {
   /// is theirs.
   HWY_INLINE void find_normals(uint32_t index, LaneMask lanes, const PacketV& t, LaneMask on_cap,
                                Lanes3<Wide> (&normals)[kChunks]) {
-    if (primitive(index).is_convex) {
+    if (has_windows(index)) {
+      find_face_normals(index, lanes, t, normals);
+    } else {
       csgcore::HWY_NAMESPACE::find_normals(frame_, rays_, lanes, primitive(index), t, on_cap,
                                            normals);
-    } else {
-      find_face_normals(index, lanes, t, normals);
     }
   }
   /// Returns the normal of one lane.
   Vec3 normal_at(uint32_t index, uint32_t lane, double t, bool on_cap) {
-    if (!primitive(index).is_convex) return face_normal(index, lane, t);
+    if (has_windows(index)) return face_normal(index, lane, t);
     const Single d;
     const auto is_on_cap = hn::Eq(hn::Set(d, on_cap ? 1.0 : 0.0), hn::Set(d, 1.0));
     const Lanes3<Single> normal = normal_of(d, primitive(index), frame_.pivot,
@@ -248,6 +251,7 @@ class ListSegments {
   }
 
   HWY_NOINLINE void open_windows(uint32_t index, LaneMask lanes, bool are_first) {
+    any_windows_ = true;
     if (are_first) segments_[index].more = 0;
     PacketLane from;
     std::fill_n(from, kPacketRays, -kInfinity);
@@ -381,6 +385,7 @@ class ListSegments {
   LaneMask* apart_of_;
   bool all_must_hold_ = true;
   bool any_apart_ = false;
+  bool any_windows_ = false;  // of any primitive
   bool has_points_ = false;
   PacketPoints points_;  // the lanes' points at their t
   PacketWorkspace& workspace_;

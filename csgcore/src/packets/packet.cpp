@@ -85,7 +85,7 @@ HWY_INLINE Crossings show_crossings(const RayPacket& rays, const TraceList& trac
       if (reached == 0) continue;
     }
     const PacketSegments& segment = segments.compute(index, reached);
-    if (!segments.is_convex(index)) aim_at_crossings(segments, index, reached, walk.t, gap);
+    if (segments.has_windows(index)) aim_at_crossings(segments, index, reached, walk.t, gap);
     LaneMask at_start = 0;
     LaneMask at_end = 0;
     for (int c = 0; c < kChunks; ++c) {

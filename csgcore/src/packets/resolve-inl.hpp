@@ -91,7 +91,7 @@ class RayResolver {
     inside_.resize(list().count());
     for (uint32_t i = 0; i < list().count(); ++i) {
       inside_[i] = 0;
-      if (!list_segments_.is_convex(i)) {
+      if (list_segments_.has_windows(i)) {
         for (const RaySegment& segment : list_segments_.all_segments(i, lane_)) {
           collect(i, segment.start, segment.end, false, false);
         }

@@ -73,7 +73,6 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void intersect_lanes(const FrameRays& frame
       end_on_cap |= bits_of(segment.end_on_cap, c);
     }
   });
-  segments.more = 0;
   segments.start_on_cap = (segments.start_on_cap & ~done) | start_on_cap;
   segments.end_on_cap = (segments.end_on_cap & ~done) | end_on_cap;
 }
