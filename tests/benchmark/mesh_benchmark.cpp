@@ -1,8 +1,8 @@
 // Times triangle meshes: from a list of triangles in memory to the first picture (the BVH and the
 // solid included), and further frames of 640×480 by two threads. The mesh is a bumpy ball, alone
 // and with three cylinders cut from it. Before any time is taken, the pictures by tiles and by
-// cells are compared with each other. (Issue 22: the cut ball of 100,000 triangles in 60 ms,
-// further frames in 20 ms.)
+// cells are compared with each other. Where Embree is installed, its frame of the ball alone stands
+// beside. (Issue 22: the cut ball of 100,000 triangles in 60 ms, further frames in 20 ms.)
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,6 +16,9 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "frame.hpp"
+#ifdef MEASURE_HAS_EMBREE
+#include "embree_frame.hpp"
+#endif
 
 namespace {
 
@@ -148,6 +151,30 @@ void draw_frames(benchmark::State& state, uint32_t count, bool is_cut, const Dra
   report_times(times, state);
 }
 
+#ifdef MEASURE_HAS_EMBREE
+void draw_by_embree(benchmark::State& state, uint32_t count) {
+  const Triangles ball = bumpy_ball(count);
+  std::vector<measure::CutTriangle> triangles;
+  for (const auto& [a, b, c] : ball.triangles) {
+    triangles.push_back({{ball.vertices[a], ball.vertices[b], ball.vertices[c]}, 0});
+  }
+  const char is_cut[] = {0};
+  const measure::EmbreeFrame frame(triangles, is_cut, 2);
+  const View view = frame_benchmark::default_view(kViewBox);
+  Image image;
+  image.width_px = view.width_px;
+  image.height_px = view.height_px;
+  image.rgb.resize(size_t{view.width_px} * view.height_px);
+  Times times;
+  for (auto _ : state) {
+    times.measure([&] { frame.draw(view, FrameSettings{}, image); });
+    state.SetIterationTime(times.last() / 1000);
+  }
+  report_times(times, state);
+  state.counters["build_ms"] = frame.build_ms();
+}
+#endif
+
 void add(const std::string& name, const std::function<void(benchmark::State&)>& work) {
   benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
 }
@@ -159,6 +186,10 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   for (const uint32_t count : {1000u, 10'000u, 100'000u, 1'000'000u}) {
     add("build/" + std::to_string(count), [=](benchmark::State& state) { build(state, count); });
+#ifdef MEASURE_HAS_EMBREE
+    add("embree/" + std::to_string(count),
+        [=](benchmark::State& state) { draw_by_embree(state, count); });
+#endif
     for (const bool is_cut : {false, true}) {
       const std::string name = name_of(count, is_cut);
       add("first/" + name, [=](benchmark::State& state) { draw_first(state, count, is_cut); });
