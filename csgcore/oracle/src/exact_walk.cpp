@@ -106,7 +106,6 @@ void ExactWalk::add_mesh_candidates(uint32_t primitive) {
   const LocalRay<Exact> exact = localize(target, exact_ray_, 0);
   for (uint32_t i = 0; i < segments.size(); ++i) {
     ++counts_.segments;
-    ++counts_.exact_segments;
     candidates_.push_back({primitive, i, segments[i], 0, {}, {}, {}, exact});
     find_ends(candidates_.back());
   }
