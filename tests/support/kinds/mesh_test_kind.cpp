@@ -54,6 +54,19 @@ Vec3 lengths(Sizes& sizes) {
 constexpr Variant kVariants[] = {
     {"Tetrahedron",
      [](Sizes& sizes) { return about(tetrahedron_parts(sizes.length()), Vec3(0.0)); }},
+    // These two share faces with polyhedra of such sizes.
+    {"MeshBox",
+     [](Sizes& sizes) {
+       const Vec3 low = -lengths(sizes);
+       return csgcore::make_mesh(box_parts(low, lengths(sizes)).mesh());
+     }},
+    {"MeshPrism",
+     [](Sizes& sizes) {
+       const double radius = sizes.length(), bottom = -sizes.length(), top = sizes.length();
+       const int fragments = sizes.fragments();
+       return csgcore::make_mesh(
+           parts_of(csgcore::frustum_mesh(bottom, top, radius, radius, fragments)).mesh());
+     }},
     {"LPrism",
      [](Sizes& sizes) {
        const double length = sizes.length(), height = sizes.length();
@@ -142,18 +155,22 @@ class MeshTestKind final : public TestKind {
     const TriangleMesh& mesh = *p.mesh;
     std::uniform_real_distribution<double> share(0, 1);
     for (;;) {
-      const TriangleMesh::Triangle& triangle = mesh.triangles()[random() % mesh.triangles().size()];
-      Vec3 point = mesh.vertices()[triangle[0]];
+      const auto triangle = static_cast<uint32_t>(random() % mesh.triangles().size());
+      const auto corner = [&](size_t k) { return mesh.vertices()[mesh.triangles()[triangle][k]]; };
+      const double root = std::sqrt(share(random)), along = share(random);
+      const Vec3 inside = (1 - root) * corner(0) + root * (1 - along) * corner(1) +
+                          root * along * corner(2);
       if (random() % 3 != 0) {
-        const double root = std::sqrt(share(random)), along = share(random);
-        point = (1 - root) * point + root * (1 - along) * mesh.vertices()[triangle[1]] +
-                root * along * mesh.vertices()[triangle[2]];
+        if (is_surface(mesh, triangle, inside)) return inside;
+        continue;
       }
-      if (is_end(mesh, point)) return point;
+      constexpr double kStep = 1e-3;  // a vertex is taken for the points next to it
+      const Vec3 vertex = corner(random() % 3);
+      if (is_surface(mesh, triangle, glm::mix(vertex, inside, kStep))) return vertex;
     }
   }
   Vec3 core(const Primitive& p, const Vec3& surface_point) const override {
-    return ways_in(*p.mesh, surface_point).first;
+    return way_in(*p.mesh, surface_point);
   }
 
   LongVec3 middle(const Primitive& p) const override {
@@ -228,26 +245,38 @@ class MeshTestKind final : public TestKind {
   }
 
  private:
-  /// Returns a point inside that sees the surface point, and how far it is away; 0 if there is none.
-  static std::pair<Vec3, double> ways_in(const TriangleMesh& mesh, const Vec3& surface_point) {
+  /// Returns a point well inside that sees the surface point.
+  static Vec3 way_in(const TriangleMesh& mesh, const Vec3& surface_point) {
     csgcore::Box box;
     for (const Vec3& vertex : mesh.vertices()) box.merge(vertex);
     const double size = box.diagonal();
     constexpr double kRounding = 1e-13;  // of a surface point, as a share of the size
-    std::pair<Vec3, double> best{surface_point, 0};
+    double furthest = 0;
+    Vec3 best = surface_point;
     for (int i = 0; i < 27; ++i) {
       const Vec3 grid(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const Vec3 direction = glm::normalize(grid + 0.3 * kAskew * Vec3(1, -1, 1));
+      double way = 0;
+      bool is_alone = true;  // a line may touch a vertex within the solid
       for (const Span& span : spans_of(mesh, surface_point, direction)) {
-        if (std::abs(span.begin) > kRounding * size) continue;
-        const double way = 0.5 * double(span.end);
-        if (way > best.second) best = {surface_point + way * direction, way};
+        if (std::abs(span.begin) <= kRounding * size) way = 0.5 * double(span.end);
+        if (std::abs(span.end) <= kRounding * size) is_alone = false;
       }
+      if (is_alone && way > furthest) furthest = way, best = surface_point + way * direction;
     }
     return best;
   }
-  static bool is_end(const TriangleMesh& mesh, const Vec3& point) {
-    return ways_in(mesh, point).second > 0;
+  /// Returns whether a point of a triangle is on the surface: whether one side of it is outside.
+  static bool is_surface(const TriangleMesh& mesh, uint32_t triangle, const Vec3& point) {
+    const LongVec3 normal = csgcore::reference::triangle_normal(mesh, triangle);
+    const auto passages = csgcore::reference::passages(mesh, {LongVec3(point), -normal});
+    int winding = 0;
+    for (const MeshPassage& passage : passages) {
+      const bool is_outside = winding == 0;
+      winding += passage.turn;
+      if (passage.triangle == triangle) return is_outside != (winding == 0);
+    }
+    return false;  // the triangle is passed at an edge, or has no area
   }
 };
 
