@@ -64,6 +64,7 @@ std::vector<Family> far_families();
 std::vector<Family> singular_families();
 std::vector<Family> tree_families();
 std::vector<Family> polyhedron_families();
+std::vector<Family> mesh_families();
 Family tolerance_family();
 std::vector<Family> design_families();
 

@@ -68,6 +68,16 @@ std::shared_ptr<const TriangleMesh> MeshParts::mesh() const {
   return std::make_shared<TriangleMesh>(vertices, triangles);
 }
 
+MeshParts parts_of(const csgcore::Mesh& mesh) {
+  MeshParts parts{mesh.vertices, {}};
+  for (const std::vector<uint32_t>& face : mesh.faces) {
+    for (size_t i = 2; i < face.size(); ++i) {
+      parts.triangles.push_back({face[0], face[i - 1], face[i]});
+    }
+  }
+  return parts;
+}
+
 MeshParts tetrahedron_parts(double scale) {
   return {{scale * Vec3(1, 1, 1), scale * Vec3(-1, -1, 1), scale * Vec3(-1, 1, -1),
            scale * Vec3(1, -1, -1)},

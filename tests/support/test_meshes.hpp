@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "csgcore/facets.hpp"
 #include "csgcore/triangle_mesh.hpp"
 
 namespace test_support {
@@ -23,6 +24,8 @@ struct MeshParts {
   std::shared_ptr<const csgcore::TriangleMesh> mesh() const;
 };
 
+/// The same solid, whose faces are cut into triangles from their first vertex.
+MeshParts parts_of(const csgcore::Mesh& mesh);
 MeshParts tetrahedron_parts(double scale);
 MeshParts box_parts(const csgcore::Vec3& min, const csgcore::Vec3& max);
 /// A box whose sides are divided by `cuts` lines in both directions, some of them so close to others
