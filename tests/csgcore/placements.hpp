@@ -45,11 +45,11 @@ struct Placement {
   double from_world;  // distance of the pivot from the world's origin
 };
 inline constexpr Placement kPlacements[] = {{"unit", 1, 0, 0},
-                                     {"aside", 1, 10, 3},
-                                     {"tiny in a large model", 1e-9, 1, 0},
-                                     {"tiny", 1e-9, 1e-9, 1e-9},
-                                     {"huge", 1e12, 1e12, 1e12},
-                                     {"far from the world's origin", 1, 1, 1e12}};
+                                            {"aside", 1, 10, 3},
+                                            {"tiny in a large model", 1e-9, 1, 0},
+                                            {"tiny", 1e-9, 1e-9, 1e-9},
+                                            {"huge", 1e12, 1e12, 1e12},
+                                            {"far from the world's origin", 1, 1, 1e12}};
 
 /// Returns the place of a primitive: its map, and translation relative to the pivot.
 inline Affine placed(const Placement& placement, MapKind map, const Vec3& pivot,

@@ -164,8 +164,8 @@ std::vector<RayOracle::Segment> RayOracle::segments(const LongRay& ray) const {
   }
   constexpr Real kNoSheets = 0;
   std::vector<reference::Span> spans;
-  kind_.solid(primitive_)->add_spans(
-      {to_local(ray.origin), world_to_local_ * ray.direction}, kNoSheets, spans);
+  kind_.solid(primitive_)
+      ->add_spans({to_local(ray.origin), world_to_local_ * ray.direction}, kNoSheets, spans);
   std::vector<Segment> segments;
   for (const reference::Span& span : spans) segments.push_back({span.begin, span.end});
   return segments;

@@ -3,7 +3,8 @@
 // code with the subdivision or the renderers.
 //
 // The picture that it defines (csgcore/NUMERICS.md, "The definition"):
-// - Along a pixel's ray every primitive has some disjoint segments (a convex one: one or none), whose
+// - Along a pixel's ray every primitive has some disjoint segments (a convex one: one or none),
+// whose
 //   ends are crossings. Those at which the solid's value changes are its boundaries. mesh_solid.hpp
 //   has the segments of meshes.
 // - Two crossings are coincident if they are less than the tolerance apart, measured along the

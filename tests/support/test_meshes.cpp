@@ -235,7 +235,8 @@ MeshParts height_field_parts(double size, uint32_t cells, double low, double hig
   for (const bool is_top : {false, true}) {
     for (uint32_t y = 0; y < side; ++y) {
       for (uint32_t x = 0; x < side; ++x) {
-        parts.add(Vec3(size * x / cells, size * y / cells, is_top ? uniform(random, low, high) : 0));
+        parts.add(
+            Vec3(size * x / cells, size * y / cells, is_top ? uniform(random, low, high) : 0));
       }
     }
   }

@@ -1,4 +1,5 @@
-// Triangle meshes of many shapes. All are closed and oriented outwards unless a name says otherwise.
+// Triangle meshes of many shapes. All are closed and oriented outwards unless a name says
+// otherwise.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ struct MeshParts {
 MeshParts parts_of(const csgcore::Mesh& mesh);
 MeshParts tetrahedron_parts(double scale);
 MeshParts box_parts(const csgcore::Vec3& min, const csgcore::Vec3& max);
-/// A box whose sides are divided by `cuts` lines in both directions, some of them so close to others
-/// that the triangles between them are slivers.
+/// A box whose sides are divided by `cuts` lines in both directions, some of them so close to
+/// others that the triangles between them are slivers.
 MeshParts sliced_box_parts(const csgcore::Vec3& half, uint32_t cuts, std::mt19937& random);
 /// A prism over an L: two bars of that thickness along the x and y axes, which are `length` long.
 MeshParts l_prism_parts(double length, double thickness, double height);

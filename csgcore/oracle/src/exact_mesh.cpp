@@ -13,7 +13,9 @@ double middle(const Interval& interval) {
   return interval.inf() + (interval.sup() - interval.inf()) / 2;
 }
 
-csgcore::Vec3 middle(const Vector<Interval>& v) { return {middle(v[0]), middle(v[1]), middle(v[2])}; }
+csgcore::Vec3 middle(const Vector<Interval>& v) {
+  return {middle(v[0]), middle(v[1]), middle(v[2])};
+}
 
 template <class Number>
 Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
@@ -25,8 +27,8 @@ Number side_of(const Vector<Number>& a, const Vector<Number>& b, const LocalRay<
   return dot(ray.d, cross(difference(a, ray.o), difference(b, ray.o)));
 }
 
-/// Returns the sign of the edge if the line is moved by (ε, ε², ε³), or 0 if the edge is parallel to
-/// it. A move by δ changes d·((a − o) × (b − o)) by δ·(d × (b − a)).
+/// Returns the sign of the edge if the line is moved by (ε, ε², ε³), or 0 if the edge is parallel
+/// to it. A move by δ changes d·((a − o) × (b − o)) by δ·(d × (b − a)).
 int sign_if_moved(const Vector<Exact>& a, const Vector<Exact>& b, const LocalRay<Exact>& ray) {
   for (const Exact& change : cross(ray.d, difference(b, a))) {
     if (const int sign = sign_of(change)) return sign;

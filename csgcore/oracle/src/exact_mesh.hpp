@@ -1,11 +1,11 @@
 // The exact crossings of rays with triangle meshes.
 //
 // A line along d through o passes a triangle if the origin lies within the triangle's image in a
-// plane across d: if all three edges a → b have the same sign of d·((a − o) × (b − o)). Where such a
-// number is 0, the line counts as moved from o by (ε, ε², ε³) for an ε that is less than any number,
-// the same for all triangles (Edelsbrunner and Mücke, "Simulation of simplicity", 1990). So no line
-// meets an edge or a vertex, none runs within a triangle, and a closed mesh is left as often as it
-// is entered.
+// plane across d: if all three edges a → b have the same sign of d·((a − o) × (b − o)). Where such
+// a number is 0, the line counts as moved from o by (ε, ε², ε³) for an ε that is less than any
+// number, the same for all triangles (Edelsbrunner and Mücke, "Simulation of simplicity", 1990). So
+// no line meets an edge or a vertex, none runs within a triangle, and a closed mesh is left as
+// often as it is entered.
 #pragma once
 
 #include <memory>

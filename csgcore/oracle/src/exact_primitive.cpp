@@ -253,12 +253,11 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface, bool enters) {
   // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
-  const Interval across =
-      surface == Surface::kWall
-          ? CGAL::sqrt(ray.wall(enters).discriminant)
-          : with_plane(target, surface, [&](const Plane<Interval>& plane) {
-              return Interval(CGAL::abs(dot(plane.normal, ray.d)));
-            });
+  const Interval across = surface == Surface::kWall
+                              ? CGAL::sqrt(ray.wall(enters).discriminant)
+                              : with_plane(target, surface, [&](const Plane<Interval>& plane) {
+                                  return Interval(CGAL::abs(dot(plane.normal, ray.d)));
+                                });
   return across / length(normal_at(target, ray, t, surface));
 }
 

@@ -88,14 +88,15 @@ Target<Exact> make_target(const csgcore::Primitive& primitive, const csgcore::Ve
 Target<Interval> enclose(const Target<Exact>& target);
 
 /// A surface of a primitive: the wall, or the plane or the triangle with that index. The rims and
-/// pointed ends of a frustum belong to its caps. The edges and vertices of a polyhedron belong to the
-/// face with the lowest index.
+/// pointed ends of a frustum belong to its caps. The edges and vertices of a polyhedron belong to
+/// the face with the lowest index.
 enum class Surface : uint32_t { kBottom = 0, kTop = 1, kWall = 0xFFFFFFFFu };
 
 /// The surfaces at the ends of a part of a ray within the closed primitive, which has a length > 0.
 struct Ends {
   Surface begin, end;
-  /// The part ends so much later in t than the ray meets `end`: at the back of an open mesh's sheet.
+  /// The part ends so much later in t than the ray meets `end`: at the back of an open mesh's
+  /// sheet.
   double beyond = 0;
 };
 

@@ -128,7 +128,8 @@ class MeshTwin final : public ExactTwin {
   }
   std::string as_openscad(const Primitive& primitive) const override {
     std::vector<std::string> points, faces;
-    for (const std::string& text : vertex_texts(*primitive.mesh)) points.push_back("[" + text + "]");
+    for (const std::string& text : vertex_texts(*primitive.mesh))
+      points.push_back("[" + text + "]");
     // OpenSCAD's faces are clockwise as seen from outside.
     for (const Triangle& triangle : primitive.mesh->triangles()) {
       faces.push_back("[" + text_of(triangle, {0, 2, 1}) + "]");

@@ -71,9 +71,9 @@ Vec3 pivot_of(const Scene& scene) {
 }
 
 std::vector<uint32_t> find_alike(const Scene& scene) {
-  std::map<std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*,
-                      std::vector<double>>,
-           uint32_t>
+  std::map<
+      std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*, std::vector<double>>,
+      uint32_t>
       first;
   std::vector<uint32_t> result;
   for (const Primitive& p : scene.primitives) {

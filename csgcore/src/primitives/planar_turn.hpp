@@ -33,7 +33,8 @@ inline int turn_of_equal_products(PlanarPoint a, PlanarPoint b) {
 
 /// Returns on which side of the line from a to b the origin lies: 1 on the left, −1 on the right,
 /// and 0 only if the two are the same point. It is exact for doubles up to 1e150. The sign is that
-/// of a point next to the origin, the same for all lines, that lies on no line through other points.
+/// of a point next to the origin, the same for all lines, that lies on no line through other
+/// points.
 inline int planar_turn(PlanarPoint a, PlanarPoint b) {
   // Rounding keeps the order of products unless it makes them equal.
   const double left = a.x * b.y, right = a.y * b.x;
@@ -41,8 +42,8 @@ inline int planar_turn(PlanarPoint a, PlanarPoint b) {
   return turn_of_equal_products(a, b);
 }
 
-/// Returns how often the triangle winds around the origin, or around the point next to it: 1, −1, or
-/// 0 if that lies outside.
+/// Returns how often the triangle winds around the origin, or around the point next to it: 1, −1,
+/// or 0 if that lies outside.
 inline int winding_of(PlanarPoint a, PlanarPoint b, PlanarPoint c) {
   const int first = planar_turn(a, b);
   return first == planar_turn(b, c) && first == planar_turn(c, a) ? first : 0;
@@ -53,9 +54,9 @@ struct DepthRange {
   double nearest, furthest;
 };
 
-/// Returns the depths between which a triangle is passed at the origin, around which it winds: those
-/// of the two edges that pass the origin on either side, across the longer extent. Of a triangle that
-/// is seen edge-on they tell more than its plane.
+/// Returns the depths between which a triangle is passed at the origin, around which it winds:
+/// those of the two edges that pass the origin on either side, across the longer extent. Of a
+/// triangle that is seen edge-on they tell more than its plane.
 inline DepthRange depth_range(const PlanarPoint (&corners)[3], const double (&depths)[3]) {
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});

@@ -182,11 +182,18 @@ TEST_P(MeshCrossingsOf, RaysAreThoseOfExtendedPrecision) {
               const auto& tr = primitive.mesh->triangles()[crossing.face];
               const auto nl = mesh.to_local(ray);
               auto seen = reference::passages(*primitive.mesh, nl);
-              printf("off %Lg bound %Lg t %g edges %Lg\n", off, bound, crossing.t, mesh.from_edges(ray, crossing.face));
-              printf("local o %.17Lg %.17Lg %.17Lg d %.17Lg %.17Lg %.17Lg\n", nl.origin.x, nl.origin.y, nl.origin.z, nl.direction.x, nl.direction.y, nl.direction.z);
-              for (auto v : tr) { auto p = primitive.mesh->vertices()[v]; printf("  v %.17g %.17g %.17g\n", p.x, p.y, p.z); }
-              for (auto p : seen) printf("  expected %Lg tri %u turn %d\n", p.t, p.triangle, p.turn);
-              for (auto p : search.lanes[lane].found) printf("  found %g tri %u turn %d\n", p.t, p.face, p.turn);
+              printf("off %Lg bound %Lg t %g edges %Lg\n", off, bound, crossing.t,
+                     mesh.from_edges(ray, crossing.face));
+              printf("local o %.17Lg %.17Lg %.17Lg d %.17Lg %.17Lg %.17Lg\n", nl.origin.x,
+                     nl.origin.y, nl.origin.z, nl.direction.x, nl.direction.y, nl.direction.z);
+              for (auto v : tr) {
+                auto p = primitive.mesh->vertices()[v];
+                printf("  v %.17g %.17g %.17g\n", p.x, p.y, p.z);
+              }
+              for (auto p : seen)
+                printf("  expected %Lg tri %u turn %d\n", p.t, p.triangle, p.turn);
+              for (auto p : search.lanes[lane].found)
+                printf("  found %g tri %u turn %d\n", p.t, p.face, p.turn);
             }
             ASSERT_LE(off, bound) << "triangle " << crossing.face;
           }

@@ -25,11 +25,11 @@
 namespace csgcore {
 namespace {
 
+using checks::kMapKinds;
+using checks::kPlacements;
 using checks::LongMat3;
 using checks::LongRay;
 using checks::LongVec3;
-using checks::kMapKinds;
-using checks::kPlacements;
 using checks::MapKind;
 using checks::PivotRay;
 using checks::Placement;

@@ -34,8 +34,8 @@ LongVec3 axis_across(const LongVec3& d) {
 }
 
 Span span_between(const MeshPassage& begin, const MeshPassage& end) {
-  // The outward normal is against the ray at the beginning, and along it at the end. A triangle's own
-  // normal is against it where the winding number grows.
+  // The outward normal is against the ray at the beginning, and along it at the end. A triangle's
+  // own normal is against it where the winding number grows.
   return {begin.t, end.t, triangle_surface(begin.triangle, begin.turn < 0),
           triangle_surface(end.triangle, end.turn > 0)};
 }
@@ -73,12 +73,12 @@ std::vector<MeshPassage> passages(const TriangleMesh& mesh, const NearRay& ray) 
   std::vector<MeshPassage> result;
   for (uint32_t i = 0; i < mesh.triangles().size(); ++i) {
     const auto& [a, b, c] = mesh.triangles()[i];
-    const int winding = upwards(seen[a], seen[b]) + upwards(seen[b], seen[c]) +
-                        upwards(seen[c], seen[a]);
+    const int winding =
+        upwards(seen[a], seen[b]) + upwards(seen[b], seen[c]) + upwards(seen[c], seen[a]);
     if (winding == 0) continue;
     const LongVec3 normal = triangle_normal(mesh, i);
-    const Real at = glm::dot(normal, LongVec3(mesh.vertices()[a]) - ray.origin) /
-                    glm::dot(normal, d);
+    const Real at =
+        glm::dot(normal, LongVec3(mesh.vertices()[a]) - ray.origin) / glm::dot(normal, d);
     const auto [nearest, furthest] = std::minmax({seen[a].t, seen[b].t, seen[c].t});
     const Real t = std::isnan(at) ? nearest : std::clamp(at, nearest, furthest);
     result.push_back({t, i, -winding});
@@ -106,13 +106,12 @@ MeshSolid::MeshSolid(const Primitive& primitive)
       local_to_world_(primitive.local_to_world.linear),
       world_to_local_(glm::inverse(local_to_world_)) {}
 
-Real MeshSolid::sheet_length(const MeshPassage& passage, const NearRay& ray,
-                             Real thickness) const {
+Real MeshSolid::sheet_length(const MeshPassage& passage, const NearRay& ray, Real thickness) const {
   const LongVec3 local = triangle_normal(*mesh_, passage.triangle);
   const LongVec3 normal = glm::normalize(glm::transpose(world_to_local_) * local);
   const LongVec3 direction = local_to_world_ * ray.direction;
-  const Real speed = std::max(std::abs(glm::dot(normal, direction)),
-                              kLeastSheetCosine * glm::length(direction));
+  const Real speed =
+      std::max(std::abs(glm::dot(normal, direction)), kLeastSheetCosine * glm::length(direction));
   return kSheetTolerances * thickness / speed;
 }
 

@@ -1,10 +1,10 @@
 // The triangle mesh for the reference: by brute force over all triangles, in extended precision.
 //
-// The triangles are drawn in the plane across the ray, where the ray is the origin. A triangle winds
-// around it as often as its edges pass the positive half of the first axis, upwards less downwards.
-// An edge passes it or does not, whichever triangle asks: the windings of a closed mesh cancel. (The
-// tracer takes the signs of edges in a sheared drawing instead, and the exact oracle Plücker's
-// coordinates.)
+// The triangles are drawn in the plane across the ray, where the ray is the origin. A triangle
+// winds around it as often as its edges pass the positive half of the first axis, upwards less
+// downwards. An edge passes it or does not, whichever triangle asks: the windings of a closed mesh
+// cancel. (The tracer takes the signs of edges in a sheared drawing instead, and the exact oracle
+// Plücker's coordinates.)
 #pragma once
 
 #include <memory>
@@ -47,8 +47,8 @@ class MeshSolid final : public LocalSolid {
   const glm::mat<3, 3, Real> local_to_world_, world_to_local_;
 };
 
-/// The surface of a triangle at an end of a span: `is_turned` if the outward normal there is opposite
-/// to the triangle's own.
+/// The surface of a triangle at an end of a span: `is_turned` if the outward normal there is
+/// opposite to the triangle's own.
 inline Surface triangle_surface(uint32_t triangle, bool is_turned) {
   return Surface(2 * triangle + (is_turned ? 1 : 0));
 }

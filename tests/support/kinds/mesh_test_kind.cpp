@@ -85,7 +85,8 @@ constexpr Variant kVariants[] = {
        return about(helix_parts(radius, radius / 6, radius / 2, 3, 12, 6),
                     {radius * 0.9, -radius * 0.25, radius * 0.48});
      }},
-    {"Icosphere", [](Sizes& sizes) { return about(icosphere_parts(sizes.length(), 2), Vec3(0.0)); }},
+    {"Icosphere",
+     [](Sizes& sizes) { return about(icosphere_parts(sizes.length(), 2), Vec3(0.0)); }},
     {"Cavity",
      [](Sizes& sizes) {
        const Vec3 half = lengths(sizes);
@@ -158,8 +159,8 @@ class MeshTestKind final : public TestKind {
       const auto triangle = static_cast<uint32_t>(random() % mesh.triangles().size());
       const auto corner = [&](size_t k) { return mesh.vertices()[mesh.triangles()[triangle][k]]; };
       const double root = std::sqrt(share(random)), along = share(random);
-      const Vec3 inside = (1 - root) * corner(0) + root * (1 - along) * corner(1) +
-                          root * along * corner(2);
+      const Vec3 inside =
+          (1 - root) * corner(0) + root * (1 - along) * corner(1) + root * along * corner(2);
       if (random() % 3 != 0) {
         if (is_surface(mesh, triangle, inside)) return inside;
         continue;
