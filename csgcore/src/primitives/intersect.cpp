@@ -32,10 +32,8 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
   intersect_lanes(frame, rays, 0xF, primitive, segments);
 }
 
-void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
-                        const CanonicalPrimitive& primitive, CrossingSearch& search) {
-  for (CrossingSearch::Lane& lane : search.lanes) lane.after = {};
-  search.most = std::numeric_limits<size_t>::max();
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
   find_crossings(frame, rays, kAllLanes, primitive, search);
 }
 
@@ -70,7 +68,7 @@ namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(intersect_four);
-CSGCORE_SIMD_EXPORT(find_all_crossings);
+CSGCORE_SIMD_EXPORT(find_next_crossings);
 CSGCORE_SIMD_EXPORT(find_entry_normals);
 CSGCORE_SIMD_EXPORT(find_apart);
 
@@ -84,9 +82,16 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
   CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
 }
 
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
+  CSGCORE_SIMD(find_next_crossings)(frame, rays, primitive, search);
+}
+
 void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
-  CSGCORE_SIMD(find_all_crossings)(frame, rays, primitive, search);
+  for (CrossingSearch::Lane& lane : search.lanes) lane.after = {};
+  search.most = std::numeric_limits<size_t>::max();
+  find_next_crossings(frame, rays, primitive, search);
 }
 
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,

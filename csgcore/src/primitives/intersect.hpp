@@ -15,6 +15,9 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
 
+/// Finds the crossings of all lanes with a primitive that is not convex that `search` wants.
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search);
 /// Finds all crossings of all lanes with a primitive that is not convex, in order.
 void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
                         const CanonicalPrimitive& primitive, CrossingSearch& search);
