@@ -207,22 +207,26 @@ HWY_INLINE void cross_triangle(const TriangleMesh& mesh, uint32_t index, LaneMas
     LaneMask passing = windings.positive | windings.negative;
     if (passing == 0) continue;
     const TriangleMesh::Plane& plane = mesh.planes()[index];
-    alignas(64) double nearest[kLanes], furthest[kLanes];
-    const auto min = hn::Min(seen.depth[0], hn::Min(seen.depth[1], seen.depth[2]));
-    const auto max = hn::Max(seen.depth[0], hn::Max(seen.depth[1], seen.depth[2]));
-    hn::Store(min, Wide(), nearest);
-    hn::Store(max, Wide(), furthest);
+    alignas(64) double x[3][kLanes], y[3][kLanes], depth[3][kLanes];
+    for (size_t corner = 0; corner < 3; ++corner) {
+      hn::Store(seen.x[corner], Wide(), x[corner]);
+      hn::Store(seen.y[corner], Wide(), y[corner]);
+      hn::Store(seen.depth[corner], Wide(), depth[corner]);
+    }
     for (; passing != 0; passing &= passing - 1) {
       const uint32_t lane = static_cast<uint32_t>(std::countr_zero(passing));
       const Vec3 origin{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]};
       const Vec3 direction{rays.direction[0][lane], rays.direction[1][lane],
                            rays.direction[2][lane]};
       const double inverse = rays.inverse[lane];
-      const double a = nearest[lane - first_lane(c)] * inverse;
-      const double b = furthest[lane - first_lane(c)] * inverse;
+      const size_t own = lane - first_lane(c);
+      const DepthRange range =
+          depth_range({{x[0][own], y[0][own]}, {x[1][own], y[1][own]}, {x[2][own], y[2][own]}},
+                      {depth[0][own], depth[1][own], depth[2][own]});
+      const double a = range.nearest * inverse, b = range.furthest * inverse;
       const double growth = glm::dot(plane.normal, direction);
       const double at = (plane.offset - glm::dot(plane.normal, origin)) / growth;
-      // Along its plane a triangle is passed somewhere between its corners.
+      // Along its plane a triangle is passed somewhere between its edges.
       const double t = std::isnan(at) ? a : std::clamp(at, std::min(a, b), std::max(a, b));
       // A triangle is seen from outside if its corners are counterclockwise against the ray.
       const bool leaves = (windings.positive >> lane & 1) == (inverse > 0 ? 1u : 0u);
