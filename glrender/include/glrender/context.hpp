@@ -1,6 +1,7 @@
 // An OpenGL 3.3 core context without a window or a display.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,12 @@ class HeadlessContext {
 
   /// The driver's GL_RENDERER.
   const std::string& renderer_name() const;
+
+  /// The most texels of a buffer that shaders read, as the driver has it. Renderers that are made
+  /// after limit_texels() take the driver for one that allows no more than that, so that tests can
+  /// see what they do on a lesser driver.
+  uint64_t most_texels() const;
+  void limit_texels(uint64_t most);
 
  private:
   struct Impl;
