@@ -4,7 +4,6 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -122,8 +121,6 @@ const std::string& HeadlessContext::renderer_name() const { return impl_->render
 
 uint64_t HeadlessContext::most_texels() const { return impl_->most_texels; }
 
-void HeadlessContext::limit_texels(uint64_t most) {
-  impl_->most_texels = std::min(impl_->most_texels, most);
-}
+void HeadlessContext::set_most_texels(uint64_t most) { impl_->most_texels = most; }
 
 }  // namespace glrender

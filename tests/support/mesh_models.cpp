@@ -62,6 +62,40 @@ Shell box_shell(const Vec3& min, const Vec3& max) {
   return shell;
 }
 
+Shell sheet_shell(uint32_t side) {
+  Shell shell;
+  for (uint32_t y = 0; y <= side; ++y) {
+    for (uint32_t x = 0; x <= side; ++x) shell.vertices.push_back({x, y, 0});
+  }
+  for (uint32_t y = 0; y < side; ++y) {
+    for (uint32_t x = 0; x < side; ++x) {
+      const uint32_t first = y * (side + 1) + x, above = first + side + 1;
+      add_quad(shell, first, first + 1, above + 1, above);
+    }
+  }
+  return shell;
+}
+
+Shell slab_shell(uint32_t side) {
+  const Shell bottom = reversed(sheet_shell(side));
+  Shell shell = joined({bottom, sheet_shell(side)});
+  const auto upper = static_cast<uint32_t>(bottom.vertices.size());
+  for (uint32_t i = upper; i < 2 * upper; ++i) shell.vertices[i].z = 1;
+  const auto add_walls = [&](uint32_t first, int step) {
+    for (uint32_t i = 0; i < side; ++i) {
+      const uint32_t next = first + static_cast<uint32_t>(step);
+      add_quad(shell, first, next, upper + next, upper + first);
+      first = next;
+    }
+  };
+  const int row = static_cast<int>(side) + 1;
+  add_walls(0, 1);
+  add_walls(side, row);
+  add_walls(upper - 1, -1);
+  add_walls(upper - 1 - side, -row);
+  return shell;
+}
+
 Shell l_prism_shell(double height) {
   Shell shell;
   for (const double z : {0.0, height}) {

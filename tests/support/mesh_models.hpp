@@ -20,6 +20,11 @@ std::shared_ptr<const csgcore::TriangleMesh> mesh_of(Shell shell);
 Shell box_shell(const csgcore::Vec3& min, const csgcore::Vec3& max);
 /// A box without its upper side.
 Shell open_box_shell(const csgcore::Vec3& min, const csgcore::Vec3& max);
+/// A square in the xy plane from the origin to (side, side), of so many squares of 1 × 1; it is
+/// open.
+Shell sheet_shell(uint32_t side);
+/// Such squares at z = 0 and z = 1, with walls between them.
+Shell slab_shell(uint32_t side);
 /// A square in the xy plane from the origin to (2, 2), without its quarter at (2, 2), from z = 0 up
 /// to the height.
 Shell l_prism_shell(double height);

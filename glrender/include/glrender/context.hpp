@@ -34,11 +34,10 @@ class HeadlessContext {
   /// The driver's GL_RENDERER.
   const std::string& renderer_name() const;
 
-  /// The most texels of a buffer that shaders read, as the driver has it. Renderers that are made
-  /// after limit_texels() take the driver for one that allows no more than that, so that tests can
-  /// see what they do on a lesser driver.
+  /// The most texels that the driver allows in a buffer that shaders read. Tests may feign a lesser
+  /// driver, for the renderers that are made from then on.
   uint64_t most_texels() const;
-  void limit_texels(uint64_t most);
+  void set_most_texels(uint64_t most);
 
  private:
   struct Impl;
