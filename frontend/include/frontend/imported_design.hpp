@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -35,6 +36,8 @@ struct ImportedDesign {
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
+  /// The files that its nodes name, whether or not they are there.
+  std::vector<std::string> files;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;
 };

@@ -14,6 +14,7 @@
 #include "frontend/imported_design.hpp"
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
+#include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/resolved_modifiers.hpp"
@@ -39,6 +40,7 @@ class Collector final : public NodeSink {
   std::vector<csgcore::Box> boxes;  // by primitive, faceted
   std::vector<int> fragments;       // by primitive; 0: it is not to be faceted
   PolyhedronPool polyhedra;
+  FileImports files;
   FrameTree frames;
   NodeProblems problems;
   uint32_t primitive_nodes = 0;
@@ -84,6 +86,9 @@ class Collector final : public NodeSink {
   void add_solid(uint32_t node, uint32_t id);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);
+  bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
+  const SolidOfFaces* read_faces(uint32_t node);
+  const SolidOfFaces* read_file(uint32_t node);
   /// What OpenSCAD draws with these settings is drawn in facets, if it has any.
   bool keeps_facets(const csgcore::FacetSettings& facets) const;
 

@@ -16,6 +16,8 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kCylinder:
     case NodeKind::kCube:
     case NodeKind::kPolyhedron:
+    case NodeKind::kImport:
+    case NodeKind::kSurface:
       return Role::kSolid;
     case NodeKind::kMultmatrix:
     case NodeKind::kColor:
@@ -29,8 +31,6 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kSquare:
     case NodeKind::kPolygon:
     case NodeKind::kText:
-    case NodeKind::kImport:
-    case NodeKind::kSurface:
       return Role::kUnsupportedLeaf;
     case NodeKind::kHull:
     case NodeKind::kFill:

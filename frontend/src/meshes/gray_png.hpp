@@ -1,0 +1,24 @@
+// Reads PNG, without a library for the same reasons as it is written (png.cpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace frontend {
+
+/// The luminance of a picture, 0 to 255.
+struct GrayPicture {
+  size_t columns = 0, rows = 0;
+  std::vector<double> values;  // row by row from the top
+};
+
+bool is_png(std::string_view bytes);
+
+/// Reads a picture of any type and depth; transparency is ignored. Returns nothing if it is damaged
+/// or has more than `most_pixels`.
+std::optional<GrayPicture> read_gray_png(std::string_view bytes, size_t most_pixels);
+
+}  // namespace frontend
