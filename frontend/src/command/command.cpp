@@ -192,13 +192,14 @@ class Run {
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.import.nodes();
     is_exported_ = file.is_exported;
-    for (const std::string& name : file.files) {
-      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
-    }
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file);
     stats_.import_ms = ms_since(import_start);
+    add_imported_files(design, file.files);
+    for (const std::string& name : file.files) {
+      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    }
     stats_.primitive_nodes = design.primitive_nodes;
     stats_.leaves = design.leaves;
     stats_.compound_leaves = design.compound_leaves;

@@ -42,6 +42,7 @@ class DelaunayTriangulation {
   void flip(uint32_t side);
   bool is_flippable(uint32_t side) const;
   bool is_delaunay(uint32_t side) const;
+  uint32_t side_between(uint32_t a, uint32_t b) const;
   bool find_crossings(uint32_t from, uint32_t to, std::vector<uint32_t>& crossed);
   bool use_step() { return steps_left_ > 0 && --steps_left_ > 0; }
 
