@@ -112,7 +112,7 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
   if (!is_new || faces.face_count() == 0) return solid;
   solid.exponent = exponent;
   solid.is_inside_out = enclosed_volume(faces) < 0;
-  if (faces.face_count() <= kMostHalfSpaces) {
+  if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {
     const Mesh mesh = to_mesh(faces);
     solid.polyhedron = csgcore::Polyhedron::from(mesh);
     if (solid.polyhedron && keeps_meshes_) {

@@ -104,6 +104,23 @@ TEST(Stl, TextIsReadByItsLines) {
   EXPECT_EQ(extra.faces.face_count(), 0u);
 }
 
+/// OpenSCAD 2021.01 takes such files, and leaves out such ones.
+TEST(Amf, IsAllOrNothing) {
+  const std::string whole = content_of("step.amf");
+  const auto faces_with = [&](const std::string& old, const std::string& text) {
+    std::string changed = whole;
+    changed.replace(whole.find(old), old.size(), text);
+    return read_amf(changed, "f").faces.face_count();
+  };
+  EXPECT_EQ(faces_with("<x>4</x>", "<x></x>"), 20u);
+  EXPECT_EQ(faces_with("<x>4</x>", "<x>a</x>"), 0u);
+  EXPECT_EQ(faces_with("<x>4</x>", "<x> 4</x>"), 0u);
+  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>x</v1>"), 0u);
+  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>99</v1>"), 19u);
+  EXPECT_EQ(faces_with("</volume>", "</volum>"), 0u);
+  EXPECT_EQ(faces_with("</amf>", ""), 0u);
+}
+
 TEST(FaceSets, LoseWhatIsNoFace) {
   const double inf = std::numeric_limits<double>::infinity();
   FaceSet faces;
