@@ -24,9 +24,9 @@ constexpr uint64_t kMostHalfSpaces = 1 << 14;
 /// To see that a solid is convex takes faces × vertices steps. One that would take more is a mesh: so
 /// many steps take 10 ms, and the text of its faces has 75 kB.
 constexpr uint64_t kMostConvexitySteps = 1 << 22;
-/// OpenSCAD's facets of all different round primitives of a design: so many are made in 3 s, and take
-/// 500 MB.
-constexpr uint64_t kMostFacets = 1 << 21;
+/// OpenSCAD's facets of all different round primitives of a design: so many are made in 1 s, and take
+/// 250 MB.
+constexpr uint64_t kMostFacets = 1 << 20;
 /// Solids of so few facets are in proportion to the text of their nodes, and not counted.
 constexpr uint64_t kFewFacets = 16;
 
