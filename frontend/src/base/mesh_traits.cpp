@@ -78,7 +78,8 @@ class MeshTraits final : public PrimitiveTraits {
       Vec3 sum(0.0);
       for (const Vec3& corner : corners[i]) {
         sum += corner;
-        result.corners.push_back(corner + glm::dot(face.normal, face.center - corner) * face.normal);
+        result.corners.push_back(corner +
+                                 glm::dot(face.normal, face.center - corner) * face.normal);
       }
       const Vec3 middle = sum / static_cast<double>(corners[i].size());
       face.center = middle + glm::dot(face.normal, face.center - middle) * face.normal;

@@ -271,8 +271,8 @@ class Run {
   void add_wireframe(Image& image, const csgcore::View& view, const Camera& camera) {
     show_progress("finding edges", -1);
     const SolidEdges edges = solid_edges(design_);
-    const auto meshes =
-        std::ranges::count(design_.scene.primitives, csgcore::Shape::kMesh, &csgcore::Primitive::shape);
+    const auto meshes = std::ranges::count(design_.scene.primitives, csgcore::Shape::kMesh,
+                                           &csgcore::Primitive::shape);
     if (meshes > 0) {
       say("warning: --view=wireframe does not show the edges of " + std::to_string(meshes) +
           (meshes == 1 ? " mesh" : " meshes") + " (polyhedra that are not convex, imported files)");
@@ -298,10 +298,10 @@ class Run {
   Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
   ImportedDesign design_;
-  bool is_exported_ = false;        // set anew for every frame
-  std::vector<std::string> files_;  // files that the design was read from, for all frames
+  bool is_exported_ = false;           // set anew for every frame
+  std::vector<std::string> files_;     // files that the design was read from, for all frames
   std::vector<std::string> imported_;  // those that its nodes name, whether or not all are wanted
-  RunStats stats_;                  // of the frame
+  RunStats stats_;                     // of the frame
   ProgressLine progress_;
   std::optional<csgcore::Workers> workers_;
 };

@@ -62,8 +62,8 @@ std::string bytes_of(const FaceSet& faces, int exponent) {
 
 std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
   std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
-  auto mesh = std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points),
-                                                            std::move(triangles));
+  auto mesh =
+      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
   return mesh->triangles().empty() ? nullptr : mesh;
 }
 

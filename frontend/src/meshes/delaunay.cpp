@@ -43,8 +43,8 @@ void DelaunayTriangulation::sweep() {
   uint32_t apex = 2;  // the first point that is not on a line with those before
   while (turn(0, 1, apex) == 0) ++apex;
   const bool is_left = turn(0, 1, apex) > 0;
-  // The hull, counterclockwise: by vertex, the next one, the one before, and the side between it and
-  // the next one.
+  // The hull, counterclockwise: by vertex, the next one, the one before, and the side between it
+  // and the next one.
   std::vector<uint32_t> after(count), before(count), side_after(count);
   const auto join = [&](uint32_t from, uint32_t to, uint32_t side) {
     after[from] = to;
@@ -98,7 +98,8 @@ void DelaunayTriangulation::flip(uint32_t side) {
   const uint32_t twin = twin_[side];
   const uint32_t a = next(side), b = previous(side);  // of one triangle
   const uint32_t c = next(twin), d = previous(twin);  // of the other
-  // The side becomes that from the far corner of the other triangle to that of its own; b and d stay.
+  // The side becomes that from the far corner of the other triangle to that of its own; b and d
+  // stay.
   const uint32_t near = origin_[b], far = origin_[d];
   const uint32_t start = origin_[side], finish = origin_[twin];
   const uint32_t beyond_a = twin_[a], beyond_c = twin_[c];

@@ -20,8 +20,8 @@ class DelaunayTriangulation {
   DelaunayTriangulation(std::span<const glm::dvec2> points, uint64_t most_steps);
 
   /// Makes the edge between two vertices one of the triangulation. Returns false, and leaves the
-  /// triangulation in between, if a third vertex lies on the edge, another constraint crosses it, or
-  /// the steps are used up.
+  /// triangulation in between, if a third vertex lies on the edge, another constraint crosses it,
+  /// or the steps are used up.
   bool constrain(uint32_t from, uint32_t to);
   /// Makes edges that are no constraints Delaunay's, or as many as the steps allow.
   void flip_to_delaunay();

@@ -14,8 +14,8 @@ class MeshLookup {
   /// The design must outlive the lookup.
   explicit MeshLookup(const ImportedDesign& design);
 
-  /// Returns the primitive with that Primitive::id; null if it is smooth, or unknown. It is a mesh, or
-  /// a polyhedron with facets_of().
+  /// Returns the primitive with that Primitive::id; null if it is smooth, or unknown. It is a mesh,
+  /// or a polyhedron with facets_of().
   const csgcore::Primitive* primitive_of(uint32_t id) const {
     return id < primitives_.size() ? primitives_[id] : nullptr;
   }

@@ -527,11 +527,11 @@ TEST_F(Command, ARuleForMakeNamesImportedFiles) {
   EXPECT_EQ(folder_.read("x.d"), png_ + ": \\\n\t" + folder_ / "b.off" + " \\\n\t" +
                                      folder_ / "gone.stl" + " \\\n\t" + csg + "\n");
   // openscad has named one of them.
-  const Environment openscad("OPENSCAD",
-                             folder_.script("openscad",
-                                            "while [ \"$1\" != -d ]; do shift; done\n"
-                                            "printf 'x: \\\\\n\t" + folder_ / "b.off" +
-                                                " \\\\\n\ta.scad\n' >$2\ncat " + csg));
+  const Environment openscad(
+      "OPENSCAD", folder_.script("openscad",
+                                 "while [ \"$1\" != -d ]; do shift; done\n"
+                                 "printf 'x: \\\\\n\t" +
+                                     folder_ / "b.off" + " \\\\\n\ta.scad\n' >$2\ncat " + csg));
   run({"-o", png_, "-d", folder_ / "x.d", folder_.write("a.scad", "import(\"b.off\");")});
   EXPECT_EQ(folder_.read("x.d"), png_ + ": \\\n\t" + folder_ / "b.off" + " \\\n\t" +
                                      folder_ / "gone.stl" + " \\\n\ta.scad\n");

@@ -97,8 +97,7 @@ TEST_P(Follow, ImportedFilesAreFollowed) {
   EXPECT_THAT(missing.files, ElementsAre(path, folder_ / "part.off"));
   EXPECT_EQ(missing.design->scene.primitives.size(), 1u);
   const auto off = [](const std::string& z) {
-    return "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 " + z +
-           "\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
+    return "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 " + z + "\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
   };
   for (const char* z : {"5", "7"}) {
     folder_.write("part.off", off(z));

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "csgcore/facets.hpp"
 #include "csgcore/canonical_primitive.hpp"
+#include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "lower/imported_text.hpp"
@@ -191,9 +191,9 @@ TEST(ImporterFacets, AreMeshesWhereTheyAreMany) {
   const double top = 3 * std::cos(M_PI / 200), side = 3 * std::cos(M_PI / 200);
   expect_box(box, Vec3(-side, -side, -top), Vec3(side, side, top), 1e-12);
   // A quadrilateral of a cone is cut from the upper corner i to the lower corner i + 1.
-  const Primitive cone = import_text("cylinder(h = 2, r1 = 3, r2 = 1, $fn = 20000);",
-                                     {.facets = Facets::kAll})
-                             .scene.primitives.at(0);
+  const Primitive cone =
+      import_text("cylinder(h = 2, r1 = 3, r2 = 1, $fn = 20000);", {.facets = Facets::kAll})
+          .scene.primitives.at(0);
   ASSERT_EQ(cone.shape, Shape::kMesh);
   EXPECT_EQ(cone.mesh->triangles().size(), 2u * 20000 + 2 * 19998);
   size_t diagonals = 0;

@@ -1,7 +1,6 @@
 // Tests import() and surface().
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <sys/stat.h>
 
 #include <string>
@@ -35,7 +34,9 @@ const std::string kDented =
 
 class ImporterFiles : public testing::Test {
  protected:
-  ImportedDesign import(const std::string& text) { return import_text(text, {.folder = folder.path()}); }
+  ImportedDesign import(const std::string& text) {
+    return import_text(text, {.folder = folder.path()});
+  }
   std::vector<std::string> warnings(const std::string& text) {
     std::vector<std::string> texts;
     for (const Warning& warning : import(text).warnings) texts.push_back(warning.text);
@@ -47,9 +48,11 @@ class ImporterFiles : public testing::Test {
 TEST_F(ImporterFiles, AreFoundInTheDesignsFolder) {
   folder.write("a.off", off_from("0"));
   folder.write("B.OFF", kDented);
-  const ImportedDesign design =
-      import("import(\"a.off\"); import(convexity = 3, layer = \"x\", file = \"./B.OFF\", origin = [5, 5], "
-             "scale = 2);  import(\"" + folder / "a.off" + "\");");
+  const ImportedDesign design = import(
+      "import(\"a.off\"); import(convexity = 3, layer = \"x\", file = \"./B.OFF\", origin = [5, "
+      "5], "
+      "scale = 2);  import(\"" +
+      folder / "a.off" + "\");");
   EXPECT_THAT(design.warnings, IsEmpty());
   const std::vector<Primitive>& primitives = design.scene.primitives;
   ASSERT_THAT(primitives, SizeIs(3));
@@ -118,8 +121,8 @@ TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
   folder.write("b.stl", "solid x\nouter loop\nvertex 1 2 3\nvertex 2 2 3\nvertex 5 inf 5\n");
   EXPECT_THAT(warnings("import(\"a.stl\");"),
               ElementsAre("a.csg:1:1: warning: import: STL line 3, can't parse vertex line 'vertex "
-                          "1 2 x' importing file '" + folder / "a.stl" +
-                          "' (the file is damaged: export it again)"));
+                          "1 2 x' importing file '" +
+                          folder / "a.stl" + "' (the file is damaged: export it again)"));
   EXPECT_THAT(warnings("import(\"a.amf\");"), ElementsAre(HasSubstr("Failed to parse file '")));
   EXPECT_THAT(warnings("import(\"b.stl\");"),
               ElementsAre(HasSubstr("1 face of '" + folder / "b.stl" +
@@ -127,7 +130,8 @@ TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
   folder.write("c.off", "OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n");
   folder.write("d.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_THAT(warnings("import(\"c.off\");"), ElementsAre(HasSubstr("is not in OFF")));
-  EXPECT_THAT(warnings("import(\"d.off\");"), ElementsAre(HasSubstr("import is not closed: 3 edges")));
+  EXPECT_THAT(warnings("import(\"d.off\");"),
+              ElementsAre(HasSubstr("import is not closed: 3 edges")));
 }
 
 TEST_F(ImporterFiles, OfHeightsAreSolids) {
@@ -139,13 +143,15 @@ TEST_F(ImporterFiles, OfHeightsAreSolids) {
   const std::vector<Primitive>& primitives = design.scene.primitives;
   ASSERT_THAT(primitives, SizeIs(3));
   expect_box(csgcore::canonicalize(primitives[0]).bounds, Vec3(0.0), Vec3(1, 2, 9), 1e-14);
-  expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(-0.5, -1, 0), Vec3(0.5, 1, 9), 1e-14);
+  expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(-0.5, -1, 0), Vec3(0.5, 1, 9),
+             1e-14);
   EXPECT_EQ(primitives[1].mesh, primitives[2].mesh);
 }
 
 TEST_F(ImporterFiles, ThatFaceInwardsAreMagentaThrownTogether) {
   folder.write("a.off", kDented);
-  folder.write("b.off", "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+  folder.write("b.off",
+               "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
   const ImportedDesign design =
       import_text("import(\"a.off\"); import(\"b.off\");",
                   {.folder = folder.path(), .picture = PictureKind::kThrownTogether});

@@ -116,8 +116,8 @@ TEST(ImporterPolyhedron, CutsFacesIntoTriangles) {
     sides += ",[" + std::to_string(6 + i) + "," + std::to_string(6 + next) + "," +
              std::to_string(next) + "," + std::to_string(i) + "]";
   }
-  const Primitive primitive = only_primitive("polyhedron([" + points +
-                                             "],[[0,1,2,3,4,5],[11,10,9,8,7,6]" + sides + "]);");
+  const Primitive primitive =
+      only_primitive("polyhedron([" + points + "],[[0,1,2,3,4,5],[11,10,9,8,7,6]" + sides + "]);");
   ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
   EXPECT_TRUE(primitive.mesh->is_closed());
   EXPECT_EQ(primitive.mesh->triangles().size(), 20u);
@@ -220,9 +220,10 @@ TEST(ImporterPolyhedron, OfManyFacesIsAMesh) {
 TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {
   EXPECT_THAT(
       warnings_of("polyhedron(points = 3, faces = [[0,1]]);"),
-      ElementsAre(HasSubstr("points is a number, and counts as missing (it must be a list)"),
-                  HasSubstr("Point index 0 is out of bounds (from faces[0][0]), and is left out; the "
-                            "first of 2 (there are no points)")));
+      ElementsAre(
+          HasSubstr("points is a number, and counts as missing (it must be a list)"),
+          HasSubstr("Point index 0 is out of bounds (from faces[0][0]), and is left out; the "
+                    "first of 2 (there are no points)")));
   EXPECT_THAT(warning_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
   EXPECT_THAT(warning_of("polyhedron([], triangles = true);"), HasSubstr("triangles is a boolean"));
 }

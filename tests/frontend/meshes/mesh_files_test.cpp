@@ -125,14 +125,18 @@ TEST(FaceSets, LoseWhatIsNoFace) {
   const double inf = std::numeric_limits<double>::infinity();
   FaceSet faces;
   faces.points = {{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {0, 1, 0}, {9, 9, 9}, {inf, 0, 0}};
-  for (const std::vector<uint32_t>& face :
-       {std::vector<uint32_t>{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1}, {0, 1, 5}, {}, {1, 1, 3, 0, 0}}) {
+  for (const std::vector<uint32_t>& face : {std::vector<uint32_t>{0, 1, 2, 3},
+                                            {0, 1, 3, 2},
+                                            {0, 2, 1},
+                                            {0, 1, 5},
+                                            {},
+                                            {1, 1, 3, 0, 0}}) {
     faces.corners.insert(faces.corners.end(), face.begin(), face.end());
     faces.end_face();
   }
   EXPECT_EQ(tidy(faces), 1u);
-  EXPECT_THAT(faces.points, ElementsAre(csgcore::Vec3(0.0), csgcore::Vec3(1, 0, 0),
-                                        csgcore::Vec3(0, 1, 0)));
+  EXPECT_THAT(faces.points,
+              ElementsAre(csgcore::Vec3(0.0), csgcore::Vec3(1, 0, 0), csgcore::Vec3(0, 1, 0)));
   EXPECT_THAT(faces.corners, ElementsAre(0, 1, 0, 2, 0, 1, 2, 1, 2, 0));
   EXPECT_THAT(faces.ends, ElementsAre(4, 7, 10));
 }
@@ -158,8 +162,8 @@ TEST(HeightMaps, ArePicturesOfAnyType) {
     EXPECT_EQ(map.problem, "");
     EXPECT_EQ(map.columns, 3u);
     // The last row of the picture comes first.
-    EXPECT_THAT(map.heights, Pointwise(DoubleNear(1e-12), {20., 80 / 3., 100 / 3., 0., 20 / 3.,
-                                                           40 / 3.}));
+    EXPECT_THAT(map.heights,
+                Pointwise(DoubleNear(1e-12), {20., 80 / 3., 100 / 3., 0., 20 / 3., 40 / 3.}));
     EXPECT_EQ(map.base, -1);
     const HeightMap inverted = read_height_map(content_of(name), "f", true);
     EXPECT_NEAR(inverted.at(0, 1), 100.0 / 255, 1e-12);
@@ -171,8 +175,8 @@ TEST(HeightMaps, BoundASolid) {
   const HeightMap map = read_height_map(content_of("heights.dat"), "f", false);
   FaceSet faces = solid_below(map, true);
   tidy(faces);
-  EXPECT_NEAR(enclosed_volume(faces), 1.0 / 4 * ((1 + 2 + 4 + 5) + (2 + 3 + 5 + 0) +
-                                                 (4 + 5 + 6 + 7) + (5 + 0 + 7 + 8)),
+  EXPECT_NEAR(enclosed_volume(faces),
+              1.0 / 4 * ((1 + 2 + 4 + 5) + (2 + 3 + 5 + 0) + (4 + 5 + 6 + 7) + (5 + 0 + 7 + 8)),
               1e-12);
   const auto mesh = mesh_of(std::move(faces));
   EXPECT_TRUE(mesh->is_closed());

@@ -31,7 +31,8 @@ std::vector<Triangle> triangles_of(const std::vector<dvec2>& places,
                                    const std::vector<uint32_t>& corners) {
   std::vector<Triangle> triangles;
   triangulate(corners, places, triangles);
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  for (Triangle& t : triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return triangles;
 }
 std::vector<Triangle> triangles_of(const std::vector<dvec2>& places) {
@@ -67,8 +68,8 @@ std::map<std::pair<uint32_t, uint32_t>, int> edges_of(const std::vector<uint32_t
 
 /// Checks that the triangles bound what the polygon bounds, and returns them. `overlap` where the
 /// polygon is no sum of areas that it runs around counterclockwise.
-std::vector<Triangle> checked(const std::vector<dvec2>& places, const std::vector<uint32_t>& corners,
-                              bool overlap = false) {
+std::vector<Triangle> checked(const std::vector<dvec2>& places,
+                              const std::vector<uint32_t>& corners, bool overlap = false) {
   const std::vector<Triangle> triangles = triangles_of(places, corners);
   EXPECT_EQ(open_edges(triangles), edges_of(corners));
   std::map<uint32_t, dvec2> place_of;
@@ -150,9 +151,8 @@ TEST(Triangulate, StarsOfAnyShape) {
     for (const auto& [edge, near] : opposite) {
       const auto far = opposite.find({edge.second, edge.first});
       if (far == opposite.end()) continue;
-      EXPECT_LE(in_circle(places[edge.first], places[edge.second], places[near],
-                          places[far->second]),
-                0);
+      EXPECT_LE(
+          in_circle(places[edge.first], places[edge.second], places[near], places[far->second]), 0);
     }
   }
 }
