@@ -222,6 +222,14 @@ TEST_F(Command, AWireframeNeedsNoRenderer) {
   EXPECT_EQ(std::count(picture.pixels.begin(), picture.pixels.end(), edge) > 200, true);
 }
 
+TEST_F(Command, AWireframeLeavesOutMeshes) {
+  const std::string sheet =
+      folder_.write("mesh.csg",
+                    "cube(2); polyhedron([[0,0,0],[1,0,0],[0,1,0],[9,9,9]], [[0,1,2],[2,1,0]]);");
+  EXPECT_THAT(run({"-o", png_, "--render=1", "--view=wireframe", sheet}).err,
+              HasSubstr("warning: --view=wireframe does not show the edges of 1 mesh ("));
+}
+
 TEST_F(Command, TheFinalRenderIsViewedAsTheOperationsLeaveIt) {
   const std::string cut =
       folder_.write("cut.csg",
