@@ -43,7 +43,8 @@ const std::map<std::string, uint32_t> kPrimitives = {
     {"cs100", 101},       {"cs1000", 1001}, {"cs10000", 10001}, {"cc100", 101},
     {"cc200", 201},       {"cc500", 501},   {"cc1000", 1001},   {"r9", 9},
     {"t1022", 1022},      {"knob", 44},     {"flange", 29},     {"pulley", 25},
-    {"three_spheres", 3}, {"nut_trap", 7},  {"bracket", 11},    {"dodecahedron", 2}};
+    {"three_spheres", 3}, {"nut_trap", 7},  {"bracket", 11},    {"dodecahedron", 2},
+    {"bolt", 5},          {"shell", 1},     {"mould", 7}};
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -52,7 +53,8 @@ std::string contents(const std::filesystem::path& path) {
 }
 
 ImportedDesign import_file(const std::filesystem::path& path) {
-  return import_design(parse(contents(path), path.string()));
+  return import_design(parse(contents(path), path.string()),
+                       {.folder = path.parent_path().string()});
 }
 
 bool openscad_installed() { return std::system("command -v openscad >/dev/null 2>&1") == 0; }

@@ -34,8 +34,8 @@ using FacetMeshes = std::unordered_map<const csgcore::Polyhedron*, FacetMesh>;
 /// The faces of a solid of revolution, as csgcore's sphere_mesh() and frustum_mesh() make them.
 struct RevolvedFaces {
   csgcore::Mesh mesh;
-  /// OpenSCAD cuts the faces that run between two rings, from the upper vertex i to the lower vertex
-  /// i + 1.
+  /// OpenSCAD cuts the faces that run between two rings, from the upper vertex i to the lower
+  /// vertex i + 1.
   bool cuts_bands = false;
 
   bool is_cut(const std::vector<uint32_t>& face) const;

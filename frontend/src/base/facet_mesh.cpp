@@ -5,11 +5,10 @@
 #include <utility>
 
 namespace frontend {
-/// A face between rings has corners at two heights in pairs, in the order of csgcore's bands: lower i,
-/// lower i + 1, upper i + 1, upper i. The caps have all corners at one height.
+/// A face between rings has corners at two heights in pairs, in the order of csgcore's bands: lower
+/// i, lower i + 1, upper i + 1, upper i. The caps have all corners at one height.
 bool RevolvedFaces::is_cut(const std::vector<uint32_t>& face) const {
-  return cuts_bands && face.size() == 4 &&
-         mesh.vertices[face[0]].z != mesh.vertices[face[3]].z;
+  return cuts_bands && face.size() == 4 && mesh.vertices[face[0]].z != mesh.vertices[face[3]].z;
 }
 
 FacetMesh facet_mesh(RevolvedFaces faces) {

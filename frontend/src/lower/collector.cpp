@@ -79,10 +79,10 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
                     NodeProblems& problems) {
   problems.add(node, "an open mesh", [&] {
     const uint64_t edges = mesh.open_edges();
-    return NodeProblems::Description{
-        " is not closed: " + std::to_string(edges) +
-            (edges == 1 ? " edge has" : " edges have") + " a face on one side only",
-        "it is drawn as thin sheets where a ray passes a hole"};
+    return NodeProblems::Description{" is not closed: " + std::to_string(edges) +
+                                         (edges == 1 ? " edge has" : " edges have") +
+                                         " a face on one side only",
+                                     "it is drawn as thin sheets where a ray passes a hole"};
   });
 }
 
@@ -245,7 +245,8 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
     return read_round(index, primitive, facets);
   }
   if (contexts_.back().flattened) return false;
-  const SolidOfFaces* solid = node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
+  const SolidOfFaces* solid =
+      node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
   if (solid == nullptr || solid->is_empty()) return false;
   primitive = solid->under(to_world);
   is_inside_out = options_.picture == PictureKind::kThrownTogether && solid->is_inside_out;

@@ -382,8 +382,7 @@ FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node
   const Value* center = find_argument(tree, node, "center", 1);
   result.is_centered = center != nullptr && read_center(node, *center, problems);
   const Value* invert = find_argument(tree, node, "invert", 2);
-  result.is_inverted =
-      invert != nullptr && invert->kind == ValueKind::kBool && invert->boolean;
+  result.is_inverted = invert != nullptr && invert->kind == ValueKind::kBool && invert->boolean;
   return result;
 }
 

@@ -30,9 +30,9 @@ csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 
 /// Polyhedron node → its faces, which the file lists clockwise as seen from outside. `faces` goes
 /// before `triangles`, its older name. A point without a z lies at 0. As in OpenSCAD 2021.01
-/// (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is no number
-/// is 0, and a point that is none ends the faces where the first of them has it: what follows is
-/// lost. All points that the faces have are finite.
+/// (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is no
+/// number is 0, and a point that is none ends the faces where the first of them has it: what
+/// follows is lost. All points that the faces have are finite.
 FaceSet read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
 
 /// Import or surface node. The file's name is as it stands in the file, empty if it is missing.

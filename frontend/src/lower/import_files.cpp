@@ -89,7 +89,7 @@ ImportedFile FileImports::read_surface(const FileArguments& arguments) {
   const std::string path = path_of(arguments.file);
   const std::optional<FileText> bytes = bytes_of_file(path);
   if (!bytes) {
-    file.problem = "The file '" + path + "' couldn't be opened.";
+    file.problem = "The file '" + path + "' couldn't be opened";
     file.todo = "check its name; it is relative to the design's folder";
     return file;
   }

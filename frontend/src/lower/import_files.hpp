@@ -27,8 +27,7 @@ class FileImports {
  public:
   /// Relative names are looked up in `folder`, in the working folder if it is empty. The pool must
   /// outlive this.
-  FileImports(std::string folder, PolyhedronPool& pool)
-      : folder_(std::move(folder)), pool_(pool) {}
+  FileImports(std::string folder, PolyhedronPool& pool) : folder_(std::move(folder)), pool_(pool) {}
 
   /// The results live as long as this. The kind of an import's file is told by its name.
   const ImportedFile& import(const FileArguments& arguments);

@@ -62,8 +62,8 @@ std::string bytes_of(const FaceSet& faces, int exponent) {
 
 std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
   std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
-  auto mesh = std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points),
-                                                            std::move(triangles));
+  auto mesh =
+      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
   return mesh->triangles().empty() ? nullptr : mesh;
 }
 
@@ -112,7 +112,7 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
   if (!is_new || faces.face_count() == 0) return solid;
   solid.exponent = exponent;
   solid.is_inside_out = enclosed_volume(faces) < 0;
-  if (faces.face_count() <= kMostHalfSpaces) {
+  if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {
     const Mesh mesh = to_mesh(faces);
     solid.polyhedron = csgcore::Polyhedron::from(mesh);
     if (solid.polyhedron && keeps_meshes_) {

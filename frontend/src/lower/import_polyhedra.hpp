@@ -17,16 +17,20 @@
 
 namespace frontend {
 
-/// Convex solids with more faces are meshes: half-spaces take a ray past many faces, and as many
-/// steps as faces × vertices to be recognised.
-constexpr uint64_t kMostHalfSpaces = 1000;
-/// OpenSCAD's facets of all different round primitives of a design: so many are made in 3 s, and take
-/// 500 MB.
-constexpr uint64_t kMostFacets = 1 << 21;
+/// A round primitive that would have more facets is a mesh. A sphere takes as long to make and to
+/// draw either way from 2,000 facets to 125,000 ($fn = 46 to 500); a cylinder is drawn 2 to 20
+/// times as fast by half-spaces, but takes 0.5 s to make with so many.
+constexpr uint64_t kMostHalfSpaces = 1 << 14;
+/// To see that a solid is convex takes faces × vertices steps. One that would take more is a mesh:
+/// so many steps take 10 ms, and the text of its faces has 75 kB.
+constexpr uint64_t kMostConvexitySteps = 1 << 22;
+/// OpenSCAD's facets of all different round primitives of a design: so many are made in 1 s, and
+/// take 250 MB.
+constexpr uint64_t kMostFacets = 1 << 20;
 /// Solids of so few facets are in proportion to the text of their nodes, and not counted.
 constexpr uint64_t kFewFacets = 16;
 
-/// A solid that is given by its faces: a polyhedron if it is convex and has few faces, else a mesh.
+/// A solid that is given by its faces: a polyhedron if that is known to be convex, else a mesh.
 /// Neither if it is empty.
 struct SolidOfFaces {
   std::shared_ptr<const csgcore::Polyhedron> polyhedron;

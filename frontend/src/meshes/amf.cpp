@@ -18,11 +18,13 @@ using Part = XmlScanner::Part;
 /// Takes the parts of a document. Coordinates and indices are texts of their own: <x>1</x>.
 class AmfReader {
  public:
-  FaceSet read(std::string_view document, bool& is_amf) {
+  /// Returns nothing if the document is damaged, or has something else than a number somewhere.
+  std::optional<FaceSet> read(std::string_view document) {
     XmlScanner scanner(document);
+    bool is_amf = false;
     for (Part part = scanner.next(); part != Part::kNone; part = scanner.next()) {
       if (part == Part::kText) {
-        text_ = trimmed(scanner.text());
+        text_ = scanner.text();
       } else if (part == Part::kStart) {
         if (scanner.name() == "amf") is_amf = true;
         start(scanner.name());
@@ -30,6 +32,7 @@ class AmfReader {
         end(scanner.name());
       }
     }
+    if (!is_amf || !has_numbers_ || !scanner.is_whole()) return std::nullopt;
     return std::move(faces_);
   }
 
@@ -47,14 +50,21 @@ class AmfReader {
 
   void end(std::string_view name) {
     if (name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
-      point_[name[0] - 'x'] = number_of(text_).value_or(0);
+      point_[name[0] - 'x'] = number(number_of(text_));
     } else if (name.size() == 2 && name[0] == 'v' && name[1] >= '1' && name[1] <= '3') {
-      corners_[static_cast<size_t>(name[1] - '1')] = index_of(text_).value_or(kNoPoint);
+      corners_[static_cast<size_t>(name[1] - '1')] = number(index_of(text_));
     } else if (name == "coordinates") {
       faces_.points.push_back(point_);
     } else if (name == "triangle") {
       add_triangle();
     }
+  }
+
+  /// An empty text counts as 0.
+  template <typename Number>
+  Number number(const std::optional<Number>& read) {
+    has_numbers_ = has_numbers_ && (read || text_.empty());
+    return read.value_or(0);
   }
 
   void add_triangle() {
@@ -69,6 +79,7 @@ class AmfReader {
   csgcore::Vec3 point_{0.0};
   std::array<uint32_t, 3> corners_{};
   std::string_view text_;
+  bool has_numbers_ = true;
 };
 
 }  // namespace
@@ -82,10 +93,12 @@ SolidFile read_amf(std::string_view bytes, const std::string& name) {
     }
     bytes = unpacked;
   }
-  bool is_amf = false;
   SolidFile file;
-  file.faces = AmfReader().read(bytes, is_amf);
-  if (!is_amf) file.problem = "Failed to parse file '" + name + "'";
+  if (std::optional<FaceSet> faces = AmfReader().read(bytes)) {
+    file.faces = std::move(*faces);
+  } else {
+    file.problem = "Failed to parse file '" + name + "'";
+  }
   return file;
 }
 

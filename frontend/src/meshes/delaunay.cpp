@@ -1,7 +1,9 @@
 #include "meshes/delaunay.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "meshes/planar_predicates.hpp"
 
@@ -41,8 +43,8 @@ void DelaunayTriangulation::sweep() {
   uint32_t apex = 2;  // the first point that is not on a line with those before
   while (turn(0, 1, apex) == 0) ++apex;
   const bool is_left = turn(0, 1, apex) > 0;
-  // The hull, counterclockwise: by vertex, the next one, the one before, and the side between it and
-  // the next one.
+  // The hull, counterclockwise: by vertex, the next one, the one before, and the side between it
+  // and the next one.
   std::vector<uint32_t> after(count), before(count), side_after(count);
   const auto join = [&](uint32_t from, uint32_t to, uint32_t side) {
     after[from] = to;
@@ -96,7 +98,8 @@ void DelaunayTriangulation::flip(uint32_t side) {
   const uint32_t twin = twin_[side];
   const uint32_t a = next(side), b = previous(side);  // of one triangle
   const uint32_t c = next(twin), d = previous(twin);  // of the other
-  // The side becomes that from the far corner of the other triangle to that of its own; b and d stay.
+  // The side becomes that from the far corner of the other triangle to that of its own; b and d
+  // stay.
   const uint32_t near = origin_[b], far = origin_[d];
   const uint32_t start = origin_[side], finish = origin_[twin];
   const uint32_t beyond_a = twin_[a], beyond_c = twin_[c];
@@ -211,21 +214,46 @@ bool DelaunayTriangulation::find_crossings(uint32_t from, uint32_t to,
   }
 }
 
-bool DelaunayTriangulation::constrain(uint32_t from, uint32_t to) {
-  // Some flip always lessens the crossings (Hanke, Ottmann, Schuierer, "The Edge-Flipping Distance of
-  // Triangulations", 1996).
-  std::vector<uint32_t> crossed;
-  for (;;) {
-    if (!find_crossings(from, to, crossed)) return false;
-    if (crossed.empty()) return true;
-    const auto lessens = [&](uint32_t side) {
-      const uint32_t near = origin_[previous(side)], far = origin_[previous(twin_[side])];
-      return is_flippable(side) && turn(from, to, near) * turn(from, to, far) >= 0;
-    };
-    const auto best = std::ranges::find_if(crossed, lessens);
-    if (best == crossed.end()) return false;
-    flip(*best);
+/// Returns a side between two vertices that have an edge.
+uint32_t DelaunayTriangulation::side_between(uint32_t a, uint32_t b) const {
+  const uint32_t first = side_from_[a];
+  for (uint32_t side = first;;) {  // counterclockwise up to the hull
+    if (target(side) == b) return side;
+    if (origin_[previous(side)] == b) return previous(side);
+    side = twin_[previous(side)];
+    if (side == kNone || side == first) break;
   }
+  for (uint32_t side = first; twin_[side] != kNone;) {
+    side = next(twin_[side]);
+    if (target(side) == b) return side;
+  }
+  return kNone;
+}
+
+/// Flips the edges in the way, and those that are in the way still, until none is (Sloan, "A fast
+/// algorithm for generating constrained Delaunay triangulations", 1993).
+bool DelaunayTriangulation::constrain(uint32_t from, uint32_t to) {
+  std::vector<uint32_t> crossed;
+  if (!find_crossings(from, to, crossed)) return false;
+  if (crossed.empty()) return true;
+  // A flip moves other edges to other sides, so that edges are named by their ends.
+  std::deque<std::pair<uint32_t, uint32_t>> open;
+  for (const uint32_t side : crossed) open.emplace_back(origin_[side], target(side));
+  while (!open.empty()) {
+    if (!use_step()) return false;
+    const auto ends = open.front();
+    open.pop_front();
+    const uint32_t side = side_between(ends.first, ends.second);
+    if (side == kNone) return false;
+    if (!is_flippable(side)) {
+      open.push_back(ends);
+      continue;
+    }
+    flip(side);
+    const uint32_t far = target(side), near = origin_[previous(side)];
+    if (turn(from, to, far) * turn(from, to, near) < 0) open.emplace_back(far, near);
+  }
+  return find_crossings(from, to, crossed) && crossed.empty();
 }
 
 }  // namespace frontend

@@ -20,8 +20,8 @@ class DelaunayTriangulation {
   DelaunayTriangulation(std::span<const glm::dvec2> points, uint64_t most_steps);
 
   /// Makes the edge between two vertices one of the triangulation. Returns false, and leaves the
-  /// triangulation in between, if a third vertex lies on the edge, another constraint crosses it, or
-  /// the steps are used up.
+  /// triangulation in between, if a third vertex lies on the edge, another constraint crosses it,
+  /// or the steps are used up.
   bool constrain(uint32_t from, uint32_t to);
   /// Makes edges that are no constraints Delaunay's, or as many as the steps allow.
   void flip_to_delaunay();
@@ -42,6 +42,7 @@ class DelaunayTriangulation {
   void flip(uint32_t side);
   bool is_flippable(uint32_t side) const;
   bool is_delaunay(uint32_t side) const;
+  uint32_t side_between(uint32_t a, uint32_t b) const;
   bool find_crossings(uint32_t from, uint32_t to, std::vector<uint32_t>& crossed);
   bool use_step() { return steps_left_ > 0 && --steps_left_ > 0; }
 

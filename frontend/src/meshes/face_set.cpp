@@ -21,7 +21,8 @@ class PointTable {
   /// Returns the index of the point among `points`, to which it is added if it is new there.
   uint32_t index_of(const Vec3& point, std::vector<Vec3>& points) {
     if (2 * (points.size() + 1) > slots_.size()) grow(points);
-    for (size_t slot = hash(point) & (slots_.size() - 1);; slot = (slot + 1) & (slots_.size() - 1)) {
+    for (size_t slot = hash(point) & (slots_.size() - 1);;
+         slot = (slot + 1) & (slots_.size() - 1)) {
       uint32_t& index = slots_[slot];
       if (index == kNone) {
         index = static_cast<uint32_t>(points.size());

@@ -18,7 +18,7 @@ namespace frontend {
 struct FaceSet {
   std::vector<csgcore::Vec3> points;
   std::vector<uint32_t> corners;  // points by their indices, face by face
-  std::vector<uint32_t> ends;     // by face: one past its last corner. Empty: all have three corners
+  std::vector<uint32_t> ends;  // by face: one past its last corner. Empty: all have three corners
 
   size_t face_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
   std::span<const uint32_t> face(size_t index) const;

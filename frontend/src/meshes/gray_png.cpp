@@ -14,7 +14,13 @@ namespace {
 
 // The format is that of "Portable Network Graphics (PNG) Specification (Second Edition)", W3C 2003.
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
-enum ColorType : uint8_t { kGray = 0, kTrueColor = 2, kPalette = 3, kGrayAlpha = 4, kTrueAlpha = 6 };
+enum ColorType : uint8_t {
+  kGray = 0,
+  kTrueColor = 2,
+  kPalette = 3,
+  kGrayAlpha = 4,
+  kTrueAlpha = 6
+};
 
 uint32_t big_endian(std::string_view bytes) {
   uint32_t value = 0;

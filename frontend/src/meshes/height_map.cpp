@@ -142,8 +142,8 @@ class SolidBuilder {
                                              top_at(column + 1, row + 1), top_at(column, row + 1)};
     double sum = 0;
     for (const uint32_t corner : corners) sum += faces_.points[corner].z;
-    const uint32_t middle = add_point(static_cast<double>(column) + 0.5,
-                                      static_cast<double>(row) + 0.5, sum / 4);
+    const uint32_t middle =
+        add_point(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, sum / 4);
     for (size_t i = 0; i < 4; ++i) {
       add_face(std::array{corners[i], corners[(i + 1) % 4], middle});
     }

@@ -30,7 +30,8 @@ constexpr size_t kMostCells = size_t{1} << 21;
 HeightMap read_height_map(std::string_view bytes, const std::string& name, bool is_inverted);
 
 /// Returns the faces of the solid between the heights and their base: of each cell four triangles
-/// around its middle, which has their mean height. `is_centered`: the grid's middle is at x = y = 0.
+/// around its middle, which has their mean height. `is_centered`: the grid's middle is at x = y =
+/// 0.
 FaceSet solid_below(const HeightMap& map, bool is_centered);
 
 }  // namespace frontend

@@ -40,7 +40,8 @@ std::optional<std::string> inflate(std::string_view packed, Wrapping wrapping, s
     const size_t written = room - state->avail_out;
     used += written;
     const bool stands_still = written == 0 && before == state->avail_in;
-    if (stands_still && state->block_state != ISAL_BLOCK_FINISH) return std::nullopt;  // it is cut off
+    if (stands_still && state->block_state != ISAL_BLOCK_FINISH)
+      return std::nullopt;  // it is cut off
   }
   result.resize(used);
   return result;

@@ -14,8 +14,8 @@ struct SolidFile {
   std::string problem;  // OpenSCAD's message where it has one; empty: none
 };
 
-/// These read the bytes of a file, whose name is for messages. No file makes them take memory or time out of proportion to its
-/// size.
+/// These read the bytes of a file, whose name is for messages. No file makes them take memory or
+/// time out of proportion to its size.
 
 /// STL, binary if its length is that of its count of facets, and else text if it begins with
 /// "solid". Anything else is empty, without a problem.

@@ -49,7 +49,7 @@ SolidFile read_binary(std::string_view bytes) {
 SolidFile read_text(std::string_view text, const std::string& name) {
   SolidFile file;
   std::vector<Vec3>& points = file.faces.points;
-  size_t loop = 0;       // where the points of the loop at hand begin
+  size_t loop = 0;        // where the points of the loop at hand begin
   bool is_whole = false;  // it has three points
   const auto fail = [&](size_t line, std::string_view what, std::string_view found) {
     file = {};

@@ -35,7 +35,7 @@ std::string model_name(const ZipArchive& archive) {
   return "3D/3dmodel.model";
 }
 
-/// Returns false if a triangle names a vertex that its mesh does not have.
+/// Returns false if the model is damaged, or a triangle names a vertex that its mesh does not have.
 bool read_model(std::string_view model, FaceSet& faces) {
   XmlScanner scanner(model);
   uint32_t first = 0;  // the first point of the mesh at hand
@@ -59,7 +59,7 @@ bool read_model(std::string_view model, FaceSet& faces) {
       }
     }
   }
-  return true;
+  return scanner.is_whole();
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace frontend {
 
 /// Appends the triangles of a polygon to `triangles`. Its corners, at least three, are vertices by
 /// their numbers; `places` has the place of each corner in the plane. Vertices of different numbers
-/// are different vertices even at one place. The directed edges of all triangles together are those of the polygon, and others in both
-/// directions: triangles run as the polygon runs around them, and are repeated where it winds
-/// around them several times.
+/// are different vertices even at one place. The directed edges of all triangles together are those
+/// of the polygon, and others in both directions: triangles run as the polygon runs around them,
+/// and are repeated where it winds around them several times.
 ///
 /// They are the constrained Delaunay triangulation of the polygon, which may touch itself in
 /// corners, and may follow an edge in both directions, as to a hole and back. Where Delaunay's

@@ -37,7 +37,7 @@ bool XmlScanner::skip_past(std::string_view end) {
 XmlScanner::Part XmlScanner::next() {
   if (ends_at_once_) {
     ends_at_once_ = false;
-    return Part::kEnd;
+    return end();
   }
   while (!rest_.empty()) {
     if (!rest_.starts_with('<')) {
@@ -47,23 +47,34 @@ XmlScanner::Part XmlScanner::next() {
       return Part::kText;
     }
     if (rest_.starts_with("<!--")) {
-      if (!skip_past("-->")) break;
+      if (!skip_past("-->")) return damaged();
     } else if (rest_.starts_with("<![CDATA[")) {
       const std::string_view start = rest_.substr(std::string_view("<![CDATA[").size());
       text_ = start.substr(0, start.find("]]>"));
-      if (!skip_past("]]>")) break;
+      if (!skip_past("]]>")) return damaged();
       return Part::kText;
     } else if (rest_.starts_with("<!") || rest_.starts_with("<?")) {
-      if (!skip_past(">")) break;
+      if (!skip_past(">")) return damaged();
     } else {
       rest_.remove_prefix(1);
       const size_t end = end_of_tag(rest_);
-      if (end == std::string_view::npos) break;
+      if (end == std::string_view::npos) return damaged();
       const std::string_view inside = rest_.substr(0, end);
       rest_.remove_prefix(end + 1);
       return tag(inside);
     }
   }
+  return Part::kNone;
+}
+
+XmlScanner::Part XmlScanner::end() {
+  if (open_.empty() || open_.back() != name_) return damaged();
+  open_.pop_back();
+  return Part::kEnd;
+}
+
+XmlScanner::Part XmlScanner::damaged() {
+  is_damaged_ = true;
   rest_ = {};
   return Part::kNone;
 }
@@ -75,7 +86,9 @@ XmlScanner::Part XmlScanner::tag(std::string_view inside) {
   if (ends_at_once_) inside.remove_suffix(1);
   name_ = without_prefix(take_word(inside));
   attributes_ = inside;
-  return is_end ? Part::kEnd : Part::kStart;
+  if (is_end) return end();
+  open_.push_back(name_);
+  return Part::kStart;
 }
 
 std::string_view XmlScanner::attribute(std::string_view wanted) const {

@@ -107,8 +107,8 @@ std::optional<std::string> ZipArchive::unpack(const Entry& entry) const {
     result = inflate(packed, Wrapping::kNone, entry.bytes + 1);
   }
   if (!result || result->size() != entry.bytes) return std::nullopt;
-  const uint32_t checksum = crc32_gzip_refl(
-      0, reinterpret_cast<const unsigned char*>(result->data()), result->size());
+  const uint32_t checksum =
+      crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(result->data()), result->size());
   if (checksum != entry.checksum) return std::nullopt;
   return result;
 }
