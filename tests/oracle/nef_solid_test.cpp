@@ -20,17 +20,17 @@ using csgcore::Op;
 using csgcore::Vec3;
 using testing::ElementsAre;
 
-NefScene lone(ConvexPolyhedron polyhedron) { return scene_of(Op::kUnion, {std::move(polyhedron)}); }
+NefScene lone(FacetedSolid polyhedron) { return scene_of(Op::kUnion, {std::move(polyhedron)}); }
 
 TEST(NefSolid, VolumesAreExact) {
-  const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
+  const FacetedSolid unit = box(Vec3(0), Vec3(1));
   EXPECT_EQ(build(lone(unit))->volume(), 1);
   EXPECT_EQ(build(lone(box(Vec3(-1, 0, 2), Vec3(2, 0.5, 6))))->volume(), 6);
   // A sheared and mirrored map: |det|. 0.1 stands for the double next to it.
   const Affine map{Mat3(Vec3(-2, 0, 0), Vec3(5, 3, 0), Vec3(0.1, 7, 0.1)), Vec3(9, 8, 7)};
   EXPECT_EQ(build(lone(box(Vec3(0), Vec3(1), map)))->volume(), Rational(6) * Rational(0.1));
   // Octahedron, in half-spaces that meet four by four.
-  ConvexPolyhedron octahedron;
+  FacetedSolid octahedron;
   for (int i = 0; i < 8; ++i) {
     octahedron.half_spaces.push_back({{i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1}, 1});
   }
@@ -38,7 +38,7 @@ TEST(NefSolid, VolumesAreExact) {
   // Square pyramid: a cone of four fragments.
   EXPECT_EQ(build(lone(frustum(0, 4, 2, 0, 4)))->volume(), Rational(32, 3));
 
-  const ConvexPolyhedron half_beside = box(Vec3(0), Vec3(1), shift(Vec3(0.5, 0.5, 0.5)));
+  const FacetedSolid half_beside = box(Vec3(0), Vec3(1), shift(Vec3(0.5, 0.5, 0.5)));
   EXPECT_EQ(build(scene_of(Op::kUnion, {unit, half_beside}))->volume(), Rational(15, 8));
   EXPECT_EQ(build(scene_of(Op::kIntersection, {unit, half_beside}))->volume(), Rational(1, 8));
   EXPECT_EQ(build(scene_of(Op::kDifference, {unit, half_beside}))->volume(), Rational(7, 8));
@@ -47,7 +47,7 @@ TEST(NefSolid, VolumesAreExact) {
 // At first a point inside is sought with some of many planes; here another plane cuts away the
 // middle.
 TEST(NefSolid, OfManyPlanes) {
-  ConvexPolyhedron whole = sphere(3.7, 24), cut = whole, rest = whole;
+  FacetedSolid whole = sphere(3.7, 24), cut = whole, rest = whole;
   cut.half_spaces.push_back({{1, 0, 0}, -2.5});
   rest.half_spaces.push_back({{-1, 0, 0}, 2.5});
   const Rational volume = build(lone(cut))->volume();
@@ -115,8 +115,8 @@ TEST(NefSolid, PolyhedraHaveTheirVertices) {
 }
 
 TEST(NefSolid, Regularised) {
-  const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
-  const ConvexPolyhedron beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
+  const FacetedSolid unit = box(Vec3(0), Vec3(1));
+  const FacetedSolid beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
   // A shared face leaves no skin, and their common part is empty.
   const auto both = build(scene_of(Op::kUnion, {unit, beside}));
   EXPECT_EQ(both->volume(), 2);
@@ -152,7 +152,7 @@ TEST(NefSolid, Regularised) {
 // An edge of the solid that is inside a facet, or enters it from its border: the facet is on both
 // of its sides, and its cycle runs along the edge in both directions.
 TEST(NefSolid, RidgesInAFacet) {
-  const ConvexPolyhedron block = box(Vec3(0), Vec3(4));
+  const FacetedSolid block = box(Vec3(0), Vec3(4));
   // A prism along y, with the section of a square of diagonal 2 that stands on its corner.
   const auto prism = [](double y_min, double y_max, double x, double z) {
     return frustum(y_min, y_max, 1, 1, 4,
@@ -166,11 +166,11 @@ TEST(NefSolid, RidgesInAFacet) {
     EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 3.875)), Place::kInside) << what;
     EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 4.125)), Place::kOutside) << what;
   };
-  const auto without = [&](std::vector<ConvexPolyhedron> holes) {
+  const auto without = [&](std::vector<FacetedSolid> holes) {
     holes.insert(holes.begin(), block);
     return scene_of(Op::kDifference, std::move(holes));
   };
-  const ConvexPolyhedron across =
+  const FacetedSolid across =
       frustum(1, 3, 1, 1, 4, {Mat3(Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)), Vec3(0, 2, 3)});
   expect("within", without({prism(1, 3, 2, 3)}), 60);
   expect("from one border", without({prism(-1, 3, 2, 3)}), 58);
@@ -195,7 +195,7 @@ TEST(NefSolid, Empty) {
   EXPECT_TRUE(nothing->mesh().faces.empty());
   EXPECT_EQ(nothing->locate(Vec3(0)), Place::kOutside);
   EXPECT_TRUE(nothing->crossings({Vec3(0), Vec3(0, 0, 1)}).empty());
-  const ConvexPolyhedron ball = sphere(1, 8);
+  const FacetedSolid ball = sphere(1, 8);
   EXPECT_TRUE(build(scene_of(Op::kDifference, {ball, ball}))->empty());
 }
 
@@ -282,7 +282,7 @@ TEST(NefSolid, Files) {
 
 /// A scene that takes minutes.
 NefScene large_scene() {
-  std::vector<ConvexPolyhedron> balls;
+  std::vector<FacetedSolid> balls;
   for (int i = 0; i < 30; ++i) {
     balls.push_back(sphere(3, 60, shift(Vec3(0.1 * i, 0.07 * i * i, 0.3 * std::sin(i)))));
   }
@@ -315,13 +315,13 @@ TEST(NefSolid, CanBeCancelled) {
 }
 
 TEST(NefSolid, RefusesWhatIsNoSolid) {
-  ConvexPolyhedron wedge = box(Vec3(0), Vec3(1));
+  FacetedSolid wedge = box(Vec3(0), Vec3(1));
   wedge.half_spaces.pop_back();  // now it is unbounded
-  ConvexPolyhedron nothing = box(Vec3(0), Vec3(1));
+  FacetedSolid nothing = box(Vec3(0), Vec3(1));
   nothing.half_spaces.push_back({{1, 0, 0}, -1});
-  ConvexPolyhedron flat = box(Vec3(0), Vec3(1));
+  FacetedSolid flat = box(Vec3(0), Vec3(1));
   flat.half_spaces.push_back({{1, 0, 0}, 0});
-  for (const ConvexPolyhedron& polyhedron : {wedge, nothing, flat, ConvexPolyhedron{}}) {
+  for (const FacetedSolid& polyhedron : {wedge, nothing, flat, FacetedSolid{}}) {
     const NefScene scene = lone(polyhedron);
     const NefBuild result = NefSolid::build(scene.tree, scene.polyhedra);
     EXPECT_EQ(result.status, NefStatus::kFailed);

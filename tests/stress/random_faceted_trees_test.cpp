@@ -1,5 +1,5 @@
 // Tests the CPU tracer, the exact ray oracle and csgcore's membership on random trees of polyhedra
-// against Nef polyhedra. The full run has 1,000 trees.
+// and meshes against Nef polyhedra. The full run has 1,000 trees.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -196,14 +196,17 @@ void judge_points(const Scene& scene, const Solid& solid, const View& view, uint
   }
 }
 
-class RandomFacetedTrees : public testing::TestWithParam<uint32_t> {};
+class RandomFacetedTrees : public testing::TestWithParam<uint32_t> {
+ protected:
+  void expect_nef(stress::Leaves leaves) const;
+};
 
-TEST_P(RandomFacetedTrees, EqualNef) {
+void RandomFacetedTrees::expect_nef(stress::Leaves leaves) const {
   Sums sums;
   for (uint32_t i = 0; i < trees_of_a_part(); ++i) {
     const uint32_t seed = 1 + GetParam() + kParts * i;
     SCOPED_TRACE("tree " + std::to_string(seed));
-    const Scene scene = stress::random_scene(seed, true);
+    const Scene scene = stress::random_scene(seed, leaves);
     const View view = stress::random_view(scene, kPicture, seed);
     NefJudge judge(scene);
     ASSERT_TRUE(judge.is_built());
@@ -219,6 +222,9 @@ TEST_P(RandomFacetedTrees, EqualNef) {
               number(sums.points_inside));
   EXPECT_LE(sums.undecided, kMostUndecided);
 }
+
+TEST_P(RandomFacetedTrees, EqualNef) { expect_nef(stress::Leaves::kPolyhedra); }
+TEST_P(RandomFacetedTrees, OfMeshesEqualNef) { expect_nef(stress::Leaves::kFaceted); }
 
 INSTANTIATE_TEST_SUITE_P(, RandomFacetedTrees, testing::Range(0u, kParts));
 

@@ -100,7 +100,7 @@ TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
   Sums sums;
   for (uint32_t i = 0; i < trees_of_a_part(); ++i) {
     const uint32_t seed = 1 + GetParam() + kParts * i;
-    const Scene scene = stress::random_scene(seed, false);
+    const Scene scene = stress::random_scene(seed, stress::Leaves::kAll);
     const View view = stress::random_view(scene, kPicture, seed);
     const std::vector<Method> methods{stress::cpu_method("tiles"),
                                       kd_trees[1 + i % (kd_trees.size() - 1)]};
@@ -135,7 +135,7 @@ TEST(RandomTreesPlanted, AWrongSignIsFoundAndMinimised) {
                      }};
   int found = 0;
   for (uint32_t seed = 1; seed <= 30; ++seed) {
-    const Scene scene = stress::random_scene(seed, false);
+    const Scene scene = stress::random_scene(seed, stress::Leaves::kAll);
     Sums sums;
     const std::string report =
         judge_tree(scene, stress::random_view(scene, kPicture, seed), {wrong}, sums);
