@@ -6,6 +6,7 @@
 #include "csgcore/triangle_mesh.hpp"
 #include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace stress {
 namespace {
@@ -25,10 +26,26 @@ bool by_chance(Random& random, double share) { return uniform(random, 0, 1) < sh
 constexpr test_support::SizeRange kSizes{
     .low = 1, .high = 4, .even_share = 0.6, .step = 1, .most_fragments = 8};
 
+/// Returns the mesh without a tenth of its triangles, or without one.
+Primitive torn(const Primitive& primitive, Random& random) {
+  const csgcore::TriangleMesh& mesh = *primitive.mesh;
+  test_support::MeshParts parts{{mesh.vertices().begin(), mesh.vertices().end()},
+                                {mesh.triangles().begin(), mesh.triangles().end()}};
+  parts = test_support::with_holes(parts, 0.1, random);
+  if (!parts.triangles.empty()) parts.triangles.pop_back();
+  return parts.triangles.empty() ? primitive : csgcore::make_mesh(parts.mesh());
+}
+
 /// Returns a primitive in its own frame, which is to be a place in the world.
 Primitive random_primitive(Random& random, Leaves leaves) {
   test_support::Sizes sizes(random, kSizes);
   if (leaves == Leaves::kAll) return test_support::random_primitive(sizes, {});
+  if (leaves == Leaves::kMeshes) {
+    if (random() % 2) return test_support::random_primitive(sizes, {});
+    const auto& meshes = test_support::test_kind_of(csgcore::Shape::kMesh);
+    const Primitive primitive = test_support::random_primitive(meshes, sizes, {});
+    return by_chance(random, 0.2) ? torn(primitive, random) : primitive;
+  }
   const bool is_mesh = leaves == Leaves::kFaceted && random() % 2;
   const auto& kind =
       test_support::test_kind_of(is_mesh ? csgcore::Shape::kMesh : csgcore::Shape::kPolyhedron);
