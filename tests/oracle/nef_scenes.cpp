@@ -84,7 +84,7 @@ FacetedSolid sphere(double radius, int fragments, const Affine& local_to_world) 
 }
 
 FacetedSolid frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
-                         const Affine& local_to_world) {
+                     const Affine& local_to_world) {
   return faceted(csgcore::make_frustum(z_min, z_max, r_bottom, r_top, local_to_world), fragments);
 }
 

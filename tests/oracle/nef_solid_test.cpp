@@ -9,6 +9,7 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "nef_scenes.hpp"
+#include "support/test_meshes.hpp"
 
 namespace oracle {
 namespace {
@@ -89,6 +90,50 @@ TEST(NefSolid, OfASceneWithPolyhedra) {
 }
 
 // The vertices by which the exact ray oracle bounds polyhedra.
+FacetedSolid mesh(const test_support::MeshParts& parts, const csgcore::Affine& map = {}) {
+  return {{}, map, parts.mesh()};
+}
+
+TEST(NefSolid, OfMeshes) {
+  using test_support::box_parts;
+  const Rational l_prism = build(lone(mesh(test_support::l_prism_parts(4, 1, 2))))->volume();
+  EXPECT_EQ(l_prism, 14);
+  const csgcore::Affine mirrored{csgcore::Mat3(-1, 0, 0, 0, 2, 0, 0, 0, 1), Vec3(1, 2, 3)};
+  EXPECT_EQ(build(lone(mesh(test_support::l_prism_parts(4, 1, 2), mirrored)))->volume(), 28);
+  // Its solid is where the winding number is not 0.
+  test_support::MeshParts parts = box_parts(Vec3(0), Vec3(4));
+  EXPECT_EQ(build(lone(mesh(parts.inside_out())))->volume(), 64);
+  parts.add(box_parts(Vec3(1), Vec3(2)).inside_out());
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63);
+  parts.add(box_parts(Vec3(3), Vec3(5)));
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63 + 7);
+  parts.add(box_parts(Vec3(3), Vec3(5)).inside_out());
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63);
+  // Faces that a mesh shares with a polyhedron are both's.
+  const FacetedSolid half = box(Vec3(0), Vec3(4, 4, 2));
+  const auto shared = build(scene_of(Op::kUnion, {half, mesh(box_parts(Vec3(0), Vec3(4)))}));
+  for (const FacetPlane& plane : shared->planes()) {
+    const bool is_top = plane.unit_normal.z > 0;
+    EXPECT_EQ(plane.polyhedra.size(), is_top ? 1u : 2u);
+  }
+}
+
+TEST(NefSolid, RefusesMeshesThatBoundNoSolid) {
+  const auto expect_refused = [](const test_support::MeshParts& parts, const char* reason) {
+    const NefScene scene = lone(mesh(parts));
+    const NefBuild result = NefSolid::build(scene.tree, scene.polyhedra);
+    EXPECT_EQ(result.status, NefStatus::kFailed);
+    EXPECT_EQ(result.reason, reason);
+  };
+  test_support::MeshParts open = test_support::box_parts(Vec3(0), Vec3(1));
+  open.triangles.pop_back();
+  expect_refused(open, "a mesh is not closed");
+  expect_refused(test_support::box_parts({0, 0, 0}, {1, 1, 0}), "a triangle of a mesh has no area");
+  test_support::MeshParts crossed = test_support::l_prism_parts(4, 1, 2);
+  crossed.vertices[3] = {5, 5, 0};
+  expect_refused(crossed, "a shell of a mesh intersects itself");
+}
+
 TEST(NefSolid, PolyhedraHaveTheirVertices) {
   using csgcore::Polyhedron;
   std::vector<std::shared_ptr<const Polyhedron>> solids{
