@@ -38,6 +38,8 @@ constexpr uint32_t kMostNefTries = 500;
 /// The undecided rays that a part may have. In the full run 48 of all 320,000 are, where faces
 /// coincide up to rounding.
 constexpr uint64_t kMostUndecided = 30;
+/// Meshes are often polyhedra's twins, whose faces coincide up to rounding in turned frames.
+constexpr uint64_t kMostUndecidedOfMeshes = 100;
 
 uint32_t trees_of_a_part() { return test_support::full_run() ? 100 : 2; }
 
@@ -220,7 +222,8 @@ void RandomFacetedTrees::expect_nef(stress::Leaves leaves) const {
               test_support::full_run() ? "full run" : "sample", trees_of_a_part(),
               number(sums.rays), number(sums.hits), number(sums.undecided), number(sums.points),
               number(sums.points_inside));
-  EXPECT_LE(sums.undecided, kMostUndecided);
+  const bool has_meshes = leaves == stress::Leaves::kFaceted;
+  EXPECT_LE(sums.undecided, has_meshes ? kMostUndecidedOfMeshes : kMostUndecided);
 }
 
 TEST_P(RandomFacetedTrees, EqualNef) { expect_nef(stress::Leaves::kPolyhedra); }
