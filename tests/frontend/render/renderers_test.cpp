@@ -423,6 +423,30 @@ TEST_F(Renderers, AutoTakesTheCpuWhereOpenGlRunsInSoftware) {
   EXPECT_EQ(drawn.image.rgb, cpu().image.rgb);
 }
 
+TEST_F(Renderers, AutoTakesTheCpuForMeshesThatTheDriverCannotHold) {
+  feign_gpu();
+  SceneRenderer renderer(folders_, {.takes_software = true, .most_texels = 65536});
+  const auto draw = [&](uint32_t around) {
+    renderer.load(std::make_shared<const csgcore::Scene>(test_support::scene_of(
+        csgcore::Op::kUnion,
+        {csgcore::make_mesh(test_support::mesh_of(test_support::torus_shell(3, 1, around, 50)))})));
+    CameraOptions camera;
+    camera.width_px = camera.height_px = 40;
+    RenderStats stats;
+    const Image image = renderer.draw(make_view({csgcore::Vec3(0), {55, 0, 25}, 20}, camera),
+                                      RenderSettings{}, stats);
+    EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
+    EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
+    return stats;
+  };
+  const RenderStats small = draw(100);
+  EXPECT_THAT(small.renderer, StartsWith("gl: "));
+  EXPECT_EQ(small.reason, "");
+  const RenderStats large = draw(200);
+  EXPECT_EQ(large.renderer, "cpu");
+  EXPECT_THAT(large.reason, HasSubstr("triangles of meshes need a buffer of"));
+}
+
 /// Runs in a process of its own, whose EGL finds no driver.
 class WithoutAnyOpenGl : public Renderers {
  protected:
