@@ -52,9 +52,9 @@ constexpr uint32_t kFewDoubtful = 16;
 /// frees the faces of polyhedra and meshes that are gone.
 constexpr uint32_t kMostUpdates = 256;
 
-/// The longest sheet of an open mesh, in tolerances: one that a ray passes at the flattest angle at
-/// which its thickness is measured along the normal (csgcore/NUMERICS.md, "Meshes").
-constexpr double kLongestSheet = 4096;
+/// In tolerances, more than the length of a sheet of an open mesh at the flattest angle at which
+/// its thickness is measured along the normal (SHEET_THICKNESS, SHEET_COSINE).
+constexpr double kLongestSheet = 2048;
 
 double thickness_tolerance(const Solid& solid) {
   if (solid.bounds().empty()) return 0;

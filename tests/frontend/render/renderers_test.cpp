@@ -2,13 +2,17 @@
 // chooses between them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "frontend/camera.hpp"
 #include "frontend/command.hpp"
 #include "frontend/error.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "render/renderer_choice.hpp"
+#include "support/mesh_models.hpp"
+#include "support/models.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
