@@ -125,7 +125,9 @@ MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
   return result;
 }
 
-// A face's number is the first of its texels, negative where the ray leaves the mesh.
+// A face's number is the first of its texels, negative where the ray leaves the mesh. If a sheet
+// begins before another one ends, the stretch may end with the other one, and the next stretch is
+// inside, too.
 Stretch mesh_stretch(Ray world, CanonicalRay ray, float t) {
   Stretch result = Stretch(false, t, 0);
   for (;;) {
@@ -133,16 +135,10 @@ Stretch mesh_stretch(Ray world, CanonicalRay ray, float t) {
     if (unfinished) return Stretch(false, INFINITY, 0);
     bool in_sheets = crossings.turns != 0;
     result.inside = in_sheets ? crossings.sheet_end > result.end : crossings.turns_behind != 0;
+    if (in_sheets && result.inside) return Stretch(true, crossings.sheet_end, -crossings.sheet_face);
     result.end = crossings.next;
     result.face = result.inside ? -crossings.next_face : crossings.next_face;
-    bool changes = (crossings.turns_behind != crossings.next_turns) != result.inside;
-    if (in_sheets) {
-      changes = !result.inside || crossings.sheet_end < crossings.next;
-      if (result.inside && changes) {
-        result.end = crossings.sheet_end;
-        result.face = -crossings.sheet_face;
-      }
-    }
+    bool changes = in_sheets || (crossings.turns_behind != crossings.next_turns) != result.inside;
     if (changes || result.end == INFINITY) return result;
   }
 }

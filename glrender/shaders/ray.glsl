@@ -15,8 +15,9 @@ const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // the largest t of a ray
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;  // per primitive: colour, flags, id
-uniform usamplerBuffer u_tests;     // per test: primitive and complement bit, if_inside, if_outside, whether it is convex
-uniform float u_tolerance;  // thinner pieces do not exist; along the normal, in world units
+uniform usamplerBuffer u_tests;     // per test: primitive and complement bit, if_inside, if_outside,
+                                    // whether the primitive is convex
+uniform float u_tolerance;          // thinner pieces do not exist; along the normal, in world units
 
 struct Ray {
   vec3 origin, direction;

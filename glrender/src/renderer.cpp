@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <exception>
+#include <glm/vector_relational.hpp>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "csgcore/phong.hpp"
 #include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "frame.hpp"
 #include "glrender/stopwatch.hpp"
 #include "render_target.hpp"
@@ -49,6 +51,10 @@ constexpr uint32_t kFewDoubtful = 16;
 /// The most updates of primitives in place, when tiles are drawn. Then all is uploaded anew, which
 /// frees the faces of polyhedra and meshes that are gone.
 constexpr uint32_t kMostUpdates = 256;
+
+/// In tolerances, more than the length of a sheet of an open mesh at the flattest angle at which
+/// its thickness is measured along the normal (SHEET_THICKNESS, SHEET_COSINE).
+constexpr double kLongestSheet = 2048;
 
 double thickness_tolerance(const Solid& solid) {
   if (solid.bounds().empty()) return 0;
@@ -117,7 +123,7 @@ class Renderer::Impl {
     const Pass pass = make_pass(view, settings, nullptr);
     prepare(pass, stats);
     Image image;
-    doubts_ = {};
+    doubts_ = doubts_at_eye(view);
     if (settings.samples > 1) draw_samples(pass, image, stats);
     // The pixels' centres are drawn last, since draw_behind() continues from that picture.
     if (settings.samples <= 1 || settings.measured_channels) {
@@ -177,7 +183,7 @@ class Renderer::Impl {
     Stopwatch watch;
     Pass pass = make_pass(view, settings, nullptr);
     pass.tiles = false;
-    doubts_ = {};
+    doubts_ = doubts_at_eye(view);
     use_target(view, settings.measured_channels);
     begin(pass, *target_);
     BatchQueue queue;
@@ -256,6 +262,24 @@ class Renderer::Impl {
       pass.eye_inside = !pass.eye_inside;
     }
     return pass;
+  }
+
+  /// Doubts all pixels if the eye may lie in an open mesh: whether it lies in the solid then
+  /// differs from ray to ray.
+  Doubts doubts_at_eye(const View& view) const {
+    if (buffers_.nonconvex().empty() || view.projection != csgcore::Projection::kPerspective) {
+      return {};
+    }
+    const double margin = kLongestSheet * tolerance_;
+    for (const csgcore::CanonicalPrimitive& primitive : solid_->primitives()) {
+      if (!primitive.mesh || primitive.mesh->is_closed()) continue;
+      const csgcore::Box& bounds = primitive.bounds;
+      if (glm::all(glm::greaterThan(view.eye, bounds.min - margin)) &&
+          glm::all(glm::lessThan(view.eye, bounds.max + margin))) {
+        return {std::vector<bool>(size_t{view.width_px} * view.height_px, true), true};
+      }
+    }
+    return {};
   }
 
   void use_target(const View& view, bool measured) {

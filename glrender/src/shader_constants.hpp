@@ -120,8 +120,9 @@ inline constexpr std::array kShaderConstants = {
     ShaderConstant{"MARK_SURE", kMarkSure, false},
     ShaderConstant{"MARK_DOUBTFUL", kMarkDoubtful, false},
     ShaderConstant{"MARK_UNFINISHED", kMarkUnfinished, false},
-    // The sheets of open meshes (csgcore/NUMERICS.md, "Meshes").
-    ShaderConstant{"SHEET_THICKNESS", 4, false},
+    // The sheets of open meshes (csgcore/NUMERICS.md, "Meshes"). They are thick enough to exist
+    // without a doubt, and thin enough to end within the overlap of cells (2 tolerances or more).
+    ShaderConstant{"SHEET_THICKNESS", 1.75, false},
     ShaderConstant{"SHEET_COSINE", 1.0 / 1024, false},
 };
 

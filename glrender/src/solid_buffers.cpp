@@ -41,8 +41,7 @@ std::vector<bool> too_thin(const csgcore::Solid& solid, double thickness_toleran
   std::vector<bool> result;
   result.reserve(solid.primitives().size());
   for (const CanonicalPrimitive& primitive : solid.primitives()) {
-    // Pieces of others count one by one, and an open mesh has a thickness where it has no width.
-    result.push_back(primitive.is_convex && is_thinner(primitive, thickness_tolerance));
+    result.push_back(is_thinner(primitive, thickness_tolerance));
   }
   return result;
 }

@@ -63,8 +63,8 @@ class SolidBuffers {
   /// bind() uses the texture units from 0 up to this one (exclusive).
   static constexpr int kTextureUnits = 5;
 
-  /// `solid` must outlive this object. Convex primitives thinner than `thickness_tolerance`, in
-  /// world units, are left out. A buffer must not have more than `most_texels`.
+  /// `solid` must outlive this object. Primitives thinner than `thickness_tolerance`, in world
+  /// units, are left out. A buffer must not have more than `most_texels`.
   SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance, uint64_t most_texels);
 
   /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if

@@ -104,6 +104,9 @@ std::vector<NamedScene> scenes() {
   add("CubeWithFacesOfAMesh", Op::kUnion,
       {cube({0, 0, 0}, {1, 1, 1}), mesh(l_prism_shell(1)), cube({1, 1, 0}, {2, 2, 1})});
   add("MeshWithFacesOfACube", Op::kUnion, {mesh(l_prism_shell(1)), cube({0, 0, 0}, {1, 1, 1})});
+  add("CubeWithFacesOfShells", Op::kUnion,
+      {cube({0, 0, 0}, {1, 1, 1}),
+       mesh(joined({l_prism_shell(1), box_shell(Vec3(1e-7), Vec3(1 - 1e-7))}))});
   add("FlushCuts", Op::kDifference,
       {mesh(l_prism_shell(2)), cube({0, 0, 1}, {1, 1, 2}), mesh(box_shell({1, 0, 0}, {2, 1, 1})),
        make_frustum(1, 2, 0.4, 0.4, at(0.5, 1.5, 0))});
@@ -199,6 +202,39 @@ TEST(MeshPictureTest, EyeInsideTheSolidACavityAndACut) {
       view.eye = eye;
       expect_agreement(loaded, view, "eye inside, " + gl_test::name_of(way));
     }
+  }
+}
+
+TEST(MeshPictureTest, EyeInAnOpenMesh) {
+  const Scene scene = test_support::scene_of(
+      Op::kUnion, {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1})),
+                   make_sphere(0.3, at(1, 0, 0.2)), cube({-3, -3, -2}, {3, 3, -1})});
+  for (const Way& way : kWays) {
+    LoadedScene loaded(scene, way);
+    View view = view_of(loaded, Projection::kPerspective, 200, 10);
+    view.half_height = 1;
+    view.eye = {-1, 0.2, 0.7};
+    expect_agreement(loaded, view, "eye in an open mesh, " + gl_test::name_of(way));
+    loaded.draw(view);
+    const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
+    EXPECT_EQ(behind.id, gl_test::draw_by_cpu(loaded, view, csgcore::Boundary::kBehind).id);
+  }
+}
+
+TEST(MeshPictureTest, BehindASheetIsItsOtherSide) {
+  const Scene scene = test_support::scene_of(
+      Op::kUnion, {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1}))});
+  for (const Way& way : kWays) {
+    LoadedScene loaded(scene, way);
+    const View view = view_of(loaded, Projection::kPerspective, 25, 35);
+    loaded.draw(view);
+    const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
+    const Image cpu = gl_test::draw_by_cpu(loaded, view, csgcore::Boundary::kBehind);
+    // Sheets are thicker by OpenGL, so that the other sides do not quite agree.
+    const gl_test::Comparison same =
+        gl_test::compare(behind, cpu, loaded.solid.bounds().diagonal());
+    EXPECT_GT(same.hits, 3000u);
+    EXPECT_EQ(same.wrong() + same.id + same.normal, 0u) << same.first << gl_test::name_of(way);
   }
 }
 
@@ -329,6 +365,10 @@ TEST(MeshPictureTest, PixelsThatTakeTooManyRoundsAreTheTracers) {
     EXPECT_GT(std::ranges::count(cpu.id, 0u) + std::ranges::count(cpu.id, 1u), 1000);
     EXPECT_EQ(gl.rgb, cpu.rgb);
     EXPECT_EQ(gl.id, cpu.id);
+    // A few are drawn, too.
+    View small = view;
+    small.width_px = small.height_px = 3;
+    EXPECT_EQ(loaded.draw(small).id, gl_test::draw_by_cpu(loaded, small).id);
   }
 }
 
