@@ -1,8 +1,7 @@
-// Reads PNG, without a library for the same reasons as it is written (png.cpp).
+// The luminance of PNG pictures, which libspng reads.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>

@@ -1,37 +1,33 @@
-// The files within a zip archive.
+// The files within a zip archive in memory, by minizip.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace frontend {
 
 class ZipArchive {
  public:
-  struct Entry {
-    std::string_view name;
-    uint64_t offset;  // of its local header
-    uint64_t packed_bytes, bytes;
-    uint32_t checksum;
-    uint16_t method;
-  };
-
-  /// Lists the archive's files, none if it is damaged. `bytes` must outlive this.
+  /// `bytes` must outlive this. A damaged archive has no files.
   explicit ZipArchive(std::string_view bytes);
+  ~ZipArchive();
+  ZipArchive(const ZipArchive&) = delete;
+  ZipArchive& operator=(const ZipArchive&) = delete;
 
   static bool is_one(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-  const std::vector<Entry>& entries() const { return entries_; }
-  /// Returns the contents of a file; nothing if it is damaged, packed in another way than by
-  /// deflate, or unpacks to more than 64 times its size and 64 MiB.
-  std::optional<std::string> unpack(const Entry& entry) const;
+  /// These return the contents of the first file, or of that name; nothing if there is none, if it
+  /// is damaged, or if it unpacks to more than 64 times its size and 64 MiB.
+  std::optional<std::string> unpack_first();
+  std::optional<std::string> unpack(const std::string& name);
 
  private:
-  std::string_view bytes_;
-  std::vector<Entry> entries_;
+  struct Impl;
+  std::optional<std::string> unpack_current();
+
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace frontend
