@@ -7,8 +7,12 @@
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
 #include "lower/faceted_box.hpp"
+#include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/plane_evaluation.hpp"
+#include "lower/plane_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -21,17 +25,6 @@ bool is_identity(const FileMatrix& file) {
          file.map.translation == csgcore::Vec3(0.0);
 }
 
-HealedMatrix heal(const FileMatrix& file) {
-  HealedMatrix matrix = heal_matrix(file.map);
-  if (file.divisor != 1) {
-    const double size = std::abs(file.divisor);
-    matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};
-    matrix.linear_error /= size;
-    matrix.translation_error /= size;
-  }
-  return matrix;
-}
-
 /// A file to read (`file`, up to 2021) makes something of a node without children.
 bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   const auto arguments = tree.arguments_of(node);
@@ -41,7 +34,6 @@ bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   });
 }
 
-constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
 constexpr std::string_view kBecauseManyFaces = "it has too many faces";
 constexpr std::string_view kBecauseNotConvex =
     "it is not the closed boundary of one convex solid with plane faces";
@@ -96,6 +88,7 @@ void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
 
 void Collector::take(uint32_t index, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (plane_ && !is_within(index, plane_->root())) leave_plane();
   primitive_of.push_back(kNoPrimitive);
   const uint32_t id = primitive_nodes;
   if (is_primitive_node(node.kind)) {
@@ -114,6 +107,7 @@ void Collector::take(uint32_t index, uint32_t offset) {
 }
 
 void Collector::finish() {
+  if (plane_) leave_plane();
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
   selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
   for (const LeftOut& out : maybe_left_out_) {
@@ -127,6 +121,13 @@ void Collector::finish() {
   maybe_left_out_ = {};
 }
 
+const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
+  const auto found =
+      std::lower_bound(plane_leaves.begin(), plane_leaves.end(), node,
+                       [](const PlaneLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
+  return found != plane_leaves.end() && found->node == node ? &*found : nullptr;
+}
+
 /// Nothing counts but the subtree, and that as if it stood alone.
 void Collector::select(uint32_t root) {
   root_ = root;
@@ -138,6 +139,8 @@ void Collector::select(uint32_t root) {
   frames = {};
   problems.clear();
   compound_leaves.clear();
+  plane_leaves.clear();
+  plane_.reset();
   any_modifiers = false;
   contexts_.resize(1);
   skipped_.reset();
@@ -147,6 +150,11 @@ void Collector::select(uint32_t root) {
 /// False: the children do not matter.
 bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (plane_) {
+    if (is_primitive_node(node.kind)) note_leaf_place(plane_context_);
+    plane_->take(index, id, options_, problems);
+    return true;
+  }
   if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
   switch (role_of(node.kind)) {
     case Role::kSolid:
@@ -156,6 +164,10 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
       if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index, offset);
+      return true;
+    case Role::kPlane:
+      enter_plane(index, offset);
+      plane_->take(index, id, options_, problems);
       return true;
     case Role::kUnsupportedOperation:
       leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
@@ -250,48 +262,100 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
   return true;
 }
 
+void Collector::note_leaf_place(const Context& context) {
+  if (!options_.keeps_places) return;
+  places.back().leaf_line = context.leaf_line;
+  places.back().leaf_offset = context.leaf_offset;
+}
+
 void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
-  if (options_.keeps_places) {
-    places.back().leaf_line = context.leaf_line;
-    places.back().leaf_offset = context.leaf_offset;
-  }
+  note_leaf_place(context);
   Primitive primitive;
   csgcore::FacetSettings facets;
   bool is_inside_out = false;
   if (!read_solid(index, primitive, facets, is_inside_out) || context.flattened) return;
+  primitive.id = id;
+  const csgcore::Box box = faceted_box(primitive, facets);
+  const int count =
+      keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
+  primitive_of[index] =
+      add_primitive(std::move(primitive), index, context, context.frame, box, count);
+  if (is_inside_out && primitive_of[index] != kNoPrimitive) {
+    primitives.back().color = kSeenFromWithin;
+  }
+}
+
+uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
+                                  uint32_t frame, const csgcore::Box& box, int count) {
   switch (fit_of(primitive)) {
     case Fit::kFits:
       break;
     case Fit::kTooLarge:
-      return leave_out(index, kBecauseTooLarge);
+      leave_out(node, kBecauseTooLarge);
+      return kNoPrimitive;
     case Fit::kTooSmall:
-      return leave_out(index, kBecauseTooSmall);
+      leave_out(node, kBecauseTooSmall);
+      return kNoPrimitive;
     case Fit::kFlat:
-      return;
+      return kNoPrimitive;
   }
-  primitive.color = is_inside_out     ? kSeenFromWithin
-                    : context.in_leaf ? context.leaf_color
-                                      : context.color;
-  primitive.id = id;
-  primitive_of[index] = static_cast<uint32_t>(primitives.size());
-  boxes.push_back(faceted_box(primitive, facets));
-  fragments.push_back(keeps_facets(facets) ? traits_of(primitive.shape).fragments(primitive, facets)
-                                           : 0);
-  frame_of.push_back(context.frame);
+  primitive.color = context.in_leaf ? context.leaf_color : context.color;
+  boxes.push_back(box);
+  fragments.push_back(count);
+  frame_of.push_back(frame);
   primitives.push_back(std::move(primitive));
+  return static_cast<uint32_t>(primitives.size()) - 1;
 }
 
-bool Collector::keeps_facets(const csgcore::FacetSettings& facets) const {
-  switch (options_.facets) {
-    case Facets::kNone:
-      return false;
-    case Facets::kFew:
-      return facets.fn > 0 && facets.fn <= options_.few_fragments;
-    case Facets::kAll:
-      return true;
+void Collector::enter_plane(uint32_t node, uint32_t offset) {
+  plane_.emplace(tree_, node);
+  plane_context_ = contexts_.back();
+  const bool is_leaf_by_itself = is_primitive_node(tree_.nodes[node].kind);
+  if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
+    plane_context_.leaf_line = tree_.nodes[node].location.line;
+    plane_context_.leaf_offset = offset;
   }
-  return false;
+  if (is_leaf_by_itself) note_leaf_place(plane_context_);
+}
+
+/// After the last node of the subtree.
+void Collector::leave_plane() {
+  PlaneLeaf leaf{plane_->root(), plane_context_.frame, Presence::kEmpty, {}, {}, false};
+  leaf.presence = lower_plane(leaf);
+  plane_leaves.push_back(std::move(leaf));
+  plane_.reset();
+}
+
+Presence Collector::lower_plane(PlaneLeaf& leaf) {
+  const uint32_t root = plane_->root();
+  const SyntaxNode& node = tree_.nodes[root];
+  const bool is_supported = node.kind == NodeKind::kLinearExtrude
+                                ? plane_->data<LinearExtrudeArguments>(root).is_supported
+                                : node.kind != NodeKind::kRotateExtrude ||
+                                      plane_->data<RotateExtrudeNode>(root).arguments.is_supported;
+  PlaneEvaluation evaluation(*plane_, problems,
+                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  if (!is_supported || evaluation.is_solid()) {
+    leave_out(root, kBecauseUnsupported, is_supported);
+    return Presence::kLeftOut;
+  }
+  if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
+  if (plane_context_.flattened) return Presence::kEmpty;
+  LoweredSubtree lowered =
+      lower_subtree(*plane_, evaluation, leaf.frame, frames, figure_solids_, problems);
+  leaf.is_plate = lowered.is_plate;
+  csgcore::CsgTreeBuilder builder;
+  rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
+    LoweredSubtree::Part& part = lowered.parts[index];
+    const uint32_t primitive =
+        add_primitive(std::move(part.primitive), root, plane_context_, part.frame, part.box, 0);
+    if (primitive == kNoPrimitive) return to.empty();
+    leaf.box.merge(part.box);
+    to.primitive(primitive);
+  });
+  leaf.solid = builder.finish();
+  return leaf.solid.empty() ? Presence::kEmpty : Presence::kSolid;
 }
 
 }  // namespace frontend

@@ -14,8 +14,10 @@
 #include "frontend/imported_design.hpp"
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
+#include "lower/figure_solids.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
 
 namespace frontend {
@@ -50,6 +52,18 @@ class Collector final : public NodeSink {
     uint32_t frame;
   };
   std::vector<CompoundLeaf> compound_leaves;
+  /// What has become of a 2D subtree that is a leaf as a whole, and of its root.
+  struct PlaneLeaf {
+    uint32_t node;
+    uint32_t frame;
+    Presence presence;
+    csgcore::CsgTree solid;  // over `primitives`; empty unless it is solid
+    csgcore::Box box;        // of its parts, in the world
+    bool is_plate;
+  };
+  std::vector<PlaneLeaf> plane_leaves;  // in file order
+  /// The one whose root is the node, or null.
+  const PlaneLeaf* plane_leaf(uint32_t node) const;
   // After finish():
   NodeRange selected;
   std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
@@ -82,14 +96,23 @@ class Collector final : public NodeSink {
   void enter_leaf(uint32_t node, uint32_t offset);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
+  uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
+                         uint32_t frame, const csgcore::Box& box, int fragments);
+  void note_leaf_place(const Context& context);
+  void enter_plane(uint32_t node, uint32_t offset);
+  void leave_plane();
+  Presence lower_plane(PlaneLeaf& leaf);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);
-  /// What OpenSCAD draws with these settings is drawn in facets, if it has any.
-  bool keeps_facets(const csgcore::FacetSettings& facets) const;
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;
   std::vector<Context> contexts_;
+  /// The 2D subtree that is being taken, and what its root is handed down.
+  std::optional<PlaneSubtree> plane_;
+  Context plane_context_{};
+  FigureSolids figure_solids_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
