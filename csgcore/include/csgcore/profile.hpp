@@ -66,7 +66,7 @@ class Profile {
   };
   /// The boxes of nodes are larger than need be by this, in canonical units: far more than the
   /// rounding of float in a test of a ray against them.
-  static constexpr float kBoxMargin = 0x1p-20f;
+  static constexpr float kBoxMargin = 0x1p-18f;
   /// The most pieces of a leaf.
   static constexpr uint32_t kLeafPieces = 4;
 

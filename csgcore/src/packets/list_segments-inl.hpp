@@ -316,7 +316,9 @@ class ListSegments {
                   [&](uint32_t lane) { search.lanes[lane].after = lists.lanes[lane].last(); });
     lists.begun |= lanes;
     lists.most = lists.most == 0 ? kFirstCrossings : 2 * lists.most;
-    search.most = is_closed && lists.most <= kMostCrossings ? lists.most : CrossingSearch::kAll;
+    const bool finds_few =
+        is_closed && lists.most <= kMostCrossings && !finds_all(primitive(index));
+    search.most = finds_few ? lists.most : CrossingSearch::kAll;
     find_crossings(frame_, rays_, lanes, primitive(index), search);
     for_each_lane(lanes, [&](uint32_t lane) {
       const std::vector<Crossing>& found = search.lanes[lane].found;

@@ -4,6 +4,7 @@
 // A kind called Name has a struct NameCrossings with
 //   find(frame, packet, lanes, primitive, search): adds to `search` the crossings of each lane that
 //     it wants;
+//   kFindsAll: whether find() takes no notice of what is wanted, and gives all crossings;
 //   is_closed(primitive): whether the crossings cancel on every ray;
 //   normal(primitive, face, point): the outward normal of a face in world space, of any length, at
 //     a canonical point on it.
@@ -56,6 +57,13 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void find_crossings(const FrameRays& frame,
     std::vector<Crossing>& found = search.lanes[std::countr_zero(left)].found;
     std::sort(found.begin(), found.end());
   }
+}
+
+/// Returns whether a search finds all crossings at once.
+HWY_INLINE bool finds_all(const CanonicalPrimitive& primitive) {
+  bool finds_all = false;
+  with_crossings_of_kind(primitive, [&](auto kind) { finds_all = kind.kFindsAll; });
+  return finds_all;
 }
 
 HWY_INLINE bool is_closed(const CanonicalPrimitive& primitive) {

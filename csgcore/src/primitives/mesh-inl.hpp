@@ -265,6 +265,8 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void trace(const TriangleMesh& mesh, LaneMa
 
 /// See kind_crossings-inl.hpp.
 struct MeshCrossings {
+  static constexpr bool kFindsAll = false;
+
   static void find(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
                    const CanonicalPrimitive& primitive, CrossingSearch& search) {
     mesh_rays::PacketRays rays;

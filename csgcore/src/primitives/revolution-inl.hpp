@@ -17,6 +17,8 @@ namespace HWY_NAMESPACE {
 
 /// See kind_crossings-inl.hpp.
 struct RevolutionCrossings {
+  static constexpr bool kFindsAll = true;
+
   static void find(const FrameRays&, const RayPacket&, LaneMask, const CanonicalPrimitive&,
                    CrossingSearch&) {}
   static bool is_closed(const CanonicalPrimitive&) { return true; }
