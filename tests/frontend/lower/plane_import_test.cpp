@@ -97,7 +97,7 @@ TEST(LinearExtrude, ScalesAboutItsOrigin) {
   }
   const Inside point(extruded(moved(10, 0, "square(2, center = true);"),
                               "height = 4, center = true, scale = [0, 0]"));
-  EXPECT_TRUE(point(0.1, 0, 1.9));
+  EXPECT_TRUE(point(0.25, 0, 1.9));
   EXPECT_FALSE(point(0.3, 0, 1.9));
   EXPECT_TRUE(point(9.9, 0.9, -1.95));
 }
