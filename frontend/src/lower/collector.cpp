@@ -69,6 +69,16 @@ Fit fit_of(const Primitive& primitive) {
   return is_valid ? Fit::kFits : Fit::kFlat;
 }
 
+/// Whether OpenSCAD's extrusion is one that is drawn.
+bool is_supported(const PlaneSubtree& subtree) {
+  const NodeKind kind = subtree.syntax(subtree.root()).kind;
+  if (kind == NodeKind::kLinearExtrude) {
+    return subtree.data<LinearExtrudeArguments>(subtree.root()).is_supported;
+  }
+  return kind != NodeKind::kRotateExtrude ||
+         subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
+}
+
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
@@ -89,6 +99,7 @@ void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
 void Collector::take(uint32_t index, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
   if (plane_ && !is_within(index, plane_->root())) leave_plane();
+  if (candidate_ && !is_within(index, candidate_->subtree.root())) leave_candidate();
   primitive_of.push_back(kNoPrimitive);
   const uint32_t id = primitive_nodes;
   if (is_primitive_node(node.kind)) {
@@ -108,6 +119,9 @@ void Collector::take(uint32_t index, uint32_t offset) {
 
 void Collector::finish() {
   if (plane_) leave_plane();
+  if (candidate_) leave_candidate();
+  std::sort(plane_leaves.begin(), plane_leaves.end(),
+            [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
   selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
   for (const LeftOut& out : maybe_left_out_) {
@@ -141,6 +155,9 @@ void Collector::select(uint32_t root) {
   compound_leaves.clear();
   plane_leaves.clear();
   plane_.reset();
+  candidate_.reset();
+  top_node_.reset();
+  rendered_dimension_ = 0;
   any_modifiers = false;
   contexts_.resize(1);
   skipped_.reset();
@@ -150,6 +167,8 @@ void Collector::select(uint32_t root) {
 /// False: the children do not matter.
 bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (!candidate_ && may_be_plane(index)) enter_candidate(index, offset);
+  if (candidate_) take_into_candidate(index, id);
   if (plane_) {
     if (is_primitive_node(node.kind)) note_leaf_place(plane_context_);
     plane_->take(index, id, options_, problems);
@@ -321,41 +340,128 @@ void Collector::enter_plane(uint32_t node, uint32_t offset) {
 
 /// After the last node of the subtree.
 void Collector::leave_plane() {
-  PlaneLeaf leaf{plane_->root(), plane_context_.frame, Presence::kEmpty, {}, {}, false};
-  leaf.presence = lower_plane(leaf);
-  plane_leaves.push_back(std::move(leaf));
+  add_plane_leaf(*plane_, plane_context_, problems);
+  // A plane figure among solids is ignored; what stands at the top is a candidate, too.
+  PlaneLeaf& leaf = plane_leaves.back();
+  if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
+    leaf.presence = Presence::kEmpty;
+    leaf.solid = {};
+  }
   plane_.reset();
 }
 
-Presence Collector::lower_plane(PlaneLeaf& leaf) {
-  const uint32_t root = plane_->root();
-  const SyntaxNode& node = tree_.nodes[root];
-  const bool is_supported = node.kind == NodeKind::kLinearExtrude
-                                ? plane_->data<LinearExtrudeArguments>(root).is_supported
-                                : node.kind != NodeKind::kRotateExtrude ||
-                                      plane_->data<RotateExtrudeNode>(root).arguments.is_supported;
-  PlaneEvaluation evaluation(*plane_, problems,
+/// OpenSCAD's render() node, and in its final render all that stands at the top, is a plane figure
+/// if its first child is one.
+bool Collector::may_be_plane(uint32_t node) {
+  if (options_.picture != PictureKind::kRendered) {
+    return tree_.nodes[node].kind == NodeKind::kRender && !contexts_.back().in_leaf && !plane_;
+  }
+  if (top_node_ && is_within(node, *top_node_)) return false;
+  top_node_ = node;
+  return true;
+}
+
+void Collector::enter_candidate(uint32_t node, uint32_t offset) {
+  Context context = contexts_.back();
+  if (context.leaf_line == 0) {
+    context.leaf_line = tree_.nodes[node].location.line;
+    context.leaf_offset = offset;
+  }
+  candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
+                               context,
+                               {},
+                               primitives.size(),
+                               plane_leaves.size(),
+                               compound_leaves.size(),
+                               maybe_left_out_.size(),
+                               false});
+}
+
+void Collector::take_into_candidate(uint32_t node, uint32_t id) {
+  const NodeKind kind = tree_.nodes[node].kind;
+  const Role role = role_of(kind);
+  const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
+  const bool is_solid = role == Role::kSolid || is_extrusion(kind);
+  if (candidate_->is_plane || !is_part || !is_solid) {
+    candidate_->is_plane = candidate_->is_plane || (is_part && is_plane_primitive(kind));
+    candidate_->subtree.take(node, id, options_, candidate_->problems);
+    return;
+  }
+  // It is a solid, and all that it would need is collected.
+  const uint32_t root = candidate_->subtree.root();
+  if (options_.picture == PictureKind::kRendered) {
+    if (rendered_dimension_ == 0) rendered_dimension_ = 3;
+    if (rendered_dimension_ == 2) {
+      plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
+    }
+  }
+  candidate_.reset();
+}
+
+void Collector::leave_candidate() {
+  const Candidate candidate = std::move(*candidate_);
+  candidate_.reset();
+  if (!candidate.is_plane) return;
+  forget_since(candidate);
+  NodeProblems told;  // again
+  if (options_.picture == PictureKind::kRendered) {
+    if (rendered_dimension_ == 0) rendered_dimension_ = 2;
+    if (rendered_dimension_ == 3) {
+      plane_leaves.push_back({candidate.subtree.root(), 0, Presence::kEmpty, {}, {}, false});
+      return;
+    }
+  }
+  add_plane_leaf(candidate.subtree, candidate.context, told);
+}
+
+void Collector::forget_since(const Candidate& candidate) {
+  const auto shorten = [](auto& list, size_t size) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
+  };
+  shorten(primitives, candidate.primitives);
+  shorten(frame_of, candidate.primitives);
+  shorten(boxes, candidate.primitives);
+  shorten(fragments, candidate.primitives);
+  shorten(plane_leaves, candidate.plane_leaves);
+  shorten(compound_leaves, candidate.compound_leaves);
+  shorten(maybe_left_out_, candidate.left_out);
+  std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
+}
+
+void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
+                               NodeProblems& told) {
+  PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
+  leaf.presence = lower_plane(subtree, context, told, leaf);
+  plane_leaves.push_back(std::move(leaf));
+}
+
+Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
+                                NodeProblems& told, PlaneLeaf& leaf) {
+  const uint32_t root = subtree.root();
+  PlaneEvaluation evaluation(subtree, told,
                              [&](uint32_t left, std::string_view why) { leave_out(left, why); });
-  if (!is_supported || evaluation.is_solid()) {
-    leave_out(root, kBecauseUnsupported, is_supported);
+  if (evaluation.is_solid() || !is_supported(subtree)) {
+    leave_out(root, kBecauseUnsupported, is_supported(subtree));
     return Presence::kLeftOut;
   }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
-  if (plane_context_.flattened) return Presence::kEmpty;
+  if (context.flattened) return Presence::kEmpty;
   LoweredSubtree lowered =
-      lower_subtree(*plane_, evaluation, leaf.frame, frames, figure_solids_, problems);
+      lower_subtree(subtree, evaluation, leaf.frame, frames, figure_solids_, told);
   leaf.is_plate = lowered.is_plate;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
     LoweredSubtree::Part& part = lowered.parts[index];
     const uint32_t primitive =
-        add_primitive(std::move(part.primitive), root, plane_context_, part.frame, part.box, 0);
+        add_primitive(std::move(part.primitive), root, context, part.frame, part.box, 0);
     if (primitive == kNoPrimitive) return to.empty();
-    leaf.box.merge(part.box);
     to.primitive(primitive);
   });
   leaf.solid = builder.finish();
-  return leaf.solid.empty() ? Presence::kEmpty : Presence::kSolid;
+  if (leaf.solid.empty()) return Presence::kEmpty;
+  leaf.box = box_of_positive_leaves(leaf.solid, boxes);
+  if (lowered.box) leaf.box = csgcore::intersection(leaf.box, *lowered.box);
+  return Presence::kSolid;
 }
 
 }  // namespace frontend

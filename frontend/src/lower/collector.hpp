@@ -100,11 +100,17 @@ class Collector final : public NodeSink {
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
   void note_leaf_place(const Context& context);
-  void enter_plane(uint32_t node, uint32_t offset);
-  void leave_plane();
-  Presence lower_plane(PlaneLeaf& leaf);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);
+  void enter_plane(uint32_t node, uint32_t offset);
+  void leave_plane();
+  bool may_be_plane(uint32_t node);
+  void enter_candidate(uint32_t node, uint32_t offset);
+  void take_into_candidate(uint32_t node, uint32_t id);
+  void leave_candidate();
+  void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
+  Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
+                       PlaneLeaf& leaf);
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;
@@ -112,6 +118,21 @@ class Collector final : public NodeSink {
   /// The 2D subtree that is being taken, and what its root is handed down.
   std::optional<PlaneSubtree> plane_;
   Context plane_context_{};
+  /// A subtree of operations that is one plane figure if its first child is one: it is collected as
+  /// a solid's until its end.
+  struct Candidate {
+    PlaneSubtree subtree;
+    Context context;
+    NodeProblems problems;  // those of the nodes are told already
+    size_t primitives, plane_leaves, compound_leaves, left_out;  // what there was before it
+    bool is_plane;  // its first geometry is a plane figure's
+  };
+  void forget_since(const Candidate& candidate);
+  std::optional<Candidate> candidate_;
+  /// Of a final render: the node at the top that was entered last, and the dimension of the first
+  /// one that has any, which all others must have. 0: there was none.
+  std::optional<uint32_t> top_node_;
+  int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`

@@ -71,11 +71,11 @@ class Emitter {
       close_until(i);
       if (i != root && !is_operand(i)) {
         i = node.subtree_end;
+      } else if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
+        add_plane_leaf(i, *leaf);
+        i = node.subtree_end;
       } else if (collected_.primitive_of[i] != kNone) {
         add_primitive(i);
-        i = node.subtree_end;
-      } else if (role_of(node.kind) == Role::kPlane) {
-        add_plane_leaf(i);
         i = node.subtree_end;
       } else if (role_of(node.kind) != Role::kOperation || node.subtree_end == i + 1) {
         builder().empty();
@@ -147,23 +147,21 @@ class Emitter {
              open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
   }
 
-  void add_plane_leaf(uint32_t node) {
-    const Collector::PlaneLeaf* found = collected_.plane_leaf(node);
-    if (found == nullptr || found->solid.empty()) {
+  void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane) {
+    if (plane.solid.empty()) {
       builder().empty();
       return;
     }
     if (in_leaf_) {
-      rebuild(found->solid.tokens(), leaf_builder_,
+      rebuild(plane.solid.tokens(), leaf_builder_,
               [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
       return;
     }
     const auto [entry, is_new] = leaf_of_plane_.try_emplace(node, 0);
     if (is_new) {
-      const auto box = found->is_plate ? std::optional<Box>(found->box) : std::nullopt;
-      entry->second = found->solid.tokens().size() == 1
-                          ? found->solid.tokens().front().value
-                          : leaves_.add(found->solid, found->frame, box);
+      const auto box = plane.is_plate ? std::optional<Box>(plane.box) : std::nullopt;
+      entry->second = plane.solid.tokens().size() == 1 ? plane.solid.tokens().front().value
+                                                       : leaves_.add(plane.solid, plane.frame, box);
     }
     add_leaf(entry->second,
              open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
@@ -360,8 +358,8 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   if (!collected.plane_leaves.empty()) thicken_subtracted_plates(trees, leaves, boxes, collected);
   design.view_box = view_box(trees, boxes);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    design.view_box =
-        box_of_result(collected.primitives, trees.model, {}, kOverviewOfDesign_px, design.view_box);
+    design.view_box = box_of_result(collected.primitives, leaves.expanded(trees.model), {},
+                                    kOverviewOfDesign_px, design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);

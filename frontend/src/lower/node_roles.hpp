@@ -63,11 +63,14 @@ inline bool is_compound_leaf(NodeKind kind, PictureKind picture) {
   return kind == NodeKind::kRender && picture != PictureKind::kRendered;
 }
 
+inline bool is_plane_primitive(NodeKind kind) {
+  return kind == NodeKind::kCircle || kind == NodeKind::kSquare || kind == NodeKind::kPolygon;
+}
+
 /// A node that has a place among Primitive::id.
 inline bool is_primitive_node(NodeKind kind) {
   const Role role = role_of(kind);
-  return role == Role::kSolid || role == Role::kUnsupportedLeaf || kind == NodeKind::kCircle ||
-         kind == NodeKind::kSquare || kind == NodeKind::kPolygon;
+  return role == Role::kSolid || role == Role::kUnsupportedLeaf || is_plane_primitive(kind);
 }
 
 inline bool is_extrusion(NodeKind kind) {

@@ -205,6 +205,26 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   return result;
 }
 
+/// OpenSCAD's box of a plane figure is that of what the operations leave. Nothing if they leave
+/// all.
+std::optional<Box> box_of_plate(const FigureTree& figures, PlaneEvaluation& evaluation,
+                                uint32_t root, const Affine& root_to_world) {
+  const auto tokens = figures.tree.tokens();
+  const bool has_operation = std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
+    return !token.is_primitive && token.op != Op::kUnion;
+  });
+  if (!has_operation) return std::nullopt;
+  evaluation.find_all_figures();
+  Box box;
+  for (const Figure& figure : evaluation.figures(root)) {
+    const Rectangle bounds = bounds_of(figure);
+    if (bounds.empty()) continue;
+    box.merge(Vec3(bounds.min, 0));
+    box.merge(Vec3(bounds.max, 0));
+  }
+  return box.empty() ? box : mapped(root_to_world, box);
+}
+
 /// Revolves a figure tree about the y axis of its plane.
 class Revolving {
  public:
@@ -376,8 +396,10 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
     return extrude(figures, {z_min, z_min + extrusion.height, extrusion.top_scale}, false,
                    root_to_world, frames, solids);
   }
-  return extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true, root_to_world,
-                 frames, solids);
+  LoweredSubtree plate = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
+                                 root_to_world, frames, solids);
+  plate.box = box_of_plate(figures, evaluation, subtree.root(), root_to_world);
+  return plate;
 }
 
 void thicken_plate(Primitive& part, const Affine& frame_to_world) {

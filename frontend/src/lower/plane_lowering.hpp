@@ -29,6 +29,7 @@ struct LoweredSubtree {
   std::vector<Part> parts;
   csgcore::CsgTree solid;  // over the parts
   bool is_plate = false;
+  std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
 };
 
 /// `frame` is where the root stands. The root is solid, and none of 3D. Adds frames, and tells of

@@ -43,9 +43,19 @@ FigureNode square_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 }
 
 FigureNode polygon_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
-  Polygons polygons = read_polygon(tree, node, problems);
+  const Figure read = outline_of(read_polygon(tree, node, problems));
   FigureNode result;
-  if (!polygons.empty()) result.figure = outline_of(std::move(polygons));
+  if (std::optional<Polygon> convex = convex_corners(read)) {
+    result.figure = outline_of(Polygons{std::move(*convex)});
+    return result;
+  }
+  // Without what is empty, and with what crosses itself cut, as far as that can be afforded.
+  std::optional<SimplePolygons> outline = united({&read, 1});
+  if (!outline) {
+    result.figure = read;
+  } else if (!outline->empty()) {
+    result.figure = outline_of(std::move(*outline));
+  }
   return result;
 }
 

@@ -57,6 +57,11 @@ bool is_true(const Value* value) {
   return value != nullptr && value->kind == ValueKind::kBool && value->boolean;
 }
 
+/// An element of a list of switches, which OpenSCAD writes as numbers.
+bool is_on(const Value& value) {
+  return is_true(&value) || (value.kind == ValueKind::kNumber && value.number != 0);
+}
+
 bool is_given(const Value* value) { return value != nullptr && value->kind != ValueKind::kUndef; }
 
 /// The points; nothing if one of them is none.
@@ -192,7 +197,7 @@ ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node) {
   if (follows != nullptr && follows->kind == ValueKind::kList) {
     const std::span<const Value> elements = tree.elements_of(*follows);
     for (size_t i = 0; i < std::min(elements.size(), result.follows.size()); ++i) {
-      result.follows[i] = is_true(&elements[i]);
+      result.follows[i] = is_on(elements[i]);
     }
   } else {
     result.follows.fill(is_true(follows));

@@ -1,8 +1,8 @@
 // Operations on plane figures that yield polygons, by the Clipper library.
 //
-// The library works in whole numbers. Its grid is 2^-29 of the size of what is computed, or finer,
-// where OpenSCAD's is 2^-16. A coordinate of the result that lies on the same line of the grid as
-// one of an operand is that operand's, to the last bit.
+// The library works in whole numbers. Its grid is 2^-29 of the size of what is computed, and 2^-20
+// or finer up to sizes of 2^40, where OpenSCAD's is 2^-16. A coordinate of the result that lies on
+// the same line of the grid as one of an operand is that operand's, to the last bit.
 #pragma once
 
 #include <cstdint>
