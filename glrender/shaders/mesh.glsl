@@ -7,6 +7,13 @@
 
 uniform samplerBuffer u_meshes;  // see mesh_texels.hpp
 
+// Keeps a compiler from ordering the operations otherwise for one triangle than for another.
+#ifdef GL_ARB_gpu_shader5
+#define PRECISE precise
+#else
+#define PRECISE
+#endif
+
 // A ray further from the canonical origin misses the mesh, which lies in the unit ball. The excess
 // is far more than the rounding of the ray's distance.
 const float MESH_REACH2 = 1.001;
@@ -29,7 +36,9 @@ int passes_axis(vec2 a, vec2 b) {
   if (upwards == b.y < 0.0) return 0;
   vec2 low = upwards ? a : b;
   vec2 high = upwards ? b : a;
-  if (!(low.x * high.y > low.y * high.x)) return 0;
+  PRECISE float left = low.x * high.y;
+  PRECISE float right = low.y * high.x;
+  if (!(left > right)) return 0;
   return upwards ? 1 : -1;
 }
 
@@ -43,6 +52,12 @@ mat3 mesh_frame(vec3 direction) {
   float b = d.x * d.y * a;
   return mat3(vec3(1.0 + side * d.x * d.x * a, side * b, -side * d.x),
               vec3(b, side + d.y * d.y * a, -d.y), direction / length2);
+}
+
+// Returns where the corner is seen in that plane, and its depth in t.
+vec3 seen_corner(CanonicalRay ray, mat3 frame, vec3 corner) {
+  PRECISE vec3 seen = (corner - ray.origin) * frame;
+  return seen;
 }
 
 // Returns the length of a sheet in t.
@@ -87,9 +102,9 @@ MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
       continue;
     }
     vec4 c = texelFetch(u_meshes, texel + 2);
-    vec3 seen_a = (a.xyz - ray.origin) * frame;
-    vec3 seen_b = (b.xyz - ray.origin) * frame;
-    vec3 seen_c = (c.xyz - ray.origin) * frame;
+    vec3 seen_a = seen_corner(ray, frame, a.xyz);
+    vec3 seen_b = seen_corner(ray, frame, b.xyz);
+    vec3 seen_c = seen_corner(ray, frame, c.xyz);
     // A triangle that is counterclockwise along the ray is left there.
     int turn = -(passes_axis(seen_a.xy, seen_b.xy) + passes_axis(seen_b.xy, seen_c.xy) +
                  passes_axis(seen_c.xy, seen_a.xy));
@@ -135,7 +150,9 @@ Stretch mesh_stretch(Ray world, CanonicalRay ray, float t) {
     if (unfinished) return Stretch(false, INFINITY, 0);
     bool in_sheets = crossings.turns != 0;
     result.inside = in_sheets ? crossings.sheet_end > result.end : crossings.turns_behind != 0;
-    if (in_sheets && result.inside) return Stretch(true, crossings.sheet_end, -crossings.sheet_face);
+    if (in_sheets && result.inside) {
+      return Stretch(true, crossings.sheet_end, -crossings.sheet_face);
+    }
     result.end = crossings.next;
     result.face = result.inside ? -crossings.next_face : crossings.next_face;
     bool changes = in_sheets || (crossings.turns_behind != crossings.next_turns) != result.inside;

@@ -23,6 +23,8 @@ void define(std::string& source, std::string_view name, int value) {
 std::string prologue(const ProgramKey& key) {
   std::string source = "#version 330 core\n";
   if (key.conservative_depth) source += "#extension GL_ARB_conservative_depth : require\n";
+  // For mesh.glsl, which does without it where it must.
+  if (!key.nonconvex.empty()) source += "#extension GL_ARB_gpu_shader5 : enable\n";
   for (const ShaderConstant& constant : kShaderConstants) {
     source.append("#define ").append(constant.name).append(" ");
     source += constant.is_integer ? std::to_string(static_cast<int>(constant.value))
