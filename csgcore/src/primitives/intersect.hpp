@@ -2,6 +2,7 @@
 #pragma once
 
 #include "csgcore/canonical_primitive.hpp"
+#include "primitives/crossings.hpp"
 #include "primitives/packet_segments.hpp"
 #include "rays/frame_rays.hpp"
 #include "rays/ray_packet.hpp"
@@ -10,6 +11,10 @@ namespace csgcore {
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
+/// Finds all crossings of the rays with a primitive that is not convex, and their faces' unit
+/// normals along the rays. `normals[lane]` has one for each of search.lanes[lane].found.
+void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
+               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]);
 /// Intersects the first four lanes only.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
