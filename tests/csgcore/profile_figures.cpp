@@ -200,16 +200,38 @@ bool holds(std::span<const ProfileLoop> loops, FillRule fill_rule, Real x, Real 
   return fill_rule == FillRule::kEvenOdd ? winding % 2 != 0 : winding != 0;
 }
 
-bool holds_local(const Primitive& primitive, const LongVec3& p) {
-  const Profile& profile = *primitive.profile;
-  const auto figure_holds = [&](Real x, Real y) {
-    return holds(profile.loops(), profile.fill_rule(), x, y);
-  };
-  if (primitive.shape == Shape::kRevolution) return figure_holds(std::hypot(p.x, p.y), p.z);
-  if (p.z < primitive.z_min || p.z > primitive.z_max) return false;
+namespace {
+
+/// The point of the profile's plane that makes a local point; nan at an extrusion's apex.
+struct FigurePoint {
+  Real x, y;
+};
+FigurePoint figure_point(const Primitive& primitive, const LongVec3& p) {
+  if (primitive.shape == Shape::kRevolution) return {std::hypot(p.x, p.y), p.z};
   const Real share = (p.z - primitive.z_min) / (Real(primitive.z_max) - primitive.z_min);
   const Real scale = primitive.r_bottom + share * (Real(primitive.r_top) - primitive.r_bottom);
-  return scale > 0 && figure_holds(p.x / scale, p.y / scale);
+  return {p.x / scale, p.y / scale};
+}
+
+}  // namespace
+
+bool holds_local(const Primitive& primitive, const LongVec3& p) {
+  if (primitive.shape == Shape::kExtrusion && (p.z < primitive.z_min || p.z > primitive.z_max)) {
+    return false;
+  }
+  const FigurePoint at = figure_point(primitive, p);
+  return holds(primitive.profile->loops(), primitive.profile->fill_rule(), at.x, at.y);
+}
+
+bool is_at_vertex(const Primitive& primitive, const LongVec3& p) {
+  constexpr Real kNext = 1e-9;
+  const FigurePoint at = figure_point(primitive, p);
+  for (const ProfileLoop& loop : primitive.profile->loops()) {
+    for (const ProfileEdge& edge : loop) {
+      if (std::hypot(at.x - edge.end.x, at.y - edge.end.y) < kNext) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace csgcore::checks

@@ -191,6 +191,9 @@ Primitive random_solid(std::mt19937& random, const Affine& map) {
 /// level, upright, in the caps' planes. They are so in local space.
 class HardRays {
  public:
+  /// How far the point of interest may be, in lengths of the direction.
+  static constexpr double kFurthest = 3;
+
   HardRays(const Primitive& primitive, std::mt19937& random)
       : primitive_(primitive), random_(random) {}
 
@@ -217,7 +220,7 @@ class HardRays {
         break;
     }
     if (!(glm::length(direction) > 1e-6)) direction = axis();
-    const Vec3 origin = point - uniform(random_, 0, 3) * direction;
+    const Vec3 origin = point - uniform(random_, 0, kFurthest) * direction;
     return {primitive_.local_to_world.point(origin),
             primitive_.local_to_world.direction(direction)};
   }
@@ -268,25 +271,29 @@ class Judge {
   Judge(const Primitive& primitive, const PivotRay& ray) : primitive_(primitive), ray_(ray) {
     to_local_ = glm::inverse(checks::LongMat3(primitive.local_to_world.linear));
   }
-  bool holds(LongVec3 offset, Real t) const {
-    const LongVec3 point = LongRay(ray_).at(t) + offset;
-    return checks::holds_local(
-        primitive_, to_local_ * (point - LongVec3(primitive_.local_to_world.translation)));
+  bool holds(const LongVec3& offset, Real t) const {
+    return checks::holds_local(primitive_, local(offset, t));
   }
-  /// Returns whether all points about that at t are alike.
-  bool is_clear(Real t, Real distance) const {
-    const bool here = holds(LongVec3(0), t);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const Real side : {-distance, distance}) {
-        LongVec3 offset(0);
-        offset[axis] = side;
-        if (holds(offset, t) != here) return false;
-      }
+  bool is_at_vertex(Real t) const {
+    return checks::is_at_vertex(primitive_, local(LongVec3(0), t));
+  }
+  /// Returns whether some point next to that at t is inside, or outside if `inside` is false.
+  bool holds_nearby(bool inside, Real t, std::mt19937& random) const {
+    constexpr int kPoints = 300;
+    constexpr Real kNearby = 1e-10;
+    for (int i = 0; i < kPoints; ++i) {
+      const Real distance = kNearby * std::pow(Real(10), -(i % 3));
+      if (holds(distance * LongVec3(checks::random_direction(random)), t) == inside) return true;
     }
-    return true;
+    return false;
   }
 
  private:
+  LongVec3 local(const LongVec3& offset, Real t) const {
+    const LongVec3 point = LongRay(ray_).at(t) + offset;
+    return to_local_ * (point - LongVec3(primitive_.local_to_world.translation));
+  }
+
   const Primitive& primitive_;
   const PivotRay& ray_;
   checks::LongMat3 to_local_;
@@ -296,7 +303,7 @@ class Judge {
 /// crossing the two sides of the face differ, as near to it as 1e-12 of the size.
 TEST(RandomSolids, AreCrossedWhereTheDefinitionSays) {
   std::mt19937 random(12);
-  constexpr double kSize = 10, kNear = 1e-12 * kSize;
+  constexpr double kSize = 10, kNear = 1e-12 * kSize, kShort = 1e-6;
   int crossings = 0, near_edges = 0, between = 0;
   const int rounds = test_support::full_run() ? 20000 : 400;
   for (int round = 0; round < rounds; ++round) {
@@ -311,15 +318,21 @@ TEST(RandomSolids, AreCrossedWhereTheDefinitionSays) {
       const Judge judge(primitive, lanes[lane]);
       const double length = glm::length(lanes[lane].direction);
       const auto segments = found.segments(lane);
-      std::vector<double> ends{-20 / length};
+      const double beyond = HardRays::kFurthest + 100 / length;
+      std::vector<double> ends{-beyond};
       for (const auto& [start, end] : segments) ends.insert(ends.end(), {start, end});
-      ends.push_back(20 / length);
+      ends.push_back(beyond);
       for (size_t i = 1; i < ends.size(); ++i) {
-        // Points near the surface, as on rays along a face, are left to either side.
-        for (const double share : {0.3, 0.5, 0.9}) {
+        // A piece as short as this may be a touch of a corner.
+        if ((ends[i] - ends[i - 1]) * length < kShort) continue;
+        // Next to the surface, as on rays along a face, either is right.
+        for (const double share : {0.1, 0.5, 0.9}) {
           const Real t = ends[i - 1] + share * (ends[i] - ends[i - 1]);
-          if (!judge.is_clear(t, 1e-10)) continue;
-          ASSERT_EQ(judge.holds(LongVec3(0), t), i % 2 == 0) << (primitive.shape==Shape::kExtrusion) << " t " << double(t) << "between " << i - 1 << " and " << i;
+          if (judge.is_at_vertex(t)) continue;
+          const bool is_inside = i % 2 == 0;
+          ASSERT_TRUE(judge.holds(LongVec3(0), t) == is_inside ||
+                      judge.holds_nearby(is_inside, t, random))
+              << "between " << i - 1 << " and " << i;
           ++between;
         }
       }
@@ -487,7 +500,7 @@ TEST(RandomSolids, HaveCellsThatAreWhatIsClaimed) {
       undecided += claim == Classification::kCrosses && (held == 0 || held == kPoints);
     }
   }
-  EXPECT_GT(counts[static_cast<int>(Classification::kInside)], 150);
+  EXPECT_GT(counts[static_cast<int>(Classification::kInside)], 100);
   EXPECT_GT(counts[static_cast<int>(Classification::kOutside)], 150);
   EXPECT_LT(undecided, 0.5 * counts[static_cast<int>(Classification::kCrosses)]);
 }
