@@ -213,6 +213,11 @@ FigurePoint figure_point(const Primitive& primitive, const LongVec3& p) {
   return {p.x / scale, p.y / scale};
 }
 
+bool is_straight(const Vec2& start, const ProfileEdge& edge) {
+  const Vec2 chord = edge.end - start, control = edge.control - start;
+  return chord.x * control.y == chord.y * control.x;
+}
+
 }  // namespace
 
 bool holds_local(const Primitive& primitive, const LongVec3& p) {
@@ -223,12 +228,26 @@ bool holds_local(const Primitive& primitive, const LongVec3& p) {
   return holds(primitive.profile->loops(), primitive.profile->fill_rule(), at.x, at.y);
 }
 
-bool is_at_vertex(const Primitive& primitive, const LongVec3& p) {
+bool is_at_edge(const Primitive& primitive, const LongVec3& p) {
   constexpr Real kNext = 1e-9;
   const FigurePoint at = figure_point(primitive, p);
+  const auto is_next_to = [&](const Vec2& from, const Vec2& to) {
+    const Real x = to.x - Real(from.x), y = to.y - Real(from.y);
+    const Real along = ((at.x - from.x) * x + (at.y - from.y) * y) / (x * x + y * y);
+    const Real share = along > 0 ? std::min<Real>(along, 1) : 0;
+    return std::hypot(at.x - from.x - share * x, at.y - from.y - share * y) < kNext;
+  };
   for (const ProfileLoop& loop : primitive.profile->loops()) {
+    Vec2 start = loop.back().end;
     for (const ProfileEdge& edge : loop) {
-      if (std::hypot(at.x - edge.end.x, at.y - edge.end.y) < kNext) return true;
+      if (edge.kind == Kind::kLine) {
+        if (is_next_to(start, edge.end)) return true;
+      } else if (edge.kind == Kind::kBezier && is_straight(start, edge)) {
+        if (is_next_to(start, edge.control) || is_next_to(edge.control, edge.end)) return true;
+      } else if (is_next_to(edge.end, edge.end)) {
+        return true;
+      }
+      start = edge.end;
     }
   }
   return false;
