@@ -11,7 +11,10 @@
 #include <numbers>
 
 #include "checks.hpp"
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/hits.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/tracer.hpp"
 #include "primitives/intersect.hpp"
 #include "primitives/revolution_path.hpp"
 #include "profile_figures.hpp"
@@ -274,9 +277,7 @@ class Judge {
   bool holds(const LongVec3& offset, Real t) const {
     return checks::holds_local(primitive_, local(offset, t));
   }
-  bool is_at_edge(Real t) const {
-    return checks::is_at_edge(primitive_, local(LongVec3(0), t));
-  }
+  bool is_at_edge(Real t) const { return checks::is_at_edge(primitive_, local(LongVec3(0), t)); }
   /// Returns whether some point next to that at t is inside, or outside if `inside` is false.
   bool holds_nearby(bool inside, Real t, std::mt19937& random) const {
     constexpr int kPoints = 300;
@@ -503,6 +504,49 @@ TEST(RandomSolids, HaveCellsThatAreWhatIsClaimed) {
   EXPECT_GT(counts[static_cast<int>(Classification::kInside)], 100);
   EXPECT_GT(counts[static_cast<int>(Classification::kOutside)], 150);
   EXPECT_LT(undecided, 0.5 * counts[static_cast<int>(Classification::kCrosses)]);
+}
+
+// --- Pictures ---
+
+TEST(RandomSolids, LookTheSameByTilesAndByCells) {
+  std::mt19937 random(18);
+  const int rounds = test_support::full_run() ? 1000 : 40;
+  int hits = 0;
+  for (int round = 0; round < rounds; ++round) {
+    Scene scene;
+    CsgTreeBuilder builder;
+    builder.open(static_cast<Op>(round % 3));
+    while (scene.primitives.size() < 3) {
+      Primitive primitive = random_solid(random, random_map(random));
+      if (!is_valid(primitive)) continue;
+      primitive.id = static_cast<uint32_t>(scene.primitives.size());
+      builder.primitive(primitive.id);
+      scene.primitives.push_back(primitive);
+    }
+    builder.close();
+    scene.model = builder.finish();
+    const Solid solid(canonical_primitives(scene), scene.model);
+    const Subdivision subdivision(solid, SubdivisionOptions{});
+    Box bounds;
+    for (const CanonicalPrimitive& primitive : *canonical_primitives(scene)) {
+      bounds.merge(primitive.bounds);
+    }
+    const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const Vec3 direction = round % 2 ? axes[random() % 3] : checks::random_direction(random);
+    View view = checks::view_of(bounds, direction, 2 * bounds.diagonal());
+    view.width_px = 160;
+    view.height_px = 120;
+    Hits by_tiles, by_cells;
+    TraceStats stats;
+    trace(solid, view, TraceOptions{}, by_tiles, stats);
+    trace(subdivision, view, TraceOptions{}, by_cells, stats);
+    ASSERT_EQ(by_tiles.primitive, by_cells.primitive) << "round " << round;
+    ASSERT_EQ(by_tiles.s, by_cells.s);
+    ASSERT_EQ(by_tiles.normal, by_cells.normal);
+    hits += static_cast<int>(by_tiles.s.size() - static_cast<size_t>(std::ranges::count(
+                                                     by_tiles.primitive, Hits::kMiss)));
+  }
+  EXPECT_GT(hits, 500 * rounds);
 }
 
 }  // namespace
