@@ -202,15 +202,16 @@ bool holds(std::span<const ProfileLoop> loops, FillRule fill_rule, Real x, Real 
 
 namespace {
 
-/// The point of the profile's plane that makes a local point; nan at an extrusion's apex.
+/// The point of the profile's plane that makes a local point, and the cross-section's scale there.
 struct FigurePoint {
-  Real x, y;
+  Real x, y;  // nan at an extrusion's apex
+  Real scale;
 };
 FigurePoint figure_point(const Primitive& primitive, const LongVec3& p) {
-  if (primitive.shape == Shape::kRevolution) return {std::hypot(p.x, p.y), p.z};
+  if (primitive.shape == Shape::kRevolution) return {std::hypot(p.x, p.y), p.z, 1};
   const Real share = (p.z - primitive.z_min) / (Real(primitive.z_max) - primitive.z_min);
   const Real scale = primitive.r_bottom + share * (Real(primitive.r_top) - primitive.r_bottom);
-  return {p.x / scale, p.y / scale};
+  return {p.x / scale, p.y / scale, scale};
 }
 
 bool is_straight(const Vec2& start, const ProfileEdge& edge) {
@@ -229,8 +230,10 @@ bool holds_local(const Primitive& primitive, const LongVec3& p) {
 }
 
 bool is_at_edge(const Primitive& primitive, const LongVec3& p) {
-  constexpr Real kNext = 1e-9;
+  // Curves that leave a vertex side by side are apart by the square of their way from it.
+  constexpr Real kNextToVertex = 1e-6, kNext = 1e-9;
   const FigurePoint at = figure_point(primitive, p);
+  if (at.scale < kNextToVertex) return true;
   const auto is_next_to = [&](const Vec2& from, const Vec2& to) {
     const Real x = to.x - Real(from.x), y = to.y - Real(from.y);
     const Real along = ((at.x - from.x) * x + (at.y - from.y) * y) / (x * x + y * y);
@@ -244,9 +247,8 @@ bool is_at_edge(const Primitive& primitive, const LongVec3& p) {
         if (is_next_to(start, edge.end)) return true;
       } else if (edge.kind == Kind::kBezier && is_straight(start, edge)) {
         if (is_next_to(start, edge.control) || is_next_to(edge.control, edge.end)) return true;
-      } else if (is_next_to(edge.end, edge.end)) {
-        return true;
       }
+      if (std::hypot(at.x - edge.end.x, at.y - edge.end.y) < kNextToVertex) return true;
       start = edge.end;
     }
   }

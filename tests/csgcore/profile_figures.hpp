@@ -37,8 +37,9 @@ bool holds(std::span<const ProfileLoop> loops, FillRule fill_rule, Real x, Real 
 /// The same of an extrusion or a revolution, in local coordinates.
 bool holds_local(const Primitive& primitive, const LongVec3& point);
 
-/// Returns whether a point, in local coordinates, is made of one next to a vertex of the profile,
-/// where faces meet at any angle, or to a line, which may lie in another one.
+/// Returns whether a point, in local coordinates, is next to an extrusion's apex, or is made of one
+/// next to a vertex of the profile, where faces meet at any angle, or to a line, which may lie in
+/// another one.
 bool is_at_edge(const Primitive& primitive, const LongVec3& point);
 
 }  // namespace csgcore::checks

@@ -306,7 +306,7 @@ TEST(RandomSolids, AreCrossedWhereTheDefinitionSays) {
   std::mt19937 random(12), nearby(1);
   constexpr double kSize = 10, kNear = 1e-12 * kSize, kShort = 1e-6;
   int crossings = 0, near_edges = 0, between = 0;
-  const int rounds = test_support::full_run() ? 10000 : 100;
+  const int rounds = test_support::full_run() ? 10000 : 120;
   for (int round = 0; round < rounds; ++round) {
     const Primitive primitive = random_solid(random, random() % 2 ? Affine{} : random_map(random));
     if (!is_valid(primitive)) continue;
@@ -343,7 +343,11 @@ TEST(RandomSolids, AreCrossedWhereTheDefinitionSays) {
         ASSERT_NEAR(glm::length(normal), 1, 1e-12);
         const LongVec3 across = Real(kNear) * LongVec3(normal);
         ++crossings;
-        if (judge.holds(across, all[i].t) == judge.holds(-across, all[i].t)) ++near_edges;
+        if (judge.holds(across, all[i].t) != judge.holds(-across, all[i].t)) continue;
+        ++near_edges;
+        ASSERT_TRUE(judge.is_at_edge(all[i].t) || (judge.holds_nearby(true, all[i].t, nearby) &&
+                                                   judge.holds_nearby(false, all[i].t, nearby)))
+            << "crossing " << i;
       }
     }
   }
