@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace csgcore {
 namespace {
@@ -12,6 +13,8 @@ constexpr double kEnclosure2 = 2.0001;
 /// A ray is level, or runs along the axis, if its direction has less than this share along it, or
 /// across it. Within the solid it does not drift by a bit of its coordinates.
 constexpr double kTrace = 1e-30;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 double sign(double x) { return x < 0 ? -1 : 1; }
 
@@ -80,13 +83,23 @@ class PieceCrosser {
     const double steep = path_.run * rise;
     const double a = (steep - kappa) * (steep + kappa);
     const double h = steep * rise * path_.start - q * kappa;
+    const double size =
+        rise * rise * (path_.offset * path_.offset + path_.start * path_.start) + q * q;
     const double c = rise * rise * path_.offset * path_.offset +
                      (rise * path_.start - q) * (rise * path_.start + q);
     const auto add_root = [&](int change) {
       // The ray leaves the cone outwards at the larger root if a > 0.
       const double outwards = -change * path_.upwards() * sign(rise);
       const double own = -h + outwards * root, other = -h - outwards * root;
-      add((h <= 0) == (outwards > 0) ? own / a : c / other, change);
+      // If the root nearly cancels h, the other form of it is exact, unless both are mere rounding,
+      // as for a level ray that touches the cone.
+      const bool cancels = h * outwards > 0 && 2 * root > std::abs(h) && root < 2 * std::abs(h) &&
+                           h * h > kEpsilon * std::abs(a) * size;
+      const double tau = cancels ? c / other : own / a;
+      if (path_.rise == 0) return add(tau, change);
+      // Along the cone, a ray passes it somewhere between the edge's ends.
+      const auto [low, high] = std::minmax({start.height / path_.rise, end.height / path_.rise});
+      add(std::isnan(tau) ? low : std::clamp(tau, low, high), change);
     };
     if (is_pair || to_within) add_root(1);
     if (is_pair || from_within) add_root(-1);
@@ -204,6 +217,7 @@ class PieceCrosser {
     }
   }
 
+  static constexpr double kLeastGrowth = 0x1p-26;  // the root of a rounding
   /// Two roots that are closer than this power of 1/2 are a touch that rounding may miss.
   static constexpr int kDeepest = 30;
 
@@ -252,10 +266,11 @@ class PieceCrosser {
     const double across =
         std::sqrt(std::max(0.0, (point.r - path_.offset) * (point.r + path_.offset)));
     const double rho = is_below == (path_.upwards() > 0) ? -across : across;
-    // The place of the point and its height both tell τ. A point on the more level one of the two
-    // is found by the other.
-    const bool by_height = std::abs(path_.rise) * point.r >= across * path_.run;
-    add(by_height && path_.rise != 0 ? point.height / path_.rise : (rho - path_.start) / path_.run,
+    // The height of the point and its ρ both tell τ. Its error in the one case is a rounding over
+    // the rise. In the other it is that over how fast r grows, but not more than a rounding's root.
+    const double growth = std::max(across, kLeastGrowth * point.r) * path_.run;
+    const bool by_height = std::abs(path_.rise) * point.r >= growth;
+    add(by_height ? point.height / path_.rise : (rho - path_.start) / path_.run,
         range.to_within ? 1 : -1);
   }
 
