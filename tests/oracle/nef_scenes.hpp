@@ -18,10 +18,10 @@ struct NefScene {
 };
 
 FacetedSolid box(const csgcore::Vec3& min, const csgcore::Vec3& max,
-                     const csgcore::Affine& local_to_world = {});
+                 const csgcore::Affine& local_to_world = {});
 FacetedSolid sphere(double radius, int fragments, const csgcore::Affine& local_to_world = {});
 FacetedSolid frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
-                         const csgcore::Affine& local_to_world = {});
+                     const csgcore::Affine& local_to_world = {});
 csgcore::Affine shift(const csgcore::Vec3& by);
 
 /// One operation over all polyhedra.

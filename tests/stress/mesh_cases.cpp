@@ -224,10 +224,26 @@ Scene shells_in_a_mesh() {
   return (mesh(shells) - brick({-9, -2, -0.1}, {10, 0, 3})).scene();
 }
 
+/// Sheets in the top of a block, or so many tolerances above it, cut from it: where a sheet reaches
+/// into the block, its back is seen.
+Scene sheets_in_a_block() {
+  const double tolerance = csgcore::thickness_tolerance({Vec3(-10, -10, -4), Vec3(10, 10, 0)});
+  Part result = brick({-10, -10, -4}, {10, 10, 0});
+  double x = -9;
+  for (const double share : {0.0, -0.4, -0.8, -1.3, -2.5, -6.0}) {
+    const double z = share * tolerance;
+    result = result - mesh({{{x, -9, z}, {x + 2.5, -9, z}, {x + 2.5, 9, z}, {x, 9, z}},
+                            {{0, 1, 2}, {0, 2, 3}}});
+    x += 3;
+  }
+  return result.scene();
+}
+
 Family mesh_tolerance() {
   return {"mesh_tolerance",
           {{"plates_and_cuts", mesh_tolerances},
            {"shells", shells_in_a_mesh},
+           {"sheets_in_a_block", sheets_in_a_block},
            {"plate_of_1e-7",
             [] {
               return mesh_brick({-5, -5, 0}, {5, 5, 1e-6}).scene();

@@ -102,7 +102,8 @@ class HardRays {
     const TriangleMesh::Triangle triangle = any_triangle();
     const Vec3 point = point_of(triangle);
     Vec3 direction = direction_at(triangle, point);
-    // Two points next to each other are only a rounding apart. A view's directions are about 1 long.
+    // Two points next to each other are only a rounding apart. A view's directions are about 1
+    // long.
     direction /= std::exp2(std::ilogb(glm::length(direction)));
     if (!(glm::length(direction) > 0)) direction = {1, 0, 0};
     direction *= std::exp2(std::floor(uniform(random_, -20, 20)));

@@ -44,8 +44,8 @@ Result validated(const Scene& scene, const std::string& planted_error = {}) {
 void expect_agreement(const Result& result, bool by_cgal) {
   EXPECT_EQ(result.cgal_s > 0, by_cgal);
   for (const CheckResult& check : result.checks) {
-    EXPECT_EQ(check.disagreed, 0u) << check.group << ", " << check.name << ": "
-                                   << check.disagreements.front();
+    EXPECT_EQ(check.disagreed, 0u)
+        << check.group << ", " << check.name << ": " << check.disagreements.front();
     EXPECT_GT(check.compared, 0u);
   }
   EXPECT_GT(result.checks.size(), by_cgal ? 5u : 1u);

@@ -78,7 +78,7 @@ TEST_F(VectorTest, EveryInstructionSetAgrees) {
 TEST_F(VectorTest, AnswersAreThoseOfOnePrimitive) {
   std::mt19937 random(3);
   int outside = 0, inside = 0;
-  for (int round = 0; round < 600; ++round) {
+  for (int round = 0; round < 900; ++round) {
     const Halves halves = random_halves(random);
     const ExtentAnswers answers = test_extents(extents_.data(), indices_.data(), 64, halves);
     for (uint32_t i = 0; i < 64; ++i) {

@@ -17,9 +17,9 @@ constexpr uint32_t kMostTries = 5000;
 
 /// Returns a scene that `shows` accepts, as it accepts `scene`, and that no single step makes
 /// smaller: no operand, operation or primitive can be left out, no polyhedron or mesh can become a
-/// simpler one, no number a rounder one. Only the model is kept. Primitives keep their order, and their
-/// indices become their ids. After `most_tries` calls of `shows`, returns the smallest scene so
-/// far.
+/// simpler one, no number a rounder one. Only the model is kept. Primitives keep their order, and
+/// their indices become their ids. After `most_tries` calls of `shows`, returns the smallest scene
+/// so far.
 csgcore::Scene minimise(const csgcore::Scene& scene, const Shows& shows,
                         uint32_t most_tries = kMostTries);
 
