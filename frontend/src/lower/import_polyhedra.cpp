@@ -1,6 +1,7 @@
 #include "lower/import_polyhedra.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -42,23 +43,20 @@ int scale_to_unit(FaceSet& faces) {
   return exponent;
 }
 
-template <typename T>
-void append_bytes(const std::vector<T>& values, std::string& bytes) {
-  const uint64_t count = values.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
-}
+/// Two hashes of a sequence of words.
+class Hashes {
+ public:
+  void add(uint64_t word) {
+    first_ = (std::rotl(first_, 23) ^ word) * 0x9E3779B97F4A7C15u;
+    second_ = (std::rotl(second_, 29) + word) * 0xD6E8FEB86659FD93u;
+    second_ ^= second_ >> 32;
+  }
+  uint64_t first() const { return first_; }
+  uint64_t second() const { return second_; }
 
-std::string bytes_of(const FaceSet& faces, int exponent) {
-  std::string bytes;
-  bytes.reserve(faces.points.size() * sizeof(Vec3) + 32 +
-                (faces.corners.size() + faces.ends.size()) * sizeof(uint32_t));
-  append_bytes(std::vector<int>{exponent}, bytes);
-  append_bytes(faces.points, bytes);
-  append_bytes(faces.corners, bytes);
-  append_bytes(faces.ends, bytes);
-  return bytes;
-}
+ private:
+  uint64_t first_ = 1, second_ = 2;
+};
 
 std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
   std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
@@ -103,11 +101,23 @@ Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_wo
   return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
 }
 
+PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int exponent) {
+  Hashes hashes;
+  for (const Vec3& point : faces.points) {
+    for (int axis = 0; axis < 3; ++axis) hashes.add(std::bit_cast<uint64_t>(point[axis]));
+  }
+  for (const uint32_t corner : faces.corners) hashes.add(corner);
+  for (const uint32_t end : faces.ends) hashes.add(end);
+  return {faces.points.size(), faces.corners.size(),
+          faces.ends.size(),   std::bit_cast<uint64_t>(int64_t{exponent}),
+          hashes.first(),      hashes.second()};
+}
+
 const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_faces) {
   // Scaled first: what underflows there must be equal afterwards.
   const int exponent = scale_to_unit(faces);
   unfinite_faces += tidy(faces);
-  const auto [entry, is_new] = solids_.try_emplace(bytes_of(faces, exponent));
+  const auto [entry, is_new] = solids_.try_emplace(key_of(faces, exponent));
   SolidOfFaces& solid = entry->second;
   if (!is_new || faces.face_count() == 0) return solid;
   solid.exponent = exponent;

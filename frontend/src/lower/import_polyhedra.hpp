@@ -2,11 +2,10 @@
 // unit cube, a unit sphere of so many fragments, the same faces. Their sizes are in the matrices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "base/primitive_traits.hpp"
@@ -66,11 +65,16 @@ class PolyhedronPool {
   /// Fragments, and Faceting::unit.
   using FacetedKey = std::pair<int, LocalSolid>;
 
+  /// What tells faces from others: their counts, their power of two and two hashes of 64 bits, so
+  /// that large ones need not be kept.
+  using FacesKey = std::array<uint64_t, 6>;
+  static FacesKey key_of(const FaceSet& faces, int exponent);
+
   const SolidOfFaces& faceted(const Faceting& faceting, int fragments);
 
   std::shared_ptr<const csgcore::Polyhedron> unit_box_;
   std::map<FacetedKey, SolidOfFaces> faceted_;
-  std::unordered_map<std::string, SolidOfFaces> solids_;  // by the bytes of their faces
+  std::map<FacesKey, SolidOfFaces> solids_;
   const bool keeps_meshes_;
   FacetMeshes meshes_of_;
   uint64_t facets_ = 0;  // of those of more than kFewFacets

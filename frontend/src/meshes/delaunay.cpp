@@ -11,7 +11,10 @@ namespace frontend {
 
 DelaunayTriangulation::DelaunayTriangulation(std::span<const glm::dvec2> points,
                                              uint64_t most_steps)
-    : points_(points), steps_left_(most_steps), side_from_(points.size(), kNone) {
+    : points_(points),
+      most_steps_(most_steps),
+      steps_left_(most_steps),
+      side_from_(points.size(), kNone) {
   sweep();
   flip_to_delaunay();
 }
@@ -140,6 +143,7 @@ bool DelaunayTriangulation::is_delaunay(uint32_t side) const {
 }
 
 void DelaunayTriangulation::flip_to_delaunay() {
+  steps_left_ = most_steps_;
   std::vector<uint32_t> open(sides());
   for (uint32_t side = 0; side < sides(); ++side) open[side] = side;
   while (!open.empty()) {
@@ -149,12 +153,13 @@ void DelaunayTriangulation::flip_to_delaunay() {
     if (twin == kNone || is_constraint_[side] != 0 || is_delaunay(side) || !is_flippable(side)) {
       continue;
     }
-    if (!use_step()) return;
+    if (!use_step()) break;
     flip(side);
     for (const uint32_t changed : {side, previous(side), twin, previous(twin)}) {
       open.push_back(changed);
     }
   }
+  steps_left_ = most_steps_;
 }
 
 /// Finds the sides that the edge crosses; none if it is one already. Returns false if a vertex or a

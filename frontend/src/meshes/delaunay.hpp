@@ -16,7 +16,8 @@ class DelaunayTriangulation {
   static constexpr uint32_t kNone = 0xFFFFFFFFu;
 
   /// `points` must be sorted by x and then by y, be different, outlive this, and not lie on one
-  /// line. `most_steps` bounds the work.
+  /// line. `most_steps` bounds the flips of each call of flip_to_delaunay(), and the steps of the
+  /// calls of constrain() between two of these.
   DelaunayTriangulation(std::span<const glm::dvec2> points, uint64_t most_steps);
 
   /// Makes the edge between two vertices one of the triangulation. Returns false, and leaves the
@@ -47,6 +48,7 @@ class DelaunayTriangulation {
   bool use_step() { return steps_left_ > 0 && --steps_left_ > 0; }
 
   std::span<const glm::dvec2> points_;
+  const uint64_t most_steps_;
   uint64_t steps_left_;
   std::vector<uint32_t> origin_, twin_;  // by side
   std::vector<uint8_t> is_constraint_;   // by side

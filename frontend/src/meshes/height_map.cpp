@@ -36,7 +36,7 @@ HeightMap read_picture(std::string_view bytes, const std::string& name, bool is_
   return map;
 }
 
-/// A number as boost::lexical_cast takes it.
+/// Takes what stands before the next blank or tab.
 std::string_view take_cell(std::string_view& line) {
   const auto is_separator = [](char c) { return c == ' ' || c == '\t'; };
   while (!line.empty() && is_separator(line.front())) line.remove_prefix(1);

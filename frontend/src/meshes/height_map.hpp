@@ -22,8 +22,8 @@ struct HeightMap {
 };
 
 /// The largest map: one with more cells is not read. Each cell has four triangles, which take some
-/// 400 bytes in all.
-constexpr size_t kMostCells = size_t{1} << 21;
+/// 800 bytes in all.
+constexpr size_t kMostCells = size_t{1} << 20;
 
 /// Reads a PNG, whatever its name, and otherwise lines of numbers. In a PNG, white is 100 high and
 /// black 0; if it is inverted, black is 100/255 and white 100 below that. `name` is for messages.

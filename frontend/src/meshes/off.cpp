@@ -23,7 +23,6 @@ class OffText {
     }
   }
   void end_line() { take_line(text_); }
-  size_t size() const { return text_.size(); }
 
  private:
   std::string_view text_;

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "csg/lexer.hpp"
 #include "meshes/number_text.hpp"
 #include "meshes/read_solid_file.hpp"
 
@@ -15,8 +16,6 @@ static_assert(std::endian::native == std::endian::little, "binary STL is read as
 
 constexpr size_t kHeaderBytes = 80, kCountBytes = 4, kFacetBytes = 50;
 constexpr size_t kNormalBytes = 12;
-/// A line that is shown in a message may be as long as the file.
-constexpr size_t kLongestShown = 80;
 
 bool is_binary(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes + kCountBytes) return false;
@@ -53,9 +52,8 @@ SolidFile read_text(std::string_view text, const std::string& name) {
   bool is_whole = false;  // it has three points
   const auto fail = [&](size_t line, std::string_view what, std::string_view found) {
     file = {};
-    file.problem = "STL line " + std::to_string(line) + ", " + std::string(what) +
-                   " vertex line '" + std::string(found.substr(0, kLongestShown)) +
-                   "' importing file '" + name + "'";
+    file.problem = "STL line " + std::to_string(line) + ", " + std::string(what) + " vertex line " +
+                   quoted(found) + " importing file '" + name + "'";
   };
   for (size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = trimmed(take_line(text));

@@ -21,8 +21,9 @@ namespace frontend {
 /// the result does not depend on the corner at which the polygon starts.
 ///
 /// A polygon that crosses itself, or that has a corner on another edge, gets the triangles between
-/// its first corner and its other edges, which overlap. So does one that would take many steps more
-/// than it has corners.
+/// its first corner and its other edges, which overlap. So may one of tens of
+/// thousands of corners, since the work is bounded; others of that size are Delaunay's in parts
+/// only.
 void triangulate(std::span<const uint32_t> corners, std::span<const glm::dvec2> places,
                  std::vector<std::array<uint32_t, 3>>& triangles);
 

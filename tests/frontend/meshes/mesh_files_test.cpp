@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -94,6 +95,7 @@ TEST(Stl, TextIsReadByItsLines) {
   EXPECT_EQ(faces_of("vertex 0 0 0\n\tvertex\t1 +1 1e0 # more\r\nxvertex 0 1 -.5\n"), 1u);
   // Without a third number, or a third line, a facet is lost.
   EXPECT_EQ(faces_of("vertex 0 0 0\nvertex 1 1\nvertex 0 1 0\nouter loop\nvertex 1 1 1"), 0u);
+  EXPECT_EQ(read_stl(text_of("vertex 1 1\n"), "f").problem, "");
   EXPECT_EQ(faces_of("VERTEX 0 0 0\nvertex 1 1 2\nvertexes 0 1 0\nvertex 1 1 1"), 0u);
   EXPECT_EQ(read_stl(text_of("vertex 0 0 0\n vertex 1 0 z9\n"), "f").problem,
             "STL line 4, can't parse vertex line 'vertex 1 0 z9' importing file 'f'");
@@ -115,9 +117,35 @@ TEST(Amf, IsAllOrNothing) {
   EXPECT_EQ(faces_with("<x>4</x>", "<x>a</x>"), 0u);
   EXPECT_EQ(faces_with("<x>4</x>", "<x> 4</x>"), 0u);
   EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>x</v1>"), 0u);
-  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>99</v1>"), 19u);
+  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>12</v1>"), 19u);
   EXPECT_EQ(faces_with("</volume>", "</volum>"), 0u);
   EXPECT_EQ(faces_with("</amf>", ""), 0u);
+}
+
+TEST(Off, HasNoFacesWithoutTheirPoints) {
+  const std::string points = "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(read_off(points + "3 0 1 2\n", "f").faces.face_count(), 1u);
+  for (const char* face : {"3 0 1 3\n", "3 0 1 -1\n", "4000000000 0 1 2\n", "3 0 1\n", ""}) {
+    EXPECT_EQ(read_off(points + face, "f").faces.face_count(), 0u) << face;
+  }
+  EXPECT_EQ(read_off("OFF 4000000000 4000000000 0\n0 0 0\n", "f").faces.face_count(), 0u);
+}
+
+/// OpenSCAD 2021.01 writes these triangles to an STL.
+TEST(FaceSets, AreCutAsTheyAreSeenFromOutside) {
+  const auto has_diagonal = [](const std::vector<csgcore::Vec3>& points, uint32_t a, uint32_t b) {
+    FaceSet faces{points, {0, 1, 2, 3}, {4}};
+    size_t found = 0;
+    for (const csgcore::TriangleMesh::Triangle& triangle : triangles_of(faces)) {
+      found += std::ranges::count(triangle, a) + std::ranges::count(triangle, b) == 2 ? 1 : 0;
+    }
+    return found == 2;
+  };
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, 1, 3)) << "upwards";
+  EXPECT_TRUE(has_diagonal({{0, 4, 0}, {4, 4, 0}, {4, 0, 0}, {0, 0, 0}}, 1, 3)) << "downwards";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4}}, 1, 3)) << "along x";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}, 1, 3)) << "along y";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {9, 1, 1}, {90, 2, 0}, {9, 1, -3}}, 1, 3)) << "aslant";
 }
 
 TEST(FaceSets, LoseWhatIsNoFace) {
@@ -170,6 +198,17 @@ TEST(HeightMaps, ArePicturesOfAnyType) {
   }
 }
 
+TEST(HeightMaps, ArePicturesOfPaethsFilter) {
+  const std::optional<GrayPicture> picture = read_gray_png(content_of("paeth.png"), kMostCells);
+  ASSERT_TRUE(picture);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      EXPECT_EQ(picture->values[static_cast<size_t>(24 * y + x)],
+                (37 * x * x + 91 * y * y + 13 * x * y) % 256);
+    }
+  }
+}
+
 TEST(HeightMaps, BoundASolid) {
   const HeightMap map = read_height_map(content_of("heights.dat"), "f", false);
   FaceSet faces = solid_below(map, true);
@@ -212,6 +251,9 @@ TEST(ZipArchives, UnpackNoMoreThanTheySay) {
     for (size_t i = 0; i < 4; ++i) lying[size_at + i] = static_cast<char>(size >> (8 * i));
     EXPECT_FALSE(ZipArchive(lying).unpack_first()) << size;
   }
+  ZipArchive::Entry other = archive.entries()[0];
+  ++other.checksum;
+  EXPECT_FALSE(archive.unpack(other));
 }
 
 /// No damage may crash a reader or keep it busy.

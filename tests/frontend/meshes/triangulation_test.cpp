@@ -178,6 +178,17 @@ TEST(Triangulate, DoesNotDependOnTheFirstCorner) {
   EXPECT_THAT(*results.begin(), SizeIs(22));
 }
 
+TEST(Triangulate, OfCornersOnACircleTheLeastIsAnEar) {
+  const std::vector<dvec2> places{{-5, 0}, {-4, -3}, {-3, -4}, {5, 0}, {0, 5}};
+  const std::vector<Triangle> triangles = checked(places, numbered(5));
+  const auto count_of = [&](uint32_t corner) {
+    return std::ranges::count_if(
+        triangles, [&](const Triangle& t) { return std::ranges::count(t, corner) > 0; });
+  };
+  EXPECT_EQ(count_of(0), 1);
+  EXPECT_EQ(count_of(1), 2) << "an ear of what is left";
+}
+
 TEST(Triangulate, AHoleBehindABridge) {
   // A square of 6 with a hole of 2, whose bridge is an edge there and back.
   const std::vector<dvec2> places{{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0},
