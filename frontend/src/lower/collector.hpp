@@ -60,6 +60,7 @@ class Collector final : public NodeSink {
     csgcore::CsgTree solid;  // over `primitives`; empty unless it is solid
     csgcore::Box box;        // of its parts, in the world
     bool is_plate;
+    std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.

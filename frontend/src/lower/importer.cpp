@@ -159,9 +159,9 @@ class Emitter {
     }
     const auto [entry, is_new] = leaf_of_plane_.try_emplace(node, 0);
     if (is_new) {
-      const auto box = plane.is_plate ? std::optional<Box>(plane.box) : std::nullopt;
-      entry->second = plane.solid.tokens().size() == 1 ? plane.solid.tokens().front().value
-                                                       : leaves_.add(plane.solid, plane.frame, box);
+      entry->second = plane.solid.tokens().size() == 1
+                          ? plane.solid.tokens().front().value
+                          : leaves_.add(plane.solid, plane.frame, plane.known_box);
     }
     add_leaf(entry->second,
              open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
