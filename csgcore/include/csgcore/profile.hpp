@@ -101,7 +101,8 @@ class Profile {
   bool is_inside(int winding) const {
     return fill_rule_ == FillRule::kNonZero ? winding != 0 : (winding & 1) != 0;
   }
-  /// Returns whether the figure contains the canonical point. On an edge it may be either.
+  /// Returns whether the figure contains the canonical point. On an edge it may be
+  /// either, but points of the leftmost edges are contained if those to the right of them are.
   bool contains(const Vec2& point) const;
   /// Returns a point of the edges that is furthest along a direction, up to rounding; both are
   /// canonical.

@@ -120,6 +120,29 @@ HWY_INLINE bool project(const CanonicalPrimitive& primitive, const Vec3& origin,
   return true;
 }
 
+/// Returns the rays that pass the box |x|, |y| ≤ lateral, |z| ≤ 1 in canonical space, and some
+/// others that pass next to it.
+HWY_INLINE WideM pass_box(const Lanes3<Wide>& origin, const Lanes3<Wide>& direction,
+                          double lateral) {
+  const Wide d;
+  constexpr double kMargin = 1 + 1e-9;
+  // A coordinate of 0 stands for one next to it.
+  constexpr double kLeast = 1e-300;
+  WideV enter = hn::Set(d, -kInfinity), leave = hn::Set(d, kInfinity);
+  const auto cut = [&](WideV o, WideV along, double half) {
+    const WideV inverse =
+        hn::Div(hn::Set(d, 1.0), hn::CopySign(hn::Max(hn::Abs(along), hn::Set(d, kLeast)), along));
+    const WideV middle = hn::Neg(hn::Mul(o, inverse));
+    const WideV reach = hn::Abs(hn::Mul(hn::Set(d, half * kMargin), inverse));
+    enter = hn::Max(enter, hn::Sub(middle, reach));
+    leave = hn::Min(leave, hn::Add(middle, reach));
+  };
+  cut(origin.x, direction.x, lateral);
+  cut(origin.y, direction.y, lateral);
+  cut(origin.z, direction.z, 1);
+  return hn::Le(enter, leave);
+}
+
 /// Projects the rays. Returns the lanes that may meet the solid. `base` is what their t is relative
 /// to.
 HWY_INLINE LaneMask project_lanes(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
@@ -128,11 +151,15 @@ HWY_INLINE LaneMask project_lanes(const FrameRays& frame, const RayPacket& packe
   const Wide d;
   const Vec3 center = primitive.center - frame.pivot;
   LaneMask reaching = 0;
+  const double lateral =
+      (primitive.radius_mid + std::abs(primitive.radius_slope)) / primitive.profile()->reach();
   alignas(64) double origin[3][kLanes], direction[3][kLanes], inverse_length2[kLanes];
   for (const int c : ChunksOf(lanes)) {
     const size_t first = first_lane(c);
     const auto [o, along, inverse, at] =
         polyhedron_rays::rebased(d, primitive, center, load_rays(d, packet, first));
+    const LaneMask passing = bits_of(pass_box(o, along, lateral), c) & lanes;
+    if (passing == 0) continue;
     const WideV os[] = {o.x, o.y, o.z}, alongs[] = {along.x, along.y, along.z};
     for (size_t axis = 0; axis < 3; ++axis) {
       hn::Store(os[axis], d, origin[axis]);
@@ -140,7 +167,7 @@ HWY_INLINE LaneMask project_lanes(const FrameRays& frame, const RayPacket& packe
     }
     hn::Store(inverse, d, inverse_length2);
     hn::Store(at, d, base + first);
-    for (LaneMask left = lanes & chunk_lanes(c); left != 0; left &= left - 1) {
+    for (LaneMask left = passing; left != 0; left &= left - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(left));
       const size_t i = lane - first;
       RayLine& ray = rays.lines[lane];

@@ -1,12 +1,15 @@
 // The profile that is extruded, under affine maps. profile.hpp describes its canonical space.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <utility>
 
 #include "csgcore/profile.hpp"
 #include "primitives/primitive_kind.hpp"
+#include "primitives/profile_cells.hpp"
 
 namespace csgcore {
 namespace {
@@ -60,6 +63,32 @@ class ExtrusionKind final : public PrimitiveKind {
     const Profile& profile = *primitive.profile();
     const double scale = (primitive.radius_mid + primitive.radius_slope * p.z) / profile.reach();
     return std::abs(p.z) <= 1 && scale > 0 && profile.contains({p.x / scale, p.y / scale});
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    const Profile& profile = *primitive.profile();
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    Vec3 half(cell.slack);
+    for (int i = 0; i < 3; ++i) half += glm::abs(cell.half[i]);
+    const double bottom = std::max(-1.0, cell.center.z - half.z);
+    const double top = std::min(1.0, cell.center.z + half.z);
+    if (bottom > top) return Classification::kOutside;
+    const auto scale_at = [&](double z) {
+      constexpr double kPositive = 1e-300;
+      const double scale = primitive.radius_mid + primitive.radius_slope * z;
+      return std::max(kPositive, scale / profile.reach());
+    };
+    const double scales[] = {scale_at(bottom), scale_at(top)};
+    const Vec2 center(cell.center), low = center - Vec2(half), high = center + Vec2(half);
+    const Rectangle rectangle{glm::min(low / scales[0], low / scales[1]),
+                              glm::max(high / scales[0], high / scales[1])};
+    const double middle = std::clamp(cell.center.z, bottom, top);
+    constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+    const Classification figure =
+        csgcore::classify(profile, rectangle, center / scale_at(middle), kNowhere);
+    const bool is_between = cell.center.z - half.z > -1 && cell.center.z + half.z < 1;
+    return figure != Classification::kInside || is_between ? figure : Classification::kCrosses;
   }
 
  private:

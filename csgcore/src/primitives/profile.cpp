@@ -243,7 +243,8 @@ Profile::Profile(std::vector<ProfileLoop> loops, FillRule fill_rule)
 }
 
 bool Profile::contains(const Vec2& point) const {
-  return is_inside(winding_at(*this, {{1, 0}, point.y}, point.x));
+  // Only what lies further right counts, so that the y axis may bound the figure.
+  return is_inside(winding_at(*this, {{-1, 0}, -point.y}, -point.x));
 }
 
 Vec2 Profile::support(const Vec2& direction) const {

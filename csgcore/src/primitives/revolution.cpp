@@ -1,12 +1,14 @@
 // The profile that is revolved, under affine maps. profile.hpp describes its canonical space.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
 
 #include "csgcore/profile.hpp"
 #include "primitives/primitive_kind.hpp"
+#include "primitives/profile_cells.hpp"
 
 namespace csgcore {
 namespace {
@@ -56,6 +58,36 @@ class RevolutionKind final : public PrimitiveKind {
     const Profile& profile = *primitive.profile();
     const double radius = std::hypot(p.x, p.y);
     return profile.contains({(radius - profile.radii().x) / profile.radii().y, p.z});
+  }
+
+  Classification classify(const CanonicalPrimitive& primitive,
+                          const Box& cell_world) const override {
+    const Profile& profile = *primitive.profile();
+    const CanonicalCell cell = to_canonical(primitive, cell_world);
+    Vec3 half(cell.slack);
+    for (int i = 0; i < 3; ++i) half += glm::abs(cell.half[i]);
+    // The cell's distances from the axis: by its box, and across the plane in which its centre is.
+    const Vec2 center(cell.center);
+    const Vec2 gap = glm::max(glm::abs(center) - Vec2(half), Vec2(0.0));
+    const double distance = glm::length(center);
+    double reach = cell.slack, furthest = 0;
+    if (distance > 0) {
+      for (int i = 0; i < 3; ++i) {
+        reach += std::abs(glm::dot(center / distance, Vec2(cell.half[i])));
+      }
+    } else {
+      reach = half.x + half.y;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      furthest = std::max(furthest, glm::length(Vec2(cell.corner(corner))));
+    }
+    const double nearest = std::max({0.0, glm::length(gap), distance - reach});
+    const auto place = [&](double radius) {
+      return (radius - profile.radii().x) / profile.radii().y;
+    };
+    const Rectangle rectangle{{place(nearest - cell.slack), cell.center.z - half.z},
+                              {place(furthest + cell.slack), cell.center.z + half.z}};
+    return csgcore::classify(profile, rectangle, {place(furthest), cell.center.z}, place(0));
   }
 
  private:
