@@ -35,6 +35,9 @@ struct ImportedDesign {
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
+  /// Of a final render (PictureKind::kRendered) whose design is a plane figure: its outlines,
+  /// closed, at z = 0. The scene has a thin plate for it.
+  std::vector<std::vector<csgcore::Vec3>> flat_outlines;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;
 };

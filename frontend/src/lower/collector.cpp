@@ -346,6 +346,7 @@ void Collector::leave_plane() {
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
     leaf.solid = {};
+    leaf.figures.clear();
   }
   plane_.reset();
 }
@@ -446,8 +447,15 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
+  const bool is_rendered = options_.picture == PictureKind::kRendered;
+  const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
-      lower_subtree(subtree, evaluation, leaf.frame, frames, figure_solids_, told);
+      lower_subtree(subtree, evaluation, plate, leaf.frame, frames, figure_solids_, told);
+  if (lowered.is_plate && is_rendered) {
+    evaluation.find_all_figures();
+    const std::span<const Figure> figures = evaluation.figures(root);
+    leaf.figures.assign(figures.begin(), figures.end());
+  }
   leaf.is_plate = lowered.is_plate;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {

@@ -227,8 +227,8 @@ Box positive_box(const LoweredSubtree& solid) {
 
 /// OpenSCAD's box of a plane figure is that of what the operations leave. Nothing if they leave
 /// all.
-std::optional<Box> box_of_plate(const FigureTree& figures, PlaneEvaluation& evaluation,
-                                uint32_t root, const Affine& root_to_world) {
+std::optional<Box> box_of_rest(const FigureTree& figures, PlaneEvaluation& evaluation,
+                               uint32_t root, const Affine& root_to_world) {
   const auto tokens = figures.tree.tokens();
   const bool has_operation = std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
     return !token.is_primitive && token.op != Op::kUnion;
@@ -257,6 +257,28 @@ Rectangle positive_bounds(const FigureTree& figures) {
   }
   const Box box = box_of_positive_leaves(figures.tree, boxes);
   return {Vec2(box.min.x, box.min.y), Vec2(box.max.x, box.max.y)};
+}
+
+/// What the operations leave, without them: they may leave so little of large figures that a thin
+/// plate of it would be below the renderers' tolerance.
+FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uint32_t root,
+                     uint32_t frame) {
+  evaluation.find_all_figures();
+  FigureTree result;
+  CsgTreeBuilder builder;
+  for (const Figure& figure : evaluation.figures(root)) {
+    builder.primitive(static_cast<uint32_t>(result.figures.size()));
+    result.figures.push_back({figure, {}, frame, figures.figures.front().id, 0});
+  }
+  result.tree = builder.finish();
+  return result;
+}
+
+/// A share of the figure's size that is below a pixel.
+double flat_thickness(const FigureTree& figures) {
+  constexpr double kShare = 0x1p-12;
+  const Rectangle bounds = positive_bounds(figures);
+  return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
 }
 
 /// Revolves a figure tree about the y axis of its plane.
@@ -412,7 +434,7 @@ class Revolving {
 
 }  // namespace
 
-LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
+LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
                              uint32_t frame, FrameTree& frames, FigureSolids& solids,
                              NodeProblems& problems) {
   const FigureTree figures = FigureTreeWriter(subtree, evaluation, frame, frames).write();
@@ -431,10 +453,15 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
     if (edge_count(figures) > kMostLookedAtEdges) solid.box = positive_box(solid);
     return solid;
   }
-  LoweredSubtree plate = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
-                                 root_to_world, frames, solids);
-  plate.box = box_of_plate(figures, evaluation, subtree.root(), root_to_world);
-  return plate;
+  if (plate == Plate::kFlat) {
+    const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);
+    const double thickness = flat_thickness(rest);
+    return extrude(rest, {-thickness / 2, thickness / 2, 1}, true, root_to_world, frames, solids);
+  }
+  LoweredSubtree result = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
+                                  root_to_world, frames, solids);
+  result.box = box_of_rest(figures, evaluation, subtree.root(), root_to_world);
+  return result;
 }
 
 void thicken_plate(Primitive& part, const Affine& frame_to_world) {
