@@ -406,6 +406,7 @@ TEST(PlaneImport, IgnoresModifiersInside) {
   EXPECT_EQ(trees_of("%" + extruded("circle(1); square(2);") + "cube();"), "2 | (0+1) | -");
   EXPECT_EQ(trees_of(extruded("circle(1); !square(2);")), "1 | - | -");
   EXPECT_EQ(trees_of(extruded("circle(1); *square(2);")), "0 | - | -");
+  EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "1 | - | -");
 }
 
 TEST(PlaneImport, ForgetsColoursInside) {
