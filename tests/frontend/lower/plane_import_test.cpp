@@ -409,6 +409,19 @@ TEST(PlaneImport, IgnoresModifiersInside) {
   EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "1 | - | -");
 }
 
+TEST(PlaneImport, NamesTheLeafThatANodeIsAPartOf) {
+  const std::string text =
+      "circle(1);\nlinear_extrude(height = 1) { hull() { square(1); } }\n"
+      "render() { hull() { circle(2); } }";
+  const ImportedDesign design = TextImport(text, "a.csg", {.keeps_places = true}).finish();
+  ASSERT_THAT(design.places, SizeIs(3));
+  EXPECT_EQ(design.places[0].leaf_line, 0u) << "a leaf by itself";
+  EXPECT_EQ(design.places[1].leaf_line, 2u);
+  EXPECT_EQ(design.places[1].leaf_offset, text.find("linear_extrude"));
+  EXPECT_EQ(design.places[2].leaf_offset, text.find("render"));
+  EXPECT_EQ(design.scene.primitives.back().id, 2u);
+}
+
 TEST(PlaneImport, ForgetsColoursInside) {
   const Primitive primitive =
       only_primitive("color([0,1,0,1]) {" + extruded("color([1,0,0,1]) { square(2); }") + "}");
