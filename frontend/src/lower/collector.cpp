@@ -379,6 +379,7 @@ void Collector::leave_plane() {
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
     leaf.solid = {};
+    leaf.figures.clear();
   }
   plane_.reset();
 }
@@ -479,8 +480,15 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
+  const bool is_rendered = options_.picture == PictureKind::kRendered;
+  const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
-      lower_subtree(subtree, evaluation, leaf.frame, frames, figure_solids_, told);
+      lower_subtree(subtree, evaluation, plate, leaf.frame, frames, figure_solids_, told);
+  if (lowered.is_plate && is_rendered) {
+    evaluation.find_all_figures();
+    const std::span<const Figure> figures = evaluation.figures(root);
+    leaf.figures.assign(figures.begin(), figures.end());
+  }
   leaf.is_plate = lowered.is_plate;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
@@ -494,6 +502,7 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   if (leaf.solid.empty()) return Presence::kEmpty;
   leaf.box = box_of_positive_leaves(leaf.solid, boxes);
   if (lowered.box) leaf.box = csgcore::intersection(leaf.box, *lowered.box);
+  if (lowered.box || lowered.is_plate) leaf.known_box = leaf.box;
   return Presence::kSolid;
 }
 

@@ -62,6 +62,8 @@ class Collector final : public NodeSink {
     csgcore::CsgTree solid;  // over `primitives`; empty unless it is solid
     csgcore::Box box;        // of its parts, in the world
     bool is_plate;
+    std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
+    std::vector<Figure> figures{};            // of a plate in a final render
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.

@@ -159,9 +159,9 @@ class Emitter {
     }
     const auto [entry, is_new] = leaf_of_plane_.try_emplace(node, 0);
     if (is_new) {
-      const auto box = plane.is_plate ? std::optional<Box>(plane.box) : std::nullopt;
-      entry->second = plane.solid.tokens().size() == 1 ? plane.solid.tokens().front().value
-                                                       : leaves_.add(plane.solid, plane.frame, box);
+      entry->second = plane.solid.tokens().size() == 1
+                          ? plane.solid.tokens().front().value
+                          : leaves_.add(plane.solid, plane.frame, plane.known_box);
     }
     add_leaf(entry->second,
              open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
@@ -316,6 +316,22 @@ void thicken_subtracted_plates(const Design& trees, const Leaves& leaves,
   }
 }
 
+/// The outlines of a final render of plane figures.
+std::vector<std::vector<csgcore::Vec3>> flat_outlines(const Collector& collected) {
+  std::vector<Figure> figures;
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    figures.insert(figures.end(), leaf.figures.begin(), leaf.figures.end());
+  }
+  std::vector<std::vector<csgcore::Vec3>> result;
+  const std::optional<SimplePolygons> outlines = united(figures);
+  if (!outlines) return result;
+  for (const Polygon& polygon : *outlines) {
+    std::vector<csgcore::Vec3>& outline = result.emplace_back();
+    for (const Vec2& point : polygon) outline.emplace_back(point, 0.0);
+  }
+  return result;
+}
+
 /// A leaf that several trees name counts once for each.
 void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& design) {
   const auto count = [&](const LeafTree& tree) {
@@ -339,6 +355,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree.file_name);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
+  design.flat_outlines = flat_outlines(collected);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  union_of(collected.boxes));

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "heal/matrix_healing.hpp"
 #include "lower/faceted_box.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
@@ -205,10 +206,29 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   return result;
 }
 
+/// A solid of more edges is not looked at to find its box: a ray may meet them all.
+constexpr size_t kMostLookedAtEdges = 2000;
+
+size_t edge_count(const FigureTree& figures) {
+  size_t count = 0;
+  for (const PlacedFigure& placed : figures.figures) {
+    const Outline* outline = std::get_if<Outline>(&placed.figure);
+    if (outline == nullptr) continue;
+    for (const csgcore::ProfileLoop& loop : outline->loops) count += loop.size();
+  }
+  return count;
+}
+
+Box positive_box(const LoweredSubtree& solid) {
+  std::vector<Box> boxes;
+  for (const LoweredSubtree::Part& part : solid.parts) boxes.push_back(part.box);
+  return box_of_positive_leaves(solid.solid, boxes);
+}
+
 /// OpenSCAD's box of a plane figure is that of what the operations leave. Nothing if they leave
 /// all.
-std::optional<Box> box_of_plate(const FigureTree& figures, PlaneEvaluation& evaluation,
-                                uint32_t root, const Affine& root_to_world) {
+std::optional<Box> box_of_rest(const FigureTree& figures, PlaneEvaluation& evaluation,
+                               uint32_t root, const Affine& root_to_world) {
   const auto tokens = figures.tree.tokens();
   const bool has_operation = std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
     return !token.is_primitive && token.op != Op::kUnion;
@@ -223,6 +243,42 @@ std::optional<Box> box_of_plate(const FigureTree& figures, PlaneEvaluation& eval
     box.merge(Vec3(bounds.max, 0));
   }
   return box.empty() ? box : mapped(root_to_world, box);
+}
+
+/// Bounds of what is not subtracted.
+Rectangle positive_bounds(const FigureTree& figures) {
+  std::vector<Box> boxes;
+  for (const PlacedFigure& placed : figures.figures) {
+    const Rectangle bounds = bounds_of(mapped(placed.map, placed.figure));
+    Box& box = boxes.emplace_back();
+    if (bounds.empty()) continue;
+    box.merge(Vec3(bounds.min, 0));
+    box.merge(Vec3(bounds.max, 0));
+  }
+  const Box box = box_of_positive_leaves(figures.tree, boxes);
+  return {Vec2(box.min.x, box.min.y), Vec2(box.max.x, box.max.y)};
+}
+
+/// What the operations leave, without them: they may leave so little of large figures that a thin
+/// plate of it would be below the renderers' tolerance.
+FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uint32_t root,
+                     uint32_t frame) {
+  evaluation.find_all_figures();
+  FigureTree result;
+  CsgTreeBuilder builder;
+  for (const Figure& figure : evaluation.figures(root)) {
+    builder.primitive(static_cast<uint32_t>(result.figures.size()));
+    result.figures.push_back({figure, {}, frame, figures.figures.front().id, 0});
+  }
+  result.tree = builder.finish();
+  return result;
+}
+
+/// A share of the figure's size that is below a pixel.
+double flat_thickness(const FigureTree& figures) {
+  constexpr double kShare = 0x1p-12;
+  const Rectangle bounds = positive_bounds(figures);
+  return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
 }
 
 /// Revolves a figure tree about the y axis of its plane.
@@ -249,7 +305,8 @@ class Revolving {
         1, static_cast<int>(csgcore::fragment_count(radius, data_.arguments.facets) * share));
     sections_.angle = data_.arguments.angle;
     sections_.start = data_.arguments.start.value_or(sections_.is_closed() ? 180 : 0);
-    box_ = mapped(root_to_world_, box_of_rings(*reach, radius));
+    box_ = mapped(root_to_world_, box_of_rings(*reach));
+    result.box = box_;
     if (data_.is_faceted && sections_.count <= kMostSections) {
       lower_mesh(figures, result);
     } else {
@@ -267,10 +324,7 @@ class Revolving {
 
   /// The bounds of the result in the plane; nothing if it stands on both sides of the axis.
   std::optional<Rectangle> reach_of(const FigureTree& figures) {
-    Rectangle reach;
-    for (const PlacedFigure& placed : figures.figures) {
-      reach.merge(bounds_of(mapped(placed.map, placed.figure)));
-    }
+    Rectangle reach = positive_bounds(figures);
     if (!(reach.min.x < 0 && reach.max.x > 0)) return reach;
     // What the operations leave may still be on one side.
     evaluation_.find_all_figures();
@@ -292,17 +346,18 @@ class Revolving {
     return std::nullopt;
   }
 
-  Box box_of_rings(const Rectangle& reach, double radius) const {
+  /// The corners that OpenSCAD's rings have.
+  Box box_of_rings(const Rectangle& reach) const {
     Box box;
-    const Polygon ring =
-        circle_polygon({Vec2(0.0), radius}, std::min(sections_.count, kMostSections));
-    for (const Vec2& corner : ring) {
-      // Whole rings start at −x.
-      box.merge(Vec3(-corner.x, corner.y, reach.min.y));
-      box.merge(Vec3(-corner.x, corner.y, reach.max.y));
+    const int count = std::min(sections_.count, kMostSections);
+    for (int ring = 0; ring <= count; ++ring) {
+      const double turn = sections_.angle * ring / count;
+      const double azimuth = sections_.start + (sections_.is_closed() ? -turn : turn);
+      const Vec2 direction(cos_deg(azimuth), sin_deg(azimuth));
+      box.merge(Vec3(reach.min.x * direction, reach.min.y));
+      box.merge(Vec3(reach.max.x * direction, reach.max.y));
     }
-    if (sections_.is_closed()) return box;
-    return {Vec3(-radius, -radius, reach.min.y), Vec3(radius, radius, reach.max.y)};
+    return box;
   }
 
   void lower_figures(const FigureTree& figures, LoweredSubtree& result) const {
@@ -379,7 +434,7 @@ class Revolving {
 
 }  // namespace
 
-LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
+LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
                              uint32_t frame, FrameTree& frames, FigureSolids& solids,
                              NodeProblems& problems) {
   const FigureTree figures = FigureTreeWriter(subtree, evaluation, frame, frames).write();
@@ -393,13 +448,20 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
     const auto& extrusion = subtree.data<LinearExtrudeArguments>(subtree.root());
     if (!(extrusion.height > 0)) return {};
     const double z_min = extrusion.is_centered ? -extrusion.height / 2 : 0;
-    return extrude(figures, {z_min, z_min + extrusion.height, extrusion.top_scale}, false,
-                   root_to_world, frames, solids);
+    LoweredSubtree solid = extrude(figures, {z_min, z_min + extrusion.height, extrusion.top_scale},
+                                   false, root_to_world, frames, solids);
+    if (edge_count(figures) > kMostLookedAtEdges) solid.box = positive_box(solid);
+    return solid;
   }
-  LoweredSubtree plate = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
-                                 root_to_world, frames, solids);
-  plate.box = box_of_plate(figures, evaluation, subtree.root(), root_to_world);
-  return plate;
+  if (plate == Plate::kFlat) {
+    const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);
+    const double thickness = flat_thickness(rest);
+    return extrude(rest, {-thickness / 2, thickness / 2, 1}, true, root_to_world, frames, solids);
+  }
+  LoweredSubtree result = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
+                                  root_to_world, frames, solids);
+  result.box = box_of_rest(figures, evaluation, subtree.root(), root_to_world);
+  return result;
 }
 
 void thicken_plate(Primitive& part, const Affine& frame_to_world) {

@@ -32,9 +32,15 @@ struct LoweredSubtree {
   std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
 };
 
+/// What stands for a plane figure that is not extruded.
+enum class Plate : uint8_t {
+  kPreview,  // a plate that is a unit thick
+  kFlat,     // so thin that it counts as flat
+};
+
 /// `frame` is where the root stands. The root is solid, and none of 3D. Adds frames, and tells of
 /// what OpenSCAD tells: nothing is left then.
-LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
+LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, Plate plate,
                              uint32_t frame, FrameTree& frames, FigureSolids& solids,
                              NodeProblems& problems);
 

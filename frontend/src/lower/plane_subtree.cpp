@@ -113,9 +113,8 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
 
 void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options,
                         NodeProblems& problems) {
-  // Nodes that were not taken, since they are disabled, leave gaps.
   nodes_.resize(node - root_ + 1);
-  nodes_.back() = {id, data_of(tree_, tree_.nodes[node], options, problems)};
+  nodes_.back() = {true, id, data_of(tree_, tree_.nodes[node], options, problems)};
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {

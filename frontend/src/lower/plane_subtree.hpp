@@ -49,6 +49,8 @@ class PlaneSubtree {
   uint32_t end() const { return root_ + static_cast<uint32_t>(nodes_.size()); }
   /// One past the node's last descendant; of the root, end().
   uint32_t end_of(uint32_t node) const;
+  /// Descendants of a disabled node are not taken.
+  bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
   const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
   template <typename Data>
@@ -58,6 +60,7 @@ class PlaneSubtree {
 
  private:
   struct Node {
+    bool is_taken = false;
     uint32_t id = 0;
     PlaneNodeData data;
   };

@@ -15,9 +15,9 @@ namespace {
 using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 std::string moved(double x, double y, const std::string& children) {
   return "multmatrix([[1,0,0," + std::to_string(x) + "],[0,1,0," + std::to_string(y) +
@@ -222,6 +222,40 @@ TEST(Plate, CutsThickerThanItIs) {
   }
 }
 
+TEST(Plate, CountsInAFinalRenderAsTheFirstPartDoes) {
+  const ImportOptions rendered{.picture = PictureKind::kRendered};
+  EXPECT_EQ(model_of("square(4); cube(1); circle(1);", rendered), "(0+2)");
+  EXPECT_EQ(model_of("cube(1); square(4); group() { sphere(); square(1); }", rendered), "(0+2)");
+  EXPECT_EQ(model_of("cube(1); group() { square(1); sphere(); }", rendered), "0");
+  EXPECT_EQ(model_of("%cube(1); group(); group() { square(4); }", rendered), "1");
+  EXPECT_EQ(model_of("multmatrix([[1,0,0,0],[0,0,-1,0],[0,1,0,0]]) { square(4); }", rendered), "-");
+  EXPECT_EQ(model_of(extruded("square(4);") + "square(9);", rendered), "0");
+}
+
+TEST(Plate, IsFlatInAFinalRenderAndHasOutlines) {
+  const ImportedDesign design = import_text(
+      "difference() { square(4); " + moved(1, 1, "square(1);") + " } " + moved(3, 0, "square(4);"),
+      {.picture = PictureKind::kRendered});
+  EXPECT_THAT(design.flat_outlines, SizeIs(2)) << "one, and a hole in it";
+  EXPECT_EQ(design.view_box.min.z, 0);
+  EXPECT_NEAR(design.view_box.max.z, 0, 0.01);
+  EXPECT_THAT(import_text("square(4);").flat_outlines, IsEmpty());
+  EXPECT_THAT(
+      import_text(extruded("square(4);"), {.picture = PictureKind::kRendered}).flat_outlines,
+      IsEmpty());
+}
+
+TEST(Plate, OfRenderIsTheResults) {
+  const ImportedDesign design = import_text(
+      "render() { difference() { square(1000, center = true); difference() {"
+      "square(1000, center = true); " +
+      moved(2, 3, "square(4);") + " } } }");
+  expect_box(design.view_box, Vec3(2, 3, 0), Vec3(6, 7, 0), 1e-5);
+  EXPECT_EQ(design.leaves, 1u);
+  EXPECT_EQ(import_text("render() { square(1); sphere(); }").scene.primitives.size(), 1u);
+  EXPECT_EQ(import_text("render() { sphere(); square(1); }").scene.primitives.size(), 2u);
+}
+
 // --- hull, offset, minkowski, resize --------------------------------------------------------
 
 TEST(PlaneHull, IsOneSolid) {
@@ -372,6 +406,20 @@ TEST(PlaneImport, IgnoresModifiersInside) {
   EXPECT_EQ(trees_of("%" + extruded("circle(1); square(2);") + "cube();"), "2 | (0+1) | -");
   EXPECT_EQ(trees_of(extruded("circle(1); !square(2);")), "1 | - | -");
   EXPECT_EQ(trees_of(extruded("circle(1); *square(2);")), "0 | - | -");
+  EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "1 | - | -");
+}
+
+TEST(PlaneImport, NamesTheLeafThatANodeIsAPartOf) {
+  const std::string text =
+      "circle(1);\nlinear_extrude(height = 1) { hull() { square(1); } }\n"
+      "render() { hull() { circle(2); } }";
+  const ImportedDesign design = TextImport(text, "a.csg", {.keeps_places = true}).finish();
+  ASSERT_THAT(design.places, SizeIs(3));
+  EXPECT_EQ(design.places[0].leaf_line, 0u) << "a leaf by itself";
+  EXPECT_EQ(design.places[1].leaf_line, 2u);
+  EXPECT_EQ(design.places[1].leaf_offset, text.find("linear_extrude"));
+  EXPECT_EQ(design.places[2].leaf_offset, text.find("render"));
+  EXPECT_EQ(design.scene.primitives.back().id, 2u);
 }
 
 TEST(PlaneImport, ForgetsColoursInside) {
