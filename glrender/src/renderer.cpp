@@ -272,7 +272,7 @@ class Renderer::Impl {
     }
     const double margin = kLongestSheet * tolerance_;
     for (const csgcore::CanonicalPrimitive& primitive : solid_->primitives()) {
-      if (!primitive.mesh || primitive.mesh->is_closed()) continue;
+      if (!primitive.mesh() || primitive.mesh()->is_closed()) continue;
       const csgcore::Box& bounds = primitive.bounds;
       if (glm::all(glm::greaterThan(view.eye, bounds.min - margin)) &&
           glm::all(glm::lessThan(view.eye, bounds.max + margin))) {

@@ -48,6 +48,12 @@ std::vector<bool> too_thin(const csgcore::Solid& solid, double thickness_toleran
 
 constexpr const char* kFewerPrimitives = "draw the design in parts";
 
+/// Returns the primitive's mesh; null if it has none.
+std::shared_ptr<const csgcore::TriangleMesh> mesh_of(const CanonicalPrimitive& primitive) {
+  if (!primitive.mesh()) return nullptr;
+  return std::static_pointer_cast<const csgcore::TriangleMesh>(primitive.shared_shape);
+}
+
 }  // namespace
 
 void TextureBuffer::require_room(size_t bytes) const {
@@ -154,7 +160,7 @@ void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
 void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
   note_kind(primitive);
   if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
-  meshes_.first_of(primitive.mesh);
+  meshes_.first_of(mesh_of(primitive));
   const size_t before = faces_.texels().size();
   faces_.first_of(primitive.polyhedron.get());
   if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
@@ -208,8 +214,8 @@ void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<
   const csgcore::Shape kind = primitive.is_convex ? primitive.enclosure : primitive.shape;
   const float shape = is_too_thin_[index] ? kShapeNone : static_cast<float>(kind);
   const glm::vec3 center(primitive.center - focus);
-  const uint32_t faces = primitive.mesh ? meshes_.first_of(primitive.mesh)
-                                        : faces_.first_of(primitive.polyhedron.get());
+  const uint32_t faces = primitive.mesh() ? meshes_.first_of(mesh_of(primitive))
+                                          : faces_.first_of(primitive.polyhedron.get());
   texels.insert(texels.end(), {center.x, center.y, center.z, static_cast<float>(faces)});
   const double beside[] = {primitive.radius_mid, primitive.radius_slope, shape};
   for (int row = 0; row < 3; ++row) {

@@ -44,7 +44,11 @@ const std::map<std::string, uint32_t> kPrimitives = {
     {"cc200", 201},       {"cc500", 501},   {"cc1000", 1001},   {"r9", 9},
     {"t1022", 1022},      {"knob", 44},     {"flange", 29},     {"pulley", 25},
     {"three_spheres", 3}, {"nut_trap", 7},  {"bracket", 11},    {"dodecahedron", 2},
-    {"bolt", 5},          {"shell", 1},     {"mould", 7}};
+    {"bolt", 5},          {"shell", 1},     {"mould", 7},       {"vase", 1},
+    {"gear", 93},         {"box", 31},      {"belt_pulley", 13}};
+
+/// Designs whose 2D nodes make other numbers of primitives: a hull of several is one.
+const std::set<std::string> kWithFigures = {"gear", "box", "belt_pulley"};
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -91,7 +95,9 @@ class Example : public testing::TestWithParam<std::string> {
 TEST_P(Example, HasItsNumberOfPrimitives) {
   const ImportedDesign design = import_file(csg());
   EXPECT_EQ(design.primitive_nodes, kPrimitives.at(GetParam()));
-  EXPECT_EQ(design.scene.primitives.size(), design.primitive_nodes) << "none may be empty";
+  if (!kWithFigures.contains(GetParam())) {
+    EXPECT_EQ(design.scene.primitives.size(), design.primitive_nodes) << "none may be empty";
+  }
   EXPECT_FALSE(design.scene.model.empty());
   EXPECT_TRUE(design.warnings.empty());
 }

@@ -16,10 +16,13 @@ enum class Classification : uint8_t { kOutside, kInside, kCrosses };
 ///   kFrustum: |z| ≤ 1, hypot(x, y) ≤ radius_mid + radius_slope·z, whose larger end radius is 1.
 ///   kPolyhedron: see polyhedron.hpp.
 ///   kMesh: see triangle_mesh.hpp.
+///   kExtrusion: within its enclosure, a kFrustum. Its cross-section is a scaled image of the
+///     profile in canonical form; see profile.hpp.
+///   kRevolution: within the cylinder |z| ≤ 1, hypot(x, y) ≤ 1; see profile.hpp.
 struct alignas(64) CanonicalPrimitive {
   Shape shape = Shape::kSphere;
-  /// The quadric, kSphere or kFrustum, that encloses a polyhedron or a mesh in canonical space. A
-  /// primitive of another kind is its own enclosure.
+  /// The quadric, kSphere or kFrustum, that encloses the primitive in canonical space. A sphere or
+  /// a frustum is its own enclosure.
   Shape enclosure = Shape::kSphere;
   CutFaces cut_faces = CutFaces::kByTree;
   bool is_convex = true;  // a ray meets it in one segment at most
@@ -38,11 +41,22 @@ struct alignas(64) CanonicalPrimitive {
   /// are computed from: a world coordinate or an offset from the centre.
   double canonical_error = 0;
   std::shared_ptr<const Polyhedron> polyhedron;  // null unless shape is kPolyhedron
-  std::shared_ptr<const TriangleMesh> mesh;      // null unless shape is kMesh
+  /// The mesh or the profile of a primitive that has one: see mesh() and profile().
+  std::shared_ptr<const void> shared_shape;
   std::optional<Color> color;
   /// Bound of the part of canonical_error that the rounding of world_to_canonical causes, per unit
   /// of the largest canonical coordinate. A float keeps primitives within five cache lines.
   float inversion_error = 0;
+
+  /// Null unless shape is kMesh.
+  const TriangleMesh* mesh() const {
+    return shape == Shape::kMesh ? static_cast<const TriangleMesh*>(shared_shape.get()) : nullptr;
+  }
+  /// Null unless shape is kExtrusion or kRevolution.
+  const Profile* profile() const {
+    const bool has_profile = shape == Shape::kExtrusion || shape == Shape::kRevolution;
+    return has_profile ? static_cast<const Profile*>(shared_shape.get()) : nullptr;
+  }
 };
 static_assert(sizeof(CanonicalPrimitive) == 320);
 

@@ -16,8 +16,13 @@
 /// Polyhedron: the convex solid that `polyhedron` points to.
 ///
 /// Mesh: the solid that `mesh` points to.
+///
+/// Extrusion: local z in [z_min, z_max]; the cross-section at z is `profile` scaled about the z
+/// axis by a factor that is r_bottom at z_min, r_top at z_max, and linear between.
+///
+/// Revolution: `profile` turned about the z axis, with x as the radius and y as z.
 #define CSGCORE_FOR_EACH_CONVEX_SHAPE(X) X(Sphere) X(Frustum) X(Polyhedron)
-#define CSGCORE_FOR_EACH_OTHER_SHAPE(X) X(Mesh)
+#define CSGCORE_FOR_EACH_OTHER_SHAPE(X) X(Mesh) X(Extrusion) X(Revolution)
 #define CSGCORE_FOR_EACH_SHAPE(X)  \
   CSGCORE_FOR_EACH_CONVEX_SHAPE(X) \
   CSGCORE_FOR_EACH_OTHER_SHAPE(X)

@@ -39,8 +39,8 @@ constexpr uint64_t kLargestBudget = uint64_t{1} << 40;
 /// Returns the cost of testing one primitive against a cell. Time counts in bytes, too: the test
 /// takes about as long as making so many bytes of leaves.
 inline uint64_t test_cost(const CanonicalPrimitive& primitive) {
-  constexpr uint64_t kMeshCost = 64;  // a descent into a BVH
-  if (primitive.mesh) return kMeshCost;
+  constexpr uint64_t kDescentCost = 64;  // into a BVH
+  if (primitive.shared_shape) return kDescentCost;
   if (!primitive.polyhedron) return 1;
   constexpr uint64_t kFewFaces = 8, kFacesPerByte = 4;
   const uint64_t faces = primitive.polyhedron->entries().size();

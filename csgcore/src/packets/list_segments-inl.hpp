@@ -316,7 +316,9 @@ class ListSegments {
                   [&](uint32_t lane) { search.lanes[lane].after = lists.lanes[lane].last(); });
     lists.begun |= lanes;
     lists.most = lists.most == 0 ? kFirstCrossings : 2 * lists.most;
-    search.most = is_closed && lists.most <= kMostCrossings ? lists.most : CrossingSearch::kAll;
+    const bool finds_few =
+        is_closed && lists.most <= kMostCrossings && !finds_all(primitive(index));
+    search.most = finds_few ? lists.most : CrossingSearch::kAll;
     find_crossings(frame_, rays_, lanes, primitive(index), search);
     for_each_lane(lanes, [&](uint32_t lane) {
       const std::vector<Crossing>& found = search.lanes[lane].found;
@@ -335,7 +337,8 @@ class ListSegments {
   double sheet_length(uint32_t index, uint32_t lane, const Crossing& crossing) const {
     const Vec3 direction{rays_.direction[0][lane], rays_.direction[1][lane],
                          rays_.direction[2][lane]};
-    const Vec3 normal = normal_of_face(primitive(index), crossing.face, rays_, lane, false);
+    const Vec3 normal =
+        normal_of_face(frame_, primitive(index), crossing.face, rays_, lane, crossing.t, false);
     const double speed = std::abs(glm::dot(normal, direction));
     return sheet_thickness_ / std::max(speed, kSheetCosine * glm::length(direction));
   }
@@ -347,8 +350,8 @@ class ListSegments {
         segments, [&](const RaySegment& s) { return s.start == t || s.end == t; });
     if (segment == segments.end()) return Vec3(0.0);
     const bool leaves = segment->end == t;
-    return normal_of_face(primitive(index), leaves ? segment->end_face : segment->start_face, rays_,
-                          lane, leaves);
+    return normal_of_face(frame_, primitive(index),
+                          leaves ? segment->end_face : segment->start_face, rays_, lane, t, leaves);
   }
 
   HWY_NOINLINE void find_face_normals(uint32_t index, LaneMask lanes, const PacketV& t,

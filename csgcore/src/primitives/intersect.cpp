@@ -27,6 +27,19 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
   intersect_lanes(frame, rays, kAllLanes, primitive, segments);
 }
 
+void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
+               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]) {
+  search.most = CrossingSearch::kAll;
+  find_crossings(frame, rays, kAllLanes, primitive, search);
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    normals[lane].clear();
+    for (const Crossing& crossing : search.lanes[lane].found) {
+      normals[lane].push_back(normal_of_face(frame, primitive, crossing.face, rays, lane,
+                                             crossing.t, crossing.turn < 0));
+    }
+  }
+}
+
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   intersect_lanes(frame, rays, 0xF, primitive, segments);
@@ -67,6 +80,7 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(intersect);
+CSGCORE_SIMD_EXPORT(cross_all);
 CSGCORE_SIMD_EXPORT(intersect_four);
 CSGCORE_SIMD_EXPORT(find_next_crossings);
 CSGCORE_SIMD_EXPORT(find_entry_normals);
@@ -75,6 +89,11 @@ CSGCORE_SIMD_EXPORT(find_apart);
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
   CSGCORE_SIMD(intersect)(frame, rays, primitive, segments);
+}
+
+void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
+               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]) {
+  CSGCORE_SIMD(cross_all)(frame, rays, primitive, search, normals);
 }
 
 void intersect_four(const FrameRays& frame, const RayPacket& rays,

@@ -11,6 +11,10 @@ namespace csgcore {
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
+/// Finds all crossings of the rays with a primitive that is not convex, and their faces' unit
+/// normals along the rays. `normals[lane]` has one for each of search.lanes[lane].found.
+void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
+               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]);
 /// Intersects the first four lanes only. Precondition of both: the primitive is convex.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);

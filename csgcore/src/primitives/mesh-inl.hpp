@@ -281,6 +281,8 @@ HWY_NOINLINE static HWY_MAYBE_UNUSED void trace(const TriangleMesh& mesh, LaneMa
 
 /// See kind_crossings-inl.hpp.
 struct MeshCrossings {
+  static constexpr bool kFindsAll = false;
+
   static void find(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
                    const CanonicalPrimitive& primitive, CrossingSearch& search) {
     mesh_rays::PacketRays rays;
@@ -295,14 +297,16 @@ struct MeshCrossings {
       }
       left &= ~alike;
       mesh_rays::prepare(search, alike, longest, rays);
-      mesh_rays::trace(*primitive.mesh, alike, longest, rays, search);
+      mesh_rays::trace(*primitive.mesh(), alike, longest, rays, search);
     }
   }
 
-  static bool is_closed(const CanonicalPrimitive& primitive) { return primitive.mesh->is_closed(); }
+  static bool is_closed(const CanonicalPrimitive& primitive) {
+    return primitive.mesh()->is_closed();
+  }
 
-  static Vec3 normal(const CanonicalPrimitive& primitive, uint32_t face) {
-    return primitive.mesh->planes()[face].normal * primitive.world_to_canonical;
+  static Vec3 normal(const CanonicalPrimitive& primitive, uint32_t face, const Vec3&) {
+    return primitive.mesh()->planes()[face].normal * primitive.world_to_canonical;
   }
 };
 

@@ -60,7 +60,7 @@ class MeshKind final : public PrimitiveKind {
     CanonicalPrimitive result;
     result.shape = Shape::kMesh;
     result.is_convex = false;
-    result.mesh = primitive.mesh;
+    result.shared_shape = primitive.mesh;
     const Mat3& linear = primitive.local_to_world.linear;
     result.center = primitive.local_to_world.point(canonical.center);
     for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
@@ -79,7 +79,7 @@ class MeshKind final : public PrimitiveKind {
 
   Classification classify(const CanonicalPrimitive& primitive,
                           const Box& cell_world) const override {
-    const TriangleMesh& mesh = *primitive.mesh;
+    const TriangleMesh& mesh = *primitive.mesh();
     const CanonicalCell cell = to_canonical(primitive, cell_world);
     if (may_cross(mesh, cell)) return Classification::kCrosses;
     // Without a face in the cell, all of it lies on one side. Sheets are on both sides of a face.
@@ -89,11 +89,11 @@ class MeshKind final : public PrimitiveKind {
 
   /// An open mesh is crossed where its sheets are, but is nothing in itself.
   bool contains(const CanonicalPrimitive& primitive, const Vec3& point) const override {
-    return primitive.mesh->winding(point) != 0;
+    return primitive.mesh()->winding(point) != 0;
   }
 
   Vec3 support(const CanonicalPrimitive& primitive, const Vec3& direction) const override {
-    return primitive.mesh->support(direction);
+    return primitive.mesh()->support(direction);
   }
 
  private:

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
 
 namespace csgcore {
@@ -44,8 +45,8 @@ uint64_t hash_of(const CanonicalPrimitive& primitive) {
 bool is_equal(const CanonicalPrimitive& a, const CanonicalPrimitive& b) {
   return a.shape == b.shape && a.center == b.center && a.radius_mid == b.radius_mid &&
          a.radius_slope == b.radius_slope && a.canonical_to_world == b.canonical_to_world &&
-         same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) &&
-         same_mesh(a.mesh.get(), b.mesh.get());
+         same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) && same_mesh(a.mesh(), b.mesh()) &&
+         same_profile(a.profile(), b.profile());
 }
 
 /// Returns, for each primitive, the lowest index among the primitives that equal it. Most often no

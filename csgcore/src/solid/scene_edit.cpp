@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "solid/restriction.hpp"
 #include "tree/cell_list.hpp"
@@ -108,7 +109,7 @@ bool same_shape(const Primitive& a, const Primitive& b) {
          a.local_to_world.linear == b.local_to_world.linear &&
          a.local_to_world.translation == b.local_to_world.translation &&
          same_polyhedron(a.polyhedron.get(), b.polyhedron.get()) &&
-         same_mesh(a.mesh.get(), b.mesh.get());
+         same_mesh(a.mesh.get(), b.mesh.get()) && same_profile(a.profile.get(), b.profile.get());
 }
 
 bool SceneEdit::surfaces_only() const {

@@ -23,6 +23,7 @@
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
 #include "frontend/wireframe.hpp"
+#include "picture/flat_figure.hpp"
 
 namespace frontend {
 namespace {
@@ -107,6 +108,9 @@ class Run {
     }
     const Camera camera = choose_camera(options_.camera, design_.view_box);
     const csgcore::View view = make_view(camera, options_.camera);
+    if (!design_.flat_outlines.empty()) {
+      color_flat_figure(design_.scene, view, options_.render.scheme);
+    }
     Image image = draw(design_.scene, view, sees_nothing(camera, view.projection));
     encode(image, view, camera, outputs);
   }
@@ -258,6 +262,9 @@ class Run {
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
     if (options_.overlays.wireframe) add_wireframe(image, view, camera);
+    if (options_.render.show == Show::kSurface && !sees_nothing(camera, view.projection)) {
+      draw_flat_outlines(image, view, camera, design_, scheme);
+    }
     draw_overlays(image, view, camera, options_.overlays, scheme, design_);
     for (const Output& output : options_.outputs) {
       outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});

@@ -7,8 +7,12 @@
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
 #include "lower/faceted_box.hpp"
+#include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/plane_evaluation.hpp"
+#include "lower/plane_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -21,17 +25,6 @@ bool is_identity(const FileMatrix& file) {
          file.map.translation == csgcore::Vec3(0.0);
 }
 
-HealedMatrix heal(const FileMatrix& file) {
-  HealedMatrix matrix = heal_matrix(file.map);
-  if (file.divisor != 1) {
-    const double size = std::abs(file.divisor);
-    matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};
-    matrix.linear_error /= size;
-    matrix.translation_error /= size;
-  }
-  return matrix;
-}
-
 /// A file to read (`file`, up to 2021) makes something of a node without children.
 bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   const auto arguments = tree.arguments_of(node);
@@ -41,7 +34,6 @@ bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   });
 }
 
-constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
 constexpr std::string_view kBecauseTooLarge =
     "it is too large, or too far from the origin: scale the design to between 1e-90 and 1e90 "
     "across";
@@ -86,6 +78,16 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
   });
 }
 
+/// Whether OpenSCAD's extrusion is one that is drawn.
+bool is_supported(const PlaneSubtree& subtree) {
+  const NodeKind kind = subtree.syntax(subtree.root()).kind;
+  if (kind == NodeKind::kLinearExtrude) {
+    return subtree.data<LinearExtrudeArguments>(subtree.root()).is_supported;
+  }
+  return kind != NodeKind::kRotateExtrude ||
+         subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
+}
+
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
@@ -108,6 +110,8 @@ void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
 
 void Collector::take(uint32_t index, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (plane_ && !is_within(index, plane_->root())) leave_plane();
+  if (candidate_ && !is_within(index, candidate_->subtree.root())) leave_candidate();
   primitive_of.push_back(kNoPrimitive);
   const uint32_t id = primitive_nodes;
   if (is_primitive_node(node.kind)) {
@@ -126,6 +130,10 @@ void Collector::take(uint32_t index, uint32_t offset) {
 }
 
 void Collector::finish() {
+  if (plane_) leave_plane();
+  if (candidate_) leave_candidate();
+  std::sort(plane_leaves.begin(), plane_leaves.end(),
+            [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
   selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
   for (const LeftOut& out : maybe_left_out_) {
@@ -139,6 +147,13 @@ void Collector::finish() {
   maybe_left_out_ = {};
 }
 
+const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
+  const auto found =
+      std::lower_bound(plane_leaves.begin(), plane_leaves.end(), node,
+                       [](const PlaneLeaf& leaf, uint32_t wanted) { return leaf.node < wanted; });
+  return found != plane_leaves.end() && found->node == node ? &*found : nullptr;
+}
+
 /// Nothing counts but the subtree, and that as if it stood alone.
 void Collector::select(uint32_t root) {
   root_ = root;
@@ -150,6 +165,11 @@ void Collector::select(uint32_t root) {
   frames = {};
   problems.clear();
   compound_leaves.clear();
+  plane_leaves.clear();
+  plane_.reset();
+  candidate_.reset();
+  top_node_.reset();
+  rendered_dimension_ = 0;
   any_modifiers = false;
   contexts_.resize(1);
   skipped_.reset();
@@ -159,6 +179,13 @@ void Collector::select(uint32_t root) {
 /// False: the children do not matter.
 bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   const SyntaxNode& node = tree_.nodes[index];
+  if (!candidate_ && may_be_plane(index)) enter_candidate(index, offset);
+  if (candidate_) take_into_candidate(index, id);
+  if (plane_) {
+    if (is_primitive_node(node.kind)) note_leaf_place(plane_context_);
+    plane_->take(index, id, options_, problems);
+    return true;
+  }
   if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
   switch (role_of(node.kind)) {
     case Role::kSolid:
@@ -168,6 +195,10 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
       if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index, offset);
+      return true;
+    case Role::kPlane:
+      enter_plane(index, offset);
+      plane_->take(index, id, options_, problems);
       return true;
     case Role::kUnsupportedOperation:
       leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
@@ -283,48 +314,196 @@ const SolidOfFaces* Collector::read_file(uint32_t index) {
   return file.solid;
 }
 
+void Collector::note_leaf_place(const Context& context) {
+  if (!options_.keeps_places) return;
+  places.back().leaf_line = context.leaf_line;
+  places.back().leaf_offset = context.leaf_offset;
+}
+
 void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
-  if (options_.keeps_places) {
-    places.back().leaf_line = context.leaf_line;
-    places.back().leaf_offset = context.leaf_offset;
-  }
+  note_leaf_place(context);
   Primitive primitive;
   csgcore::FacetSettings facets;
   bool is_inside_out = false;
   if (!read_solid(index, primitive, facets, is_inside_out) || context.flattened) return;
+  primitive.id = id;
+  const csgcore::Box box = faceted_box(primitive, facets);
+  const int count =
+      keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
+  primitive_of[index] =
+      add_primitive(std::move(primitive), index, context, context.frame, box, count);
+  if (is_inside_out && primitive_of[index] != kNoPrimitive) {
+    primitives.back().color = kSeenFromWithin;
+  }
+}
+
+uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
+                                  uint32_t frame, const csgcore::Box& box, int count) {
   switch (fit_of(primitive)) {
     case Fit::kFits:
       break;
     case Fit::kTooLarge:
-      return leave_out(index, kBecauseTooLarge);
+      leave_out(node, kBecauseTooLarge);
+      return kNoPrimitive;
     case Fit::kTooSmall:
-      return leave_out(index, kBecauseTooSmall);
+      leave_out(node, kBecauseTooSmall);
+      return kNoPrimitive;
     case Fit::kFlat:
-      return;
+      return kNoPrimitive;
   }
-  primitive.color = is_inside_out     ? kSeenFromWithin
-                    : context.in_leaf ? context.leaf_color
-                                      : context.color;
-  primitive.id = id;
-  primitive_of[index] = static_cast<uint32_t>(primitives.size());
-  boxes.push_back(faceted_box(primitive, facets));
-  fragments.push_back(keeps_facets(facets) ? traits_of(primitive.shape).fragments(primitive, facets)
-                                           : 0);
-  frame_of.push_back(context.frame);
+  primitive.color = context.in_leaf ? context.leaf_color : context.color;
+  boxes.push_back(box);
+  fragments.push_back(count);
+  frame_of.push_back(frame);
   primitives.push_back(std::move(primitive));
+  return static_cast<uint32_t>(primitives.size()) - 1;
 }
 
-bool Collector::keeps_facets(const csgcore::FacetSettings& facets) const {
-  switch (options_.facets) {
-    case Facets::kNone:
-      return false;
-    case Facets::kFew:
-      return facets.fn > 0 && facets.fn <= options_.few_fragments;
-    case Facets::kAll:
-      return true;
+void Collector::enter_plane(uint32_t node, uint32_t offset) {
+  plane_.emplace(tree_, node);
+  plane_context_ = contexts_.back();
+  const bool is_leaf_by_itself = is_primitive_node(tree_.nodes[node].kind);
+  if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
+    plane_context_.leaf_line = tree_.nodes[node].location.line;
+    plane_context_.leaf_offset = offset;
   }
-  return false;
+  if (is_leaf_by_itself) note_leaf_place(plane_context_);
+}
+
+/// After the last node of the subtree.
+void Collector::leave_plane() {
+  add_plane_leaf(*plane_, plane_context_, problems);
+  // A plane figure among solids is ignored; what stands at the top is a candidate, too.
+  PlaneLeaf& leaf = plane_leaves.back();
+  if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
+    leaf.presence = Presence::kEmpty;
+    leaf.solid = {};
+    leaf.figures.clear();
+  }
+  plane_.reset();
+}
+
+/// OpenSCAD's render() node, and in its final render all that stands at the top, is a plane figure
+/// if its first child is one.
+bool Collector::may_be_plane(uint32_t node) {
+  if (options_.picture != PictureKind::kRendered) {
+    return tree_.nodes[node].kind == NodeKind::kRender && !contexts_.back().in_leaf && !plane_;
+  }
+  if (top_node_ && is_within(node, *top_node_)) return false;
+  top_node_ = node;
+  return true;
+}
+
+void Collector::enter_candidate(uint32_t node, uint32_t offset) {
+  Context context = contexts_.back();
+  if (context.leaf_line == 0) {
+    context.leaf_line = tree_.nodes[node].location.line;
+    context.leaf_offset = offset;
+  }
+  candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
+                               context,
+                               {},
+                               primitives.size(),
+                               plane_leaves.size(),
+                               compound_leaves.size(),
+                               maybe_left_out_.size(),
+                               false});
+}
+
+void Collector::take_into_candidate(uint32_t node, uint32_t id) {
+  const NodeKind kind = tree_.nodes[node].kind;
+  const Role role = role_of(kind);
+  const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
+  const bool is_solid = role == Role::kSolid || is_extrusion(kind);
+  if (candidate_->is_plane || !is_part || !is_solid) {
+    candidate_->is_plane = candidate_->is_plane || (is_part && is_plane_primitive(kind));
+    candidate_->subtree.take(node, id, options_, candidate_->problems);
+    return;
+  }
+  // It is a solid, and all that it would need is collected.
+  const uint32_t root = candidate_->subtree.root();
+  if (options_.picture == PictureKind::kRendered) {
+    if (rendered_dimension_ == 0) rendered_dimension_ = 3;
+    if (rendered_dimension_ == 2) {
+      plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
+    }
+  }
+  candidate_.reset();
+}
+
+void Collector::leave_candidate() {
+  const Candidate candidate = std::move(*candidate_);
+  candidate_.reset();
+  if (!candidate.is_plane) return;
+  forget_since(candidate);
+  NodeProblems told;  // again
+  if (options_.picture == PictureKind::kRendered) {
+    if (rendered_dimension_ == 0) rendered_dimension_ = 2;
+    if (rendered_dimension_ == 3) {
+      plane_leaves.push_back({candidate.subtree.root(), 0, Presence::kEmpty, {}, {}, false});
+      return;
+    }
+  }
+  add_plane_leaf(candidate.subtree, candidate.context, told);
+}
+
+void Collector::forget_since(const Candidate& candidate) {
+  const auto shorten = [](auto& list, size_t size) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
+  };
+  shorten(primitives, candidate.primitives);
+  shorten(frame_of, candidate.primitives);
+  shorten(boxes, candidate.primitives);
+  shorten(fragments, candidate.primitives);
+  shorten(plane_leaves, candidate.plane_leaves);
+  shorten(compound_leaves, candidate.compound_leaves);
+  shorten(maybe_left_out_, candidate.left_out);
+  std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
+}
+
+void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
+                               NodeProblems& told) {
+  PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
+  leaf.presence = lower_plane(subtree, context, told, leaf);
+  plane_leaves.push_back(std::move(leaf));
+}
+
+Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
+                                NodeProblems& told, PlaneLeaf& leaf) {
+  const uint32_t root = subtree.root();
+  PlaneEvaluation evaluation(subtree, told,
+                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  if (evaluation.is_solid() || !is_supported(subtree)) {
+    leave_out(root, kBecauseUnsupported, is_supported(subtree));
+    return Presence::kLeftOut;
+  }
+  if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
+  if (context.flattened) return Presence::kEmpty;
+  const bool is_rendered = options_.picture == PictureKind::kRendered;
+  const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
+  LoweredSubtree lowered =
+      lower_subtree(subtree, evaluation, plate, leaf.frame, frames, figure_solids_, told);
+  if (lowered.is_plate && is_rendered) {
+    evaluation.find_all_figures();
+    const std::span<const Figure> figures = evaluation.figures(root);
+    leaf.figures.assign(figures.begin(), figures.end());
+  }
+  leaf.is_plate = lowered.is_plate;
+  csgcore::CsgTreeBuilder builder;
+  rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
+    LoweredSubtree::Part& part = lowered.parts[index];
+    const uint32_t primitive =
+        add_primitive(std::move(part.primitive), root, context, part.frame, part.box, 0);
+    if (primitive == kNoPrimitive) return to.empty();
+    to.primitive(primitive);
+  });
+  leaf.solid = builder.finish();
+  if (leaf.solid.empty()) return Presence::kEmpty;
+  leaf.box = box_of_positive_leaves(leaf.solid, boxes);
+  if (lowered.box) leaf.box = csgcore::intersection(leaf.box, *lowered.box);
+  if (lowered.box || lowered.is_plate) leaf.known_box = leaf.box;
+  return Presence::kSolid;
 }
 
 }  // namespace frontend

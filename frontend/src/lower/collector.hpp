@@ -14,9 +14,11 @@
 #include "frontend/imported_design.hpp"
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
+#include "lower/figure_solids.hpp"
 #include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
 
 namespace frontend {
@@ -52,6 +54,20 @@ class Collector final : public NodeSink {
     uint32_t frame;
   };
   std::vector<CompoundLeaf> compound_leaves;
+  /// What has become of a 2D subtree that is a leaf as a whole, and of its root.
+  struct PlaneLeaf {
+    uint32_t node;
+    uint32_t frame;
+    Presence presence;
+    csgcore::CsgTree solid;  // over `primitives`; empty unless it is solid
+    csgcore::Box box;        // of its parts, in the world
+    bool is_plate;
+    std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
+    std::vector<Figure> figures{};            // of a plate in a final render
+  };
+  std::vector<PlaneLeaf> plane_leaves;  // in file order
+  /// The one whose root is the node, or null.
+  const PlaneLeaf* plane_leaf(uint32_t node) const;
   // After finish():
   NodeRange selected;
   std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
@@ -84,17 +100,47 @@ class Collector final : public NodeSink {
   void enter_leaf(uint32_t node, uint32_t offset);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
+  uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
+                         uint32_t frame, const csgcore::Box& box, int fragments);
+  void note_leaf_place(const Context& context);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
   const SolidOfFaces* read_file(uint32_t node);
-  /// What OpenSCAD draws with these settings is drawn in facets, if it has any.
-  bool keeps_facets(const csgcore::FacetSettings& facets) const;
+  void enter_plane(uint32_t node, uint32_t offset);
+  void leave_plane();
+  bool may_be_plane(uint32_t node);
+  void enter_candidate(uint32_t node, uint32_t offset);
+  void take_into_candidate(uint32_t node, uint32_t id);
+  void leave_candidate();
+  void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
+  Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
+                       PlaneLeaf& leaf);
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;
   std::vector<Context> contexts_;
+  /// The 2D subtree that is being taken, and what its root is handed down.
+  std::optional<PlaneSubtree> plane_;
+  Context plane_context_{};
+  /// A subtree of operations that is one plane figure if its first child is one: it is collected as
+  /// a solid's until its end.
+  struct Candidate {
+    PlaneSubtree subtree;
+    Context context;
+    NodeProblems problems;  // those of the nodes are told already
+    size_t primitives, plane_leaves, compound_leaves, left_out;  // what there was before it
+    bool is_plane;  // its first geometry is a plane figure's
+  };
+  void forget_since(const Candidate& candidate);
+  std::optional<Candidate> candidate_;
+  /// Of a final render: the node at the top that was entered last, and the dimension of the first
+  /// one that has any, which all others must have. 0: there was none.
+  std::optional<uint32_t> top_node_;
+  int rendered_dimension_ = 0;
+  FigureSolids figure_solids_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter

@@ -9,53 +9,13 @@
 #include <string>
 #include <string_view>
 
+#include "lower/argument_lookup.hpp"
 #include "lower/import_colors.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Vec3;
-
-std::string_view name_of(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::kUndef:
-      return "undef";
-    case ValueKind::kBool:
-      return "a boolean";
-    case ValueKind::kNumber:
-      return "a number";
-    case ValueKind::kString:
-      return "a string";
-    case ValueKind::kList:
-      return "a list";
-  }
-  return "";
-}
-
-/// An argument, or a part of one, is not what is wanted.
-void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
-                const std::string& found, std::string_view consequence, std::string_view wanted) {
-  problems.add(node, argument, [&] {
-    return NodeProblems::Description{
-        ": " + std::string(argument) + " is " + found + ", and " + std::string(consequence),
-        "it must be " + std::string(wanted)};
-  });
-}
-
-constexpr std::string_view kMissing = "counts as missing";
-
-/// `undef` is no wrong type: it means that the argument is missing.
-void note_wrong_type(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
-                     const Value& found, std::string_view wanted) {
-  if (found.kind == ValueKind::kUndef) return;
-  note_wrong(problems, node, argument, std::string(name_of(found.kind)), kMissing, wanted);
-}
-
-bool read_center(const SyntaxNode& node, const Value& value, NodeProblems& problems) {
-  if (value.kind == ValueKind::kBool) return value.boolean;
-  note_wrong_type(problems, node, "center", value, "true or false");
-  return false;
-}
 
 /// What a round primitive's arguments may be called.
 enum RoundArgument : uint8_t { kR, kR1, kR2, kD, kD1, kD2, kH, kFn, kFa, kFs, kCount, kCenter };
@@ -140,32 +100,6 @@ csgcore::Primitive cylinder_of(const RoundArguments& arguments) {
   return csgcore::make_frustum(z_min, z_max, r1, r2);
 }
 
-/// In place of the place of an argument that has a name only.
-constexpr size_t kByNameOnly = std::numeric_limits<size_t>::max();
-
-/// The argument of that name, or else the one at that place among those without a name.
-const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
-                           size_t position) {
-  const Value* positional = nullptr;
-  size_t seen = 0;
-  for (const Argument& argument : tree.arguments_of(node)) {
-    if (argument.name == name) return &argument.value;
-    if (argument.name.empty() && seen++ == position) positional = &argument.value;
-  }
-  return positional;
-}
-
-/// The elements of the list of that name or place; none where it is missing.
-std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
-                                     std::string_view name, size_t position,
-                                     NodeProblems& problems) {
-  const Value* list = find_argument(tree, node, name, position);
-  if (list == nullptr) return {};
-  if (list->kind == ValueKind::kList) return tree.elements_of(*list);
-  note_wrong_type(problems, node, name, *list, "a list");
-  return {};
-}
-
 /// A list of `fewest` to three numbers; those that are not there are 0.
 std::optional<Vec3> vector_of(const SyntaxTree& tree, const Value& list, size_t fewest) {
   if (list.kind != ValueKind::kList) return std::nullopt;
@@ -234,7 +168,7 @@ std::optional<csgcore::Color> color_of_channels(const std::array<double, 4>& cha
 
 RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& node,
                                     NodeProblems& problems) {
-  const bool is_sphere = node.kind == NodeKind::kSphere;
+  const bool is_sphere = node.kind != NodeKind::kCylinder;
   const std::span<const RoundArgument> positions =
       is_sphere ? std::span<const RoundArgument>(kSpherePositions)
                 : std::span<const RoundArgument>(kCylinderPositions);

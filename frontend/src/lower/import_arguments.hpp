@@ -13,10 +13,10 @@
 
 namespace frontend {
 
-/// Sphere or cylinder node → primitive, with no place, colour or id yet; it need not be valid
-/// (csgcore::is_valid). Missing arguments have OpenSCAD's defaults: r = 1, h = 1, center = false;
-/// a diameter goes before its radius; names that OpenSCAD does not know are ignored, and `undef`
-/// counts as missing.
+/// Sphere, circle or cylinder node → primitive (a circle's is its sphere), with no place, colour or
+/// id yet; it need not be valid (csgcore::is_valid). Missing arguments have OpenSCAD's defaults: r
+/// = 1, h = 1, center = false; a diameter goes before its radius; names that OpenSCAD does not know
+/// are ignored, and `undef` counts as missing.
 struct RoundPrimitive {
   csgcore::Primitive primitive;
   csgcore::FacetSettings facets;

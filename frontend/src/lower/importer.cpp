@@ -14,6 +14,7 @@
 #include "lower/composition.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/plane_lowering.hpp"
 #include "lower/products.hpp"
 #include "lower/resolved_modifiers.hpp"
 #include "lower/seen_box.hpp"
@@ -27,12 +28,6 @@ using csgcore::CsgTreeBuilder;
 using csgcore::Op;
 
 constexpr uint32_t kNone = Collector::kNoPrimitive;
-
-Op operation_of(NodeKind kind) {
-  if (kind == NodeKind::kDifference) return Op::kDifference;
-  if (kind == NodeKind::kIntersection) return Op::kIntersection;
-  return Op::kUnion;
-}
 
 /// Writes parts of the file as trees over leaves.
 class Emitter {
@@ -75,6 +70,9 @@ class Emitter {
       const SyntaxNode& node = tree_.nodes[i];
       close_until(i);
       if (i != root && !is_operand(i)) {
+        i = node.subtree_end;
+      } else if (const Collector::PlaneLeaf* leaf = collected_.plane_leaf(i)) {
+        add_plane_leaf(i, *leaf);
         i = node.subtree_end;
       } else if (collected_.primitive_of[i] != kNone) {
         add_primitive(i);
@@ -149,6 +147,26 @@ class Emitter {
              open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
   }
 
+  void add_plane_leaf(uint32_t node, const Collector::PlaneLeaf& plane) {
+    if (plane.solid.empty()) {
+      builder().empty();
+      return;
+    }
+    if (in_leaf_) {
+      rebuild(plane.solid.tokens(), leaf_builder_,
+              [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
+      return;
+    }
+    const auto [entry, is_new] = leaf_of_plane_.try_emplace(node, 0);
+    if (is_new) {
+      entry->second = plane.solid.tokens().size() == 1
+                          ? plane.solid.tokens().front().value
+                          : leaves_.add(plane.solid, plane.frame, plane.known_box);
+    }
+    add_leaf(entry->second,
+             open_.back().is_highlighted || (tree_.nodes[node].modifiers & kHighlight) != 0);
+  }
+
   void add_leaf(uint32_t leaf, bool is_highlighted) {
     builder_.primitive(leaf);
     if (is_highlighted) highlighted_leaves_.push_back(leaf);
@@ -181,6 +199,7 @@ class Emitter {
   bool in_leaf_ = false;
   std::vector<OpenNode> open_;
   std::unordered_map<uint32_t, uint32_t> leaf_of_compound_;
+  std::unordered_map<uint32_t, uint32_t> leaf_of_plane_;  // by node
   std::vector<uint32_t> highlighted_leaves_;
 };
 
@@ -212,6 +231,9 @@ ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collecte
     if (primitive != kNone) leaves[i] = {Presence::kSolid, collected.boxes[primitive]};
   }
   for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    leaves[leaf.node] = {leaf.presence, leaf.box, true};
+  }
   ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
   if (picture != PictureKind::kRendered) return modifiers;
   // Nothing is overlaid: `#` parts are operands like others.
@@ -264,6 +286,10 @@ void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, boo
   const auto first = static_cast<uint32_t>(boxes.size());
   for (uint32_t leaf = first; leaf < leaves.size(); ++leaf) {
     const csgcore::CsgTree& solid = leaves.solid(leaf);
+    if (leaves.box(leaf)) {
+      boxes.push_back(*leaves.box(leaf));
+      continue;
+    }
     Box box = box_of_positive_leaves(solid, boxes);
     if (measures_leaves && leaf < first + kMostMeasuredLeaves) {
       const csgcore::Affine& frame_to_world = collected.frames[leaves.frame(leaf)].to_world;
@@ -271,6 +297,39 @@ void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, boo
     }
     boxes.push_back(box);
   }
+}
+
+/// OpenSCAD cuts with thicker plates than it draws.
+void thicken_subtracted_plates(const Design& trees, const Leaves& leaves,
+                               std::span<const Box> boxes, Collector& collected) {
+  std::vector<bool> is_subtracted(collected.primitives.size());
+  for (const LeafUse& use : uses_of_leaves(trees.model, boxes)) {
+    if (use.is_subtracted) is_subtracted[leaves.first_primitive(use.leaf)] = true;
+  }
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    if (!leaf.is_plate || leaf.solid.empty()) continue;
+    if (!is_subtracted[leaf.solid.tokens().front().value]) continue;
+    for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
+      if (!token.is_primitive) continue;
+      thicken_plate(collected.primitives[token.value], collected.frames[leaf.frame].to_world);
+    }
+  }
+}
+
+/// The outlines of a final render of plane figures.
+std::vector<std::vector<csgcore::Vec3>> flat_outlines(const Collector& collected) {
+  std::vector<Figure> figures;
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    figures.insert(figures.end(), leaf.figures.begin(), leaf.figures.end());
+  }
+  std::vector<std::vector<csgcore::Vec3>> result;
+  const std::optional<SimplePolygons> outlines = united(figures);
+  if (!outlines) return result;
+  for (const Polygon& polygon : *outlines) {
+    std::vector<csgcore::Vec3>& outline = result.emplace_back();
+    for (const Vec2& point : polygon) outline.emplace_back(point, 0.0);
+  }
+  return result;
 }
 
 /// A leaf that several trees name counts once for each.
@@ -296,11 +355,12 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.warnings = collected.problems.warnings(tree.file_name);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
+  design.flat_outlines = flat_outlines(collected);
 
   merge_features(collected.primitives, collected.frame_of, collected.frames,
                  union_of(collected.boxes));
   collected.frame_of = {};
-  if (collected.compound_leaves.empty()) collected.frames = {};
+  if (collected.compound_leaves.empty() && collected.plane_leaves.empty()) collected.frames = {};
   throw_if_stopped(stop);
   facet(tree, collected, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
@@ -313,10 +373,11 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   std::vector<Box> boxes = std::move(collected.boxes);
   const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
   add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
+  if (!collected.plane_leaves.empty()) thicken_subtracted_plates(trees, leaves, boxes, collected);
   design.view_box = view_box(trees, boxes);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    design.view_box =
-        box_of_result(collected.primitives, trees.model, {}, kOverviewOfDesign_px, design.view_box);
+    design.view_box = box_of_result(collected.primitives, leaves.expanded(trees.model), {},
+                                    kOverviewOfDesign_px, design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);

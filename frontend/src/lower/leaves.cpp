@@ -97,8 +97,8 @@ void visit_uses(std::span<const CsgToken> tokens, std::span<const Box> subtree,
 
 }  // namespace
 
-uint32_t Leaves::add(CsgTree solid, uint32_t frame) {
-  compound_.push_back({std::move(solid), frame});
+uint32_t Leaves::add(CsgTree solid, uint32_t frame, const std::optional<Box>& box) {
+  compound_.push_back({std::move(solid), frame, box});
   return primitive_count_ + static_cast<uint32_t>(compound_.size()) - 1;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,18 +25,22 @@ class Leaves {
   explicit Leaves(uint32_t primitive_count) : primitive_count_(primitive_count) {}
 
   /// Adds a compound leaf. `frame` is the index of the frame (FrameTree) in which OpenSCAD makes
-  /// it.
-  uint32_t add(csgcore::CsgTree solid, uint32_t frame);
+  /// it; `box` is its box in the world, if it is known.
+  uint32_t add(csgcore::CsgTree solid, uint32_t frame,
+               const std::optional<csgcore::Box>& box = std::nullopt);
 
   bool is_compound(uint32_t leaf) const { return leaf >= primitive_count_; }
   /// All leaves, of both kinds.
   uint32_t size() const { return primitive_count_ + static_cast<uint32_t>(compound_.size()); }
   bool has_compound() const { return !compound_.empty(); }
-  /// Precondition of both: the leaf is compound.
+  /// Precondition of these: the leaf is compound.
   const csgcore::CsgTree& solid(uint32_t leaf) const {
     return compound_[leaf - primitive_count_].solid;
   }
   uint32_t frame(uint32_t leaf) const { return compound_[leaf - primitive_count_].frame; }
+  const std::optional<csgcore::Box>& box(uint32_t leaf) const {
+    return compound_[leaf - primitive_count_].box;
+  }
   /// A primitive of the leaf. All of a leaf have the same colour.
   uint32_t first_primitive(uint32_t leaf) const;
 
@@ -46,6 +51,7 @@ class Leaves {
   struct Compound {
     csgcore::CsgTree solid;
     uint32_t frame;
+    std::optional<csgcore::Box> box;
   };
   uint32_t primitive_count_;
   std::vector<Compound> compound_;

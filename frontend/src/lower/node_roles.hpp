@@ -2,13 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
+#include "csgcore/csg_tree.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/syntax_tree.hpp"
 
 namespace frontend {
 
-enum class Role : uint8_t { kSolid, kOperation, kUnsupportedLeaf, kUnsupportedOperation };
+enum class Role : uint8_t {
+  kSolid,
+  kOperation,
+  kPlane,  // a 2D primitive, or a node of 2D ones that OpenSCAD evaluates as a whole
+  kUnsupportedLeaf,
+  kUnsupportedOperation,
+};
+
+constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
 
 inline Role role_of(NodeKind kind) {
   switch (kind) {
@@ -30,16 +40,17 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kCircle:
     case NodeKind::kSquare:
     case NodeKind::kPolygon:
-    case NodeKind::kText:
-      return Role::kUnsupportedLeaf;
     case NodeKind::kHull:
-    case NodeKind::kFill:
     case NodeKind::kMinkowski:
-    case NodeKind::kProjection:
     case NodeKind::kOffset:
     case NodeKind::kResize:
     case NodeKind::kLinearExtrude:
     case NodeKind::kRotateExtrude:
+      return Role::kPlane;
+    case NodeKind::kText:
+      return Role::kUnsupportedLeaf;
+    case NodeKind::kFill:
+    case NodeKind::kProjection:
     case NodeKind::kRoof:
       break;
   }
@@ -52,10 +63,25 @@ inline bool is_compound_leaf(NodeKind kind, PictureKind picture) {
   return kind == NodeKind::kRender && picture != PictureKind::kRendered;
 }
 
+inline bool is_plane_primitive(NodeKind kind) {
+  return kind == NodeKind::kCircle || kind == NodeKind::kSquare || kind == NodeKind::kPolygon;
+}
+
 /// A node that has a place among Primitive::id.
 inline bool is_primitive_node(NodeKind kind) {
   const Role role = role_of(kind);
-  return role == Role::kSolid || role == Role::kUnsupportedLeaf;
+  return role == Role::kSolid || role == Role::kUnsupportedLeaf || is_plane_primitive(kind);
+}
+
+inline bool is_extrusion(NodeKind kind) {
+  return kind == NodeKind::kLinearExtrude || kind == NodeKind::kRotateExtrude;
+}
+
+/// The operation of a node on its children: for most kinds the union.
+inline csgcore::Op operation_of(NodeKind kind) {
+  if (kind == NodeKind::kDifference) return csgcore::Op::kDifference;
+  if (kind == NodeKind::kIntersection) return csgcore::Op::kIntersection;
+  return csgcore::Op::kUnion;
 }
 
 }  // namespace frontend

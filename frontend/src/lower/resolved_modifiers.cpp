@@ -98,7 +98,8 @@ class ModifierResolver {
       close_until(i);
       if ((node.modifiers & kDisable) != 0) {
         i = node.subtree_end;
-      } else if (node.subtree_end > i + 1 && leaves_[i].presence != Presence::kLeftOut) {
+      } else if (node.subtree_end > i + 1 && !leaves_[i].is_whole &&
+                 leaves_[i].presence != Presence::kLeftOut) {
         open_.push_back({i, node.kind, node.subtree_end});
         ++i;
       } else {

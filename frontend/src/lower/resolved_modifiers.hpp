@@ -47,10 +47,11 @@ struct NodeRange {
 struct LeafState {
   Presence presence = Presence::kEmpty;  // kSolid, kEmpty or kLeftOut
   csgcore::Box box;                      // world space, of a solid one
+  bool is_whole = false;                 // its children are not looked at
 };
 
-/// `leaves` has the state of each node without children, and of each that cannot be drawn, whose
-/// children are then not looked at.
+/// `leaves` has the state of each node without children, of each that is taken as a whole, and of
+/// each that cannot be drawn, whose children are not looked at either.
 ResolvedModifiers resolve_modifiers(const SyntaxTree& tree, NodeRange selected,
                                     std::span<const LeafState> leaves);
 

@@ -223,9 +223,8 @@ TEST_F(Command, AWireframeNeedsNoRenderer) {
 }
 
 TEST_F(Command, AWireframeLeavesOutMeshes) {
-  const std::string sheet =
-      folder_.write("mesh.csg",
-                    "cube(2); polyhedron([[0,0,0],[1,0,0],[0,1,0],[9,9,9]], [[0,1,2],[2,1,0]]);");
+  const std::string sheet = folder_.write(
+      "mesh.csg", "cube(2); polyhedron([[0,0,0],[1,0,0],[0,1,0],[9,9,9]], [[0,1,2],[2,1,0]]);");
   EXPECT_THAT(run({"-o", png_, "--render=1", "--view=wireframe", sheet}).err,
               HasSubstr("warning: --view=wireframe does not show the edges of 1 mesh ("));
 }

@@ -1,0 +1,282 @@
+#include "csgcore/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "csgcore/geometry.hpp"
+#include "primitives/profile_line.hpp"
+#include "primitives/profile_pieces.hpp"
+
+namespace csgcore {
+namespace {
+
+using Node = Profile::Node;
+using Piece = Profile::Piece;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool has_length(const Vec2& start, const ProfileEdge& edge) {
+  return edge.end != start || (edge.kind == ProfileEdge::Kind::kBezier && edge.control != start);
+}
+
+void leave_out_points(std::vector<ProfileLoop>& loops) {
+  for (ProfileLoop& loop : loops) {
+    if (loop.empty()) continue;
+    Vec2 start = loop.back().end;
+    std::erase_if(loop, [&](const ProfileEdge& edge) {
+      const bool is_point = !has_length(start, edge);
+      start = edge.end;
+      return is_point;
+    });
+  }
+  std::erase_if(loops, [](const ProfileLoop& loop) { return loop.empty(); });
+}
+
+struct LongBox {
+  LongVec2 min{std::numeric_limits<long double>::infinity()};
+  LongVec2 max{-std::numeric_limits<long double>::infinity()};
+
+  LongVec2 middle() const { return 0.5L * min + 0.5L * max; }
+};
+
+/// Pieces are monotone, so that their ends bound them.
+LongBox box_of(std::span<const LongPiece> pieces) {
+  LongBox box;
+  for (const LongPiece& piece : pieces) {
+    box.min = glm::min(box.min, glm::min(piece.start, piece.end));
+    box.max = glm::max(box.max, glm::max(piece.start, piece.end));
+  }
+  return box;
+}
+
+/// A loop, as a range of pieces, and the middle of its box.
+struct LoopPieces {
+  std::vector<LongPiece> pieces;
+  LongVec2 middle;
+};
+
+/// Orders the loops so that each half of them is compact, and each half of a half.
+void order_by_place(std::span<LoopPieces> loops) {
+  if (loops.size() <= 2) return;
+  LongBox box;
+  for (const LoopPieces& loop : loops) {
+    box.min = glm::min(box.min, loop.middle);
+    box.max = glm::max(box.max, loop.middle);
+  }
+  const LongVec2 size = box.max - box.min;
+  const int axis = size.x >= size.y ? 0 : 1;
+  std::stable_sort(loops.begin(), loops.end(), [&](const LoopPieces& a, const LoopPieces& b) {
+    return a.middle[axis] < b.middle[axis];
+  });
+  order_by_place(loops.first(loops.size() / 2));
+  order_by_place(loops.subspan(loops.size() / 2));
+}
+
+/// Builds the BVH top down: first loops are divided, then their pieces, each time in the middle.
+class BvhBuilder {
+ public:
+  /// `loop_begins`: the first piece of each loop, and the number of all pieces.
+  BvhBuilder(std::span<const Piece> pieces, std::span<const uint32_t> loop_begins)
+      : pieces_(pieces), loop_begins_(loop_begins) {
+    nodes_.emplace_back();
+    build_loops(0, 0, static_cast<uint32_t>(loop_begins.size()) - 1);
+  }
+  std::vector<Node> take() { return std::move(nodes_); }
+
+ private:
+  void build_loops(uint32_t node, uint32_t first, uint32_t last) {
+    if (last - first == 1) {
+      build_chain(node, loop_begins_[first], loop_begins_[last]);
+      return;
+    }
+    const uint32_t children = add_children();
+    const uint32_t middle = first + (last - first) / 2;
+    build_loops(children, first, middle);
+    build_loops(children + 1, middle, last);
+    merge(node, children, false);
+  }
+
+  void build_chain(uint32_t node, uint32_t begin, uint32_t end) {
+    if (end - begin > Profile::kLeafPieces) {
+      const uint32_t children = add_children();
+      const uint32_t middle = begin + (end - begin) / 2;
+      build_chain(children, begin, middle);
+      build_chain(children + 1, middle, end);
+      merge(node, children, true);
+      return;
+    }
+    Node& leaf = nodes_[node];
+    leaf = {{}, {}, begin, end, 0, true};
+    for (size_t axis = 0; axis < 2; ++axis) {
+      const auto i = static_cast<int>(axis);
+      double min = kInfinity, max = -kInfinity;
+      for (uint32_t piece = begin; piece < end; ++piece) {
+        min = std::min({min, pieces_[piece].start[i], pieces_[piece].end[i]});
+        max = std::max({max, pieces_[piece].start[i], pieces_[piece].end[i]});
+      }
+      leaf.min[axis] = static_cast<float>(min) - Profile::kBoxMargin;
+      leaf.max[axis] = static_cast<float>(max) + Profile::kBoxMargin;
+    }
+  }
+
+  uint32_t add_children() {
+    const auto children = static_cast<uint32_t>(nodes_.size());
+    nodes_.resize(nodes_.size() + 2);
+    return children;
+  }
+
+  void merge(uint32_t node, uint32_t children, bool is_chain) {
+    const Node &a = nodes_[children], &b = nodes_[children + 1];
+    Node& merged = nodes_[node];
+    merged = {a.min, a.max, a.begin, b.end, children, is_chain};
+    for (size_t axis = 0; axis < 2; ++axis) {
+      merged.min[axis] = std::min(a.min[axis], b.min[axis]);
+      merged.max[axis] = std::max(a.max[axis], b.max[axis]);
+    }
+  }
+
+  std::span<const Piece> pieces_;
+  std::span<const uint32_t> loop_begins_;
+  std::vector<Node> nodes_;
+};
+
+/// Returns a bound of the squared distance of a piece's points from the origin.
+double furthest2(const Piece& piece) {
+  if (piece.is_line()) return glm::dot(piece.end, piece.end);
+  // Between two points a curve is within the triangle of their tangents, whose size falls with the
+  // square of their distance.
+  constexpr double kParts = 32;
+  const Vec3 start(piece.start, 1.0), control = piece.weight * Vec3(piece.control, 1.0),
+                                      end(piece.end, 1.0);
+  double result = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double from = i / kParts, to = (i + 1) / kParts;
+    // The curve's polar form is that of its control points.
+    const Vec3 corner =
+        (1 - from) * ((1 - to) * start + to * control) + from * ((1 - to) * control + to * end);
+    const Vec3 at =
+        (1 - to) * ((1 - to) * start + to * control) + to * ((1 - to) * control + to * end);
+    for (const Vec3& p : {corner, at}) {
+      result = std::max(result, (p.x * p.x + p.y * p.y) / (p.z * p.z));
+    }
+  }
+  return result;
+}
+
+/// Returns the parameter, as the share of `end`, at which a curve is furthest along a direction, if
+/// that is not at an end. The heights above the start are those along the direction.
+std::optional<double> summit(double control, double end, double weight) {
+  // At the summit h the quadratic form of the heights less h has a double root.
+  if (!(weight > 0)) return {};
+  const double w2 = weight * weight;
+  // w²(c − h)² = −h·(e − h), of which the summit is the larger root.
+  const double a = w2 - 1, b = w2 * control - 0.5 * end, c = w2 * control * control;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  const double q = b + std::copysign(root, b);
+  double best = std::max(0.0, end);
+  std::optional<double> result;
+  for (const double h : {c / q, q / a}) {
+    if (!(h > best) || !(h <= control)) continue;
+    best = h;
+    result = weight * (control - h) / (weight * (control - h) + h - end);
+  }
+  return result;
+}
+
+}  // namespace
+
+Profile::Profile(std::vector<ProfileLoop> loops, FillRule fill_rule)
+    : loops_(std::move(loops)), fill_rule_(fill_rule) {
+  leave_out_points(loops_);
+  std::vector<LoopPieces> parts(loops_.size());
+  LongBox box;
+  for (size_t i = 0; i < loops_.size(); ++i) {
+    Vec2 start = loops_[i].back().end;
+    for (const ProfileEdge& edge : loops_[i]) {
+      append_pieces(start, edge, parts[i].pieces);
+      start = edge.end;
+    }
+    const LongBox own = box_of(parts[i].pieces);
+    parts[i].middle = own.middle();
+    box.min = glm::min(box.min, own.min);
+    box.max = glm::max(box.max, own.max);
+  }
+  if (loops_.empty()) return;
+  min_x_ = static_cast<double>(box.min.x);
+  order_by_place(parts);
+
+  center_ = Vec2(box.middle());
+  const LongVec2 half = 0.5L * box.max - 0.5L * box.min;
+  has_area_ = half.x > 0 && half.y > 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    half_[axis] = half[axis] > 0 ? static_cast<double>(half[axis]) : 1;
+  }
+  const double furthest = std::max(std::abs(center_.x) + half_.x, half_.x);
+  radii_ = {center_.x / furthest, half_.x / furthest};
+
+  const auto to_canonical = [&](const LongVec2& p) {
+    const LongVec2 place = (p - LongVec2(center_)) / LongVec2(half_);
+    return glm::clamp(Vec2(place), Vec2(-1.0), Vec2(1.0));
+  };
+  std::vector<uint32_t> loop_begins;
+  double reach2 = 0;
+  for (const LoopPieces& loop : parts) {
+    loop_begins.push_back(static_cast<uint32_t>(pieces_.size()));
+    Vec2 start = to_canonical(loop.pieces.back().end);
+    for (const LongPiece& piece : loop.pieces) {
+      const Vec2 end = to_canonical(piece.end);
+      pieces_.push_back(
+          {start, to_canonical(piece.control), end, static_cast<double>(piece.weight)});
+      reach2 = std::max(reach2, furthest2(pieces_.back()));
+      start = end;
+    }
+  }
+  loop_begins.push_back(static_cast<uint32_t>(pieces_.size()));
+  constexpr double kBeyondRounding = 1 + 1e-9;
+  reach_ = std::sqrt(reach2) * kBeyondRounding;
+  nodes_ = BvhBuilder(pieces_, loop_begins).take();
+}
+
+bool Profile::contains(const Vec2& point) const {
+  // Only what lies further right counts, so that the y axis may bound the figure.
+  return is_inside(winding_at(*this, {{-1, 0}, -point.y}, -point.x));
+}
+
+Vec2 Profile::support(const Vec2& direction) const {
+  Vec2 best{0.0};
+  double furthest = -kInfinity;
+  const auto consider = [&](const Vec2& point) {
+    const double along = glm::dot(direction, point);
+    if (along > furthest) furthest = along, best = point;
+  };
+  for (const Piece& piece : pieces_) {
+    consider(piece.end);
+    if (piece.is_line() || !(glm::dot(direction, piece.control) > furthest)) continue;
+    const auto share = summit(glm::dot(direction, piece.control - piece.start),
+                              glm::dot(direction, piece.end - piece.start), piece.weight);
+    if (share) consider(curve_point(piece, {1 - *share, *share}));
+  }
+  return best;
+}
+
+bool same_profile(const Profile* a, const Profile* b) {
+  if (a == b) return true;
+  if (!a || !b || a->fill_rule() != b->fill_rule()) return false;
+  const auto same_edge = [](const ProfileEdge& e, const ProfileEdge& f) {
+    if (e.kind != f.kind || e.end != f.end) return false;
+    if (e.kind == ProfileEdge::Kind::kLine) return true;
+    return e.control == f.control &&
+           (e.kind != ProfileEdge::Kind::kArc || e.is_counterclockwise == f.is_counterclockwise);
+  };
+  return std::ranges::equal(a->loops(), b->loops(),
+                            [&](const ProfileLoop& p, const ProfileLoop& q) {
+                              return std::ranges::equal(p, q, same_edge);
+                            });
+}
+
+}  // namespace csgcore

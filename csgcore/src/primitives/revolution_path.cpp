@@ -1,0 +1,331 @@
+#include "primitives/revolution_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace csgcore {
+namespace {
+
+/// The solid lies within |z| ≤ 1, hypot(x, y) ≤ 1, and in a ball of this squared radius.
+constexpr double kEnclosure2 = 2.0001;
+/// A ray is level, or runs along the axis, if its direction has less than this share along it, or
+/// across it. Within the solid it does not drift by a bit of its coordinates.
+constexpr double kTrace = 1e-30;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+double sign(double x) { return x < 0 ? -1 : 1; }
+
+/// The polar form of the function that is > 0 within the path.
+double within(const RevolutionPath& path, const PathPoint& a, const PathPoint& b) {
+  return path.rise * path.rise * (a.r * b.r - path.offset * path.offset) - a.run * b.run;
+}
+double within(const RevolutionPath& path, const PathPoint& p) {
+  return path.rise * path.rise * ((p.r - path.offset) * (p.r + path.offset)) - p.run * p.run;
+}
+
+class PieceCrosser {
+ public:
+  PieceCrosser(const Profile& profile, const RevolutionPath& path, uint32_t face,
+               std::vector<Crossing>& found)
+      : profile_(profile), path_(path), face_(face), found_(found) {}
+
+  void cross(const Profile::Piece& piece) {
+    const PathPoint start = seen(piece.start), end = seen(piece.end);
+    const bool from_within = within(path_, start) > 0, to_within = within(path_, end) > 0;
+    if (piece.is_line()) {
+      cross_line(start, end, from_within, to_within);
+    } else {
+      cross_curve({start, seen(piece.control), end, piece.weight}, from_within, to_within);
+    }
+  }
+
+ private:
+  /// A curve, or a part of one, whose control points have weights of their own.
+  struct Curve {
+    PathPoint start, control, end;
+    double weight, start_weight = 1, end_weight = 1;
+  };
+
+  PathPoint seen(const Vec2& place) const { return seen(radius_at(profile_, place.x), place.y); }
+  PathPoint seen(double r, double z) const {
+    const double height = height_above(z, path_.height);
+    return {r, height, path_.rise * path_.start + height * path_.run};
+  }
+
+  /// `change`: 1 if the piece leads into the path there, −1 if it leads out of it.
+  void add(double tau, int change) {
+    const double within_solid = std::clamp(tau, path_.first, path_.last);
+    found_.push_back({path_.base + path_.unit * within_solid, face_, change * path_.upwards()});
+  }
+
+  /// A line makes a cone, whose radius at τ is (q + κ·τ)/Δz, and which a ray meets at the roots of
+  /// a·τ² + 2h·τ + c. As for frusta, h² − a·c is formed without the products that would cancel.
+  void cross_line(const PathPoint& start, const PathPoint& end, bool from_within, bool to_within) {
+    const double rise = end.height - start.height, growth = end.r - start.r;
+    if (from_within != to_within && rise == 0) {
+      add(start.height / path_.rise, to_within ? 1 : -1);
+      return;
+    }
+    // What lies within the path is convex.
+    if (from_within && to_within) return;
+    const bool is_pair = from_within == to_within;
+    if (is_pair && !(within(path_, start, end) > 0)) return;
+    const double kappa = path_.rise * growth;
+    const double q = start.r * rise - growth * start.height;
+    const double lean = q * path_.run - kappa * path_.start;
+    const double turned = path_.offset * kappa, level = path_.offset * rise * path_.run;
+    const double discriminant = lean * lean + (turned - level) * (turned + level);
+    if (is_pair && !(discriminant > 0)) return;
+    const double root = std::abs(rise) * std::sqrt(std::max(0.0, discriminant));
+    const double steep = path_.run * rise;
+    const double a = (steep - kappa) * (steep + kappa);
+    const double h = steep * rise * path_.start - q * kappa;
+    const double size =
+        rise * rise * (path_.offset * path_.offset + path_.start * path_.start) + q * q;
+    const double c = rise * rise * path_.offset * path_.offset +
+                     (rise * path_.start - q) * (rise * path_.start + q);
+    const auto add_root = [&](int change) {
+      // The ray leaves the cone outwards at the larger root if a > 0.
+      const double outwards = -change * path_.upwards() * sign(rise);
+      const double own = -h + outwards * root, other = -h - outwards * root;
+      // If the root nearly cancels h, the other form of it is exact, unless both are mere rounding,
+      // as for a level ray that touches the cone.
+      const bool cancels = h * outwards > 0 && 2 * root > std::abs(h) && root < 2 * std::abs(h) &&
+                           h * h > kEpsilon * std::abs(a) * size;
+      const double tau = cancels ? c / other : own / a;
+      if (path_.rise == 0) return add(tau, change);
+      // Along the cone, a ray passes it somewhere between the edge's ends.
+      const auto [low, high] = std::minmax({start.height / path_.rise, end.height / path_.rise});
+      add(std::isnan(tau) ? low : std::clamp(tau, low, high), change);
+    };
+    if (is_pair || to_within) add_root(1);
+    if (is_pair || from_within) add_root(-1);
+  }
+
+  void cross_curve(const Curve& curve, bool from_within, bool to_within) {
+    if (path_.starts_nearest && (curve.start.height < 0) != (curve.end.height < 0)) {
+      // The path's two halves, of which one comes and one goes, are below and above its middle.
+      const Curve halves[] = {below_or_above(curve, true), below_or_above(curve, false)};
+      const bool is_middle_within = halves[0].end.r > std::hypot(path_.offset, path_.start);
+      cross_half(halves[0], from_within, is_middle_within, curve.start.height < 0);
+      cross_half(halves[1], is_middle_within, to_within, curve.end.height < 0);
+    } else {
+      const bool is_below = path_.starts_nearest ? curve.start.height < 0
+                                                 : (path_.start < 0) == (path_.upwards() > 0);
+      cross_half(curve, from_within, to_within, is_below);
+    }
+  }
+
+  /// Returns the part of a curve before or after the height of the path's middle.
+  Curve below_or_above(const Curve& curve, bool before) const {
+    // The roots of start·a² + 2·middle·a·b + end·b², of which one is positive.
+    const double middle = curve.weight * curve.control.height;
+    const double start = curve.start.height, end = curve.end.height;
+    const double root = std::sqrt(std::max(0.0, middle * middle - start * end));
+    const double larger = std::abs(middle) + root;
+    const bool is_steeper_at_start = (middle < 0) == (start < 0) ? false : true;
+    const double a = is_steeper_at_start ? larger : std::abs(end);
+    const double b = is_steeper_at_start ? std::abs(start) : larger;
+    const double share = b / (a + b);
+    const auto [left, right, at, left_weight, right_weight, weight] = divided(curve, share);
+    PathPoint cut = at;
+    cut.height = 0;
+    cut.run = path_.rise * path_.start;
+    return before ? Curve{curve.start, left, cut, left_weight, curve.start_weight, weight}
+                  : Curve{cut, right, curve.end, right_weight, weight, curve.end_weight};
+  }
+
+  struct Division {
+    PathPoint left, right, at;
+    double left_weight, right_weight, weight;
+  };
+  static PathPoint mix(const PathPoint& a, double a_weight, const PathPoint& b, double b_weight) {
+    const double sum = a_weight + b_weight;
+    const double first = a_weight / sum, second = b_weight / sum;
+    return {first * a.r + second * b.r, first * a.height + second * b.height,
+            first * a.run + second * b.run};
+  }
+  /// De Casteljau's division of a rational curve.
+  static Division divided(const Curve& curve, double share) {
+    const double rest = 1 - share;
+    Division result;
+    result.left_weight = rest * curve.start_weight + share * curve.weight;
+    result.right_weight = rest * curve.weight + share * curve.end_weight;
+    result.weight = rest * result.left_weight + share * result.right_weight;
+    result.left = mix(curve.start, rest * curve.start_weight, curve.control, share * curve.weight);
+    result.right = mix(curve.control, rest * curve.weight, curve.end, share * curve.end_weight);
+    result.at =
+        mix(result.left, rest * result.left_weight, result.right, share * result.right_weight);
+    return result;
+  }
+
+  /// The coefficients of a quartic in Bernstein form over a range of parameters.
+  struct Quartic {
+    std::array<double, 5> values;
+    double from, to;
+    bool from_within, to_within;
+    int depth;
+  };
+
+  /// Crosses the part of a curve that can meet only the lower or the upper half of the path. The
+  /// roots of the quartic are isolated by the changes of sign of its coefficients, of which there
+  /// are at least as many as roots, and an even number more (Descartes' rule).
+  void cross_half(const Curve& curve, bool from_within, bool to_within, bool is_below) {
+    const double w = curve.weight, u = curve.start_weight, v = curve.end_weight;
+    const PathPoint &p = curve.start, &q = curve.control, &r = curve.end;
+    std::array<Quartic, kDeepest + 1> open;
+    int count = 0;
+    open[count++] = {{u * u * within(path_, p), u * w * within(path_, p, q),
+                      (2 * w * w * within(path_, q) + u * v * within(path_, p, r)) / 3,
+                      w * v * within(path_, q, r), v * v * within(path_, r)},
+                     0,
+                     1,
+                     from_within,
+                     to_within,
+                     0};
+    while (count > 0) {
+      const Quartic quartic = open[--count];
+      int changes = 0;
+      bool is_within = quartic.from_within;
+      for (size_t i = 1; i < 5; ++i) {
+        const bool is_next = i == 4 ? quartic.to_within : quartic.values[i] > 0;
+        changes += is_next != is_within;
+        is_within = is_next;
+      }
+      const bool differs = quartic.from_within != quartic.to_within;
+      if (changes == 0) continue;
+      if (changes == 1 || quartic.depth == kDeepest) {
+        if (differs) add_root(curve, quartic, is_below);
+        continue;
+      }
+      const double middle = 0.5 * (quartic.from + quartic.to);
+      Quartic first = quartic, second = quartic;
+      std::array<double, 5> row = quartic.values;
+      for (size_t i = 0; i < 5; ++i) {
+        first.values[i] = row[0];
+        second.values[4 - i] = row[4 - i];
+        for (size_t k = 0; k + i < 4; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
+      }
+      first.to = second.from = middle;
+      first.to_within = second.from_within = first.values[4] > 0;
+      first.depth = second.depth = quartic.depth + 1;
+      open[count++] = second;
+      open[count++] = first;
+    }
+  }
+
+  static constexpr double kLeastGrowth = 0x1p-26;  // the root of a rounding
+  /// Two roots that are closer than this power of 1/2 are a touch that rounding may miss.
+  static constexpr int kDeepest = 30;
+
+  PathPoint at(const Curve& curve, double s, PathPoint& slope) const {
+    const double a = (1 - s) * (1 - s) * curve.start_weight, b = 2 * s * (1 - s) * curve.weight,
+                 c = s * s * curve.end_weight;
+    const double inverse = 1 / (a + b + c);
+    const auto value = [&](double start, double control, double end) {
+      return (a * start + b * control + c * end) * inverse;
+    };
+    const PathPoint result{value(curve.start.r, curve.control.r, curve.end.r),
+                           value(curve.start.height, curve.control.height, curve.end.height),
+                           value(curve.start.run, curve.control.run, curve.end.run)};
+    const double da = -2 * (1 - s) * curve.start_weight, db = 2 * (1 - 2 * s) * curve.weight,
+                 dc = 2 * s * curve.end_weight;
+    const auto growth = [&](double at, double start, double control, double end) {
+      return (da * (start - at) + db * (control - at) + dc * (end - at)) * inverse;
+    };
+    slope = {growth(result.r, curve.start.r, curve.control.r, curve.end.r), 0,
+             growth(result.run, curve.start.run, curve.control.run, curve.end.run)};
+    return result;
+  }
+
+  /// Adds the only root in a range, by Newton's method between bounds.
+  void add_root(const Curve& curve, const Quartic& range, bool is_below) {
+    double from = range.from, to = range.to;
+    PathPoint point, slope;
+    double s = 0.5 * (from + to);
+    constexpr int kMostSteps = 200, kQuickSteps = 12;
+    constexpr double kLeastStep = 0x1p-54;
+    if (path_.rise == 0) s = range.to_within ? to : from;  // the middle of the path
+    for (int step = 0; step < kMostSteps; ++step) {
+      point = at(curve, s, slope);
+      if (path_.rise == 0) break;
+      const double value = within(path_, point);
+      (value > 0) == range.from_within ? from = s : to = s;
+      const double growth =
+          2 * (path_.rise * path_.rise * point.r * slope.r - point.run * slope.run);
+      double next = s - value / growth;
+      if (!(next > from && next < to) || step % kQuickSteps == kQuickSteps - 1) {
+        next = 0.5 * (from + to);
+      }
+      if (std::abs(next - s) <= kLeastStep || next == from || next == to) break;
+      s = next;
+    }
+    const double across =
+        std::sqrt(std::max(0.0, (point.r - path_.offset) * (point.r + path_.offset)));
+    const double rho = is_below == (path_.upwards() > 0) ? -across : across;
+    // The height of the point and its ρ both tell τ. Its error in the one case is a rounding over
+    // the rise. In the other it is that over how fast r grows, but not more than a rounding's root.
+    const double growth = std::max(across, kLeastGrowth * point.r) * path_.run;
+    const bool by_height = std::abs(path_.rise) * point.r >= growth;
+    add(by_height ? point.height / path_.rise : (rho - path_.start) / path_.run,
+        range.to_within ? 1 : -1);
+  }
+
+  const Profile& profile_;
+  const RevolutionPath& path_;
+  uint32_t face_;
+  std::vector<Crossing>& found_;
+};
+
+}  // namespace
+
+bool find_path(const Vec3& origin, const Vec3& direction, double inverse_length2,
+               RevolutionPath& path) {
+  const double beside2 = kEnclosure2 - glm::dot(origin, origin);
+  if (!(beside2 > 0)) return false;
+  path.unit = std::sqrt(inverse_length2);
+  const double half_chord = std::sqrt(beside2);
+  double first = -half_chord, last = half_chord;  // from the origin, per unit of length
+  const Vec3 along = direction * path.unit;
+  path.run = std::hypot(along.x, along.y);
+  path.rise = along.z;
+  if (std::abs(path.rise) <= kTrace) path.rise = 0;
+  if (path.run <= kTrace) path.run = 0;
+  // The solid's height, and a little more.
+  constexpr double kEnd = 1 + 1e-9;
+  if (path.rise != 0) {
+    const double enter = (-path.upwards() * kEnd - origin.z) / path.rise,
+                 leave = (path.upwards() * kEnd - origin.z) / path.rise;
+    first = std::max(first, enter);
+    last = std::min(last, leave);
+  } else if (std::abs(origin.z) > 1) {
+    return false;
+  }
+  if (!(first < last)) return false;
+  double base = 0;
+  path.starts_nearest = false;
+  if (path.run > 0) {
+    const double nearest = -(origin.x * along.x + origin.y * along.y) / (path.run * path.run);
+    base = std::clamp(nearest, first, last);
+    path.starts_nearest = base == nearest;
+  }
+  const Vec3 start = origin + base * along;
+  const Vec2 ahead = path.run > 0 ? Vec2{along.x, along.y} / path.run : Vec2{1, 0};
+  path.start = start.x * ahead.x + start.y * ahead.y;
+  path.offset = std::abs(start.x * ahead.y - start.y * ahead.x);
+  path.height = start.z;
+  path.first = first - base;
+  path.last = last - base;
+  path.base = base * path.unit;
+  return path.offset <= 1;
+}
+
+void cross_piece(const Profile& profile, const RevolutionPath& path, const Profile::Piece& piece,
+                 uint32_t face, std::vector<Crossing>& found) {
+  PieceCrosser(profile, path, face, found).cross(piece);
+}
+
+}  // namespace csgcore

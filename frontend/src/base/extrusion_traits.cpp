@@ -1,0 +1,15 @@
+// The extrusion's traits.
+#include "base/primitive_traits.hpp"
+
+namespace frontend {
+namespace {
+
+class ExtrusionTraits final : public PrimitiveTraits {};
+
+constexpr ExtrusionTraits kTraits;
+
+}  // namespace
+
+constinit const PrimitiveTraits& Extrusion_traits = kTraits;
+
+}  // namespace frontend

@@ -1,0 +1,15 @@
+// The revolution's traits.
+#include "base/primitive_traits.hpp"
+
+namespace frontend {
+namespace {
+
+class RevolutionTraits final : public PrimitiveTraits {};
+
+constexpr RevolutionTraits kTraits;
+
+}  // namespace
+
+constinit const PrimitiveTraits& Revolution_traits = kTraits;
+
+}  // namespace frontend

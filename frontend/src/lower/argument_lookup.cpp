@@ -1,0 +1,63 @@
+#include "lower/argument_lookup.hpp"
+
+namespace frontend {
+
+std::string_view name_of(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::kUndef:
+      return "undef";
+    case ValueKind::kBool:
+      return "a boolean";
+    case ValueKind::kNumber:
+      return "a number";
+    case ValueKind::kString:
+      return "a string";
+    case ValueKind::kList:
+      return "a list";
+  }
+  return "";
+}
+
+void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                const std::string& found, std::string_view consequence, std::string_view wanted) {
+  problems.add(node, argument, [&] {
+    return NodeProblems::Description{
+        ": " + std::string(argument) + " is " + found + ", and " + std::string(consequence),
+        "it must be " + std::string(wanted)};
+  });
+}
+
+void note_wrong_type(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                     const Value& found, std::string_view wanted) {
+  if (found.kind == ValueKind::kUndef) return;
+  note_wrong(problems, node, argument, std::string(name_of(found.kind)), kMissing, wanted);
+}
+
+bool read_center(const SyntaxNode& node, const Value& value, NodeProblems& problems) {
+  if (value.kind == ValueKind::kBool) return value.boolean;
+  note_wrong_type(problems, node, "center", value, "true or false");
+  return false;
+}
+
+const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
+                           size_t position) {
+  const Value* positional = nullptr;
+  size_t seen = 0;
+  for (const Argument& argument : tree.arguments_of(node)) {
+    if (argument.name == name) return &argument.value;
+    if (argument.name.empty() && seen++ == position) positional = &argument.value;
+  }
+  return positional;
+}
+
+std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                     std::string_view name, size_t position,
+                                     NodeProblems& problems) {
+  const Value* list = find_argument(tree, node, name, position);
+  if (list == nullptr) return {};
+  if (list->kind == ValueKind::kList) return tree.elements_of(*list);
+  note_wrong_type(problems, node, name, *list, "a list");
+  return {};
+}
+
+}  // namespace frontend

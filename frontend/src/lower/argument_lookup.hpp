@@ -1,0 +1,45 @@
+// How the arguments of nodes are looked up, and how wrong ones are told.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "frontend/syntax_tree.hpp"
+#include "lower/node_problems.hpp"
+
+namespace frontend {
+
+/// Says what a value is: "a number", "undef".
+std::string_view name_of(ValueKind kind);
+
+constexpr std::string_view kMissing = "counts as missing";
+
+/// Tells that an argument, or a part of one, is not what is wanted.
+void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                const std::string& found, std::string_view consequence, std::string_view wanted);
+
+/// Tells that an argument has a type that is not wanted. `undef` is no wrong type: it means that
+/// the argument is missing.
+void note_wrong_type(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
+                     const Value& found, std::string_view wanted);
+
+/// Reads `center`; only `true` is true.
+bool read_center(const SyntaxNode& node, const Value& value, NodeProblems& problems);
+
+/// In place of the place of an argument that has a name only.
+constexpr size_t kByNameOnly = std::numeric_limits<size_t>::max();
+
+/// Returns the argument of that name, or else the one at that place among those without a name;
+/// null if there is none.
+const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
+                           size_t position);
+
+/// Returns the elements of the list of that name or place; none where it is missing.
+std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                     std::string_view name, size_t position,
+                                     NodeProblems& problems);
+
+}  // namespace frontend

@@ -1,0 +1,18 @@
+#include "lower/file_matrix.hpp"
+
+#include <cmath>
+
+namespace frontend {
+
+HealedMatrix heal(const FileMatrix& file) {
+  HealedMatrix matrix = heal_matrix(file.map);
+  if (file.divisor != 1) {
+    const double size = std::abs(file.divisor);
+    matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};
+    matrix.linear_error /= size;
+    matrix.translation_error /= size;
+  }
+  return matrix;
+}
+
+}  // namespace frontend

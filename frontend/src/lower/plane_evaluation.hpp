@@ -1,0 +1,74 @@
+// What the nodes of a 2D subtree yield: which are empty, which OpenSCAD ignores, and their figures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lower/node_problems.hpp"
+#include "lower/plane_subtree.hpp"
+#include "lower/resolved_modifiers.hpp"
+#include "plane/figure.hpp"
+#include "plane/outlines.hpp"
+
+namespace frontend {
+
+class PlaneEvaluation {
+ public:
+  /// Is told of nodes that have to be left out, and why.
+  using LeaveOut = std::function<void(uint32_t node, std::string_view why)>;
+
+  /// Finds out what each node is as an operand.
+  PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems, LeaveOut leave_out);
+
+  /// What the node is as an operand of the one around it; of the root, on its own. Of an extrusion
+  /// that is the root, what its children are together.
+  Presence presence(uint32_t node) const { return at(node).presence; }
+  /// Whether the root makes something of solids.
+  bool is_solid() const { return at(subtree_.root()).dimension == 3; }
+
+  /// Returns figures whose union is the node's, in the coordinates around it. Of an extrusion that
+  /// is the root, the figure is that of its children. Some node on the way to the root combines
+  /// outlines, or find_all_figures() was called.
+  std::span<const Figure> figures(uint32_t node) const { return at(node).figures; }
+  /// Of a resize node that has figures.
+  const PlaneMap& resize_map(uint32_t node) const { return at(node).map; }
+  /// Finds the figures of all nodes.
+  void find_all_figures();
+
+ private:
+  struct Node {
+    Presence presence = Presence::kAbsent;
+    uint8_t dimension = 0;  // 2 or 3; 0: it has none
+    bool has_figures = false;
+    std::vector<Figure> figures;
+    PlaneMap map;
+  };
+  struct Operands;
+
+  Node& at(uint32_t node) { return nodes_[node - subtree_.root()]; }
+  const Node& at(uint32_t node) const { return nodes_[node - subtree_.root()]; }
+  /// Calls visit(child) for each child that is an operand.
+  template <typename Visit>
+  void visit_operands(uint32_t node, const Visit& visit) const;
+  void find_presence(uint32_t node);
+  void combine(uint32_t node);
+  void ignore_other_dimension(uint32_t node, uint8_t dimension);
+  Presence combined_presence(uint32_t node) const;
+  void find_figures();
+  void find_figures(uint32_t node);
+  std::vector<Figure> union_of_operands(uint32_t node) const;
+  std::optional<std::vector<Figure>> combined_figures(uint32_t node);
+  std::optional<std::vector<Figure>> figures_of_operation(uint32_t node) const;
+  std::optional<std::vector<Figure>> figures_of_minkowski(uint32_t node) const;
+  PlaneMap map_of_resize(uint32_t node, std::span<const Figure> figures) const;
+
+  const PlaneSubtree& subtree_;
+  NodeProblems& problems_;
+  LeaveOut leave_out_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace frontend

@@ -1,0 +1,75 @@
+// A subtree that OpenSCAD evaluates as a whole, of 2D nodes: what its nodes' arguments say.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "frontend/import_options.hpp"
+#include "frontend/syntax_tree.hpp"
+#include "heal/matrix_healing.hpp"
+#include "lower/node_problems.hpp"
+#include "lower/read_2d.hpp"
+
+namespace frontend {
+
+/// What the figure of a circle, square or polygon node is in its own coordinates.
+struct FigureNode {
+  /// Nothing: it is empty. A circle is a disc, or OpenSCAD's polygon if its facets are kept.
+  std::optional<Figure> figure;
+  /// Of a circle: OpenSCAD's polygon, whose box it draws a picture of. 0: not a circle.
+  int fragments = 0;
+};
+
+struct MatrixNode {
+  HealedMatrix matrix;
+  bool is_finite = true;
+};
+
+struct RotateExtrudeNode {
+  RotateExtrudeArguments arguments;
+  bool is_faceted = false;
+};
+
+using PlaneNodeData = std::variant<std::monostate, FigureNode, MatrixNode, OffsetSettings,
+                                   ResizeArguments, LinearExtrudeArguments, RotateExtrudeNode>;
+
+/// The nodes of the subtree, in the tree's order, as far as they were taken.
+class PlaneSubtree {
+ public:
+  PlaneSubtree(const SyntaxTree& tree, uint32_t root) : tree_(tree), root_(root) {}
+
+  /// Reads the arguments of a node of the subtree. `id` is its place among the primitive nodes.
+  void take(uint32_t node, uint32_t id, const ImportOptions& options, NodeProblems& problems);
+
+  const SyntaxTree& tree() const { return tree_; }
+  uint32_t root() const { return root_; }
+  /// Of the last descendant, one more.
+  uint32_t end() const { return root_ + static_cast<uint32_t>(nodes_.size()); }
+  /// One past the node's last descendant; of the root, end().
+  uint32_t end_of(uint32_t node) const;
+  /// Descendants of a disabled node are not taken.
+  bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
+  const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
+  uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
+  template <typename Data>
+  const Data& data(uint32_t node) const {
+    return std::get<Data>(nodes_[node - root_].data);
+  }
+
+ private:
+  struct Node {
+    bool is_taken = false;
+    uint32_t id = 0;
+    PlaneNodeData data;
+  };
+  const SyntaxTree& tree_;
+  uint32_t root_;
+  std::vector<Node> nodes_;
+};
+
+/// Whether what OpenSCAD draws with these settings is drawn in facets, if it has any.
+bool keeps_facets(const ImportOptions& options, const csgcore::FacetSettings& facets);
+
+}  // namespace frontend

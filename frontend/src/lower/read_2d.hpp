@@ -1,0 +1,56 @@
+// Arguments of the 2D nodes, and of the extrusions, as OpenSCAD binds them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "csgcore/facets.hpp"
+#include "frontend/syntax_tree.hpp"
+#include "lower/node_problems.hpp"
+#include "plane/figure.hpp"
+#include "plane/offset.hpp"
+
+namespace frontend {
+
+/// Square node → the rectangle; it may be empty, flat or infinite.
+Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+
+/// Polygon node → its paths, all of finite points, filled by the even-odd rule.
+Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+
+/// $fn, $fa and $fs of a node.
+csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node);
+
+struct OffsetArguments {
+  double distance = 1;
+  Corners corners = Corners::kRound;
+  csgcore::FacetSettings facets;
+};
+OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node);
+
+/// x and y of a resize node.
+struct ResizeArguments {
+  std::array<double, 3> size{};
+  std::array<bool, 2> follows{};  // `auto`
+};
+ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
+
+struct LinearExtrudeArguments {
+  bool is_supported = true;  // false: it has a file, a twist, or a scale that differs in x and y
+  double height = 100;       // ≤ 0: nothing
+  bool is_centered = false;
+  double top_scale = 1;  // ≥ 0
+};
+LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxNode& node,
+                                           NodeProblems& problems);
+
+struct RotateExtrudeArguments {
+  bool is_supported = true;  // false: it has a file
+  double angle = 360;        // from −360 to 360, the former exclusive; 0: nothing
+  std::optional<double> start{};
+  csgcore::FacetSettings facets;
+};
+RotateExtrudeArguments read_rotate_extrude(const SyntaxTree& tree, const SyntaxNode& node);
+
+}  // namespace frontend

@@ -1,0 +1,227 @@
+#include "plane/offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "plane/hull.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::FillRule;
+using csgcore::ProfileEdge;
+using csgcore::ProfileLoop;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// The unit normal on the right of the way from a to b: outwards of what runs counterclockwise.
+Vec2 outward_normal(const Vec2& a, const Vec2& b) {
+  const Vec2 along = glm::normalize(b - a);
+  return {along.y, -along.x};
+}
+
+ProfileEdge line_to(const Vec2& end) {
+  ProfileEdge edge;
+  edge.end = end;
+  return edge;
+}
+
+/// The boundary of the polygon, of a rectangle upon each edge and of a sector upon each convex
+/// corner, all of which run counterclockwise, added up. What cancels is left out. So the winding
+/// number is nowhere negative, and is not 0 on the union: the offset.
+ProfileLoop outset(const Polygon& polygon, double distance) {
+  ProfileLoop loop;
+  const size_t count = polygon.size();
+  for (size_t i = 0; i < count; ++i) {
+    const Vec2& before = polygon[(i + count - 1) % count];
+    const Vec2& at = polygon[i];
+    const Vec2& after = polygon[(i + 1) % count];
+    const Vec2 n_before = outward_normal(before, at);
+    const Vec2 n_after = outward_normal(at, after);
+    const double turn = cross(n_before, n_after);
+    loop.push_back(line_to(at + distance * n_before));
+    if (turn > 0 || (turn == 0 && glm::dot(n_before, n_after) < 0)) {
+      ProfileEdge arc;
+      arc.kind = ProfileEdge::Kind::kArc;
+      arc.control = at;
+      arc.end = at + distance * n_after;
+      loop.push_back(arc);
+    } else if (turn < 0) {
+      loop.push_back(line_to(at));
+      loop.push_back(line_to(at + distance * n_after));
+    }
+  }
+  return loop;
+}
+
+/// The offset outwards with round corners.
+std::optional<Figure> rounded(const Figure& figure, double distance) {
+  if (const Disc* disc = std::get_if<Disc>(&figure)) {
+    return Disc{disc->center, disc->radius + distance};
+  }
+  std::optional<SimplePolygons> polygons;
+  if (std::optional<Polygon> convex = convex_corners(figure)) {
+    polygons = SimplePolygons{std::move(*convex)};
+  } else {
+    polygons = united({&figure, 1});
+  }
+  if (!polygons) return std::nullopt;
+  Outline outline;
+  outline.fill_rule = FillRule::kNonZero;
+  for (const Polygon& polygon : *polygons) outline.loops.push_back(outset(polygon, distance));
+  return outline;
+}
+
+Polygon moved(Polygon polygon, const Vec2& by) {
+  for (Vec2& point : polygon) point += by;
+  return polygon;
+}
+
+SimplePolygons moved(SimplePolygons polygons, const Vec2& by) {
+  for (Polygon& polygon : polygons) polygon = moved(std::move(polygon), by);
+  return polygons;
+}
+
+/// From the lowest corner on, the leftmost of several.
+Polygon from_lowest(Polygon polygon) {
+  const auto lowest = std::min_element(
+      polygon.begin(), polygon.end(),
+      [](const Vec2& a, const Vec2& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  std::rotate(polygon.begin(), lowest, polygon.end());
+  return polygon;
+}
+
+/// The edges of both, in the order of their directions.
+Polygon sum_of_convex(const Polygon& first, const Polygon& second) {
+  const Polygon a = from_lowest(first);
+  const Polygon b = from_lowest(second);
+  Polygon sum;
+  for (size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    const Vec2& at_a = a[i % a.size()];
+    const Vec2& at_b = b[j % b.size()];
+    sum.push_back(at_a + at_b);
+    const double turn = cross(a[(i + 1) % a.size()] - at_a, b[(j + 1) % b.size()] - at_b);
+    const bool takes_a = j == b.size() || (i < a.size() && turn >= 0);
+    const bool takes_b = i == a.size() || (j < b.size() && turn <= 0);
+    i += takes_a;
+    j += takes_b;
+  }
+  return sum;
+}
+
+/// Calls visit(start, end) for each edge.
+template <typename Visit>
+void visit_edges(const SimplePolygons& polygons, const Visit& visit) {
+  for (const Polygon& polygon : polygons) {
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      visit(polygon[i], polygon[(i + 1) % polygon.size()]);
+    }
+  }
+}
+
+/// More corners of parts than this would have too many crossings anyway.
+constexpr size_t kMostParts = 1 << 18;
+
+size_t edge_count(const SimplePolygons& polygons) {
+  size_t count = 0;
+  for (const Polygon& polygon : polygons) count += polygon.size();
+  return count;
+}
+
+Figure filled(SimplePolygons polygons) {
+  return outline_of(std::move(polygons), FillRule::kNonZero);
+}
+
+/// Each of them moved to a point of every loop of the other, and the parallelograms that the edges
+/// of both span: a point of the sum that none of the former holds is where one boundary passes the
+/// other.
+std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolygons& b) {
+  if (edge_count(a) * edge_count(b) > kMostParts) return std::nullopt;
+  std::vector<Figure> parts;
+  for (const Polygon& loop : b) parts.push_back(filled(moved(a, loop.front())));
+  for (const Polygon& loop : a) parts.push_back(filled(moved(b, loop.front())));
+  visit_edges(a, [&](const Vec2& a_start, const Vec2& a_end) {
+    visit_edges(b, [&](const Vec2& b_start, const Vec2& b_end) {
+      parts.push_back(
+          filled({{a_start + b_start, a_end + b_start, a_end + b_end, a_start + b_end}}));
+    });
+  });
+  std::optional<SimplePolygons> sum = united(parts);
+  if (!sum) return std::nullopt;
+  return filled(std::move(*sum));
+}
+
+/// The polygons moved to a corner of the convex one, and what the convex one covers along each
+/// edge.
+std::optional<Figure> sum_with_convex(const SimplePolygons& polygons, const Polygon& convex) {
+  if (edge_count(polygons) * convex.size() > kMostParts) return std::nullopt;
+  std::vector<Figure> parts{filled(moved(polygons, convex.front()))};
+  visit_edges(polygons, [&](const Vec2& start, const Vec2& end) {
+    std::vector<Disc> points;
+    for (const Vec2& corner : convex) {
+      points.push_back({start + corner, 0});
+      points.push_back({end + corner, 0});
+    }
+    parts.push_back(convex_hull(points));
+  });
+  std::optional<SimplePolygons> sum = united(parts);
+  if (!sum) return std::nullopt;
+  return filled(std::move(*sum));
+}
+
+std::optional<Figure> sum_of_two(const Figure& a, const Figure& b) {
+  if (const Disc* disc = std::get_if<Disc>(&b)) {
+    const std::optional<Figure> sum = rounded(a, disc->radius);
+    if (!sum) return std::nullopt;
+    return mapped(PlaneMap{glm::dmat2(1.0), disc->center}, *sum);
+  }
+  if (std::holds_alternative<Disc>(a)) return sum_of_two(b, a);
+  const std::optional<Polygon> convex_a = convex_corners(a);
+  const std::optional<Polygon> convex_b = convex_corners(b);
+  if (convex_a && convex_b) return outline_of(Polygons{sum_of_convex(*convex_a, *convex_b)});
+  if (convex_a) return sum_of_two(b, a);
+  const std::optional<SimplePolygons> polygons_a = united({&a, 1});
+  const std::optional<SimplePolygons> polygons_b = united({&b, 1});
+  if (!polygons_a || !polygons_b) return std::nullopt;
+  return convex_b ? sum_with_convex(*polygons_a, *convex_b)
+                  : sum_of_polygons(*polygons_a, *polygons_b);
+}
+
+}  // namespace
+
+std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
+                                          const OffsetSettings& settings) {
+  std::vector<Figure> result;
+  const bool is_round = settings.corners == Corners::kRound;
+  if (is_round && settings.distance > 0 && !settings.fragments) {
+    // The offset of a union is the union of the offsets.
+    for (const Figure& figure : figures) {
+      std::optional<Figure> part = rounded(figure, settings.distance);
+      if (!part) return std::nullopt;
+      result.push_back(std::move(*part));
+    }
+    return result;
+  }
+  const std::optional<SimplePolygons> polygons = united(figures);
+  if (!polygons) return std::nullopt;
+  result.push_back(filled(moved_outline(*polygons, settings.distance, settings.corners,
+                                        settings.fragments.value_or(kChordsOfCircle))));
+  return result;
+}
+
+std::optional<std::vector<Figure>> minkowski_sum(std::span<const Figure> a,
+                                                 std::span<const Figure> b) {
+  std::vector<Figure> result;
+  for (const Figure& one : a) {
+    for (const Figure& other : b) {
+      std::optional<Figure> sum = sum_of_two(one, other);
+      if (!sum) return std::nullopt;
+      result.push_back(std::move(*sum));
+    }
+  }
+  return result;
+}
+
+}  // namespace frontend

@@ -1,0 +1,230 @@
+#include "plane/outlines.hpp"
+
+#include <algorithm>
+#include <clipper.hpp>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+
+namespace frontend {
+namespace {
+
+using ClipperLib::cInt;
+using csgcore::FillRule;
+using csgcore::Op;
+
+/// The library computes with 64 bits up to 2^30, and slower, with 128, up to 2^62.
+constexpr int kGridBits = 29;
+constexpr int kMostGridBits = 60;
+/// The grid is at least as fine as 2^-20, whatever the size, as long as the library has the bits:
+/// designs subtract small parts from very large squares.
+constexpr int kLeastExponent = 20;
+
+int grid_exponent(double reach) {
+  if (!(reach > 0)) return 0;
+  const int reach_exponent = std::ilogb(reach) + 1;
+  return std::min(std::max(kGridBits - reach_exponent, kLeastExponent),
+                  kMostGridBits - reach_exponent);
+}
+
+/// The grid of whole numbers that holds all operands of a computation.
+class Grid {
+ public:
+  /// `reach` is the largest coordinate.
+  explicit Grid(double reach) : exponent_(grid_exponent(reach)) {}
+
+  ClipperLib::Paths paths(std::span<const Polygon> polygons) {
+    ClipperLib::Paths result;
+    for (const Polygon& polygon : polygons) {
+      ClipperLib::Path& path = result.emplace_back();
+      for (const Vec2& point : polygon) {
+        path.emplace_back(line(point.x, x_of_), line(point.y, y_of_));
+      }
+    }
+    return result;
+  }
+
+  Polygons polygons(const ClipperLib::Paths& paths) const {
+    Polygons result;
+    for (const ClipperLib::Path& path : paths) {
+      if (path.size() < 3) continue;
+      Polygon& polygon = result.emplace_back();
+      for (const ClipperLib::IntPoint& point : path) {
+        polygon.emplace_back(coordinate(point.X, x_of_), coordinate(point.Y, y_of_));
+      }
+    }
+    return result;
+  }
+
+  double scaled(double length) const { return std::ldexp(length, exponent_); }
+
+ private:
+  using Lines = std::unordered_map<cInt, double>;
+
+  cInt line(double coordinate, Lines& lines) const {
+    const auto result = static_cast<cInt>(std::llround(std::ldexp(coordinate, exponent_)));
+    lines.try_emplace(result, coordinate);
+    return result;
+  }
+  double coordinate(cInt line, const Lines& lines) const {
+    const auto found = lines.find(line);
+    return found != lines.end() ? found->second : std::ldexp(static_cast<double>(line), -exponent_);
+  }
+
+  int exponent_;
+  Lines x_of_, y_of_;
+};
+
+double reach_of(const Rectangle& box) {
+  if (box.empty()) return 0;
+  return std::max(
+      {std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+}
+
+struct Segment {
+  Vec2 min, max;  // of its box
+};
+
+/// Returns whether more than `most` pairs of segments have boxes that overlap, an upper bound of
+/// the crossings, or whether that takes too long to tell.
+bool overlap_more_than(std::vector<Segment> segments, uint64_t most) {
+  constexpr uint64_t kMostSteps = 1 << 30;  // about a second
+  std::sort(segments.begin(), segments.end(),
+            [](const Segment& a, const Segment& b) { return a.min.x < b.min.x; });
+  uint64_t count = 0;
+  uint64_t steps = 0;
+  std::vector<const Segment*> open;
+  for (const Segment& segment : segments) {
+    std::erase_if(open, [&](const Segment* other) { return other->max.x < segment.min.x; });
+    for (const Segment* other : open) {
+      count += other->min.y <= segment.max.y && segment.min.y <= other->max.y;
+    }
+    steps += open.size();
+    if (count > most || steps > kMostSteps) return true;
+    open.push_back(&segment);
+  }
+  return false;
+}
+
+void add_segments(std::span<const Polygon> polygons, std::vector<Segment>& segments) {
+  for (const Polygon& polygon : polygons) {
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      Rectangle box;
+      box.merge(polygon[i]);
+      box.merge(polygon[(i + 1) % polygon.size()]);
+      segments.push_back({box.min, box.max});
+    }
+  }
+}
+
+ClipperLib::PolyFillType fill_type(FillRule rule) {
+  return rule == FillRule::kEvenOdd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
+}
+
+ClipperLib::ClipType clip_type(Op op) {
+  switch (op) {
+    case Op::kUnion:
+      return ClipperLib::ctUnion;
+    case Op::kIntersection:
+      return ClipperLib::ctIntersection;
+    case Op::kDifference:
+      return ClipperLib::ctDifference;
+  }
+  return ClipperLib::ctUnion;
+}
+
+ClipperLib::Paths united(const ClipperLib::Paths& paths, ClipperLib::PolyFillType fill) {
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(paths, ClipperLib::ptSubject, true);
+  ClipperLib::Paths result;
+  clipper.Execute(ClipperLib::ctUnion, result, fill, fill);
+  return result;
+}
+
+ClipperLib::Paths combined(Op op, const ClipperLib::Paths& first, const ClipperLib::Paths& others) {
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(first, ClipperLib::ptSubject, true);
+  clipper.AddPaths(others, ClipperLib::ptClip, true);
+  ClipperLib::Paths result;
+  clipper.Execute(clip_type(op), result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return result;
+}
+
+ClipperLib::JoinType join_type(Corners corners) {
+  switch (corners) {
+    case Corners::kRound:
+      return ClipperLib::jtRound;
+    case Corners::kSharp:
+      return ClipperLib::jtMiter;
+    case Corners::kSquare:
+      return ClipperLib::jtSquare;
+  }
+  return ClipperLib::jtRound;
+}
+
+}  // namespace
+
+std::optional<SimplePolygons> united(std::span<const Figure> figures) {
+  std::vector<Polygons> parts;
+  std::vector<Segment> segments;
+  Rectangle box;
+  for (const Figure& figure : figures) {
+    const Polygons& part = parts.emplace_back(chords_of(figure));
+    add_segments(part, segments);
+    box.merge(bounds_of(part));
+  }
+  if (overlap_more_than(std::move(segments), kMostCrossings)) return std::nullopt;
+  Grid grid(reach_of(box));
+  ClipperLib::Paths all;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Outline* outline = std::get_if<Outline>(&figures[i]);
+    ClipperLib::Paths paths = grid.paths(parts[i]);
+    if (outline != nullptr) paths = united(paths, fill_type(outline->fill_rule));
+    all.insert(all.end(), paths.begin(), paths.end());
+  }
+  if (figures.size() > 1) all = united(all, ClipperLib::pftNonZero);
+  return grid.polygons(all);
+}
+
+std::optional<SimplePolygons> combined(Op op, std::span<const SimplePolygons> operands) {
+  if (operands.empty()) return SimplePolygons{};
+  std::vector<Segment> segments;
+  Rectangle box;
+  for (const SimplePolygons& operand : operands) {
+    add_segments(operand, segments);
+    box.merge(bounds_of(operand));
+  }
+  if (overlap_more_than(std::move(segments), kMostCrossings)) return std::nullopt;
+  Grid grid(reach_of(box));
+  ClipperLib::Paths result = grid.paths(operands.front());
+  if (op == Op::kIntersection) {
+    for (const SimplePolygons& operand : operands.subspan(1)) {
+      result = combined(op, result, grid.paths(operand));
+    }
+  } else {
+    ClipperLib::Paths others;
+    for (const SimplePolygons& operand : operands.subspan(1)) {
+      const ClipperLib::Paths paths = grid.paths(operand);
+      others.insert(others.end(), paths.begin(), paths.end());
+    }
+    result = combined(op, result, others);
+  }
+  return grid.polygons(result);
+}
+
+SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Corners corners,
+                             int fragments) {
+  Grid grid(reach_of(bounds_of(polygons)) + std::abs(distance));
+  // OpenSCAD never cuts a sharp corner off: its limit is as large.
+  constexpr double kMiterLimit = 1e6;
+  const double scaled = grid.scaled(distance);
+  const double tolerance = std::abs(scaled) * (1 - std::cos(std::numbers::pi / fragments));
+  ClipperLib::ClipperOffset offset(kMiterLimit, tolerance);
+  offset.AddPaths(grid.paths(polygons), join_type(corners), ClipperLib::etClosedPolygon);
+  ClipperLib::Paths result;
+  offset.Execute(result, scaled);
+  return grid.polygons(result);
+}
+
+}  // namespace frontend

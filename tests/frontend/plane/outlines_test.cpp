@@ -1,0 +1,86 @@
+// Tests operations on plane figures that yield polygons.
+#include "plane/outlines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "plane/figure_area.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Op;
+using ::testing::IsSupersetOf;
+using ::testing::SizeIs;
+
+TEST(United, FillsEachFigureByItsOwnRule) {
+  const Polygons nested{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
+  EXPECT_NEAR(area_of_union({outline_of(nested)}), 15, 1e-7);
+  EXPECT_NEAR(area_of_union({outline_of(nested, csgcore::FillRule::kNonZero)}), 16, 1e-7);
+  // A hole of one figure is filled by another.
+  EXPECT_NEAR(area_of_union({outline_of(nested), rectangle(1, 1, 2, 2)}), 16, 1e-7);
+}
+
+TEST(United, TakesFiguresThatOverlap) {
+  EXPECT_NEAR(area_of_union({rectangle(0, 0, 2, 2), rectangle(1, 1, 3, 3)}), 7, 1e-7);
+  EXPECT_NEAR(area_of_union({Disc{Vec2(0.0), 1}}), kPi,
+              kPi * kChordsShare);
+  EXPECT_THAT(united({}).value(), SizeIs(0));
+}
+
+TEST(United, KeepsTheOperandsCoordinates) {
+  // None of these is on the grid. The corner (3.3, 0.1) is where edges of both cross.
+  const std::vector<Figure> figures{rectangle(0, 0, 3.3, 1.1), rectangle(1, 0.1, 7.7, 2.3)};
+  const SimplePolygons outline = united(figures).value();
+  ASSERT_THAT(outline, SizeIs(1));
+  EXPECT_THAT(outline[0], IsSupersetOf({Vec2(3.3, 0.0), Vec2(3.3, 0.1), Vec2(7.7, 0.1),
+                                        Vec2(7.7, 2.3), Vec2(1, 1.1)}));
+}
+
+TEST(Combined, HasTheOperationsMeaning) {
+  const SimplePolygons a{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  const SimplePolygons b{{{1, 1}, {3, 1}, {3, 3}, {1, 3}}};
+  const SimplePolygons c{{{2, 2}, {6, 2}, {6, 6}, {2, 6}}};
+  const std::vector<SimplePolygons> operands{a, b, c};
+  EXPECT_NEAR(area_of(combined(Op::kUnion, operands).value()), 28, 1e-7);
+  EXPECT_NEAR(area_of(combined(Op::kIntersection, operands).value()), 1, 1e-7);
+  EXPECT_NEAR(area_of(combined(Op::kDifference, operands).value()), 9, 1e-7);
+}
+
+TEST(MovedOutline, TreatsCorners) {
+  const SimplePolygons square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  const auto area = [&](double distance, Corners corners) {
+    return area_of(moved_outline(square, distance, corners, kChordsOfCircle));
+  };
+  EXPECT_NEAR(area(1, Corners::kSharp), 36, 1e-6);
+  EXPECT_NEAR(area(1, Corners::kRound), 32 + kPi, kPi * kChordsShare);
+  // Each corner loses a triangle whose height is √2 − 1.
+  const double height = std::sqrt(2) - 1;
+  EXPECT_NEAR(area(1, Corners::kSquare), 36 - 4 * height * height, 1e-6);
+  EXPECT_NEAR(area(-1, Corners::kRound), 4, 1e-6);
+  EXPECT_EQ(area(-3, Corners::kSharp), 0);
+  EXPECT_NEAR(area(0, Corners::kSharp), 16, 1e-6);
+}
+
+TEST(MovedOutline, HasOpenScadsArcs) {
+  // Five chords a turn make one straight cut of each corner of a square.
+  const SimplePolygons square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  EXPECT_THAT(moved_outline(square, 1, Corners::kRound, 5)[0], SizeIs(8));
+  EXPECT_THAT(moved_outline(square, 1, Corners::kRound, 8)[0], SizeIs(12));
+}
+
+TEST(Outlines, GiveUpWhereEdgesCrossTooOften) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 1);
+  Polygon scribble;
+  for (int i = 0; i < 6000; ++i) scribble.emplace_back(place(random), place(random));
+  const std::vector<Figure> figures{outline_of(Polygons{scribble})};
+  EXPECT_FALSE(united(figures));
+}
+
+}  // namespace
+}  // namespace frontend
