@@ -54,6 +54,14 @@ std::shared_ptr<const csgcore::TriangleMesh> mesh_of(const CanonicalPrimitive& p
   return std::static_pointer_cast<const csgcore::TriangleMesh>(primitive.shared_shape);
 }
 
+/// Throws GlError if there are no shaders for the primitive.
+void require_drawn(const CanonicalPrimitive& primitive) {
+  if (!primitive.profile()) return;
+  const bool is_extrusion = primitive.shape == csgcore::Shape::kExtrusion;
+  throw GlError(std::string("OpenGL does not draw ") +
+                (is_extrusion ? "extrusions" : "revolutions") + " yet (use --renderer=cpu)");
+}
+
 }  // namespace
 
 void TextureBuffer::require_room(size_t bytes) const {
@@ -158,6 +166,7 @@ void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
 }
 
 void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
+  require_drawn(primitive);
   note_kind(primitive);
   if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
   meshes_.first_of(mesh_of(primitive));
