@@ -470,18 +470,16 @@ TEST_F(Renderers, PrimitivesThatOpenGlDoesNotDrawAreTheCpus) {
     settings.renderer = kind;
     return renderer.draw(make_view({csgcore::Vec3(0), {55, 0, 25}, 20}, camera), settings, stats);
   };
-  for (const auto& [name, primitive] :
-       {std::pair("extrusions", csgcore::make_extrusion(disk, 0, 1, 1, 1)),
-        std::pair("revolutions", csgcore::make_revolution(disk))}) {
-    RenderStats by_auto, by_cpu, by_gl;
-    const Image image = draw(primitive, RendererKind::kAuto, by_auto);
-    EXPECT_EQ(by_auto.renderer, "cpu");
-    EXPECT_THAT(by_auto.reason, StartsWith(std::string("OpenGL does not draw ") + name));
-    EXPECT_EQ(image.rgb, draw(primitive, RendererKind::kCpu, by_cpu).rgb);
-    EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
-    EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
-    EXPECT_THROW(draw(primitive, RendererKind::kGl, by_gl), Error);
-  }
+  const csgcore::Primitive revolution = csgcore::make_revolution(disk);
+  RenderStats by_auto, by_cpu, by_gl;
+  const Image image = draw(revolution, RendererKind::kAuto, by_auto);
+  EXPECT_EQ(by_auto.renderer, "cpu");
+  EXPECT_THAT(by_auto.reason, StartsWith("OpenGL does not draw revolutions"));
+  EXPECT_EQ(image.rgb, draw(revolution, RendererKind::kCpu, by_cpu).rgb);
+  EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
+  EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
+  EXPECT_THROW(draw(revolution, RendererKind::kGl, by_gl), Error);
+  EXPECT_NO_THROW(draw(csgcore::make_extrusion(disk, 0, 1), RendererKind::kGl, by_gl));
 }
 
 /// Runs in a process of its own, whose EGL finds no driver.
