@@ -62,9 +62,10 @@ std::shared_ptr<const csgcore::Profile> profile_of(const CanonicalPrimitive& pri
 
 /// Throws GlError if there are no shaders for the primitive.
 void require_drawn(const CanonicalPrimitive& primitive) {
-  if (primitive.shape == csgcore::Shape::kRevolution) {
-    throw GlError("OpenGL does not draw revolutions (use --renderer=cpu)");
-  }
+  if (primitive.shape != csgcore::Shape::kRevolution) return;
+  const bool has_curves = !std::ranges::all_of(primitive.profile()->pieces(),
+                                               [](const auto& piece) { return piece.is_line(); });
+  if (has_curves) throw GlError("OpenGL does not draw revolved curves (use --renderer=cpu)");
 }
 
 }  // namespace

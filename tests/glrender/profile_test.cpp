@@ -1,4 +1,4 @@
-// Tests extrusions by OpenGL against the CPU tracer's picture.
+// Tests extrusions and revolutions by OpenGL against the CPU tracer's picture.
 #include "csgcore/profile.hpp"
 
 #include <gmock/gmock.h>
@@ -22,6 +22,7 @@ using csgcore::Image;
 using csgcore::make_extrusion;
 using csgcore::make_frustum;
 using csgcore::make_polyhedron;
+using csgcore::make_revolution;
 using csgcore::make_sphere;
 using csgcore::Mat3;
 using csgcore::Op;
@@ -85,6 +86,13 @@ ProfileLoop star(int points, double outer, double inner) {
     corners.push_back((i % 2 == 0 ? outer : inner) * Vec2{std::cos(around), std::sin(around)});
   }
   return polygon(corners);
+}
+ProfileLoop translated(ProfileLoop loop, const Vec2& by) {
+  for (ProfileEdge& edge : loop) {
+    edge.end += by;
+    edge.control += by;
+  }
+  return loop;
 }
 /// A leaf and a stem, as fonts have them.
 ProfileLoop leaf() {
@@ -155,6 +163,35 @@ std::vector<NamedScene> scenes() {
        make_extrusion(figure({circle({0, 0}, 0.5)}), 1, 2)});
   add("EqualExtrusions", Op::kIntersection,
       {make_extrusion(plate, 0, 1), make_extrusion(plate, 0, 1), make_extrusion(plate, 0, 2)});
+  const Figure cone = figure({polygon({{0, 0}, {2, 0}, {0, 3}})});
+  const Figure vase = figure({polygon({{0, 0},
+                                       {1.5, 0},
+                                       {2, 1},
+                                       {0.8, 2.2},
+                                       {1.2, 3},
+                                       {1, 3},
+                                       {0.6, 2.2},
+                                       {1.7, 1},
+                                       {1.3, 0.2},
+                                       {0, 0.2}})});
+  add("Cone", Op::kUnion, {make_revolution(cone)});
+  add("SkewedVase", Op::kUnion, {make_revolution(vase, skewed())});
+  add("VaseFarFromTheOrigin", Op::kUnion, {make_revolution(vase, at(1000, -2000, 500))});
+  add("VaseCutOpen", Op::kDifference, {make_revolution(vase), cube({0, -3, -1}, {3, 0, 4})});
+  add("OverlappingRings", Op::kUnion,
+      {make_revolution(figure({rectangle({1, 0}, {2, 1}), rectangle({1.5, 0.5}, {3, 1.2})},
+                              FillRule::kNonZero))});
+  add("CrossedRings", Op::kUnion,
+      {make_revolution(figure({rectangle({1, 0}, {2, 1}), rectangle({1.5, 0.5}, {3, 1.2})}))});
+  add("StarRing", Op::kIntersection,
+      {make_revolution(figure({translated(star(5, 1, 0.5), {2.5, 0})})),
+       cube({-4, -2, -2}, {4, 4, 2})});
+  add("ConeWithFacesOfAFrustum", Op::kUnion,
+      {make_revolution(cone), make_frustum(0, 3, 2, 0), make_frustum(-1, 0, 2, 2)});
+  add("FrustumWithFacesOfACone", Op::kUnion, {make_frustum(0, 3, 2, 0), make_revolution(cone)});
+  add("BallLessRings", Op::kDifference,
+      {make_sphere(3), make_revolution(vase, at(0, 0, 1)), make_revolution(cone, at(1, 0, -2)),
+       make_extrusion(leaves, -4, 4)});
   return all;
 }
 

@@ -474,7 +474,7 @@ TEST_F(Renderers, PrimitivesThatOpenGlDoesNotDrawAreTheCpus) {
   RenderStats by_auto, by_cpu, by_gl;
   const Image image = draw(revolution, RendererKind::kAuto, by_auto);
   EXPECT_EQ(by_auto.renderer, "cpu");
-  EXPECT_THAT(by_auto.reason, StartsWith("OpenGL does not draw revolutions"));
+  EXPECT_THAT(by_auto.reason, StartsWith("OpenGL does not draw revolved curves"));
   EXPECT_EQ(image.rgb, draw(revolution, RendererKind::kCpu, by_cpu).rgb);
   EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
   EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
