@@ -7,13 +7,6 @@
 
 uniform samplerBuffer u_meshes;  // see mesh_texels.hpp
 
-// Keeps a compiler from ordering the operations otherwise for one triangle than for another.
-#ifdef GL_ARB_gpu_shader5
-#define PRECISE precise
-#else
-#define PRECISE
-#endif
-
 // A ray further from the canonical origin misses the mesh, which lies in the unit ball. The excess
 // is far more than the rounding of the ray's distance.
 const float MESH_REACH2 = 1.001;
@@ -162,7 +155,7 @@ Stretch mesh_stretch(Ray world, CanonicalRay ray, float t) {
 
 // Returns the normal that is turned against the ray where it enters the mesh, and along it where it
 // leaves.
-vec3 mesh_gradient(CanonicalRay ray, int face) {
+vec3 mesh_gradient(CanonicalRay ray, vec3 point, int face) {
   int texel = abs(face);
   vec3 normal = vec3(texelFetch(u_meshes, texel).w, texelFetch(u_meshes, texel + 1).w,
                      texelFetch(u_meshes, texel + 2).w);

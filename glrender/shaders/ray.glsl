@@ -10,6 +10,13 @@
 // kinds_source() (shader_kinds.hpp) writes the code that calls these functions by name, for the
 // kinds that the scene has.
 
+// Keeps a compiler from ordering the operations otherwise in one place than in another.
+#ifdef GL_ARB_gpu_shader5
+#define PRECISE precise
+#else
+#define PRECISE
+#endif
+
 const float INFINITY = uintBitsToFloat(0x7F800000u);
 const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // the largest t of a ray
 
@@ -89,7 +96,7 @@ struct CanonicalRay {
   float radius_mid, radius_slope;
   float enclosure;  // kind of the primitive's enclosure, which is its own unless it is cut
   bool is_none;     // the primitive is too thin to exist
-  int faces;        // first texel of the primitive's faces (polyhedron.glsl, mesh.glsl)
+  int faces;        // first texel of the primitive's faces (polyhedron.glsl, mesh.glsl, profile.glsl)
   mat3 world_to_canonical;
 };
 
@@ -167,8 +174,8 @@ bool unfinished = false;
 bool is_nonconvex(CanonicalRay ray);
 // Returns the stretch that begins at t. It always ends behind t.
 Stretch nonconvex_stretch(Ray world, CanonicalRay ray, float t);
-// Returns the canonical normal, of any length, at a stretch's end.
-vec3 nonconvex_gradient(CanonicalRay ray, int face);
+// Returns the canonical normal, of any length, at a stretch's end, the point.
+vec3 nonconvex_gradient(CanonicalRay ray, vec3 point, int face);
 
 Stretch stretch_from(Ray ray, uint primitive, float t) {
   return nonconvex_stretch(ray, canonical_ray(ray, primitive), t);
@@ -186,7 +193,7 @@ vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   gradient = cut_gradient(canonical, q, face, gradient);
 #endif
 #if HAS_NONCONVEX
-  if (is_nonconvex(canonical)) gradient = nonconvex_gradient(canonical, face);
+  if (is_nonconvex(canonical)) gradient = nonconvex_gradient(canonical, q, face);
 #endif
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);

@@ -59,9 +59,9 @@ constexpr unsigned kLocationHigh = 1;
 constexpr unsigned kLocationList = 2;
 
 /// Texels of each primitive in its buffer. The first holds the centre, and in w the first texel of
-/// a polyhedron's or mesh's faces. The others hold the rows of world_to_canonical, and in w
-/// radius_mid, radius_slope and a kind (its number in csgcore::Shape, or kShapeNone): the
-/// enclosure's, or the primitive's own if it is not convex.
+/// a polyhedron's, mesh's or profile's data. The others hold the rows of world_to_canonical, and in
+/// w radius_mid, radius_slope (of an extrusion over the profile's reach) and a kind (its number in
+/// csgcore::Shape, or kShapeNone): the enclosure's, or the primitive's own if it is not convex.
 constexpr int kPrimitiveTexels = 4;
 constexpr float kShapeNone = -1;  // marks a primitive that is too thin to exist
 

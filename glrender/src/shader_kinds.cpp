@@ -1,5 +1,6 @@
 #include "shader_kinds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
@@ -73,10 +74,17 @@ std::string call_each_cut(const std::vector<Kind>& cuts, std::string_view result
   return result.append("  return ").append(result_name) += ";\n";
 }
 
+bool kinds_have_profiles(const std::vector<Kind>& kinds) {
+  return std::ranges::any_of(kinds, [](const Kind& kind) {
+    return kind.shape == Shape::kExtrusion || kind.shape == Shape::kRevolution;
+  });
+}
+
 /// Writes the functions of primitives that are not convex, whose `enclosure` is their own kind.
 std::string nonconvex_source(const std::vector<Kind>& kinds) {
   if (kinds.empty()) return {};
   std::string source, is_any;
+  if (kinds_have_profiles(kinds)) source += shader_source::kProfile;
   for (const Kind& kind : kinds) {
     source += kind.source;
     is_any += (is_any.empty() ? "" : " || ") + is_of(kind);
@@ -84,8 +92,8 @@ std::string nonconvex_source(const std::vector<Kind>& kinds) {
   source += "bool is_nonconvex(CanonicalRay ray) { return " + is_any + "; }\n";
   source += "Stretch nonconvex_stretch(Ray world, CanonicalRay ray, float t) {\n" +
             call_by_enclosure(kinds, "_stretch", "(world, ray, t)", "") + "}\n";
-  source += "vec3 nonconvex_gradient(CanonicalRay ray, int face) {\n" +
-            call_by_enclosure(kinds, "_gradient", "(ray, face)", "") + "}\n";
+  source += "vec3 nonconvex_gradient(CanonicalRay ray, vec3 point, int face) {\n" +
+            call_by_enclosure(kinds, "_gradient", "(ray, point, face)", "") + "}\n";
   return source;
 }
 

@@ -54,6 +54,20 @@ std::shared_ptr<const csgcore::TriangleMesh> mesh_of(const CanonicalPrimitive& p
   return std::static_pointer_cast<const csgcore::TriangleMesh>(primitive.shared_shape);
 }
 
+/// Returns the primitive's profile; null if it has none.
+std::shared_ptr<const csgcore::Profile> profile_of(const CanonicalPrimitive& primitive) {
+  if (!primitive.profile()) return nullptr;
+  return std::static_pointer_cast<const csgcore::Profile>(primitive.shared_shape);
+}
+
+/// Throws GlError if there are no shaders for the primitive.
+void require_drawn(const CanonicalPrimitive& primitive) {
+  if (primitive.shape != csgcore::Shape::kRevolution) return;
+  const bool has_curves = !std::ranges::all_of(primitive.profile()->pieces(),
+                                               [](const auto& piece) { return piece.is_line(); });
+  if (has_curves) throw GlError("OpenGL does not draw revolved curves (use --renderer=cpu)");
+}
+
 }  // namespace
 
 void TextureBuffer::require_room(size_t bytes) const {
@@ -127,6 +141,8 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_toleran
                  "use a smaller $fn"),
       triangles_(GL_RGBA32F, sizeof(MeshTexels::Texel), most_texels, "triangles of meshes",
                  "use coarser meshes"),
+      pieces_(GL_RGBA32F, sizeof(ProfileTexels::Texel), most_texels, "edges of profiles",
+              "use a smaller $fn"),
       is_too_thin_(too_thin(solid, thickness_tolerance)) {
   std::vector<Surface> surfaces;
   surfaces.reserve(solid.primitives().size());
@@ -139,14 +155,21 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_toleran
     polyhedra_.upload(faces_.texels().data(),
                       faces_.texels().size() * sizeof(PolyhedronTexels::Texel));
   }
-  add_meshes();
+  add_shared_shapes();
 }
 
-void SolidBuffers::add_meshes() {
-  if (!has_meshes()) return;
-  const std::vector<MeshTexels::Texel> added = meshes_.take_added();
-  triangles_.update((meshes_.size() - added.size()) * sizeof(MeshTexels::Texel), added.data(),
-                    added.size() * sizeof(MeshTexels::Texel));
+template <typename Texels>
+void SolidBuffers::add_texels(Texels& texels, TextureBuffer& buffer) {
+  if (texels.empty()) return;
+  using Texel = typename Texels::Texel;
+  const std::vector<Texel> added = texels.take_added();
+  buffer.update((texels.size() - added.size()) * sizeof(Texel), added.data(),
+                added.size() * sizeof(Texel));
+}
+
+void SolidBuffers::add_shared_shapes() {
+  add_texels(meshes_, triangles_);
+  add_texels(profiles_, pieces_);
 }
 
 void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
@@ -158,9 +181,11 @@ void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
 }
 
 void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
+  require_drawn(primitive);
   note_kind(primitive);
   if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
   meshes_.first_of(mesh_of(primitive));
+  profiles_.first_of(profile_of(primitive));
   const size_t before = faces_.texels().size();
   faces_.first_of(primitive.polyhedron.get());
   if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
@@ -178,7 +203,7 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
                       faces_.texels().data() + faces_before,
                       (faces_.texels().size() - faces_before) * sizeof(PolyhedronTexels::Texel));
   }
-  add_meshes();
+  add_shared_shapes();
   enclosures_ = nonconvex_ = {};
   for (const CanonicalPrimitive& primitive : primitives) note_kind(primitive);
   // The tolerance depends on the size of the whole solid, so that any primitive may have become too
@@ -214,10 +239,12 @@ void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<
   const csgcore::Shape kind = primitive.is_convex ? primitive.enclosure : primitive.shape;
   const float shape = is_too_thin_[index] ? kShapeNone : static_cast<float>(kind);
   const glm::vec3 center(primitive.center - focus);
-  const uint32_t faces = primitive.mesh() ? meshes_.first_of(mesh_of(primitive))
-                                          : faces_.first_of(primitive.polyhedron.get());
+  const uint32_t faces = primitive.mesh()      ? meshes_.first_of(mesh_of(primitive))
+                         : primitive.profile() ? profiles_.first_of(profile_of(primitive))
+                                               : faces_.first_of(primitive.polyhedron.get());
   texels.insert(texels.end(), {center.x, center.y, center.z, static_cast<float>(faces)});
-  const double beside[] = {primitive.radius_mid, primitive.radius_slope, shape};
+  const double unit = kind == csgcore::Shape::kExtrusion ? 1 / primitive.profile()->reach() : 1;
+  const double beside[] = {unit * primitive.radius_mid, unit * primitive.radius_slope, shape};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       texels.push_back(static_cast<float>(primitive.world_to_canonical[column][row]));
@@ -262,7 +289,7 @@ void SolidBuffers::add_tests(uint64_t before, std::span<const BlistTest> tests) 
 
 uint64_t SolidBuffers::uploaded_bytes() const {
   return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + tests_.uploaded_bytes() +
-         polyhedra_.uploaded_bytes() + triangles_.uploaded_bytes();
+         polyhedra_.uploaded_bytes() + triangles_.uploaded_bytes() + pieces_.uploaded_bytes();
 }
 
 void SolidBuffers::bind(GLuint program, ListsOf of) const {
@@ -271,11 +298,13 @@ void SolidBuffers::bind(GLuint program, ListsOf of) const {
   (of == ListsOf::kTiles ? tile_tests_ : tests_).bind(2);
   if (has_faces()) polyhedra_.bind(3);
   if (has_meshes()) triangles_.bind(4);
+  if (has_profiles()) pieces_.bind(5);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);
   glUniform1i(glGetUniformLocation(program, "u_tests"), 2);
   if (has_faces()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
   if (has_meshes()) glUniform1i(glGetUniformLocation(program, "u_meshes"), 4);
+  if (has_profiles()) glUniform1i(glGetUniformLocation(program, "u_profiles"), 5);
 }
 
 }  // namespace glrender

@@ -13,6 +13,7 @@
 #include "kind_set.hpp"
 #include "mesh_texels.hpp"
 #include "polyhedron_texels.hpp"
+#include "profile_texels.hpp"
 
 namespace glrender {
 
@@ -61,10 +62,11 @@ enum class ListsOf : uint8_t { kCells, kTiles };
 class SolidBuffers {
  public:
   /// bind() uses the texture units from 0 up to this one (exclusive).
-  static constexpr int kTextureUnits = 5;
+  static constexpr int kTextureUnits = 6;
 
   /// `solid` must outlive this object. Primitives thinner than `thickness_tolerance`, in world
-  /// units, are left out. A buffer must not have more than `most_texels`.
+  /// units, are left out. A buffer must not have more than `most_texels`. Throws GlError if there
+  /// are more, or if there is a primitive for which there are no shaders.
   SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance, uint64_t most_texels);
 
   /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if
@@ -94,15 +96,19 @@ class SolidBuffers {
   bool are_segments_dear() const { return !cuts_.empty() || !nonconvex_.empty(); }
 
  private:
-  /// Notes which kinds the primitive needs, and adds its faces to faces_ or meshes_.
+  /// Notes which kinds the primitive needs, and adds its faces to faces_,
+  /// meshes_ or profiles_.
   void take_in(const csgcore::CanonicalPrimitive& primitive);
   void note_kind(const csgcore::CanonicalPrimitive& primitive);
   using TestTexel = std::array<uint32_t, 4>;
   std::vector<TestTexel> texels_of(std::span<const csgcore::BlistTest> tests) const;
-  /// Uploads the meshes that are not there yet.
-  void add_meshes();
+  /// Uploads what is not there yet.
+  template <typename Texels>
+  static void add_texels(Texels& texels, TextureBuffer& buffer);
+  void add_shared_shapes();
   bool has_faces() const { return !faces_.empty(); }
   bool has_meshes() const { return !meshes_.empty(); }
+  bool has_profiles() const { return !profiles_.empty(); }
   void append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels);
 
   const csgcore::Solid* solid_;
@@ -110,7 +116,8 @@ class SolidBuffers {
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
       numbered_;  // keeps alive what faces_ knows by address
   MeshTexels meshes_;
-  TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_, triangles_;
+  ProfileTexels profiles_;
+  TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_, triangles_, pieces_;
   std::vector<bool> is_too_thin_;  // by primitive's index
   std::optional<Vec3> placed_at_;
   KindSet enclosures_, cuts_, nonconvex_;
