@@ -445,7 +445,8 @@ TEST(RandomSolids, AreTheSameWithEveryInstructionSet) {
 
 TEST(RandomSolids, AreWithinTheirBoundsAndEnclosures) {
   std::mt19937 random(16);
-  for (int round = 0; round < 300; ++round) {
+  const int rounds = test_support::full_run() ? 2000 : 60;
+  for (int round = 0; round < rounds; ++round) {
     const Primitive primitive = random_solid(random, random_map(random));
     if (!is_valid(primitive)) continue;
     const CanonicalPrimitive canonical = canonicalize(primitive);
