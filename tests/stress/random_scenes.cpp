@@ -2,16 +2,20 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
 #include "support/test_meshes.hpp"
+#include "support/test_profiles.hpp"
 
 namespace stress {
 namespace {
 
 using Random = std::mt19937;
+using csgcore::Vec2;
 
 constexpr uint32_t kMostPrimitives = 12;
 constexpr int kMostDepth = 5;
@@ -36,10 +40,26 @@ Primitive torn(const Primitive& primitive, Random& random) {
   return parts.triangles.empty() ? primitive : csgcore::make_mesh(parts.mesh());
 }
 
+/// Returns a random profile, extruded or revolved.
+Primitive profile_solid(Random& random) {
+  const bool is_revolution = random() % 2 == 0;
+  const Vec2 min(is_revolution ? 0 : -3, -3);
+  auto profile = test_support::random_profile(random, min, Vec2(3));
+  if (is_revolution) return csgcore::make_revolution(std::move(profile));
+  const double z_min = std::round(uniform(random, -3, 0));
+  const double z_max = z_min + std::round(uniform(random, 1, 4));
+  constexpr double kScales[][2] = {{1, 1}, {1, 1}, {1, 1}, {1, 0.5}, {0.25, 1}, {1, 0}};
+  const auto& scales = kScales[random() % std::size(kScales)];
+  return csgcore::make_extrusion(std::move(profile), z_min, z_max, scales[0], scales[1]);
+}
+
 /// Returns a primitive in its own frame, which is to be a place in the world.
 Primitive random_primitive(Random& random, Leaves leaves) {
   test_support::Sizes sizes(random, kSizes);
   if (leaves == Leaves::kAll) return test_support::random_primitive(sizes, {});
+  if (leaves == Leaves::kProfiles) {
+    return random() % 3 == 0 ? test_support::random_primitive(sizes, {}) : profile_solid(random);
+  }
   if (leaves == Leaves::kMeshes) {
     if (random() % 2) return test_support::random_primitive(sizes, {});
     const auto& meshes = test_support::test_kind_of(csgcore::Shape::kMesh);

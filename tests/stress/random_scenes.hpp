@@ -13,6 +13,7 @@ enum class Leaves : uint8_t {
   kPolyhedra,  // convex ones
   kFaceted,    // convex polyhedra, and meshes that are small enough for Nef polyhedra
   kMeshes,     // all, and every second one is a mesh, some with holes
+  kProfiles,   // all, and two of three are random profiles, extruded or revolved
 };
 
 /// Up to 12 primitives within about [-10, 10]³, with up to 8 fragments, often of integer sizes.

@@ -33,9 +33,15 @@ constexpr double kMostUndecided = 1e-5;  // a share of the rays; in a smaller sa
 /// A view along an axis may have a whole row of pixels on the diagonal of a torn face.
 constexpr double kMostUndecidedOnMeshes = 1e-4;
 
-uint32_t trees_of_a_part() {
+/// Exact rays through profiles are slow.
+constexpr uint32_t kProfileTreesOfAPart = 10, kProfileTreesOfAFullPart = 100;
+
+uint32_t trees_of_a_part(stress::Leaves leaves) {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
     return uint32_t(std::strtoul(trees, nullptr, 10)) / kParts;
+  }
+  if (leaves == stress::Leaves::kProfiles) {
+    return test_support::full_run() ? kProfileTreesOfAFullPart : kProfileTreesOfAPart;
   }
   return test_support::full_run() ? 1000 : 300;
 }
@@ -103,7 +109,7 @@ class RandomTrees : public testing::TestWithParam<uint32_t> {
 void RandomTrees::expect_exact(stress::Leaves leaves) const {
   const std::vector<Method> kd_trees = stress::cpu_methods();
   Sums sums;
-  for (uint32_t i = 0; i < trees_of_a_part(); ++i) {
+  for (uint32_t i = 0; i < trees_of_a_part(leaves); ++i) {
     const uint32_t seed = 1 + GetParam() + kParts * i;
     const Scene scene = stress::random_scene(seed, leaves);
     const View view = stress::random_view(scene, kPicture, seed);
@@ -114,12 +120,13 @@ void RandomTrees::expect_exact(stress::Leaves leaves) const {
   }
   const auto number = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf("%s: %u trees, %llu rays, %llu hits, %llu undecided; %llu crossings coincide\n",
-              test_support::full_run() ? "full run" : "sample", trees_of_a_part(),
+              test_support::full_run() ? "full run" : "sample", trees_of_a_part(leaves),
               number(sums.exact.rays), number(sums.hits), number(sums.undecided),
               number(sums.exact.exact_comparisons));
   const auto rays = double(sums.exact.rays);
   EXPECT_GT(double(sums.hits), rays / 10);
-  EXPECT_GT(double(sums.exact.exact_comparisons), rays / 100);
+  const bool has_profiles = leaves == stress::Leaves::kProfiles;
+  EXPECT_GT(double(sums.exact.exact_comparisons), rays / (has_profiles ? 1000 : 100));
   const bool is_torn = leaves == stress::Leaves::kMeshes;
   const double most = is_torn ? kMostUndecidedOnMeshes : kMostUndecided;
   EXPECT_LE(double(sums.undecided), std::max(1.0, most * rays));
@@ -127,6 +134,7 @@ void RandomTrees::expect_exact(stress::Leaves leaves) const {
 
 TEST_P(RandomTrees, CpuEqualsTheExactOracle) { expect_exact(stress::Leaves::kAll); }
 TEST_P(RandomTrees, CpuEqualsTheExactOracleOnMeshes) { expect_exact(stress::Leaves::kMeshes); }
+TEST_P(RandomTrees, CpuEqualsTheExactOracleOnProfiles) { expect_exact(stress::Leaves::kProfiles); }
 
 INSTANTIATE_TEST_SUITE_P(, RandomTrees, testing::Range(0u, kParts));
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "exact_mesh.hpp"
+#include "exact_profile.hpp"
 #include "exact_twin.hpp"
 
 namespace oracle {
@@ -119,6 +120,7 @@ Target<Interval> enclose(const Target<Exact>& target) {
   result.has_wall = target.has_wall;
   result.weight = target.weight;
   result.mesh = target.mesh;
+  result.profile = target.profile;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) result.to_local[i][j] = enclose(target.to_local[i][j]);
     result.from_middle[i] = enclose(target.from_middle[i]);
@@ -232,13 +234,32 @@ template std::optional<Ends> ends_of(const Target<Exact>&, const LocalRay<Exact>
 template std::optional<Ends> ends_of(const Target<Interval>&, const LocalRay<Interval>&,
                                      std::span<const uint32_t>);
 
+namespace {
+
+Vector<Interval> local_normal(const Target<Interval>& target, const LocalRay<Interval>& ray,
+                              const Interval& t, Surface surface) {
+  Vector<Interval> point;
+  for (int i = 0; i < 3; ++i) point[i] = ray.o[i] + t * ray.d[i];
+  return target.profile ? target.profile->normal(point, surface)
+                        : target.twin->wall_normal(target, point);
+}
+
+/// Returns |n·d| for the local normal n of a surface that is not the wall.
+Interval across_surface(const Target<Interval>& target, const LocalRay<Interval>& ray,
+                        const Interval& t, Surface surface) {
+  if (target.profile) return CGAL::abs(dot(local_normal(target, ray, t, surface), ray.d));
+  return with_plane(target, surface, [&](const Plane<Interval>& plane) {
+    return Interval(CGAL::abs(dot(plane.normal, ray.d)));
+  });
+}
+
+}  // namespace
+
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                            const Interval& t, Surface surface) {
   Vector<Interval> local;
-  if (surface == Surface::kWall) {
-    Vector<Interval> point;
-    for (int i = 0; i < 3; ++i) point[i] = ray.o[i] + t * ray.d[i];
-    local = target.twin->wall_normal(target, point);
+  if (surface == Surface::kWall || target.profile) {
+    local = local_normal(target, ray, t, surface);
   } else {
     local = with_plane(target, surface, [](const Plane<Interval>& plane) { return plane.normal; });
   }
@@ -253,11 +274,8 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
 Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                       const Interval& t, Surface surface, bool enters) {
   // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
-  const Interval across = surface == Surface::kWall
-                              ? CGAL::sqrt(ray.wall(enters).discriminant)
-                              : with_plane(target, surface, [&](const Plane<Interval>& plane) {
-                                  return Interval(CGAL::abs(dot(plane.normal, ray.d)));
-                                });
+  const Interval across = surface == Surface::kWall ? CGAL::sqrt(ray.wall(enters).discriminant)
+                                                    : across_surface(target, ray, t, surface);
   return across / length(normal_at(target, ray, t, surface));
 }
 

@@ -9,6 +9,7 @@
 //   frustum: |z| ≤ λk, (2k)²(x² + y²) ≤ ρ(z)², ρ(z) = λk(r₀ + r₁) + (r₁ − r₀)z
 //   polyhedron: n·(o + t·d) ≤ λ(offset − n·middle) for all its half-spaces
 //   mesh: see exact_mesh.hpp
+//   extrusion and revolution: see exact_profile.hpp
 // A frustum has half the height k and the radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius
 // at z, and not negative within the slab. The wall's inequality is scaled by a power of four, a
 // half-space's by a power of two.
@@ -62,6 +63,8 @@ struct Walls {
 class ExactTwin;
 /// The triangles of a mesh (exact_mesh.hpp).
 class ExactMesh;
+/// The solid of a profile (exact_profile.hpp).
+class ExactProfile;
 
 /// A valid primitive, prepared for rays relative to a pivot. A convex one is the solid within its
 /// wall, if it has one, and within all its planes. If it has both, the first two planes are a slab
@@ -75,7 +78,9 @@ struct Target {
   Number radius;                      // of the wall: λr, or λk(r₀ + r₁)
   Number growth, squared_height;      // r₁ − r₀ and (2k)², for a frustum's wall
   std::vector<Plane<Number>> planes;  // a frustum's bottom and top; a polyhedron's faces
-  std::shared_ptr<const ExactMesh> mesh;  // of a mesh, which has neither wall nor planes; else null
+  // A mesh or a profile's solid, which has neither wall nor planes; else null:
+  std::shared_ptr<const ExactMesh> mesh;
+  std::shared_ptr<const ExactProfile> profile;
   /// Weights of the coordinates. By the measure Σ weight·x², the solid lies around its middle
   /// roughly like a ball.
   csgcore::Vec3 weight;
@@ -132,7 +137,8 @@ auto with_plane(const Target<Number>& target, Surface surface, const Visit& visi
   return visit(target.planes[uint32_t(surface)]);
 }
 
-/// Returns the parameter at which the ray meets the surface, which must be that of an end.
+/// Returns the parameter at which the ray meets the surface, which must be that of an end, and not
+/// of a profile's solid.
 template <class Number>
 auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
                  bool enters) {
@@ -156,7 +162,8 @@ std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>
                             std::span<const uint32_t> planes);
 
 /// Returns the primitive's outward normal in world space, of any length, for all parameters within
-/// `t`. That of a mesh is its triangle's own, whichever side of it is inside.
+/// `t`. That of a mesh is its triangle's own, whichever side of it is inside; that of a profile's
+/// solid may be inwards.
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                            const Interval& t, Surface surface);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact_mesh.hpp"
+#include "exact_profile.hpp"
 
 namespace oracle {
 namespace {
@@ -75,6 +76,7 @@ void ExactWalk::collect() {
 void ExactWalk::add_candidates(uint32_t primitive) {
   const Target<Interval>& target = scene_.intervals[primitive];
   if (target.mesh) return add_mesh_candidates(primitive);
+  if (target.profile) return add_profile_candidates(primitive);
   ++counts_.segments;
   Candidate candidate{primitive, 0, {}, base_of(target, ray_), {}, {}, {}, {}};
   candidate.local = localize(target, ray_, candidate.base);
@@ -111,6 +113,24 @@ void ExactWalk::add_mesh_candidates(uint32_t primitive) {
   }
 }
 
+void ExactWalk::add_profile_candidates(uint32_t primitive) {
+  const Target<Exact>& target = scene_.exact[primitive];
+  const double base = base_of(scene_.intervals[primitive], ray_);
+  const std::vector<ProfileSegment> segments =
+      target.profile->segments(localize(target, exact_ray_, base));
+  if (segments.empty()) return;
+  const LocalRay<Exact> exact = localize(target, exact_ray_, 0);
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    ++counts_.segments;
+    const auto& [begin, end] = segments[i];
+    Candidate candidate{primitive, i, {begin.surface, end.surface}, 0, {}, {}, {}, exact};
+    candidate.found = {moved(begin.t, base), moved(end.t, base)};
+    candidate.error = begin.error;
+    find_ends(candidate);
+    candidates_.push_back(std::move(candidate));
+  }
+}
+
 /// Finds the parameters of the ends, from the exact ray if there is one.
 void ExactWalk::find_ends(Candidate& candidate) {
   const Surface surfaces[2] = {candidate.ends.begin, candidate.ends.end};
@@ -119,6 +139,11 @@ void ExactWalk::find_ends(Candidate& candidate) {
     candidate.local = enclose(*candidate.exact);
   }
   for (const bool at_end : {false, true}) {
+    if (candidate.found) {
+      const Interval error(-candidate.error, candidate.error);
+      candidate.u[at_end] = candidate.t[at_end] = enclose((*candidate.found)[at_end].p) + error;
+      continue;
+    }
     candidate.u[at_end] =
         candidate.exact ? enclose_crossing(scene_.exact[candidate.primitive], *candidate.exact,
                                            candidate.local, surfaces[at_end], !at_end)
@@ -144,6 +169,7 @@ Surface ExactWalk::surface_of(const Crossing& crossing) const {
 
 ExactRoot ExactWalk::exact_of(const Crossing& crossing) const {
   const Candidate& candidate = candidates_[crossing.candidate];
+  if (candidate.found) return (*candidate.found)[crossing.at_end];
   const ExactRoot met = crossing_of(scene_.exact[candidate.primitive], *candidate.exact,
                                     surface_of(crossing), !crossing.at_end);
   return moved(met, beyond_of(crossing));
@@ -164,7 +190,11 @@ int ExactWalk::order(const Crossing& a, const Crossing& b) {
   const auto refined = CGAL::compare(t_of(a), t_of(b));
   if (CGAL::is_certain(refined)) return CGAL::get_certain(refined);
   ++counts_.exact_comparisons;
-  return compare(exact_of(a), exact_of(b));
+  // Crossings that differ by less than the error are taken for equal.
+  const double error = candidates_[a.candidate].error + candidates_[b.candidate].error;
+  if (error == 0) return compare(exact_of(a), exact_of(b));
+  if (compare(moved(exact_of(a), error), exact_of(b)) < 0) return -1;
+  return compare(moved(exact_of(a), -error), exact_of(b)) > 0 ? 1 : 0;
 }
 
 bool ExactWalk::is_behind_eye(const Crossing& crossing) {
@@ -313,15 +343,19 @@ ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
   const LocalRay<Exact> exact = localize(target, exact_ray_, base);
   const LocalRay<Interval> local = enclose(exact);
   const double beyond = beyond_of(crossing);
-  const Interval u = enclose_crossing(target, exact, local, surface, enters) + Interval(beyond);
+  const bool is_found = candidates_[crossing.candidate].found.has_value();
+  const ExactRoot root = is_found ? moved(exact_of(crossing), -base)
+                                  : moved(crossing_of(target, exact, surface, enters), beyond);
+  const Interval u =
+      is_found ? enclose(root.p)
+               : enclose_crossing(target, exact, local, surface, enters) + Interval(beyond);
   Shown shown;
   shown.hit.primitive = primitive;
-  shown.hit.s = tight_s(moved(crossing_of(target, exact, surface, enters), beyond), base,
-                        Interval(base_s_) + (Interval(base) + u));
+  shown.hit.s = tight_s(root, base, Interval(base_s_) + (Interval(base) + u));
   Vec3 normal = middle(normal_at(scene_.intervals[primitive], local, u, surface));
-  // Which way a mesh faces makes no difference.
+  // Which way a mesh faces makes no difference, nor a profile's direction.
   const bool is_against = glm::dot(normal, middle(ray_.direction)) < 0;
-  if (target.mesh && is_against != enters) normal = -normal;
+  if ((target.mesh || target.profile) && is_against != enters) normal = -normal;
   const Interval t = Interval(base) + u, unit(scene_.unit);
   for (int i = 0; i < 3; ++i) {
     const Interval offset = (ray_.origin[i] + t * ray_.direction[i]) / unit;

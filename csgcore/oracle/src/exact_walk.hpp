@@ -1,6 +1,7 @@
 // Traces one ray through a prepared scene, by the definition of csgcore/NUMERICS.md, 1.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -46,6 +47,9 @@ class ExactWalk {
     Interval u[2], t[2];  // of the two ends
     /// The exact ray with the parameter t, if intervals did not suffice.
     std::optional<LocalRay<Exact>> exact;
+    /// Of a profile's solid: the ends' parameters t, up to an error.
+    std::optional<std::array<ExactRoot, 2>> found = {};
+    double error = 0;
   };
   struct Crossing {
     uint32_t candidate;
@@ -62,6 +66,7 @@ class ExactWalk {
   void collect();
   void add_candidates(uint32_t primitive);
   void add_mesh_candidates(uint32_t primitive);
+  void add_profile_candidates(uint32_t primitive);
   void evaluate();
   std::optional<Coincidence> first_turning_coincidence();
 

@@ -71,9 +71,9 @@ Vec3 pivot_of(const Scene& scene) {
 }
 
 std::vector<uint32_t> find_alike(const Scene& scene) {
-  std::map<
-      std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*, std::vector<double>>,
-      uint32_t>
+  std::map<std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*,
+                      const csgcore::Profile*, std::vector<double>>,
+           uint32_t>
       first;
   std::vector<uint32_t> result;
   for (const Primitive& p : scene.primitives) {
@@ -84,7 +84,8 @@ std::vector<uint32_t> find_alike(const Scene& scene) {
     }
     const auto index = uint32_t(result.size());
     result.push_back(
-        first.try_emplace({p.polyhedron.get(), p.mesh.get(), key}, index).first->second);
+        first.try_emplace({p.polyhedron.get(), p.mesh.get(), p.profile.get(), key}, index)
+            .first->second);
   }
   return result;
 }
