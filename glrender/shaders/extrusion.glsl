@@ -118,8 +118,9 @@ void cross_piece(CanonicalRay ray, ExtrusionLine line, int texel, float t,
   if (piece.weight == 0.0) {
     if (!crosses) return;
     float share = start / (start - end);
-    float along = dot(line.direction, piece.start) * (1.0 - share) +
-                  dot(line.direction, piece.end) * share;
+    // Along an edge across the line this is the same for both of its directions.
+    float along = dot(line.direction, piece.start);
+    along += share * (dot(line.direction, piece.end) - along);
     note_crossing(crossings, t, extrusion_t(ray, line, along), turn, texel);
     return;
   }

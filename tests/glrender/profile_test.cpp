@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <memory>
 
 #include "agreement.hpp"
 #include "csgcore/polyhedron.hpp"
@@ -224,6 +225,94 @@ TEST_P(ProfileTest, EveryChannelIsTheTracers) {
     expect_agreement(loaded, view_of(loaded, orthographic, 205, -22, 1.2), name);
     expect_agreement(loaded, view_of(loaded, orthographic, 10, 90), name, kAlongAnAxis);
     expect_agreement(loaded, view_of(loaded, perspective, 90, 0), name, kAlongAnAxis);
+  }
+}
+
+/// Wheels and vases: holes, curves, a scale and a revolution.
+Scene parts() {
+  return test_support::scene_of(
+      Op::kDifference,
+      {make_extrusion(figure({circle({0, 0}, 3), rectangle({-1, -1}, {1, 1}), circle({2, 0}, 0.5)}),
+                      -1, 1, 1, 0.6),
+       make_revolution(figure({rectangle({2.2, -0.2}, {4, 0.5})})), cube({0, -4, 0.7}, {4, 0, 2})});
+}
+
+TEST(ProfilePictureTest, EyeInsideTheSolidAHoleAndACut) {
+  const Scene scene = parts();
+  for (const Way& way : kWays) {
+    LoadedScene loaded(scene, way);
+    View view = view_of(loaded, Projection::kPerspective, 30, 20);
+    view.half_height = 0.7;
+    for (const Vec3& eye :
+         {Vec3{-1.5, 0.1, 0.2} /* in the solid */, Vec3{0.1, 0.2, 0.3} /* in the hole */,
+          Vec3{-2.3, 0.1, 0.1} /* in the groove */}) {
+      view.eye = eye;
+      expect_agreement(loaded, view, "eye inside, " + gl_test::name_of(way));
+    }
+  }
+}
+
+TEST(ProfilePictureTest, WhatLiesBehindAFront) {
+  for (const Way& way : kWays) {
+    LoadedScene loaded(parts(), way);
+    const View view = view_of(loaded, Projection::kPerspective, 25, 35);
+    loaded.draw(view);
+    const Image behind = loaded.renderer.draw_behind(view, loaded.settings, loaded.stats);
+    gl_test::expect_agreement(
+        behind, gl_test::draw_by_cpu(loaded, view, csgcore::Boundary::kBehind), view,
+        loaded.solid.bounds().diagonal(), kEdges, "behind, " + gl_test::name_of(way));
+  }
+}
+
+/// Rays along the axis through every vertex and every edge.
+TEST(ProfilePictureTest, RaysThroughVerticesAndEdgesDoNotLeak) {
+  std::vector<ProfileLoop> squares;
+  for (int x = 0; x < 40; ++x) {
+    for (int y = 0; y < 40; ++y) {
+      squares.push_back(rectangle(Vec2(x, y), Vec2(x + 1, y + 1)));
+    }
+  }
+  const Scene scene = test_support::scene_of(
+      Op::kUnion, {make_extrusion(figure(std::move(squares), FillRule::kNonZero), 0, 1)});
+  for (const Way& way : kWays) {
+    LoadedScene loaded(scene, way);
+    View view = view_of(loaded, Projection::kOrthographic, 0, 90);
+    view.width_px = view.height_px = 79;  // all centres at multiples of half a unit
+    view.half_height = 0.25 * view.height_px;
+    view.eye = {20, 20, 10};
+    view.forward = {0, 0, -1};
+    view.right = {0, 1, 0};
+    view.up = glm::cross(view.right, view.forward);
+    const Image gl = loaded.draw(view);
+    EXPECT_EQ(std::ranges::count(gl.id, 0u), 79 * 79) << gl_test::name_of(way);
+    EXPECT_EQ(std::ranges::count(gl.z, 9.0f), 79 * 79) << gl_test::name_of(way);
+  }
+}
+
+/// What the edit adds has a profile of its own, or that of another primitive.
+TEST(ProfilePictureTest, Edits) {
+  const Figure wheel = figure({circle({0, 0}, 2), rectangle({-1, -1}, {1, 1})});
+  const Figure drop = figure({leaf()});
+  const auto scene = [&](const Figure& first, double top) {
+    return test_support::scene_of(
+        Op::kUnion, {make_extrusion(first, 0, 1, 1, top),
+                     make_extrusion(wheel, 0, 1, 1, 1, at(5, 0, 0)), make_sphere(1, at(0, 3, 0))});
+  };
+  const Scene scenes[] = {scene(wheel, 1), scene(drop, 1), scene(drop, 0.5), scene(wheel, 0)};
+  LoadedScene loaded(scenes[0], gl_test::by_tiles());
+  std::vector<std::unique_ptr<LoadedScene>> later;  // the renderer refers to its last solid
+  for (size_t i = 1; i < std::size(scenes); ++i) {
+    later.push_back(std::make_unique<LoadedScene>(scenes[i], gl_test::by_tiles()));
+    LoadedScene& anew = *later.back();
+    const View view = view_of(anew, Projection::kPerspective, 25, 35);
+    loaded.draw(view);
+    const csgcore::SceneEdit edit = csgcore::compare(scenes[i - 1], scenes[i]);
+    ASSERT_TRUE(edit.keeps_indices());
+    loaded.renderer.update(anew.solid, edit);
+    const Image image = loaded.draw(view);
+    gl_test::expect_agreement(image, gl_test::draw_by_cpu(anew, view), view,
+                              anew.solid.bounds().diagonal(), kEdges, "edit");
+    EXPECT_EQ(image.rgb, anew.draw(view).rgb);
   }
 }
 

@@ -13,10 +13,12 @@
 #include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/primitive.hpp"
+#include "csgcore/profile.hpp"
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
 #include "mesh_texels.hpp"
 #include "polyhedron_texels.hpp"
+#include "profile_texels.hpp"
 #include "shader_program.hpp"
 #include "support/full_run.hpp"
 #include "support/mesh_models.hpp"
@@ -186,6 +188,71 @@ TEST(PolyhedronTexelsTest, RefuseMoreThanFloatsCanCount) {
   const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
   EXPECT_NO_THROW(PolyhedronTexels(9).first_of(box.get()));
   EXPECT_THROW(PolyhedronTexels(7).first_of(box.get()), GlError);
+}
+
+std::shared_ptr<const csgcore::Profile> half_disks(int count) {
+  using Edge = csgcore::ProfileEdge;
+  std::vector<csgcore::ProfileLoop> loops;
+  for (int i = 0; i < count; ++i) {
+    const double x = 3 * i;
+    loops.push_back(
+        {{Edge::Kind::kArc, true, {x - 1, 0}, {x, 0}}, {Edge::Kind::kLine, true, {x + 1, 0}, {}}});
+  }
+  return std::make_shared<const csgcore::Profile>(std::move(loops), csgcore::FillRule::kNonZero);
+}
+
+TEST(ProfileTexelsTest, HoldEveryPieceOnce) {
+  ProfileTexels all;
+  EXPECT_TRUE(all.empty());
+  EXPECT_EQ(all.first_of(nullptr), 0u);
+  EXPECT_EQ(all.first_of(half_disks(9)), 1u);
+  const std::vector<ProfileTexels::Texel> texels = all.take_added();
+  EXPECT_EQ(texels.size(), all.size());
+  EXPECT_EQ(all.first_of(half_disks(9)), 1u) << "an equal one";
+  EXPECT_TRUE(all.take_added().empty());
+  EXPECT_EQ(all.first_of(half_disks(2)), texels.size());
+  const auto profile = half_disks(9);
+  EXPECT_EQ(texels[1][0], float(texels.size() - 2));
+  EXPECT_EQ(texels[1][1], 1);
+  EXPECT_EQ(texels[1][2], float(profile->radii().x));
+  // Reads every piece, within the boxes of all nodes above it.
+  struct Node {
+    ProfileTexels::Texel box;
+    size_t end;
+  };
+  std::vector<Node> above;
+  size_t found = 0;
+  for (size_t i = 2; i < texels.size();) {
+    while (!above.empty() && above.back().end == i) above.pop_back();
+    above.push_back({texels[i], i + 2 + static_cast<size_t>(texels[i + 1][0])});
+    const auto count = static_cast<size_t>(texels[i + 1][1]);
+    i += 2;
+    for (size_t piece = 0; piece < count; ++piece, i += 3, ++found) {
+      const csgcore::Profile::Piece& expected = profile->pieces()[found];
+      EXPECT_EQ(texels[i][0], float(expected.start.x));
+      EXPECT_EQ(texels[i][1], float(expected.start.y));
+      EXPECT_EQ(texels[i + 1][0], float(expected.end.x));
+      EXPECT_EQ(texels[i + 1][1], float(expected.end.y));
+      EXPECT_EQ(texels[i + 1][2], float(expected.weight));
+      EXPECT_EQ(texels[i + 2][0], float(expected.end.x - expected.start.x));
+      for (const Node& node : above) {
+        EXPECT_LE(i + 3, node.end);
+        for (const size_t axis : {0u, 1u}) {
+          EXPECT_LT(node.box[axis], texels[i][axis]);
+          EXPECT_GT(node.box[axis + 2], texels[i][axis]);
+        }
+      }
+    }
+    if (count > 0) {
+      EXPECT_EQ(above.back().end, i);
+    }
+  }
+  EXPECT_EQ(found, profile->pieces().size());
+}
+
+TEST(ProfileTexelsTest, RefuseMoreThanFloatsCanCount) {
+  EXPECT_NO_THROW(ProfileTexels(14).first_of(half_disks(1)));
+  EXPECT_THROW(ProfileTexels(12).first_of(half_disks(1)), GlError);
 }
 
 /// Returns the triangles that the texels of a mesh hold. Expects each of them within the boxes of
