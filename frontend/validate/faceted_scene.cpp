@@ -24,6 +24,7 @@ std::optional<csgcore::Scene> faceted(const csgcore::Scene& scene, int fragments
   std::map<frontend::LocalSolid, std::shared_ptr<const csgcore::Polyhedron>> shared;
   csgcore::Scene result = scene;
   for (Primitive& primitive : result.primitives) {
+    if (primitive.mesh) continue;
     auto& polyhedron = shared[frontend::local_solid(primitive)];
     if (!polyhedron) {
       polyhedron = frontend::traits_of(primitive.shape).faceted(primitive, fragments);

@@ -13,7 +13,7 @@ namespace validation {
 
 /// Returns the scene with each primitive replaced, at the same index, by the convex polyhedron that
 /// OpenSCAD makes of it with `fragments` (≥ 3) fragments. Equal primitives share a polyhedron.
-/// Nothing if one of them has no such polyhedron.
+/// Meshes stay as they are. Nothing if another primitive has no such polyhedron.
 std::optional<csgcore::Scene> faceted(const csgcore::Scene& scene, int fragments);
 
 /// The region in which a primitive and its facets may differ: inside the smooth surface, and no
@@ -23,7 +23,7 @@ class SagittaShell {
  public:
   SagittaShell(const csgcore::Primitive& primitive, int fragments);
 
-  /// Returns false for a polyhedron, which facets do not change.
+  /// Returns false for a polyhedron or a mesh, which facets do not change.
   bool contains(const csgcore::Vec3& point_world) const;
   /// Returns the way from a point of the shell outwards to the smooth surface, in world units,
   /// which is no less than its distance. Precondition: the primitive is not a polyhedron.

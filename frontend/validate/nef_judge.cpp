@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "oracle/exact_rays.hpp"
 
 namespace validation {
@@ -19,13 +20,8 @@ using oracle::Place;
 
 namespace {
 
-std::vector<oracle::ConvexPolyhedron> polyhedra_of(const csgcore::Scene& scene) {
-  std::vector<oracle::ConvexPolyhedron> polyhedra;
-  for (const csgcore::Primitive& primitive : scene.primitives) {
-    polyhedra.push_back({primitive.polyhedron->half_spaces(), primitive.local_to_world});
-  }
-  return polyhedra;
-}
+/// Nothing of the scene is smooth, so that any number of fragments will do.
+constexpr int kAnyFragments = 3;
 
 /// Returns the rounding of the box's coordinates after some operations.
 double coordinate_rounding(const csgcore::Box& box) {
@@ -196,37 +192,76 @@ NefTruth::NefTruth(const csgcore::Scene& scene, double size, double thickness,
                    const oracle::NefLimits& limits)
     : size_(size), thickness_(thickness), displacement_(oracle::kExactDisplacement * size) {
   for (const csgcore::Primitive& primitive : scene.primitives) {
-    const csgcore::Mat3 world_to_local = csgcore::inverse(primitive.local_to_world.linear);
-    std::vector<WorldPlane>& planes = planes_.emplace_back();
-    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
-      const Vec3 normal = glm::transpose(world_to_local) * half_space.normal;
-      const double length = glm::length(normal);
-      planes.push_back(
-          {normal / length, half_space.offset / length +
-                                glm::dot(normal / length, primitive.local_to_world.translation)});
-    }
+    surfaces_.push_back(surface_of(primitive));
   }
-  build_ = oracle::NefSolid::build(scene.model, polyhedra_of(scene), limits);
+  build_ = oracle::NefSolid::build(scene, kAnyFragments, limits);
   if (build_.solid && !build_.solid->empty()) {
     displacement_ += coordinate_rounding(build_.solid->bounds());
   }
 }
 
+NefTruth::Surface NefTruth::surface_of(const csgcore::Primitive& primitive) {
+  const csgcore::Affine& map = primitive.local_to_world;
+  Surface surface;
+  if (!primitive.mesh) {
+    const csgcore::Mat3 world_to_local = csgcore::inverse(map.linear);
+    for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
+      const Vec3 normal = glm::transpose(world_to_local) * half_space.normal;
+      const double length = glm::length(normal);
+      surface.planes.push_back({normal / length, half_space.offset / length +
+                                                     glm::dot(normal / length, map.translation)});
+    }
+    return surface;
+  }
+  for (const csgcore::TriangleMesh::Triangle& triangle : primitive.mesh->triangles()) {
+    const auto corner = [&](std::size_t k) {
+      return map.point(primitive.mesh->vertices()[triangle[k]]);
+    };
+    const Vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    const double length = glm::length(normal);
+    if (!(length > 0)) continue;
+    surface.planes.push_back({normal / length, glm::dot(normal / length, corner(0))});
+    surface.triangles.push_back({corner(0), corner(1), corner(2)});
+  }
+  return surface;
+}
+
+double NefTruth::Surface::distance(const Vec3& point) const {
+  const auto height = [&](const WorldPlane& plane) {
+    return glm::dot(plane.unit_normal, point) - plane.offset;
+  };
+  if (triangles.empty()) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const WorldPlane& plane : planes) most = std::max(most, height(plane));
+    return std::abs(most);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    const Vec3& normal = planes[i].unit_normal;
+    const auto is_left = [&](const Vec3& from, const Vec3& to) {
+      return glm::dot(glm::cross(to - from, point - from), normal) >= 0;
+    };
+    const bool is_above = is_left(a, b) && is_left(b, c) && is_left(c, a);
+    const double to_corner =
+        std::min({glm::distance(point, a), glm::distance(point, b), glm::distance(point, c)});
+    least = std::min(least, is_above ? std::abs(height(planes[i])) : to_corner);
+  }
+  return least;
+}
+
 NefTruth::NearSurface NefTruth::nearest_surface(const Vec3& point) const {
   NearSurface nearest{0, std::numeric_limits<double>::infinity()};
-  for (uint32_t primitive = 0; primitive < planes_.size(); ++primitive) {
-    double height = -std::numeric_limits<double>::infinity();
-    for (const WorldPlane& plane : planes_[primitive]) {
-      height = std::max(height, glm::dot(plane.unit_normal, point) - plane.offset);
-    }
-    if (std::abs(height) < nearest.distance) nearest = {primitive, std::abs(height)};
+  for (uint32_t primitive = 0; primitive < surfaces_.size(); ++primitive) {
+    const double distance = surfaces_[primitive].distance(point);
+    if (distance < nearest.distance) nearest = {primitive, distance};
   }
   return nearest;
 }
 
 bool NefTruth::has_face_at(uint32_t primitive, const Vec3& point, const Vec3& normal,
                            double distance) const {
-  const std::vector<WorldPlane>& planes = planes_[primitive];
+  const std::vector<WorldPlane>& planes = surfaces_[primitive].planes;
   return std::any_of(planes.begin(), planes.end(), [&](const WorldPlane& plane) {
     return std::abs(glm::dot(plane.unit_normal, point) - plane.offset) <= distance &&
            1 - std::abs(glm::dot(plane.unit_normal, normal)) <= kDoubleTolerance.normal;

@@ -1,6 +1,7 @@
 // Judges rays, by the definition of NUMERICS.md §1, and points by the Nef oracle.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "csgcore/scene.hpp"
@@ -9,11 +10,11 @@
 
 namespace validation {
 
-/// A scene of polyhedra, and its solid by CGAL.
+/// A scene of polyhedra and meshes, and its solid by CGAL.
 class NefTruth {
  public:
-  /// Builds the solid of a scene whose primitives are all polyhedra. `size` is the design's (the
-  /// diagonal of its box), `thickness` the tolerance of the regularised operations. Throws
+  /// Builds the solid of a scene whose primitives are polyhedra or meshes. `size` is the design's
+  /// (the diagonal of its box), `thickness` the tolerance of the regularised operations. Throws
   /// std::system_error.
   NefTruth(const csgcore::Scene& scene, double size, double thickness,
            const oracle::NefLimits& limits);
@@ -28,14 +29,15 @@ class NefTruth {
   /// How far rounding may displace a surface for a renderer in double, in world units.
   double displacement() const { return displacement_; }
 
-  /// The primitive whose surface is nearest, and an upper bound of its distance.
+  /// The primitive whose surface is nearest, and an upper bound of its distance. For a mesh it is
+  /// the distance of a triangle's plane, or of a vertex if the point is beside the triangle.
   struct NearSurface {
     uint32_t primitive;
     double distance;
   };
   NearSurface nearest_surface(const csgcore::Vec3& point) const;
-  /// Returns whether the primitive has a face with that normal, or its opposite, within `distance`
-  /// of the point.
+  /// Returns whether the primitive has a face with that normal, or its opposite, whose plane is
+  /// within `distance` of the point.
   bool has_face_at(uint32_t primitive, const csgcore::Vec3& point, const csgcore::Vec3& normal,
                    double distance) const;
 
@@ -45,7 +47,16 @@ class NefTruth {
     double offset;
   };
 
-  std::vector<std::vector<WorldPlane>> planes_;  // of each primitive
+  /// The surface of a primitive in the world. A polyhedron has no triangles.
+  struct Surface {
+    std::vector<WorldPlane> planes;
+    std::vector<std::array<csgcore::Vec3, 3>> triangles;  // of a mesh, by plane
+    double distance(const csgcore::Vec3& point) const;
+  };
+
+  static Surface surface_of(const csgcore::Primitive& primitive);
+
+  std::vector<Surface> surfaces_;  // of each primitive
   double size_, thickness_, displacement_;
   oracle::NefBuild build_;
 };

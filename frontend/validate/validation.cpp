@@ -243,8 +243,8 @@ class Validation {
 
   std::unique_ptr<const NefTruth> no_polyhedra() {
     result_.notes.push_back(
-        "not all primitives have facets that make convex polyhedra: compared with rays in exact "
-        "arithmetic only");
+        "not all primitives have facets that make convex polyhedra or closed meshes: compared with "
+        "rays in exact arithmetic only");
     return nullptr;
   }
 

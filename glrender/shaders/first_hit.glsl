@@ -6,7 +6,6 @@ flat in uvec2 v_list;           // first test; number of tests (PATH_UNION: of l
 #if TILES
 flat in float v_cut_t;          // the solid holds at this t, however thin there; +inf: unknown
 #endif
-uniform float u_tolerance;      // thinner pieces do not exist; along the normal, in world units
 uniform bool u_eye_inside;      // rays start in the solid, and the solid's complement is drawn
 
 // A boundary of the solid on the ray.
@@ -25,6 +24,9 @@ Hit start_of(Segment segment, BlistTest test) {
 }
 Hit end_of(Segment segment, BlistTest test) {
   return Hit(segment.end, test.primitive, segment.end_face, test.complement, 0.0);
+}
+Hit end_of(Stretch stretch, BlistTest test) {
+  return Hit(stretch.end, test.primitive, stretch.face, test.complement, 0.0);
 }
 
 // Returns how fast the ray crosses the face, along its normal: a length in t times this speed is a
@@ -137,7 +139,7 @@ Hit first_hit(Ray ray, float enter, float leave) {
 #elif PATH == PATH_SHORT_LIST || PATH == PATH_LIST
 
 #if PATH == PATH_SHORT_LIST
-// Each primitive is intersected once, and its segment kept.
+// Each convex primitive is intersected once, and its segment kept.
 Segment kept[SHORT_LIST];
 #endif
 
@@ -157,19 +159,28 @@ Segment segment_of(Ray ray, uint index, uint primitive) {
 #endif
 }
 
+Stretch stretch_of(Segment segment, float t) {
+  if (segment.start <= t && t < segment.end) return Stretch(true, segment.end, segment.end_face);
+  if (t < segment.start) return Stretch(false, segment.start, segment.start_face);
+  return Stretch(false, INFINITY, 0);
+}
+
+// Returns the test's primitive's stretch that begins at t.
+Stretch stretch_at(Ray ray, uint index, BlistTest test, float t) {
+#if HAS_NONCONVEX
+  if (!test.is_convex) return stretch_from(ray, test.primitive, t);
+#endif
+  return stretch_of(segment_of(ray, index, test.primitive), t);
+}
+
 Evaluation evaluate(Ray ray, float t) {
   Evaluation result = Evaluation(false, NO_HIT);
   uint i = 0u;
   do {
     BlistTest test = fetch_test(v_list.x + i);
-    Segment segment = segment_of(ray, i, test.primitive);
-    bool inside = segment.start <= t && t < segment.end;
-    if (inside) {
-      if (segment.end < result.next.t) result.next = end_of(segment, test);
-    } else if (t < segment.start && segment.start < result.next.t) {
-      result.next = start_of(segment, test);
-    }
-    i = inside ? test.if_inside : test.if_outside;
+    Stretch stretch = stretch_at(ray, i, test, t);
+    if (stretch.end < result.next.t) result.next = end_of(stretch, test);
+    i = stretch.inside ? test.if_inside : test.if_outside;
   } while (i < LIST_FALSE);
   result.value = (i == LIST_TRUE) != u_eye_inside;
   return result;

@@ -1,9 +1,11 @@
 // Rays, segments, and what the ray-primitive intersections of the kinds (paper §3.2, steps 1 to 4)
-// share. Each kind of primitive has a file of its own (sphere.glsl and so on) and is one of two
+// share. Each kind of primitive has a file of its own (sphere.glsl and so on) and is one of three
 // sorts:
 // - It has a segment on a ray, and a gradient: kind_segment() and kind_gradient().
 // - It is a primitive of another kind, its enclosure, cut further: kind_cut() and
 //   kind_cut_gradient().
+// - It is not convex, so that a ray may meet it in any number of segments: kind_stretch() and
+//   kind_gradient().
 //
 // kinds_source() (shader_kinds.hpp) writes the code that calls these functions by name, for the
 // kinds that the scene has.
@@ -13,7 +15,9 @@ const float LAST_T = uintBitsToFloat(0x7F7FFFFFu);  // the largest t of a ray
 
 uniform samplerBuffer u_primitives;    // PRIMITIVE_TEXELS texels each
 uniform usamplerBuffer u_surfaces;  // per primitive: colour, flags, id
-uniform usamplerBuffer u_tests;     // per test: primitive and complement bit, if_inside, if_outside
+uniform usamplerBuffer u_tests;     // per test: primitive and complement bit, if_inside, if_outside,
+                                    // whether the primitive is convex
+uniform float u_tolerance;          // thinner pieces do not exist; along the normal, in world units
 
 struct Ray {
   vec3 origin, direction;
@@ -26,9 +30,16 @@ struct Segment {
                              // enclosure
 };
 
+// The part of a ray from some t to the next t at which the ray enters or leaves the primitive.
+struct Stretch {
+  bool inside;  // whether this part lies in the primitive
+  float end;    // +∞: it does not end
+  int face;     // the face at its end: see Segment and the kind's own file
+};
+
 struct BlistTest {
   uint primitive;
-  bool complement;
+  bool complement, is_convex;
   uint if_inside, if_outside;
 };
 
@@ -66,7 +77,8 @@ vec2 box_range(Ray ray, vec3 box_min, vec3 box_max) {
 
 BlistTest fetch_test(uint index) {
   uvec4 texel = texelFetch(u_tests, int(index));
-  return BlistTest(texel.x & 0x7FFFFFFFu, (texel.x & 0x80000000u) != 0u, texel.y, texel.z);
+  return BlistTest(texel.x & 0x7FFFFFFFu, (texel.x & 0x80000000u) != 0u, texel.w != 0u, texel.y,
+                   texel.z);
 }
 
 // The ray in a primitive's canonical space, re-based at `base_t`, where it passes closest to the
@@ -77,7 +89,7 @@ struct CanonicalRay {
   float radius_mid, radius_slope;
   float enclosure;  // kind of the primitive's enclosure, which is its own unless it is cut
   bool is_none;     // the primitive is too thin to exist
-  int faces;        // first texel of the primitive's faces (polyhedron.glsl)
+  int faces;        // first texel of the primitive's faces (polyhedron.glsl, mesh.glsl)
   mat3 world_to_canonical;
 };
 
@@ -98,7 +110,7 @@ CanonicalRay canonical_ray(Ray ray, uint primitive) {
   result.enclosure = row_z.w;
   result.is_none = row_z.w == SHAPE_NONE;
   result.faces = int(center.w);
-#if HAS_CUTS
+#if HAS_CUTS || HAS_NONCONVEX
   // A flat solid is steep in canonical space, where another point of the ray is the closest.
   float nearest = -dot(result.origin, result.direction) / dot(result.direction, result.direction);
   result.origin += nearest * result.direction;
@@ -145,6 +157,25 @@ Segment intersect(Ray ray, uint primitive) { return fallback_segment(canonical_r
 
 #endif
 
+#if HAS_NONCONVEX
+
+// Loop rounds that the pixel has spent on primitives that are not convex. If it would spend more
+// than MOST_NONCONVEX_ROUNDS, it is given up, and the CPU draws it (renderer.cpp).
+int rounds_spent = 0;
+bool unfinished = false;
+
+bool is_nonconvex(CanonicalRay ray);
+// Returns the stretch that begins at t. It always ends behind t.
+Stretch nonconvex_stretch(Ray world, CanonicalRay ray, float t);
+// Returns the canonical normal, of any length, at a stretch's end.
+vec3 nonconvex_gradient(CanonicalRay ray, int face);
+
+Stretch stretch_from(Ray ray, uint primitive, float t) {
+  return nonconvex_stretch(ray, canonical_ray(ray, primitive), t);
+}
+
+#endif
+
 // Returns the outward unit normal of the primitive itself, in world space, where the ray crosses
 // its surface at t, on `face` (see Segment).
 vec3 normal_at(Ray ray, uint primitive, float t, int face) {
@@ -153,6 +184,9 @@ vec3 normal_at(Ray ray, uint primitive, float t, int face) {
   vec3 gradient = enclosure_gradient(canonical, q);
 #if HAS_CUTS
   gradient = cut_gradient(canonical, q, face, gradient);
+#endif
+#if HAS_NONCONVEX
+  if (is_nonconvex(canonical)) gradient = nonconvex_gradient(canonical, face);
 #endif
   vec3 normal = gradient * canonical.world_to_canonical;
   float length2 = dot(normal, normal);

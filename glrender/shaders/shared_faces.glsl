@@ -51,6 +51,61 @@ Hit boundary(Segment segment, BlistTest test, bool starts) {
   return end_of(segment, test);
 }
 
+// The distance is measured along both normals: a ray at a flat angle also passes close to walls
+// that stand beside the face that is hit.
+bool together(Ray ray, Hit hit, Hit other) {
+  return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
+}
+
+#if HAS_NONCONVEX
+
+// How a ray passes the primitive of a test at the faces that coincide with a hit.
+struct Passage {
+  bool inside;   // whether the ray lies in the primitive behind them
+  bool changes;  // whether an odd number of them are faces of the primitive
+  Hit first;     // at the first of these
+};
+
+Passage passage_at(Ray ray, Hit hit, BlistTest test) {
+  Passage result = Passage(false, false, NO_HIT);
+  float reach = u_tolerance / hit.speed;
+  float t = hit.t - reach;
+  bool begins = true;
+  do {
+    Stretch stretch = stretch_from(ray, test.primitive, t);
+    if (begins) result.inside = stretch.inside;
+    begins = false;
+    t = stretch.end;
+    Hit face = end_of(stretch, test);
+    bool is_together = t <= hit.t + reach && together(ray, hit, face);
+    if (is_together) {
+      if (result.first.t == INFINITY) result.first = face;
+      result.changes = !result.changes;
+    }
+    if (is_together || t <= hit.t) result.inside = !stretch.inside;
+  } while (t < hit.t + reach);
+  return result;
+}
+
+// Returns whether the test's operand holds, or its complement if the eye is inside.
+bool holds_behind(Passage passage, BlistTest test) {
+  return passage.inside == (test.complement == u_eye_inside);
+}
+
+#endif
+
+// Returns where the test's primitive may start to hold next to the hit. t = +∞: nowhere.
+Hit start_beside(Ray ray, Hit hit, uint index, BlistTest test) {
+#if HAS_NONCONVEX
+  if (!test.is_convex) {
+    Passage passage = passage_at(ray, hit, test);
+    if (passage.changes && holds_behind(passage, test)) return passage.first;
+    return NO_HIT;
+  }
+#endif
+  return boundary(segment_of(ray, index, test.primitive), test, true);
+}
+
 // Returns whether a face other than the hit's own may start the solid there (most often none does).
 // `last` is the last in file order of all faces that start a primitive or complement there.
 bool is_shared(Ray ray, Hit hit, out Hit last) {
@@ -58,21 +113,23 @@ bool is_shared(Ray ray, Hit hit, out Hit last) {
   last = hit;
   for (uint i = 0u; i < v_list.y; ++i) {
     BlistTest test = fetch_test(v_list.x + i);
-    Hit start = boundary(segment_of(ray, i, test.primitive), test, true);
+    if (test.primitive == hit.primitive) continue;
+    Hit start = start_beside(ray, hit, i, test);
     bool near = too_thin(abs(start.t - hit.t), hit.speed);
-    shared = shared || near && test.primitive != hit.primitive;
+    shared = shared || near;
     if (near && test.primitive > last.primitive) last = start;
   }
   return shared;
 }
 
-// The distance is measured along both normals: a ray at a flat angle also passes close to walls
-// that stand beside the face that is hit.
-bool together(Ray ray, Hit hit, Hit other) {
-  return too_thin(abs(other.t - hit.t), max(hit.speed, crossing_speed(ray, other)));
-}
-
 uint across_test(Ray ray, Hit hit, uint index, BlistTest test) {
+#if HAS_NONCONVEX
+  if (!test.is_convex) {
+    Passage passage = passage_at(ray, hit, test);
+    if (!holds_behind(passage, test)) return ENDS;
+    return passage.changes ? starts_by(index, test.primitive) : HOLDS;
+  }
+#endif
   Segment segment = segment_of(ray, index, test.primitive);
   bool starts = together(ray, hit, boundary(segment, test, true));
   bool ends = together(ray, hit, boundary(segment, test, false));
@@ -121,7 +178,7 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
   }
   if (whole == ENDS || whole == HOLDS) return true;
   BlistTest test = fetch_test(v_list.x + index_of(whole));
-  seen = boundary(segment_of(ray, index_of(whole), test.primitive), test, true);
+  seen = start_beside(ray, hit, index_of(whole), test);
   return true;
 }
 

@@ -36,9 +36,22 @@ void main() {
 #endif
   if (!(enter <= range.y) || enter == INFINITY) discard;
   Hit hit = first_hit(ray, enter, range.y);
-  if (hit.t == INFINITY) discard;
-  Hit seen;
-  if (!is_seen(ray, hit, seen)) discard;
+  Hit seen = hit;
+  bool is_shown = hit.t != INFINITY && is_seen(ray, hit, seen);
+#if HAS_NONCONVEX
+  if (unfinished) {
+    o_color = vec4(0.0, 0.0, 0.0, MARK_UNFINISHED);
+#if MEASURED
+    o_measured = vec4(0.0, 0.0, 0.0, INFINITY);
+    o_id = 0xFFFFFFFFu;
+#endif
+#if !TILES
+    gl_FragDepth = gl_FragCoord.z;  // hits in cells further away do not hide the mark
+#endif
+    return;
+  }
+#endif
+  if (!is_shown) discard;
   vec3 point = ray.origin + seen.t * ray.direction;
   // A complement's normal is turned round (paper §3.2, step 4).
   vec3 normal = normal_at(ray, seen.primitive, seen.t, seen.face);
@@ -48,7 +61,7 @@ void main() {
   vec3 color = eye_inside && u_from_within.a != 0.0
                    ? u_from_within.rgb
                    : base_color(seen.primitive, seen.complement, eye_inside);
-  o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? 0.0 : 1.0);
+  o_color = vec4(shade(color, point, normal, ray.direction), doubtful ? MARK_DOUBTFUL : MARK_SURE);
 #if MEASURED
   o_measured = vec4(normal, seen.t);
   o_id = texelFetch(u_surfaces, int(seen.primitive)).z;

@@ -58,6 +58,7 @@ struct HeadlessContext::Impl {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
   std::string renderer_name;
+  uint64_t most_texels = 0;
 
   /// Returns false, with nothing left open, if this display cannot give an OpenGL 3.3 core context.
   bool start(EGLDisplay candidate) {
@@ -81,6 +82,9 @@ struct HeadlessContext::Impl {
     if (context != EGL_NO_CONTEXT &&
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
       renderer_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+      GLint limit = 0;
+      glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+      most_texels = static_cast<uint64_t>(limit);
       return true;
     }
     stop();
@@ -114,5 +118,9 @@ HeadlessContext::HeadlessContext(HeadlessContext&&) noexcept = default;
 HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = default;
 
 const std::string& HeadlessContext::renderer_name() const { return impl_->renderer_name; }
+
+uint64_t HeadlessContext::most_texels() const { return impl_->most_texels; }
+
+void HeadlessContext::set_most_texels(uint64_t most) { impl_->most_texels = most; }
 
 }  // namespace glrender

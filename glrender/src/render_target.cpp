@@ -4,9 +4,17 @@
 #include <string>
 
 #include "glrender/context.hpp"
+#include "shader_constants.hpp"
 
 namespace glrender {
 namespace {
+
+/// Notes the pixel if it is marked. `mark` is in [0, 1], and may have been rounded to a byte.
+void note(float mark, size_t pixel, Doubts& doubts) {
+  if (mark == kMarkSure) return;
+  doubts.pixels[pixel] = true;
+  if (mark != kMarkDoubtful) doubts.has_unfinished = true;
+}
 
 Texture make_texture(GLenum internal_format, GLenum format, GLenum type, GLenum attachment,
                      uint32_t width_px, uint32_t height_px) {
@@ -69,29 +77,29 @@ void RenderTarget::begin(const glm::vec3& background) const {
   glClearBufferfv(GL_DEPTH, 0, &furthest);
 }
 
-csgcore::Image RenderTarget::read(const Frame& frame, std::vector<bool>& doubtful) const {
+csgcore::Image RenderTarget::read(const Frame& frame, Doubts& doubts) const {
   csgcore::Image image;
   image.width_px = format_.width_px;
   image.height_px = format_.height_px;
   std::vector<uint8_t> rgba(pixels() * 4);
   read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   image.rgb.resize(pixels());
-  doubtful.resize(pixels());
+  doubts.pixels.resize(pixels());
   for (uint32_t y = 0; y < format_.height_px; ++y) {
     const uint8_t* row = rgba.data() + row_start(y) * 4;
     for (uint32_t x = 0; x < format_.width_px; ++x) {
       const size_t pixel = size_t{y} * format_.width_px + x;
       image.rgb[pixel] = {row[4 * x], row[4 * x + 1], row[4 * x + 2]};
-      if (row[4 * x + 3] == 0) doubtful[pixel] = true;
+      note(static_cast<float>(row[4 * x + 3]) / 255.0f, pixel, doubts);
     }
   }
   if (format_.measured) read_measured(frame, image);
   return image;
 }
 
-void RenderTarget::add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& doubtful) const {
+void RenderTarget::add_colors(std::vector<glm::vec3>& sum, Doubts& doubts) const {
   sum.resize(pixels(), glm::vec3(0.0f));
-  doubtful.resize(pixels());
+  doubts.pixels.resize(pixels());
   std::vector<glm::vec4> colors(pixels());
   read_pixels(GL_COLOR_ATTACHMENT0, GL_RGBA, GL_FLOAT, colors.data());
   for (uint32_t y = 0; y < format_.height_px; ++y) {
@@ -99,7 +107,7 @@ void RenderTarget::add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& do
     const size_t first = size_t{y} * format_.width_px;
     for (uint32_t x = 0; x < format_.width_px; ++x) {
       sum[first + x] += glm::vec3(row[x]);
-      if (row[x].w == 0) doubtful[first + x] = true;
+      note(row[x].w, first + x, doubts);
     }
   }
 }

@@ -17,6 +17,12 @@ struct TargetFormat {
   bool operator==(const TargetFormat&) const = default;
 };
 
+/// The pixels that the CPU should draw: the shaders have marked them (kMarkSure).
+struct Doubts {
+  std::vector<bool> pixels;
+  bool has_unfinished = false;
+};
+
 class RenderTarget {
  public:
   /// Throws GlError if the driver cannot make pictures of this size.
@@ -24,13 +30,12 @@ class RenderTarget {
 
   /// Binds the framebuffer, sets the viewport and clears all channels.
   void begin(const glm::vec3& background) const;
-  /// Returns the picture, and sets the pixels of `doubtful` that the shaders have marked; the
-  /// others stay. `doubtful` is as large as the picture, or is made so. Throws GlError if anything
-  /// failed while drawing.
-  csgcore::Image read(const Frame& frame, std::vector<bool>& doubtful) const;
+  /// Returns the picture, and adds its doubts. Their pixels are as many as the picture's, or are
+  /// made so. Throws GlError if anything failed while drawing.
+  csgcore::Image read(const Frame& frame, Doubts& doubts) const;
   /// Adds the colours, each in [0, 1], to the pixels of `sum`, in the order of an Image's. An empty
-  /// `sum` starts from 0. Marks `doubtful` and throws as read() does. Precondition: exact_colors.
-  void add_colors(std::vector<glm::vec3>& sum, std::vector<bool>& doubtful) const;
+  /// `sum` starts from 0. Adds doubts and throws as read() does. Precondition: exact_colors.
+  void add_colors(std::vector<glm::vec3>& sum, Doubts& doubts) const;
 
   /// The texture of normals and t; 0 without measured channels.
   GLuint measured_texture() const { return measured_channels_.name(); }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <exception>
+#include <glm/vector_relational.hpp>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "csgcore/phong.hpp"
 #include "csgcore/sample_pattern.hpp"
 #include "csgcore/tracer.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "frame.hpp"
 #include "glrender/stopwatch.hpp"
 #include "render_target.hpp"
@@ -47,8 +49,12 @@ constexpr double kThicknessTolerance = 0x1p-21;
 constexpr uint32_t kFewDoubtful = 16;
 
 /// The most updates of primitives in place, when tiles are drawn. Then all is uploaded anew, which
-/// frees the faces of polyhedra that are gone.
+/// frees the faces of polyhedra and meshes that are gone.
 constexpr uint32_t kMostUpdates = 256;
+
+/// In tolerances, more than the length of a sheet of an open mesh at the flattest angle at which
+/// its thickness is measured along the normal (SHEET_THICKNESS, SHEET_COSINE).
+constexpr double kLongestSheet = 2048;
 
 double thickness_tolerance(const Solid& solid) {
   if (solid.bounds().empty()) return 0;
@@ -75,9 +81,10 @@ TargetFormat format_of(const View& view, bool measured, bool exact_colors) {
 
 class Renderer::Impl {
  public:
-  explicit Impl(const Solid& solid)
-      : solid_(&solid),
-        buffers_(solid, thickness_tolerance(solid)),
+  Impl(const HeadlessContext& context, const Solid& solid)
+      : most_texels_(context.most_texels()),
+        solid_(&solid),
+        buffers_(solid, thickness_tolerance(solid), most_texels_),
         tolerance_(thickness_tolerance(solid)) {}
 
   void load(const Subdivision& subdivision) {
@@ -96,7 +103,7 @@ class Renderer::Impl {
   void update(const Subdivision& subdivision, const SceneEdit& edit,
               const SubdivisionUpdate& update) {
     // Cells are made anew now and then. All is uploaded anew with them, which frees the faces of
-    // polyhedra that are gone.
+    // polyhedra and meshes that are gone.
     const bool in_part = edit.keeps_indices() && !update.is_anew;
     follow(subdivision.solid(), edit, in_part);
     if (!in_part || subdivision_ != &subdivision) {
@@ -116,7 +123,7 @@ class Renderer::Impl {
     const Pass pass = make_pass(view, settings, nullptr);
     prepare(pass, stats);
     Image image;
-    doubtful_.clear();
+    doubts_ = doubts_at_eye(view);
     if (settings.samples > 1) draw_samples(pass, image, stats);
     // The pixels' centres are drawn last, since draw_behind() continues from that picture.
     if (settings.samples <= 1 || settings.measured_channels) {
@@ -176,7 +183,7 @@ class Renderer::Impl {
     Stopwatch watch;
     Pass pass = make_pass(view, settings, nullptr);
     pass.tiles = false;
-    doubtful_.clear();
+    doubts_ = doubts_at_eye(view);
     use_target(view, settings.measured_channels);
     begin(pass, *target_);
     BatchQueue queue;
@@ -216,7 +223,7 @@ class Renderer::Impl {
       ++updates_;
     } else {
       uploaded_before_ += buffers_.uploaded_bytes();
-      buffers_ = SolidBuffers(solid, tolerance_);
+      buffers_ = SolidBuffers(solid, tolerance_, most_texels_);
       updates_ = 0;
     }
   }
@@ -257,6 +264,24 @@ class Renderer::Impl {
     return pass;
   }
 
+  /// Doubts all pixels if the eye may lie in an open mesh: whether it lies in the solid then
+  /// differs from ray to ray.
+  Doubts doubts_at_eye(const View& view) const {
+    if (buffers_.nonconvex().empty() || view.projection != csgcore::Projection::kPerspective) {
+      return {};
+    }
+    const double margin = kLongestSheet * tolerance_;
+    for (const csgcore::CanonicalPrimitive& primitive : solid_->primitives()) {
+      if (!primitive.mesh() || primitive.mesh()->is_closed()) continue;
+      const csgcore::Box& bounds = primitive.bounds;
+      if (glm::all(glm::greaterThan(view.eye, bounds.min - margin)) &&
+          glm::all(glm::lessThan(view.eye, bounds.max + margin))) {
+        return {std::vector<bool>(size_t{view.width_px} * view.height_px, true), true};
+      }
+    }
+    return {};
+  }
+
   void use_target(const View& view, bool measured) {
     const TargetFormat format = format_of(view, measured, false);
     if (target_ && target_->format() == format) return;
@@ -266,7 +291,7 @@ class Renderer::Impl {
 
   InstanceSorter sorter(const Pass& pass) {
     const bool boxes = pass.settings.subject == Subject::kCells;
-    return {pass.frame,   *solid_,         short_list(!buffers_.cuts().empty(), false),
+    return {pass.frame,   *solid_,         short_list(buffers_.are_segments_dear(), false),
             pass.overlap, pass.eye_inside, boxes,
             streams_};
   }
@@ -298,7 +323,7 @@ class Renderer::Impl {
     options.boundary = pass.first ? csgcore::Boundary::kBehind : csgcore::Boundary::kFirst;
     options.centers_only = pass.settings.samples <= 1;
     options.thickness_tolerance = pass.tolerance;
-    options.short_list = short_list(!buffers_.cuts().empty(), true);
+    options.short_list = short_list(buffers_.are_segments_dear(), true);
     options.threads = pass.settings.threads;
     options.longest_list = kLongList;
     if (!csgcore::list_tiles(*solid_, pass.frame.view, options, lists_)) refuse_lists();
@@ -329,17 +354,18 @@ class Renderer::Impl {
   /// Adds target_'s channels to the image, and its colours if there are none yet.
   void read(const Pass& pass, Image& image, FrameStats& stats) {
     Stopwatch watch;
-    Image centre = target_->read(pass.frame, doubtful_);
+    Image centre = target_->read(pass.frame, doubts_);
     if (!image.rgb.empty()) centre.rgb = std::move(image.rgb);
     image = std::move(centre);
     stats.read_ms += watch.lap();
   }
 
-  /// Draws by the CPU those pixels in which float cannot tell whether a piece is thick enough to
-  /// exist. The CPU applies the same rule in double, so that a wall is drawn whole or not at all.
+  /// Draws by the CPU the pixels that the shaders have given up, and those in which float cannot
+  /// tell whether a piece is thick enough to exist. The CPU applies the same rule in double, so
+  /// that a wall is drawn whole or not at all.
   void settle_doubts(const Pass& pass, uint32_t samples, Image& image, FrameStats& stats) const {
-    const auto doubtful = std::count(doubtful_.begin(), doubtful_.end(), true);
-    if (doubtful <= long{kFewDoubtful} * samples) return;
+    const auto doubtful = std::count(doubts_.pixels.begin(), doubts_.pixels.end(), true);
+    if (!doubts_.has_unfinished && doubtful <= long{kFewDoubtful} * samples) return;
     Stopwatch watch;
     csgcore::TraceOptions options;
     options.threads = pass.settings.threads;
@@ -349,8 +375,8 @@ class Renderer::Impl {
     Image exact;
     csgcore::TraceStats trace_stats;
     csgcore::draw(*solid_, pass.frame.view, pass.settings, options, exact, trace_stats);
-    for (size_t i = 0; i < doubtful_.size(); ++i) {
-      if (!doubtful_[i]) continue;
+    for (size_t i = 0; i < doubts_.pixels.size(); ++i) {
+      if (!doubts_.pixels[i]) continue;
       image.rgb[i] = exact.rgb[i];
       if (!pass.settings.measured_channels) continue;
       image.z[i] = exact.z[i];
@@ -364,9 +390,9 @@ class Renderer::Impl {
   /// Averages colours over the samples.
   class Average {
    public:
-    void add(const RenderTarget& target, std::vector<bool>& doubtful, FrameStats& stats) {
+    void add(const RenderTarget& target, Doubts& doubts, FrameStats& stats) {
       Stopwatch watch;
-      target.add_colors(sum_, doubtful);
+      target.add_colors(sum_, doubts);
       ++samples_;
       stats.read_ms += watch.lap();
     }
@@ -394,7 +420,7 @@ class Renderer::Impl {
     Average average;
     for (uint32_t i = 0; i < pass.settings.samples; ++i) {
       shoot(displaced(pass, i, pass.settings.samples), target, stats);
-      average.add(target, doubtful_, stats);
+      average.add(target, doubts_, stats);
     }
     average.store(view, image);
   }
@@ -412,7 +438,7 @@ class Renderer::Impl {
       shoot(displaced(to_front, i, settings.samples), front, stats);
       prepare(to_behind, stats);
       shoot(displaced(to_behind, i, settings.samples), behind, stats);
-      average.add(behind, doubtful_, stats);
+      average.add(behind, doubts_, stats);
     }
     average.store(view, image);
   }
@@ -430,6 +456,7 @@ class Renderer::Impl {
     drawer_.draw(streams_, pass, buffers_, stats);
   }
 
+  uint64_t most_texels_;
   const Solid* solid_;
   SolidBuffers buffers_;
   StreamDrawer drawer_;
@@ -439,14 +466,14 @@ class Renderer::Impl {
   const Subdivision* subdivision_ = nullptr;
   std::vector<uint64_t> first_test_;  // by leaf of the subdivision, in the buffers
   uint64_t tests_ = 0;                // tests that the buffers hold
-  std::vector<bool> doubtful_;        // pixels of the last picture, and of the front that it lies
-                                      // behind
+  Doubts doubts_;                     // of the last picture, and of the front that it lies behind
   uint64_t uploaded_before_ = 0;      // bytes, to buffers that were replaced
   uint32_t updates_ = 0;              // number of updates in place since then
   double tolerance_;
 };
 
-Renderer::Renderer(HeadlessContext&, const Solid& solid) : impl_(std::make_unique<Impl>(solid)) {}
+Renderer::Renderer(HeadlessContext& context, const Solid& solid)
+    : impl_(std::make_unique<Impl>(context, solid)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -26,10 +26,11 @@ enum class Path : int {
 };
 constexpr int kPaths = 9;
 
-/// The most primitives for which a fragment keeps all segments: in cells, 8 is the default K.
-/// Finding a segment that faces cut takes some hundred loop rounds (see kMostRounds), so that
+/// The most primitives for which a fragment keeps all segments of those that are convex: in cells,
+/// 8 is the default K. `are_dear`: finding a segment that faces cut takes some hundred loop rounds
+/// (see kMostRounds), and a primitive that is not convex makes a ray ask again and again, so that
 /// longer lists are kept, too. In tiles all lists keep theirs.
-constexpr uint32_t short_list(bool has_cuts, bool tiles) { return has_cuts || tiles ? 32 : 8; }
+constexpr uint32_t short_list(bool are_dear, bool tiles) { return are_dear || tiles ? 32 : 8; }
 /// Longer lists of a tile are refused, as are those that take too many rounds.
 constexpr uint32_t kLongList = 128;
 
@@ -45,13 +46,22 @@ constexpr uint64_t kMostRounds = 30000;
 /// The limit for a tile, over all evaluations that a ray may need.
 constexpr uint64_t kMostTileRounds = 60000;
 
+/// A pixel that takes more rounds than this on primitives that are not convex is given up, and the
+/// CPU draws it: it leaves enough for the rounds of the others.
+constexpr uint32_t kMostNonconvexRounds = 30000;
+
+/// What the shaders write beside a pixel's colour: whether the pixel is right; or whether a piece
+/// that it shows may be too thin to exist; or whether it was given up.
+constexpr float kMarkSure = 1, kMarkDoubtful = 0, kMarkUnfinished = 0.5;
+
 constexpr unsigned kLocationLow = 0;
 constexpr unsigned kLocationHigh = 1;
 constexpr unsigned kLocationList = 2;
 
 /// Texels of each primitive in its buffer. The first holds the centre, and in w the first texel of
-/// a polyhedron's faces. The others hold the rows of world_to_canonical, and in w radius_mid,
-/// radius_slope and the enclosure's kind (its number in csgcore::Shape, or kShapeNone).
+/// a polyhedron's or mesh's faces. The others hold the rows of world_to_canonical, and in w
+/// radius_mid, radius_slope and a kind (its number in csgcore::Shape, or kShapeNone): the
+/// enclosure's, or the primitive's own if it is not convex.
 constexpr int kPrimitiveTexels = 4;
 constexpr float kShapeNone = -1;  // marks a primitive that is too thin to exist
 
@@ -106,6 +116,14 @@ inline constexpr std::array kShaderConstants = {
     // ray stops growing: the rounding of the normal itself would decide there.
     ShaderConstant{"GRAZING_COSINE", 1.0 / 16384, false},
     ShaderConstant{"EDGE_WIDTH_PX", 0.75, false},
+    ShaderConstant{"MOST_NONCONVEX_ROUNDS", kMostNonconvexRounds, true},
+    ShaderConstant{"MARK_SURE", kMarkSure, false},
+    ShaderConstant{"MARK_DOUBTFUL", kMarkDoubtful, false},
+    ShaderConstant{"MARK_UNFINISHED", kMarkUnfinished, false},
+    // The sheets of open meshes (csgcore/NUMERICS.md, "Meshes"). They are thick enough to exist
+    // without a doubt, and thin enough to end within the overlap of cells (2 tolerances or more).
+    ShaderConstant{"SHEET_THICKNESS", 1.75, false},
+    ShaderConstant{"SHEET_COSINE", 1.0 / 1024, false},
 };
 
 }  // namespace glrender

@@ -43,6 +43,10 @@ std::vector<Kind> listed(KindSet kinds) {
   return result;
 }
 
+std::string is_of(const Kind& kind) {
+  return "ray.enclosure == " + std::to_string(static_cast<int>(kind.shape)) + ".0";
+}
+
 /// Writes code that returns what the function of the ray's enclosure returns. The last kind needs
 /// no comparison, since it is the only one left.
 std::string call_by_enclosure(const std::vector<Kind>& enclosures, std::string_view function,
@@ -52,7 +56,7 @@ std::string call_by_enclosure(const std::vector<Kind>& enclosures, std::string_v
   for (const Kind& kind : enclosures) {
     result += "  ";
     if (&kind != &enclosures.back()) {
-      result += "if (ray.enclosure == " + std::to_string(static_cast<int>(kind.shape)) + ".0) ";
+      result += "if (" + is_of(kind) + ") ";
     }
     result.append("return ").append(glsl_name(kind)).append(function).append(arguments) += ";\n";
   }
@@ -69,12 +73,28 @@ std::string call_each_cut(const std::vector<Kind>& cuts, std::string_view result
   return result.append("  return ").append(result_name) += ";\n";
 }
 
+/// Writes the functions of primitives that are not convex, whose `enclosure` is their own kind.
+std::string nonconvex_source(const std::vector<Kind>& kinds) {
+  if (kinds.empty()) return {};
+  std::string source, is_any;
+  for (const Kind& kind : kinds) {
+    source += kind.source;
+    is_any += (is_any.empty() ? "" : " || ") + is_of(kind);
+  }
+  source += "bool is_nonconvex(CanonicalRay ray) { return " + is_any + "; }\n";
+  source += "Stretch nonconvex_stretch(Ray world, CanonicalRay ray, float t) {\n" +
+            call_by_enclosure(kinds, "_stretch", "(world, ray, t)", "") + "}\n";
+  source += "vec3 nonconvex_gradient(CanonicalRay ray, int face) {\n" +
+            call_by_enclosure(kinds, "_gradient", "(ray, face)", "") + "}\n";
+  return source;
+}
+
 }  // namespace
 
-std::string kinds_source(KindSet enclosures, KindSet cuts) {
+std::string kinds_source(KindSet enclosures, KindSet cuts, KindSet nonconvex) {
   const std::vector<Kind> enclosing = listed(enclosures);
   const std::vector<Kind> cutting = listed(cuts);
-  std::string source;
+  std::string source = nonconvex_source(listed(nonconvex));
   for (const Kind& kind : enclosing) source += kind.source;
   for (const Kind& kind : cutting) source += kind.source;
   source += "Segment enclosure_segment(CanonicalRay ray) {\n" +

@@ -23,6 +23,8 @@ void define(std::string& source, std::string_view name, int value) {
 std::string prologue(const ProgramKey& key) {
   std::string source = "#version 330 core\n";
   if (key.conservative_depth) source += "#extension GL_ARB_conservative_depth : require\n";
+  // For mesh.glsl, which does without it where it must.
+  if (!key.nonconvex.empty()) source += "#extension GL_ARB_gpu_shader5 : enable\n";
   for (const ShaderConstant& constant : kShaderConstants) {
     source.append("#define ").append(constant.name).append(" ");
     source += constant.is_integer ? std::to_string(static_cast<int>(constant.value))
@@ -32,15 +34,17 @@ std::string prologue(const ProgramKey& key) {
   source += "#define LIST_TRUE " + std::to_string(csgcore::kListTrue) + "u\n";
   source += "#define LIST_FALSE " + std::to_string(csgcore::kListFalse) + "u\n";
   const bool has_cuts = !key.cuts.empty();
+  const bool has_nonconvex = !key.nonconvex.empty();
   const bool is_long = key.path == Path::kLongList;
   define(source, "SHORT_LIST",
-         static_cast<int>(is_long ? kLongList : short_list(has_cuts, key.tiles)));
+         static_cast<int>(is_long ? kLongList : short_list(has_cuts || has_nonconvex, key.tiles)));
   define(source, "PATH", static_cast<int>(is_long ? Path::kShortList : key.path));
   define(source, "TILES", key.tiles);
   define(source, "SHADING", static_cast<int>(key.shading));
   define(source, "PERSPECTIVE", key.perspective);
   define(source, "MEASURED", key.measured);
   define(source, "HAS_CUTS", has_cuts);
+  define(source, "HAS_NONCONVEX", has_nonconvex);
   define(source, "CONSERVATIVE_DEPTH", key.conservative_depth);
   define(source, "CLIP_ZERO_TO_ONE", key.clip_zero_to_one);
   define(source, "BEHIND", key.behind);
@@ -78,7 +82,7 @@ Program compile_program(const ProgramKey& key) {
   Program program = Program::make();
   attach(program.name(), GL_VERTEX_SHADER, key,
          {shader_source::kFrame, key.tiles ? shader_source::kTileVert : shader_source::kCellVert});
-  const std::string kinds = kinds_source(key.enclosures, key.cuts);
+  const std::string kinds = kinds_source(key.enclosures, key.cuts, key.nonconvex);
   if (key.path == Path::kBoxes) {
     attach(program.name(), GL_FRAGMENT_SHADER, key,
            {shader_source::kFrame, shader_source::kRay, kinds, shader_source::kShade,

@@ -21,6 +21,7 @@ struct ProgramKey {
   bool measured = false;
   KindSet enclosures;  // kinds of the scene's primitives: see kinds_source()
   KindSet cuts;
+  KindSet nonconvex;
   bool conservative_depth = false;
   bool clip_zero_to_one = false;
   bool behind = false;  // for Renderer::draw_behind

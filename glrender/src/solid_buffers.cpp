@@ -15,6 +15,13 @@
 namespace glrender {
 namespace {
 
+/// Null unless the primitive is a mesh.
+std::shared_ptr<const csgcore::TriangleMesh> shared_mesh(
+    const csgcore::CanonicalPrimitive& primitive) {
+  if (primitive.mesh() == nullptr) return nullptr;
+  return std::static_pointer_cast<const csgcore::TriangleMesh>(primitive.shared_shape);
+}
+
 using csgcore::BlistTest;
 using csgcore::CanonicalPrimitive;
 
@@ -25,7 +32,6 @@ uint32_t fixed_point(float channel) {
 }
 
 using Surface = std::array<uint32_t, 4>;
-using TestTexel = std::array<uint32_t, 4>;
 constexpr size_t kPrimitiveBytes = kPrimitiveTexels * 4 * sizeof(float);
 
 /// Red and green; blue, which channels are the primitive's own, and its cut faces; id.
@@ -36,16 +42,6 @@ Surface surface_of(const CanonicalPrimitive& primitive) {
   for (uint32_t i = 0; i < 3; ++i) flags |= static_cast<uint32_t>(channels[i] >= 0) << i;
   return {fixed_point(color.r) | fixed_point(color.g) << 16,
           fixed_point(color.b) | flags << kSurfaceFlagsShift, primitive.id, 0u};
-}
-
-std::vector<TestTexel> texels_of(std::span<const BlistTest> tests) {
-  std::vector<TestTexel> texels;
-  texels.reserve(tests.size());
-  for (const BlistTest& test : tests) {
-    texels.push_back({test.primitive | (static_cast<uint32_t>(test.complement) << 31),
-                      test.if_inside, test.if_outside, 0u});
-  }
-  return texels;
 }
 
 std::vector<bool> too_thin(const csgcore::Solid& solid, double thickness_tolerance) {
@@ -62,12 +58,10 @@ constexpr const char* kFewerPrimitives = "draw the design in parts";
 }  // namespace
 
 void TextureBuffer::require_room(size_t bytes) const {
-  GLint limit = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  if (bytes / texel_bytes_ > static_cast<size_t>(limit)) {
+  if (bytes / texel_bytes_ > most_texels_) {
     throw GlError(std::string("the ") + what_ + " need a buffer of " +
                   std::to_string(bytes / texel_bytes_) + " texels, and this OpenGL driver allows " +
-                  std::to_string(limit) + " (" + todo_ + ")");
+                  std::to_string(most_texels_) + " (" + todo_ + ")");
   }
 }
 
@@ -88,9 +82,7 @@ void TextureBuffer::upload(const void* data, size_t bytes) {
 /// Moves the contents to a larger buffer, by a copy on the GPU.
 void TextureBuffer::grow(size_t bytes) {
   require_room(bytes);
-  GLint limit = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  const size_t capacity = std::min(2 * bytes, static_cast<size_t>(limit) * texel_bytes_);
+  const size_t capacity = std::min<size_t>(2 * bytes, most_texels_ * texel_bytes_);
   Buffer larger = Buffer::make();
   glBindBuffer(GL_COPY_WRITE_BUFFER, larger.name());
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(capacity), nullptr, GL_STATIC_DRAW);
@@ -123,16 +115,19 @@ void TextureBuffer::bind(GLuint unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
-SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance)
+SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance,
+                           uint64_t most_texels)
     : solid_(&solid),
-      primitives_(GL_RGBA32F, 4 * sizeof(float), "primitives", kFewerPrimitives),
-      surfaces_(GL_RGBA32UI, sizeof(Surface), "primitives", kFewerPrimitives),
-      tests_(GL_RGBA32UI, sizeof(TestTexel), "cells",
+      primitives_(GL_RGBA32F, 4 * sizeof(float), most_texels, "primitives", kFewerPrimitives),
+      surfaces_(GL_RGBA32UI, sizeof(Surface), most_texels, "primitives", kFewerPrimitives),
+      tests_(GL_RGBA32UI, sizeof(TestTexel), most_texels, "cells",
              "use a larger --leaf-primitives or --threshold"),
-      tile_tests_(GL_RGBA32UI, sizeof(TestTexel), "tiles",
+      tile_tests_(GL_RGBA32UI, sizeof(TestTexel), most_texels, "tiles",
                   "use a smaller --imgsize, or --technique=cells"),
-      polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), "faces of polyhedra",
+      polyhedra_(GL_RGBA32F, sizeof(PolyhedronTexels::Texel), most_texels, "faces of polyhedra",
                  "use a smaller $fn"),
+      triangles_(GL_RGBA32F, sizeof(MeshTexels::Texel), most_texels, "triangles of meshes",
+                 "use coarser meshes"),
       is_too_thin_(too_thin(solid, thickness_tolerance)) {
   std::vector<Surface> surfaces;
   surfaces.reserve(solid.primitives().size());
@@ -145,11 +140,28 @@ SolidBuffers::SolidBuffers(const csgcore::Solid& solid, double thickness_toleran
     polyhedra_.upload(faces_.texels().data(),
                       faces_.texels().size() * sizeof(PolyhedronTexels::Texel));
   }
+  add_meshes();
+}
+
+void SolidBuffers::add_meshes() {
+  if (!has_meshes()) return;
+  const std::vector<MeshTexels::Texel> added = meshes_.take_added();
+  triangles_.update((meshes_.size() - added.size()) * sizeof(MeshTexels::Texel), added.data(),
+                    added.size() * sizeof(MeshTexels::Texel));
+}
+
+void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
+  if (primitive.is_convex) {
+    enclosures_.add(primitive.enclosure);
+  } else {
+    nonconvex_.add(primitive.shape);
+  }
 }
 
 void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
-  enclosures_.add(primitive.enclosure);
-  if (primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
+  note_kind(primitive);
+  if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
+  meshes_.first_of(shared_mesh(primitive));
   const size_t before = faces_.texels().size();
   faces_.first_of(primitive.polyhedron.get());
   if (faces_.texels().size() > before) numbered_.push_back(primitive.polyhedron);
@@ -167,8 +179,9 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
                       faces_.texels().data() + faces_before,
                       (faces_.texels().size() - faces_before) * sizeof(PolyhedronTexels::Texel));
   }
-  enclosures_ = {};
-  for (const CanonicalPrimitive& primitive : primitives) enclosures_.add(primitive.enclosure);
+  add_meshes();
+  enclosures_ = nonconvex_ = {};
+  for (const CanonicalPrimitive& primitive : primitives) note_kind(primitive);
   // The tolerance depends on the size of the whole solid, so that any primitive may have become too
   // thin.
   std::vector<bool> is_too_thin = too_thin(solid, thickness_tolerance);
@@ -199,10 +212,12 @@ void SolidBuffers::update(const csgcore::Solid& solid, const csgcore::SceneEdit&
 
 void SolidBuffers::append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels) {
   const CanonicalPrimitive& primitive = solid_->primitives()[index];
-  const float shape = is_too_thin_[index] ? kShapeNone : static_cast<float>(primitive.enclosure);
+  const csgcore::Shape kind = primitive.is_convex ? primitive.enclosure : primitive.shape;
+  const float shape = is_too_thin_[index] ? kShapeNone : static_cast<float>(kind);
   const glm::vec3 center(primitive.center - focus);
-  texels.insert(texels.end(), {center.x, center.y, center.z,
-                               static_cast<float>(faces_.first_of(primitive.polyhedron.get()))});
+  const uint32_t faces = primitive.mesh() != nullptr ? meshes_.first_of(shared_mesh(primitive))
+                                                     : faces_.first_of(primitive.polyhedron.get());
+  texels.insert(texels.end(), {center.x, center.y, center.z, static_cast<float>(faces)});
   const double beside[] = {primitive.radius_mid, primitive.radius_slope, shape};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
@@ -223,6 +238,18 @@ void SolidBuffers::place(const Frame& frame) {
   placed_at_ = frame.focus;
 }
 
+std::vector<SolidBuffers::TestTexel> SolidBuffers::texels_of(
+    std::span<const BlistTest> tests) const {
+  std::vector<TestTexel> texels;
+  texels.reserve(tests.size());
+  for (const BlistTest& test : tests) {
+    texels.push_back({test.primitive | (static_cast<uint32_t>(test.complement) << 31),
+                      test.if_inside, test.if_outside,
+                      static_cast<uint32_t>(solid_->primitives()[test.primitive].is_convex)});
+  }
+  return texels;
+}
+
 void SolidBuffers::upload_tests(std::span<const BlistTest> tests, ListsOf of) {
   const std::vector<TestTexel> texels = texels_of(tests);
   (of == ListsOf::kTiles ? tile_tests_ : tests_)
@@ -236,7 +263,7 @@ void SolidBuffers::add_tests(uint64_t before, std::span<const BlistTest> tests) 
 
 uint64_t SolidBuffers::uploaded_bytes() const {
   return primitives_.uploaded_bytes() + surfaces_.uploaded_bytes() + tests_.uploaded_bytes() +
-         polyhedra_.uploaded_bytes();
+         polyhedra_.uploaded_bytes() + triangles_.uploaded_bytes();
 }
 
 void SolidBuffers::bind(GLuint program, ListsOf of) const {
@@ -244,10 +271,12 @@ void SolidBuffers::bind(GLuint program, ListsOf of) const {
   surfaces_.bind(1);
   (of == ListsOf::kTiles ? tile_tests_ : tests_).bind(2);
   if (has_faces()) polyhedra_.bind(3);
+  if (has_meshes()) triangles_.bind(4);
   glUniform1i(glGetUniformLocation(program, "u_primitives"), 0);
   glUniform1i(glGetUniformLocation(program, "u_surfaces"), 1);
   glUniform1i(glGetUniformLocation(program, "u_tests"), 2);
   if (has_faces()) glUniform1i(glGetUniformLocation(program, "u_polyhedra"), 3);
+  if (has_meshes()) glUniform1i(glGetUniformLocation(program, "u_meshes"), 4);
 }
 
 }  // namespace glrender

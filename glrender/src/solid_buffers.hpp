@@ -1,6 +1,7 @@
 // Holds a solid's primitives and Blists in buffers that the shaders read.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "frame.hpp"
 #include "gl_object.hpp"
 #include "kind_set.hpp"
+#include "mesh_texels.hpp"
 #include "polyhedron_texels.hpp"
 
 namespace glrender {
@@ -17,11 +19,17 @@ namespace glrender {
 /// A buffer with the texture through which shaders read it.
 class TextureBuffer {
  public:
-  /// `texel_bytes` is the size of the format's texel; `what` and `todo` are for messages.
-  TextureBuffer(GLenum format, size_t texel_bytes, const char* what, const char* todo)
-      : format_(format), texel_bytes_(texel_bytes), what_(what), todo_(todo) {}
+  /// `texel_bytes` is the size of the format's texel, and `most_texels` what the driver allows;
+  /// `what` and `todo` are for messages.
+  TextureBuffer(GLenum format, size_t texel_bytes, uint64_t most_texels, const char* what,
+                const char* todo)
+      : format_(format),
+        texel_bytes_(texel_bytes),
+        most_texels_(most_texels),
+        what_(what),
+        todo_(todo) {}
 
-  /// Replaces the contents. Throws GlError if they exceed what the driver can address.
+  /// Replaces the contents. Throws GlError if they exceed what the driver allows.
   void upload(const void* data, size_t bytes);
   /// Writes `bytes` bytes from `first_byte` on, past the end too, and leaves all others as they
   /// are. Precondition: first_byte is at most the number of bytes held. Throws as upload() does.
@@ -37,6 +45,7 @@ class TextureBuffer {
 
   GLenum format_;
   size_t texel_bytes_;
+  uint64_t most_texels_;
   const char* what_;
   const char* todo_;
   Buffer buffer_;
@@ -52,11 +61,11 @@ enum class ListsOf : uint8_t { kCells, kTiles };
 class SolidBuffers {
  public:
   /// bind() uses the texture units from 0 up to this one (exclusive).
-  static constexpr int kTextureUnits = 4;
+  static constexpr int kTextureUnits = 5;
 
   /// `solid` must outlive this object. Primitives thinner than `thickness_tolerance`, in world
-  /// units, are left out.
-  SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance);
+  /// units, are left out. A buffer must not have more than `most_texels`.
+  SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance, uint64_t most_texels);
 
   /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if
   /// the tolerance now leaves other primitives out. `solid` must outlive this object from now on.
@@ -74,26 +83,37 @@ class SolidBuffers {
   /// Binds the buffers and sets the samplers of the program in use.
   void bind(GLuint program, ListsOf of) const;
 
-  /// The kinds of the primitives' enclosures.
+  /// The kinds of the convex primitives' enclosures.
   KindSet enclosures() const { return enclosures_; }
   /// The kinds of the primitives whose enclosure is of another kind. A kind stays among them even
   /// if an edit removes its last primitive.
   KindSet cuts() const { return cuts_; }
+  /// The kinds of the primitives that are not convex.
+  KindSet nonconvex() const { return nonconvex_; }
+  /// Whether lists of cells keep their segments: see short_list().
+  bool are_segments_dear() const { return !cuts_.empty() || !nonconvex_.empty(); }
 
  private:
-  /// Notes which kinds the primitive needs, and adds its faces to faces_.
+  /// Notes which kinds the primitive needs, and adds its faces to faces_ or meshes_.
   void take_in(const csgcore::CanonicalPrimitive& primitive);
+  void note_kind(const csgcore::CanonicalPrimitive& primitive);
+  using TestTexel = std::array<uint32_t, 4>;
+  std::vector<TestTexel> texels_of(std::span<const csgcore::BlistTest> tests) const;
+  /// Uploads the meshes that are not there yet.
+  void add_meshes();
   bool has_faces() const { return !faces_.empty(); }
+  bool has_meshes() const { return !meshes_.empty(); }
   void append_texels(uint32_t index, const Vec3& focus, std::vector<float>& texels);
 
   const csgcore::Solid* solid_;
   PolyhedronTexels faces_;
   std::vector<std::shared_ptr<const csgcore::Polyhedron>>
       numbered_;  // keeps alive what faces_ knows by address
-  TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_;
+  MeshTexels meshes_;
+  TextureBuffer primitives_, surfaces_, tests_, tile_tests_, polyhedra_, triangles_;
   std::vector<bool> is_too_thin_;  // by primitive's index
   std::optional<Vec3> placed_at_;
-  KindSet enclosures_, cuts_;
+  KindSet enclosures_, cuts_, nonconvex_;
 };
 
 }  // namespace glrender

@@ -91,6 +91,7 @@ void StreamDrawer::use_program(Path path, bool front, const Pass& pass,
   key.measured = pass.settings.measured_channels;
   key.enclosures = buffers.enclosures();
   key.cuts = buffers.cuts();
+  key.nonconvex = buffers.nonconvex();
   key.clip_zero_to_one = conservative_depth_;
   key.behind = pass.first != 0;
   // A hit behind a cell's back face may be nearer than that face, so that its depth promises

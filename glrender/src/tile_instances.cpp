@@ -17,7 +17,7 @@ bool is_too_long(const csgcore::Solid& solid, std::span<const BlistTest> tests) 
 }
 
 Path path_of(const csgcore::Solid& solid, std::span<const BlistTest> tests, bool eye_inside) {
-  if (tests.size() == 1 && !eye_inside) return Path::kSingle;
+  if (tests.size() == 1 && !eye_inside && are_convex(solid, tests)) return Path::kSingle;
   if (tests.size() <= short_list(false, true)) return Path::kShortList;
   if (is_too_long(solid, tests)) refuse_lists();
   return Path::kLongList;

@@ -1,5 +1,6 @@
 #include "traversal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -67,17 +68,24 @@ void InstanceSorter::push(Path path, const Box& box, uint64_t first_test, uint32
       {{low.x, low.y, low.z}, {high.x, high.y, high.z}, static_cast<uint32_t>(first_test), count});
 }
 
+bool are_convex(const csgcore::Solid& solid, std::span<const BlistTest> tests) {
+  return std::ranges::all_of(
+      tests, [&](const BlistTest& test) { return solid.primitives()[test.primitive].is_convex; });
+}
+
 void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uint64_t first_test) {
   if (!is_drawn(leaf)) return;
-  if (leaf.test_count > short_list_ && leaf.kind != LeafKind::kUnion &&
-      rounds(solid_, tests) > kMostRounds) {
+  // The special paths take each primitive for one segment, and draw no complement.
+  const bool is_special = !eye_inside_ && are_convex(solid_, tests);
+  const bool is_divided = leaf.kind == LeafKind::kUnion && (is_special || leaf.test_count == 1);
+  if (leaf.test_count > short_list_ && !is_divided && rounds(solid_, tests) > kMostRounds) {
     throw GlError(std::to_string(leaf.test_count) +
                   " primitives coincide in one place, more than OpenGL can evaluate for a pixel "
                   "(leave out the repeated ones)");
   }
   if (boxes_) {
     push(Path::kBoxes, leaf.box, 0, 0);
-  } else if (leaf.kind == LeafKind::kUnion && !(eye_inside_ && leaf.test_count > 1)) {
+  } else if (is_divided) {
     // The depth buffer unites the operands (paper §3.3.3). A primitive is sought only in its own
     // bounds within the cell; its complement in the whole cell.
     for (uint32_t i = 0; i < leaf.test_count; ++i) {
@@ -87,7 +95,7 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uin
         box = {glm::max(box.min, bounds.min - overlap_), glm::min(box.max, bounds.max + overlap_)};
         if (box.empty()) continue;
       }
-      if (eye_inside_) {
+      if (!is_special) {
         push(Path::kList, box, first_test + i, 1);
       } else {
         // The number of later operands that may have the same face.
@@ -95,7 +103,7 @@ void InstanceSorter::add(const Leaf& leaf, std::span<const BlistTest> tests, uin
         push(later > 0 ? Path::kUnion : Path::kSingle, box, first_test + i, later);
       }
     }
-  } else if (leaf.kind == LeafKind::kPair && !eye_inside_) {
+  } else if (leaf.kind == LeafKind::kPair && is_special) {
     const int complements = tests[0].complement + tests[1].complement;
     const Path path =
         complements == 0 ? Path::kBoth : (complements == 1 ? Path::kMinus : Path::kNeither);

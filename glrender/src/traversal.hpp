@@ -27,8 +27,12 @@ struct InstanceStreams {
   uint64_t size() const;
 };
 
-/// Estimates how many loop rounds the shaders take to evaluate the Blist once.
+/// Estimates how many loop rounds the shaders take to evaluate the Blist once, without those for
+/// primitives that are not convex (kMostNonconvexRounds).
 uint64_t rounds(const csgcore::Solid& solid, std::span<const csgcore::BlistTest> tests);
+
+/// Returns whether all primitives of the list are convex.
+bool are_convex(const csgcore::Solid& solid, std::span<const csgcore::BlistTest> tests);
 
 /// Sorts leaves into streams.
 class InstanceSorter {

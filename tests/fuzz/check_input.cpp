@@ -113,12 +113,14 @@ std::string fault_of_starts(std::string_view text) {
 
 std::string fault_of(std::string_view text) {
   std::optional<SyntaxTree> tree;
+  // The files that the corpus imports.
+  const frontend::ImportOptions options{.folder = SCADRAY_FUZZ_FILES};
   const Outcome by_tree = outcome_of([&] {
     tree = frontend::parse(text, "fuzz.csg");
-    return frontend::import_design(*tree);
+    return frontend::import_design(*tree, options);
   });
   const Outcome by_text =
-      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg").finish(); });
+      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg", options).finish(); });
   if (tree) {
     const std::string fault = fault_of(*tree);
     if (!fault.empty()) return fault;

@@ -15,7 +15,8 @@ frontend::ImportedDesign read_design(const std::filesystem::path& file) {
       file.extension() == ".scad"
           ? frontend::export_with_openscad(file.string(), {}, false, ignore_message, [] {}).csg
           : frontend::read_file(file.string());
-  return frontend::import_design(frontend::parse(text.view(), file.filename().string()));
+  return frontend::import_design(frontend::parse(text.view(), file.filename().string()),
+                                 {.folder = file.parent_path().string()});
 }
 
 csgcore::View default_view(const frontend::ImportedDesign& design, uint32_t width_px,

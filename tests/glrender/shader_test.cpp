@@ -1,8 +1,10 @@
 // Tests that every shader variant compiles, and that GL objects have one owner.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <type_traits>
 #include <utility>
@@ -13,9 +15,11 @@
 #include "csgcore/primitive.hpp"
 #include "gl_object.hpp"
 #include "glrender/context.hpp"
+#include "mesh_texels.hpp"
 #include "polyhedron_texels.hpp"
 #include "shader_program.hpp"
 #include "support/full_run.hpp"
+#include "support/mesh_models.hpp"
 
 namespace {
 
@@ -41,9 +45,10 @@ bool compiles(csgcore::Shape enclosure, KindSet cuts) {
   }
 }
 
-/// The kinds of either sort of ray.glsl, as their shaders say.
+/// The kinds of each sort of ray.glsl. Those that are convex have the sort that their shaders say.
 struct Roles {
   std::vector<csgcore::Shape> enclosures, cuts;
+  KindSet nonconvex;
 };
 
 Roles find_roles() {
@@ -51,8 +56,11 @@ Roles find_roles() {
 #define FIND_ROLE(Name)                                                   \
   (compiles(csgcore::Shape::k##Name, {}) ? roles.enclosures : roles.cuts) \
       .push_back(csgcore::Shape::k##Name);
-  CSGCORE_FOR_EACH_SHAPE(FIND_ROLE)
+  CSGCORE_FOR_EACH_CONVEX_SHAPE(FIND_ROLE)
 #undef FIND_ROLE
+#define ADD_NONCONVEX(Name) roles.nonconvex.add(csgcore::Shape::k##Name);
+  CSGCORE_FOR_EACH_OTHER_SHAPE(ADD_NONCONVEX)
+#undef ADD_NONCONVEX
   return roles;
 }
 
@@ -65,17 +73,24 @@ TEST(ShaderTest, EveryKindHasASegmentOrCutsOne) {
   }
 }
 
-/// Compiles every set of kinds that a scene may have. That takes a minute, so that a sample has
+/// The paths that draw primitives that are not convex.
+constexpr bool is_general(Path path) {
+  return path == Path::kShortList || path == Path::kLongList || path == Path::kList ||
+         path == Path::kBoxes;
+}
+
+/// Compiles every set of kinds that a scene may have. That takes minutes, so that a sample has
 /// every fifth: five shares no factor with the periods of the bits and paths.
 TEST(ShaderTest, EveryVariantCompiles) {
   HeadlessContext context;
   const Roles roles = find_roles();
-  // The sets of enclosures, each with all cuts and without any.
+  // The sets of enclosures, each with all cuts and without any, and with all kinds that are not
+  // convex and without any.
   const int sets = 1 << roles.enclosures.size();
   const int step = test_support::full_run() ? 1 : 5;
   int variants = 0;
   for (int path = 0; path < kPaths; ++path) {
-    for (int bits = 0; bits < 128 * sets; ++bits) {
+    for (int bits = 0; bits < 256 * sets; ++bits) {
       ProgramKey key;
       key.path = static_cast<Path>(path);
       key.shading = bits & 1 ? Shading::kPhong : Shading::kOpenScad;
@@ -88,20 +103,27 @@ TEST(ShaderTest, EveryVariantCompiles) {
       }
       key.tiles = bits & 64;
       for (size_t i = 0; i < roles.enclosures.size(); ++i) {
-        if (bits / 128 >> i & 1) key.enclosures.add(roles.enclosures[i]);
+        if (bits / 256 >> i & 1) key.enclosures.add(roles.enclosures[i]);
       }
-      if (key.enclosures.empty()) continue;
+      if (bits & 128) key.nonconvex = roles.nonconvex;
+      if (key.enclosures.empty() && (key.nonconvex.empty() || !key.cuts.empty())) continue;
+      if (!key.nonconvex.empty() && !is_general(key.path)) continue;
       const bool is_of_tiles =
           key.path == Path::kSingle || key.path == Path::kShortList || key.path == Path::kLongList;
       if (key.tiles && (!is_of_tiles || key.conservative_depth)) continue;
       if (!key.tiles && key.path == Path::kLongList) continue;
-      // The cuts depend neither on the shading nor on measured channels.
-      if (!key.cuts.empty() && (key.shading == Shading::kPhong || key.measured)) continue;
+      // The shading does not depend on the cuts nor on what is not convex, nor do measured channels
+      // on the cuts.
+      const bool is_plain = key.cuts.empty() && key.nonconvex.empty();
+      if (!is_plain && key.shading == Shading::kPhong) continue;
+      if (!key.cuts.empty() && key.measured) continue;
       if (variants++ % step != 0) continue;
       ASSERT_NO_THROW(compile_program(key)) << path << " " << bits;
     }
   }
-  EXPECT_EQ(variants, (sets - 1) * ((kPaths - 1) * (32 + 8) + 3 * (16 + 4)));
+  const int convex = (sets - 1) * ((kPaths - 1) * (32 + 8) + 3 * (16 + 4));
+  const int nonconvex = sets * (3 * 16 + 2 * 8) + (sets - 1) * (3 * 8 + 2 * 4);
+  EXPECT_EQ(variants, convex + nonconvex);
   std::printf("compiled one in %d of %d variants\n", step, variants);
 }
 
@@ -164,6 +186,91 @@ TEST(PolyhedronTexelsTest, RefuseMoreThanFloatsCanCount) {
   const auto box = csgcore::Polyhedron::box({csgcore::Vec3(0), csgcore::Vec3(1)});
   EXPECT_NO_THROW(PolyhedronTexels(9).first_of(box.get()));
   EXPECT_THROW(PolyhedronTexels(7).first_of(box.get()), GlError);
+}
+
+/// Returns the triangles that the texels of a mesh hold. Expects each of them within the boxes of
+/// all nodes above it, and its normal beside it.
+std::vector<std::array<csgcore::Vec3, 3>> triangles_in(const std::vector<MeshTexels::Texel>& texels,
+                                                       uint32_t first) {
+  std::vector<std::array<csgcore::Vec3, 3>> found;
+  struct Node {
+    csgcore::Box box;
+    size_t end;  // of the texels below it
+  };
+  std::vector<Node> above;
+  const size_t end = first + 1 + static_cast<size_t>(texels[first][0]);
+  const auto place = [&](size_t i) {
+    return csgcore::Vec3{texels[i][0], texels[i][1], texels[i][2]};
+  };
+  for (size_t i = first + 1; i < end;) {
+    while (!above.empty() && above.back().end == i) above.pop_back();
+    above.push_back({{place(i), place(i + 1)}, i + 2 + static_cast<size_t>(texels[i][3])});
+    const auto count = static_cast<size_t>(texels[i + 1][3]);
+    i += 2;
+    for (size_t triangle = 0; triangle < count; ++triangle, i += 3) {
+      found.push_back({place(i), place(i + 1), place(i + 2)});
+      for (const csgcore::Vec3& corner : found.back()) {
+        for (const Node& node : above) {
+          for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_LT(node.box.min[axis], corner[axis]) << i;
+            EXPECT_GT(node.box.max[axis], corner[axis]) << i;
+          }
+        }
+      }
+      const csgcore::Vec3 normal{texels[i][3], texels[i + 1][3], texels[i + 2][3]};
+      const auto& [a, b, c] = found.back();
+      EXPECT_NEAR(glm::dot(normal, glm::normalize(glm::cross(b - a, c - a))), 1, 1e-6) << i;
+    }
+    if (count > 0) {
+      EXPECT_EQ(above.back().end, i);
+    }
+  }
+  while (!above.empty() && above.back().end == end) above.pop_back();
+  EXPECT_TRUE(above.empty());
+  return found;
+}
+
+TEST(MeshTexelsTest, HoldEveryTriangleOnce) {
+  MeshTexels all;
+  EXPECT_TRUE(all.empty());
+  EXPECT_EQ(all.first_of(nullptr), 0u);
+  const auto torus = test_support::mesh_of(test_support::torus_shell(3, 1, 20, 10));
+  const auto open_box =
+      test_support::mesh_of(test_support::open_box_shell(csgcore::Vec3(0), csgcore::Vec3(1)));
+  EXPECT_EQ(all.first_of(torus), 1u);
+  std::vector<MeshTexels::Texel> texels = all.take_added();
+  EXPECT_EQ(texels.size(), all.size());
+  const uint32_t first_of_box = all.first_of(open_box);
+  EXPECT_EQ(first_of_box, texels.size());
+  const std::vector<MeshTexels::Texel> added = all.take_added();
+  texels.insert(texels.end(), added.begin(), added.end());
+  EXPECT_EQ(texels.size(), all.size());
+  EXPECT_EQ(texels[1][1], 1);
+  EXPECT_EQ(texels[first_of_box][1], 0);
+  for (const auto& [mesh, first] : {std::pair(torus, 1u), std::pair(open_box, first_of_box)}) {
+    auto found = triangles_in(texels, first);
+    ASSERT_EQ(found.size(), mesh->triangles().size());
+    for (const auto& [a, b, c] : mesh->triangles()) {
+      const auto& vertices = mesh->canonical_vertices();
+      const std::array wanted{csgcore::Vec3(glm::vec3(vertices[a])),
+                              csgcore::Vec3(glm::vec3(vertices[b])),
+                              csgcore::Vec3(glm::vec3(vertices[c]))};
+      const auto place = std::find(found.begin(), found.end(), wanted);
+      ASSERT_NE(place, found.end());
+      found.erase(place);
+    }
+  }
+  // A mesh of the same content is the same mesh.
+  EXPECT_EQ(all.first_of(test_support::mesh_of(test_support::torus_shell(3, 1, 20, 10))), 1u);
+  EXPECT_TRUE(all.take_added().empty());
+}
+
+TEST(MeshTexelsTest, RefuseMoreThanFloatsCanCount) {
+  const auto ball = test_support::mesh_of(test_support::ball_shell(1, 0));
+  MeshTexels all;
+  all.first_of(ball);
+  EXPECT_NO_THROW(MeshTexels(all.size()).first_of(ball));
+  EXPECT_THROW(MeshTexels(all.size() - 1).first_of(ball), GlError);
 }
 
 TEST(FaceRoundsTest, AreOneAFaceButForThousands) {

@@ -222,7 +222,7 @@ TEST(ExactSegment, IntervalsEncloseWhatIsExact) {
   std::uniform_real_distribution<double> number(-0.4, 0.4);  // inside the unit
   std::vector<Primitive> primitives;
   test_support::Sizes sizes(random, {.low = 1, .high = 4, .most_fragments = 12});
-  for (const test_support::Variant& variant : test_support::all_variants()) {
+  for (const test_support::Variant& variant : test_support::convex_variants()) {
     for (int i = 0; i < 8; ++i) {
       primitives.push_back(variant.make(sizes));
       primitives.back().local_to_world = test_support::random_affine(random);

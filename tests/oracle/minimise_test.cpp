@@ -9,6 +9,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "support/models.hpp"
 #include "support/reference_test_scenes.hpp"
+#include "support/test_meshes.hpp"
 
 namespace oracle {
 namespace {
@@ -84,6 +85,26 @@ TEST(Minimise, PolyhedraBecomeSimpler) {
   EXPECT_EQ(faces_of(30), 19 * 40 + 2u);
 }
 
+TEST(Minimise, MeshesLoseVertices) {
+  const Scene scene =
+      scene_of(Op::kUnion, {csgcore::make_mesh(test_support::torus_parts(3, 1, 12, 8).mesh()),
+                            csgcore::make_mesh(test_support::icosphere_parts(1, 2).mesh())});
+  const auto smallest = [&](const auto& shows) {
+    const Scene result = minimise(scene, [&](const Scene& s) {
+      return std::any_of(s.primitives.begin(), s.primitives.end(),
+                         [&](const Primitive& p) { return p.mesh && shows(*p.mesh); });
+    });
+    EXPECT_EQ(result.primitives.size(), 1u);
+    return result.primitives[0].mesh;
+  };
+  const auto is_closed = [](const csgcore::TriangleMesh& mesh) {
+    return mesh.is_closed() && mesh.vertices().size() >= 4;
+  };
+  EXPECT_EQ(smallest(is_closed)->vertices().size(), 4u);
+  const auto is_open = [](const csgcore::TriangleMesh& mesh) { return !mesh.is_closed(); };
+  EXPECT_EQ(smallest(is_open)->triangles().size(), 1u);
+}
+
 TEST(Minimise, WhatHoldsOfNothingElseStays) {
   const Scene scene = test_support::random_tree(9, 4);
   const std::string text = as_cpp(scene);
@@ -124,6 +145,26 @@ TEST(SceneText, Cpp) {
             "builder.primitive(2);\n"
             "builder.close();\n"
             "scene.model = builder.finish();\n");
+}
+
+TEST(SceneText, Meshes) {
+  const csgcore::Primitive mesh =
+      csgcore::make_mesh(test_support::tetrahedron_parts(1.5).mesh(), {Mat3(1.0), Vec3(0, 0, 1)});
+  const Scene scene = scene_of(Op::kUnion, {mesh, make_sphere(1)});
+  EXPECT_NE(as_cpp(scene).find("make_mesh(std::make_shared<TriangleMesh>(std::vector<Vec3>{"
+                               "{1.5, 1.5, 1.5}, {-1.5, -1.5, 1.5}, {-1.5, 1.5, -1.5}, "
+                               "{1.5, -1.5, -1.5}}, std::vector<TriangleMesh::Triangle>{{"),
+            std::string::npos)
+      << as_cpp(scene);
+  // OpenSCAD's faces are clockwise as seen from outside.
+  const auto [a, b, c] = mesh.mesh->triangles()[0];
+  const std::string face =
+      "[" + std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + "]";
+  EXPECT_NE(as_openscad(scene).find("translate([0, 0, 1]) polyhedron([[1.5, 1.5, 1.5], [-1.5, "
+                                    "-1.5, 1.5], [-1.5, 1.5, -1.5], [1.5, -1.5, -1.5]], [" +
+                                    face),
+            std::string::npos)
+      << as_openscad(scene);
 }
 
 TEST(SceneText, OpenScad) {

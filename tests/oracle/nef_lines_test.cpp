@@ -189,7 +189,7 @@ struct Segment {
   bool is_in_face = false;
 };
 
-Segment segment_of(const ConvexPolyhedron& polyhedron, const Ray& line) {
+Segment segment_of(const FacetedSolid& polyhedron, const Ray& line) {
   RationalVector origin = exact(line.origin);
   for (int i = 0; i < 3; ++i) origin[i] -= polyhedron.local_to_world.translation[i];
   origin = solve(polyhedron.local_to_world.linear, origin);
@@ -216,7 +216,7 @@ void expect_agrees(const NefScene& scene, const NefSolid& solid, const Ray& line
                    const std::string& name) {
   std::vector<Segment> segments;
   std::vector<Rational> ends;
-  for (const ConvexPolyhedron& polyhedron : scene.polyhedra) {
+  for (const FacetedSolid& polyhedron : scene.polyhedra) {
     segments.push_back(segment_of(polyhedron, line));
     if (segments.back().enter >= segments.back().leave) continue;
     ends.push_back(segments.back().enter);

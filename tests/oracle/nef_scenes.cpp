@@ -48,7 +48,7 @@ Affine random_map(std::mt19937& random) {
 }
 
 struct RandomPart {
-  ConvexPolyhedron polyhedron;
+  FacetedSolid polyhedron;
   std::string scad;
 };
 
@@ -75,22 +75,22 @@ RandomPart random_part(std::mt19937& random) {
 
 }  // namespace
 
-ConvexPolyhedron box(const Vec3& min, const Vec3& max, const Affine& local_to_world) {
+FacetedSolid box(const Vec3& min, const Vec3& max, const Affine& local_to_world) {
   return {half_spaces(csgcore::Box{min, max}), local_to_world};
 }
 
-ConvexPolyhedron sphere(double radius, int fragments, const Affine& local_to_world) {
+FacetedSolid sphere(double radius, int fragments, const Affine& local_to_world) {
   return faceted(csgcore::make_sphere(radius, local_to_world), fragments);
 }
 
-ConvexPolyhedron frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
-                         const Affine& local_to_world) {
+FacetedSolid frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
+                     const Affine& local_to_world) {
   return faceted(csgcore::make_frustum(z_min, z_max, r_bottom, r_top, local_to_world), fragments);
 }
 
 Affine shift(const Vec3& by) { return {csgcore::Mat3(1.0), by}; }
 
-NefScene scene_of(Op op, std::vector<ConvexPolyhedron> polyhedra) {
+NefScene scene_of(Op op, std::vector<FacetedSolid> polyhedra) {
   csgcore::CsgTreeBuilder builder;
   builder.open(op);
   for (uint32_t i = 0; i < polyhedra.size(); ++i) builder.primitive(i);

@@ -14,18 +14,18 @@ namespace oracle {
 /// A tree and the polyhedra that it indexes into.
 struct NefScene {
   csgcore::CsgTree tree;
-  std::vector<ConvexPolyhedron> polyhedra;
+  std::vector<FacetedSolid> polyhedra;
 };
 
-ConvexPolyhedron box(const csgcore::Vec3& min, const csgcore::Vec3& max,
+FacetedSolid box(const csgcore::Vec3& min, const csgcore::Vec3& max,
                      const csgcore::Affine& local_to_world = {});
-ConvexPolyhedron sphere(double radius, int fragments, const csgcore::Affine& local_to_world = {});
-ConvexPolyhedron frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
+FacetedSolid sphere(double radius, int fragments, const csgcore::Affine& local_to_world = {});
+FacetedSolid frustum(double z_min, double z_max, double r_bottom, double r_top, int fragments,
                          const csgcore::Affine& local_to_world = {});
 csgcore::Affine shift(const csgcore::Vec3& by);
 
 /// One operation over all polyhedra.
-NefScene scene_of(csgcore::Op op, std::vector<ConvexPolyhedron> polyhedra);
+NefScene scene_of(csgcore::Op op, std::vector<FacetedSolid> polyhedra);
 
 /// Builds the solid. On failure it fails the test, and returns an empty solid.
 std::unique_ptr<const NefSolid> build(const NefScene& scene);

@@ -9,6 +9,7 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "nef_scenes.hpp"
+#include "support/test_meshes.hpp"
 
 namespace oracle {
 namespace {
@@ -20,17 +21,17 @@ using csgcore::Op;
 using csgcore::Vec3;
 using testing::ElementsAre;
 
-NefScene lone(ConvexPolyhedron polyhedron) { return scene_of(Op::kUnion, {std::move(polyhedron)}); }
+NefScene lone(FacetedSolid polyhedron) { return scene_of(Op::kUnion, {std::move(polyhedron)}); }
 
 TEST(NefSolid, VolumesAreExact) {
-  const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
+  const FacetedSolid unit = box(Vec3(0), Vec3(1));
   EXPECT_EQ(build(lone(unit))->volume(), 1);
   EXPECT_EQ(build(lone(box(Vec3(-1, 0, 2), Vec3(2, 0.5, 6))))->volume(), 6);
   // A sheared and mirrored map: |det|. 0.1 stands for the double next to it.
   const Affine map{Mat3(Vec3(-2, 0, 0), Vec3(5, 3, 0), Vec3(0.1, 7, 0.1)), Vec3(9, 8, 7)};
   EXPECT_EQ(build(lone(box(Vec3(0), Vec3(1), map)))->volume(), Rational(6) * Rational(0.1));
   // Octahedron, in half-spaces that meet four by four.
-  ConvexPolyhedron octahedron;
+  FacetedSolid octahedron;
   for (int i = 0; i < 8; ++i) {
     octahedron.half_spaces.push_back({{i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1}, 1});
   }
@@ -38,7 +39,7 @@ TEST(NefSolid, VolumesAreExact) {
   // Square pyramid: a cone of four fragments.
   EXPECT_EQ(build(lone(frustum(0, 4, 2, 0, 4)))->volume(), Rational(32, 3));
 
-  const ConvexPolyhedron half_beside = box(Vec3(0), Vec3(1), shift(Vec3(0.5, 0.5, 0.5)));
+  const FacetedSolid half_beside = box(Vec3(0), Vec3(1), shift(Vec3(0.5, 0.5, 0.5)));
   EXPECT_EQ(build(scene_of(Op::kUnion, {unit, half_beside}))->volume(), Rational(15, 8));
   EXPECT_EQ(build(scene_of(Op::kIntersection, {unit, half_beside}))->volume(), Rational(1, 8));
   EXPECT_EQ(build(scene_of(Op::kDifference, {unit, half_beside}))->volume(), Rational(7, 8));
@@ -47,7 +48,7 @@ TEST(NefSolid, VolumesAreExact) {
 // At first a point inside is sought with some of many planes; here another plane cuts away the
 // middle.
 TEST(NefSolid, OfManyPlanes) {
-  ConvexPolyhedron whole = sphere(3.7, 24), cut = whole, rest = whole;
+  FacetedSolid whole = sphere(3.7, 24), cut = whole, rest = whole;
   cut.half_spaces.push_back({{1, 0, 0}, -2.5});
   rest.half_spaces.push_back({{-1, 0, 0}, 2.5});
   const Rational volume = build(lone(cut))->volume();
@@ -89,6 +90,50 @@ TEST(NefSolid, OfASceneWithPolyhedra) {
 }
 
 // The vertices by which the exact ray oracle bounds polyhedra.
+FacetedSolid mesh(const test_support::MeshParts& parts, const csgcore::Affine& map = {}) {
+  return {{}, map, parts.mesh()};
+}
+
+TEST(NefSolid, OfMeshes) {
+  using test_support::box_parts;
+  const Rational l_prism = build(lone(mesh(test_support::l_prism_parts(4, 1, 2))))->volume();
+  EXPECT_EQ(l_prism, 14);
+  const csgcore::Affine mirrored{csgcore::Mat3(-1, 0, 0, 0, 2, 0, 0, 0, 1), Vec3(1, 2, 3)};
+  EXPECT_EQ(build(lone(mesh(test_support::l_prism_parts(4, 1, 2), mirrored)))->volume(), 28);
+  // Its solid is where the winding number is not 0.
+  test_support::MeshParts parts = box_parts(Vec3(0), Vec3(4));
+  EXPECT_EQ(build(lone(mesh(parts.inside_out())))->volume(), 64);
+  parts.add(box_parts(Vec3(1), Vec3(2)).inside_out());
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63);
+  parts.add(box_parts(Vec3(3), Vec3(5)));
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63 + 7);
+  parts.add(box_parts(Vec3(3), Vec3(5)).inside_out());
+  EXPECT_EQ(build(lone(mesh(parts)))->volume(), 63);
+  // Faces that a mesh shares with a polyhedron are both's.
+  const FacetedSolid half = box(Vec3(0), Vec3(4, 4, 2));
+  const auto shared = build(scene_of(Op::kUnion, {half, mesh(box_parts(Vec3(0), Vec3(4)))}));
+  for (const FacetPlane& plane : shared->planes()) {
+    const bool is_top = plane.unit_normal.z > 0;
+    EXPECT_EQ(plane.polyhedra.size(), is_top ? 1u : 2u);
+  }
+}
+
+TEST(NefSolid, RefusesMeshesThatBoundNoSolid) {
+  const auto expect_refused = [](const test_support::MeshParts& parts, const char* reason) {
+    const NefScene scene = lone(mesh(parts));
+    const NefBuild result = NefSolid::build(scene.tree, scene.polyhedra);
+    EXPECT_EQ(result.status, NefStatus::kFailed);
+    EXPECT_EQ(result.reason, reason);
+  };
+  test_support::MeshParts open = test_support::box_parts(Vec3(0), Vec3(1));
+  open.triangles.pop_back();
+  expect_refused(open, "a mesh is not closed");
+  expect_refused(test_support::box_parts({0, 0, 0}, {1, 1, 0}), "a triangle of a mesh has no area");
+  test_support::MeshParts crossed = test_support::l_prism_parts(4, 1, 2);
+  crossed.vertices[3] = {5, 5, 0};
+  expect_refused(crossed, "a shell of a mesh intersects itself");
+}
+
 TEST(NefSolid, PolyhedraHaveTheirVertices) {
   using csgcore::Polyhedron;
   std::vector<std::shared_ptr<const Polyhedron>> solids{
@@ -115,8 +160,8 @@ TEST(NefSolid, PolyhedraHaveTheirVertices) {
 }
 
 TEST(NefSolid, Regularised) {
-  const ConvexPolyhedron unit = box(Vec3(0), Vec3(1));
-  const ConvexPolyhedron beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
+  const FacetedSolid unit = box(Vec3(0), Vec3(1));
+  const FacetedSolid beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
   // A shared face leaves no skin, and their common part is empty.
   const auto both = build(scene_of(Op::kUnion, {unit, beside}));
   EXPECT_EQ(both->volume(), 2);
@@ -152,7 +197,7 @@ TEST(NefSolid, Regularised) {
 // An edge of the solid that is inside a facet, or enters it from its border: the facet is on both
 // of its sides, and its cycle runs along the edge in both directions.
 TEST(NefSolid, RidgesInAFacet) {
-  const ConvexPolyhedron block = box(Vec3(0), Vec3(4));
+  const FacetedSolid block = box(Vec3(0), Vec3(4));
   // A prism along y, with the section of a square of diagonal 2 that stands on its corner.
   const auto prism = [](double y_min, double y_max, double x, double z) {
     return frustum(y_min, y_max, 1, 1, 4,
@@ -166,11 +211,11 @@ TEST(NefSolid, RidgesInAFacet) {
     EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 3.875)), Place::kInside) << what;
     EXPECT_EQ(solid->locate(Vec3(0.5, 0.5, 4.125)), Place::kOutside) << what;
   };
-  const auto without = [&](std::vector<ConvexPolyhedron> holes) {
+  const auto without = [&](std::vector<FacetedSolid> holes) {
     holes.insert(holes.begin(), block);
     return scene_of(Op::kDifference, std::move(holes));
   };
-  const ConvexPolyhedron across =
+  const FacetedSolid across =
       frustum(1, 3, 1, 1, 4, {Mat3(Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)), Vec3(0, 2, 3)});
   expect("within", without({prism(1, 3, 2, 3)}), 60);
   expect("from one border", without({prism(-1, 3, 2, 3)}), 58);
@@ -195,7 +240,7 @@ TEST(NefSolid, Empty) {
   EXPECT_TRUE(nothing->mesh().faces.empty());
   EXPECT_EQ(nothing->locate(Vec3(0)), Place::kOutside);
   EXPECT_TRUE(nothing->crossings({Vec3(0), Vec3(0, 0, 1)}).empty());
-  const ConvexPolyhedron ball = sphere(1, 8);
+  const FacetedSolid ball = sphere(1, 8);
   EXPECT_TRUE(build(scene_of(Op::kDifference, {ball, ball}))->empty());
 }
 
@@ -282,7 +327,7 @@ TEST(NefSolid, Files) {
 
 /// A scene that takes minutes.
 NefScene large_scene() {
-  std::vector<ConvexPolyhedron> balls;
+  std::vector<FacetedSolid> balls;
   for (int i = 0; i < 30; ++i) {
     balls.push_back(sphere(3, 60, shift(Vec3(0.1 * i, 0.07 * i * i, 0.3 * std::sin(i)))));
   }
@@ -315,13 +360,13 @@ TEST(NefSolid, CanBeCancelled) {
 }
 
 TEST(NefSolid, RefusesWhatIsNoSolid) {
-  ConvexPolyhedron wedge = box(Vec3(0), Vec3(1));
+  FacetedSolid wedge = box(Vec3(0), Vec3(1));
   wedge.half_spaces.pop_back();  // now it is unbounded
-  ConvexPolyhedron nothing = box(Vec3(0), Vec3(1));
+  FacetedSolid nothing = box(Vec3(0), Vec3(1));
   nothing.half_spaces.push_back({{1, 0, 0}, -1});
-  ConvexPolyhedron flat = box(Vec3(0), Vec3(1));
+  FacetedSolid flat = box(Vec3(0), Vec3(1));
   flat.half_spaces.push_back({{1, 0, 0}, 0});
-  for (const ConvexPolyhedron& polyhedron : {wedge, nothing, flat, ConvexPolyhedron{}}) {
+  for (const FacetedSolid& polyhedron : {wedge, nothing, flat, FacetedSolid{}}) {
     const NefScene scene = lone(polyhedron);
     const NefBuild result = NefSolid::build(scene.tree, scene.polyhedra);
     EXPECT_EQ(result.status, NefStatus::kFailed);

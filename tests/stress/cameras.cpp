@@ -61,4 +61,11 @@ std::vector<Camera> default_cameras(const Scene& scene, PictureSize size) {
           {"low", view_around(box, size, Projection::kPerspective, 200, 2, 1.2)}};
 }
 
+std::vector<Camera> cameras_off_edges(const Scene& scene, PictureSize size) {
+  const Box box = camera_box(scene);
+  return {{"oblique", view_around(box, size, Projection::kPerspective, 25, 35, 3)},
+          {"orthographic", view_around(box, size, Projection::kOrthographic, 17, 79, 3)},
+          {"low", view_around(box, size, Projection::kPerspective, 203, 2, 1.2)}};
+}
+
 }  // namespace stress

@@ -34,6 +34,8 @@ using Cameras = std::function<std::vector<Camera>(const Scene&, PictureSize)>;
 /// Returns a perspective view from 25° around and 35° above, an orthographic view exactly from
 /// above, and a perspective view from near the ground, close by.
 std::vector<Camera> default_cameras(const Scene& scene, PictureSize size);
+/// Returns three cameras for which no row or diagonal of pixels runs along an edge.
+std::vector<Camera> cameras_off_edges(const Scene& scene, PictureSize size);
 
 struct Case {
   std::string name;  // FAMILY/NAME
@@ -49,6 +51,8 @@ struct Family {
   std::vector<Case> cases;
   /// Faces coincide everywhere: GL's bar is on speckle.
   bool is_coincident = false;
+  /// Many rays meet edges exactly, where either face is right: there is no bar on undecided pixels.
+  bool has_ties = false;
 };
 
 /// Prints a family for GoogleTest.
@@ -64,6 +68,7 @@ std::vector<Family> far_families();
 std::vector<Family> singular_families();
 std::vector<Family> tree_families();
 std::vector<Family> polyhedron_families();
+std::vector<Family> mesh_families();
 Family tolerance_family();
 std::vector<Family> design_families();
 

@@ -39,7 +39,7 @@ class PrintTotals : public testing::Environment {
 };
 const testing::Environment* const print_totals = testing::AddGlobalTestEnvironment(new PrintTotals);
 
-void expect_exact(const std::vector<Line>& lines) {
+void expect_exact(const std::vector<Line>& lines, bool has_ties) {
   for (const Line& line : lines) {
     SCOPED_TRACE(line.name + " by " + line.method);
     const Tally& tally = line.tally;
@@ -48,6 +48,7 @@ void expect_exact(const std::vector<Line>& lines) {
     EXPECT_LE(tally.position_errors.median(), kMedianPosition + tally.position_rounding);
   }
   for (const Line& total : stress::totals(lines, "")) {
+    if (has_ties) break;
     EXPECT_LE(double(total.tally.undecided), kMostUndecided * double(total.tally.hits))
         << total.method;
   }
@@ -58,7 +59,8 @@ void expect_exact(const std::vector<Line>& lines) {
 class CpuStressTest : public testing::TestWithParam<Family> {};
 
 TEST_P(CpuStressTest, EqualsTheOracle) {
-  expect_exact(stress::run_family(GetParam(), stress::cpu_methods(), stress::kDoubleTolerance));
+  expect_exact(stress::run_family(GetParam(), stress::cpu_methods(), stress::kDoubleTolerance),
+               GetParam().has_ties);
 }
 
 // --- The same bits ---
@@ -130,7 +132,7 @@ TEST(CpuExamplesTest, EqualTheOracle) {
   EXPECT_GE(stress::cases_to_run(examples).size(), 5u);
   const std::vector<stress::Method> methods{stress::cpu_method("tiles"), stress::cpu_method("K=8"),
                                             stress::cpu_method("K=64")};
-  expect_exact(stress::run_family(examples, methods, stress::kDoubleTolerance));
+  expect_exact(stress::run_family(examples, methods, stress::kDoubleTolerance), false);
 }
 
 }  // namespace

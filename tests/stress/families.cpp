@@ -11,6 +11,7 @@ const std::vector<Family>& families() {
                                             singular_families(),
                                             tree_families(),
                                             polyhedron_families(),
+                                            mesh_families(),
                                             {tolerance_family()},
                                             design_families()}) {
       result.insert(result.end(), some.begin(), some.end());

@@ -128,7 +128,7 @@ TEST(GlRandomTrees, AreMeasuredAgainstTheOracle) {
   for (const stress::Method& method : {gl_method(8), gl_tiles()}) {
     stress::Tally sum;
     for (uint32_t seed = 1; seed <= trees; ++seed) {
-      const csgcore::Scene scene = stress::random_scene(seed, false);
+      const csgcore::Scene scene = stress::random_scene(seed, stress::Leaves::kAll);
       const csgcore::View view = stress::random_view(scene, kPicture, seed);
       const Solid solid(csgcore::canonical_primitives(scene), scene.model);
       stress::Oracle oracle(scene, view);

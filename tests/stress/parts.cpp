@@ -86,6 +86,8 @@ Part cone(double z_min, double z_max, double r_bottom, double r_top, const Vec3&
   return csgcore::make_frustum(z_min, z_max, r_bottom, r_top, {Mat3{1.0}, at});
 }
 
+Part mesh(const test_support::MeshParts& parts) { return csgcore::make_mesh(parts.mesh()); }
+
 Part brick(const Vec3& min, const Vec3& max) {
   return csgcore::make_polyhedron(Polyhedron::box({min, max}));
 }

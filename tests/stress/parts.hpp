@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "csgcore/scene.hpp"
+#include "support/test_meshes.hpp"
 
 namespace stress {
 
@@ -64,6 +65,8 @@ Part common_of(std::vector<Part> parts);  // intersection
 Part ball(double radius, const Vec3& at = Vec3{0.0});
 Part rod(double z_min, double z_max, double radius, const Vec3& at = Vec3{0.0});
 Part cone(double z_min, double z_max, double r_bottom, double r_top, const Vec3& at = Vec3{0.0});
+
+Part mesh(const test_support::MeshParts& parts);
 
 // Convex polyhedra.
 Part brick(const Vec3& min, const Vec3& max);

@@ -248,14 +248,6 @@ Part octahedron(double radius) {
   return csgcore::make_polyhedron(csgcore::Polyhedron::from(mesh));
 }
 
-/// Cameras for which no row or diagonal of pixels runs along an edge.
-std::vector<Camera> cameras_off_edges(const Scene& scene, PictureSize size) {
-  const Box box = camera_box(scene);
-  return {{"oblique", view_around(box, size, Projection::kPerspective, 25, 35, 3)},
-          {"orthographic", view_around(box, size, Projection::kOrthographic, 17, 79, 3)},
-          {"low", view_around(box, size, Projection::kPerspective, 203, 2, 1.2)}};
-}
-
 Family facets() {
   Family family{"facets", {}};
   const auto add = [&](const char* name, const std::function<Part()>& make,

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <random>
 
+#include "csgcore/triangle_mesh.hpp"
 #include "support/kinds/test_kind.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace stress {
 namespace {
@@ -24,12 +26,34 @@ bool by_chance(Random& random, double share) { return uniform(random, 0, 1) < sh
 constexpr test_support::SizeRange kSizes{
     .low = 1, .high = 4, .even_share = 0.6, .step = 1, .most_fragments = 8};
 
+/// Returns the mesh without a tenth of its triangles, or without one.
+Primitive torn(const Primitive& primitive, Random& random) {
+  const csgcore::TriangleMesh& mesh = *primitive.mesh;
+  test_support::MeshParts parts{{mesh.vertices().begin(), mesh.vertices().end()},
+                                {mesh.triangles().begin(), mesh.triangles().end()}};
+  parts = test_support::with_holes(parts, 0.1, random);
+  if (!parts.triangles.empty()) parts.triangles.pop_back();
+  return parts.triangles.empty() ? primitive : csgcore::make_mesh(parts.mesh());
+}
+
 /// Returns a primitive in its own frame, which is to be a place in the world.
-Primitive random_primitive(Random& random, bool only_polyhedra) {
+Primitive random_primitive(Random& random, Leaves leaves) {
   test_support::Sizes sizes(random, kSizes);
-  if (!only_polyhedra) return test_support::random_primitive(sizes, {});
-  const auto& polyhedra = test_support::test_kind_of(csgcore::Shape::kPolyhedron);
-  return test_support::random_primitive(polyhedra, sizes, {});
+  if (leaves == Leaves::kAll) return test_support::random_primitive(sizes, {});
+  if (leaves == Leaves::kMeshes) {
+    if (random() % 2) return test_support::random_primitive(sizes, {});
+    const auto& meshes = test_support::test_kind_of(csgcore::Shape::kMesh);
+    const Primitive primitive = test_support::random_primitive(meshes, sizes, {});
+    return by_chance(random, 0.2) ? torn(primitive, random) : primitive;
+  }
+  const bool is_mesh = leaves == Leaves::kFaceted && random() % 2;
+  const auto& kind =
+      test_support::test_kind_of(is_mesh ? csgcore::Shape::kMesh : csgcore::Shape::kPolyhedron);
+  constexpr size_t kMostTriangles = 100;
+  for (;;) {
+    const Primitive primitive = test_support::random_primitive(kind, sizes, {});
+    if (!is_mesh || primitive.mesh->triangles().size() <= kMostTriangles) return primitive;
+  }
 }
 
 Vec3 whole_offset(Random& random) {
@@ -58,11 +82,11 @@ Affine random_frame(Random& random) {
   return {Mat3{1.0}, whole_offset(random)};
 }
 
-std::vector<Primitive> random_primitives(Random& random, bool only_polyhedra) {
+std::vector<Primitive> random_primitives(Random& random, Leaves leaves) {
   std::vector<Primitive> primitives;
   const uint32_t count = 1 + random() % kMostPrimitives;
   for (uint32_t i = 0; i < count; ++i) {
-    Primitive primitive = random_primitive(random, only_polyhedra);
+    Primitive primitive = random_primitive(random, leaves);
     primitive.local_to_world = random_frame(random);
     if (i > 0 && by_chance(random, 0.5)) {
       const Primitive& other = primitives[random() % i];
@@ -96,10 +120,10 @@ csgcore::CsgTree random_tree(Random& random, uint32_t primitives) {
 
 }  // namespace
 
-Scene random_scene(uint32_t seed, bool only_polyhedra) {
+Scene random_scene(uint32_t seed, Leaves leaves) {
   Random random(seed);
   Scene scene;
-  scene.primitives = random_primitives(random, only_polyhedra);
+  scene.primitives = random_primitives(random, leaves);
   scene.model = random_tree(random, uint32_t(scene.primitives.size()));
   return scene;
 }

@@ -7,10 +7,17 @@
 
 namespace stress {
 
-/// Up to 12 primitives of all kinds within about [-10, 10]³, with up to 8 fragments, often of
-/// integer sizes. Half of them share planes or an axis with an earlier one, or equal it.
-/// `only_polyhedra`: none is smooth.
-Scene random_scene(uint32_t seed, bool only_polyhedra);
+/// The primitives of a random scene.
+enum class Leaves : uint8_t {
+  kAll,
+  kPolyhedra,  // convex ones
+  kFaceted,    // convex polyhedra, and meshes that are small enough for Nef polyhedra
+  kMeshes,     // all, and every second one is a mesh, some with holes
+};
+
+/// Up to 12 primitives within about [-10, 10]³, with up to 8 fragments, often of integer sizes.
+/// Half of them share planes or an axis with an earlier one, or equal it.
+Scene random_scene(uint32_t seed, Leaves leaves);
 
 /// Returns a perspective view from around the scene, near or far, or from inside; or an
 /// orthographic one, often along an axis.

@@ -30,6 +30,8 @@ using stress::View;
 constexpr stress::PictureSize kPicture{32, 32};
 constexpr uint32_t kParts = 10;          // so that they run side by side
 constexpr double kMostUndecided = 1e-5;  // a share of the rays; in a smaller sample one ray may be
+/// A view along an axis may have a whole row of pixels on the diagonal of a torn face.
+constexpr double kMostUndecidedOnMeshes = 1e-4;
 
 uint32_t trees_of_a_part() {
   if (const char* trees = std::getenv("SCADRAY_TEST_TREES")) {
@@ -93,14 +95,17 @@ std::string judge_tree(const Scene& scene, const View& view, const std::vector<M
   return {};
 }
 
-class RandomTrees : public testing::TestWithParam<uint32_t> {};
+class RandomTrees : public testing::TestWithParam<uint32_t> {
+ protected:
+  void expect_exact(stress::Leaves leaves) const;
+};
 
-TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
+void RandomTrees::expect_exact(stress::Leaves leaves) const {
   const std::vector<Method> kd_trees = stress::cpu_methods();
   Sums sums;
   for (uint32_t i = 0; i < trees_of_a_part(); ++i) {
     const uint32_t seed = 1 + GetParam() + kParts * i;
-    const Scene scene = stress::random_scene(seed, false);
+    const Scene scene = stress::random_scene(seed, leaves);
     const View view = stress::random_view(scene, kPicture, seed);
     const std::vector<Method> methods{stress::cpu_method("tiles"),
                                       kd_trees[1 + i % (kd_trees.size() - 1)]};
@@ -115,8 +120,13 @@ TEST_P(RandomTrees, CpuEqualsTheExactOracle) {
   const auto rays = double(sums.exact.rays);
   EXPECT_GT(double(sums.hits), rays / 10);
   EXPECT_GT(double(sums.exact.exact_comparisons), rays / 100);
-  EXPECT_LE(double(sums.undecided), std::max(1.0, kMostUndecided * rays));
+  const bool is_torn = leaves == stress::Leaves::kMeshes;
+  const double most = is_torn ? kMostUndecidedOnMeshes : kMostUndecided;
+  EXPECT_LE(double(sums.undecided), std::max(1.0, most * rays));
 }
+
+TEST_P(RandomTrees, CpuEqualsTheExactOracle) { expect_exact(stress::Leaves::kAll); }
+TEST_P(RandomTrees, CpuEqualsTheExactOracleOnMeshes) { expect_exact(stress::Leaves::kMeshes); }
 
 INSTANTIATE_TEST_SUITE_P(, RandomTrees, testing::Range(0u, kParts));
 
@@ -135,7 +145,7 @@ TEST(RandomTreesPlanted, AWrongSignIsFoundAndMinimised) {
                      }};
   int found = 0;
   for (uint32_t seed = 1; seed <= 30; ++seed) {
-    const Scene scene = stress::random_scene(seed, false);
+    const Scene scene = stress::random_scene(seed, stress::Leaves::kAll);
     Sums sums;
     const std::string report =
         judge_tree(scene, stress::random_view(scene, kPicture, seed), {wrong}, sums);

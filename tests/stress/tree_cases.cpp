@@ -209,7 +209,7 @@ Family random_polyhedra_family() {
   Family family{"random_polyhedra", {}};
   for (uint32_t i = 0; i < 60; ++i) {
     family.cases.push_back({"seed_" + std::to_string(kFirstSeed + i),
-                            [=] { return random_scene(kFirstSeed + i, false); }, default_cameras,
+                            [=] { return random_scene(kFirstSeed + i, stress::Leaves::kAll); }, default_cameras,
                             i >= kSeedsInSample});
   }
   return family;

@@ -3,8 +3,10 @@
 // code with the subdivision or the renderers.
 //
 // The picture that it defines (csgcore/NUMERICS.md, "The definition"):
-// - Along a pixel's ray every primitive has one segment or none, whose ends are crossings. Those at
-//   which the solid's value changes are its boundaries.
+// - Along a pixel's ray every primitive has some disjoint segments (a convex one: one or none),
+// whose
+//   ends are crossings. Those at which the solid's value changes are its boundaries. mesh_solid.hpp
+//   has the segments of meshes.
 // - Two crossings are coincident if they are less than the tolerance apart, measured along the
 //   normal of the one that the ray meets more squarely. A coincidence is a maximal run of
 //   boundaries each of which is coincident with the next: the pieces and gaps between them do not
@@ -13,8 +15,9 @@
 //   as passed at the eye, so that rounding does not tear an eye in a face between its sides. The
 //   hit is the first coincidence after which the value differs from that at the eye (at −∞ in
 //   orthographic views).
-// - A primitive has changed by a coincidence if the ray crosses it exactly once at crossings that
-//   are within the coincidence, or coincident with its first or last boundary. An operation has
+// - A primitive has changed by a coincidence if the ray crosses it an odd number of times at
+//   crossings that are within the coincidence, or coincident with its first or last boundary; the
+//   first of these is its crossing. An operation has
 //   turned if its value with all of these changes differs from that without any. From the root of
 //   the tree down, the turn of an operation is due to those operands that have turned the same way
 //   (subtracted operands: the other way). Of the primitives that are reached in this way, the last

@@ -40,7 +40,9 @@ NearRay RayTarget::localize(const NearRay& ray) const {
   return {world_to_local_ * (ray.origin + middle_to_pivot_), world_to_local_ * ray.direction};
 }
 
-Span RayTarget::span(const NearRay& ray) const { return solid_->span(localize(ray)); }
+void RayTarget::add_spans(const NearRay& ray, Real thickness, std::vector<Span>& spans) const {
+  solid_->add_spans(localize(ray), thickness, spans);
+}
 
 LongVec3 RayTarget::normal(const NearRay& ray, Real t, Surface surface) const {
   const NearRay local = localize(ray);

@@ -4,6 +4,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <memory>
+#include <vector>
 
 #include "csgcore/primitive.hpp"
 #include "csgcore/view.hpp"
@@ -18,8 +19,9 @@ using LongMat3 = glm::mat<3, 3, Real>;
 class RayTarget {
  public:
   RayTarget(const Primitive& primitive, const Vec3& pivot);
-  Span span(const NearRay& ray) const;
-  /// The primitive's outward unit normal, in the world, at an end of its span.
+  /// Adds the spans of the ray; `thickness` is the tolerance.
+  void add_spans(const NearRay& ray, Real thickness, std::vector<Span>& spans) const;
+  /// The primitive's outward unit normal, in the world, at an end of a span.
   LongVec3 normal(const NearRay& ray, Real t, Surface surface) const;
 
  private:

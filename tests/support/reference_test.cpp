@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -296,7 +297,10 @@ TEST(Reference, AgreesWithPointMembershipOnRandomTrees) {
                            seed % 2 ? Projection::kPerspective : Projection::kOrthographic);
     const bool orthographic = view.projection == Projection::kOrthographic;
     const Image image = reference_render(scene, view);
-    for (uint32_t i = 0; i < image.id.size(); i += 37) {
+    // Whether a mesh contains a point is asked of all its triangles.
+    const bool is_slow = std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                                     [](const Primitive& p) { return p.mesh != nullptr; });
+    for (uint32_t i = 0; i < image.id.size(); i += is_slow ? 251 : 37) {
       const double u = (2 * (i % 65 + 0.5) - 65) / 65 * view.half_height;
       const double v = (65 - 2 * (i / 65 + 0.5)) / 65 * view.half_height;
       const Vec3 offset = u * view.right + v * view.up;

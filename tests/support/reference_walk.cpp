@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 namespace csgcore::reference {
 
@@ -71,10 +72,12 @@ ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidat
 void RayWalk::collect(std::span<const uint32_t> candidates) {
   crossings_.clear();
   for (const uint32_t slot : candidates) {
-    const Span span = setup_.targets[slots()[slot]].span(*ray_);
-    if (span.empty()) continue;
-    crossings_.push_back({span.begin, slot, span.begin_surface, true});
-    crossings_.push_back({span.end, slot, span.end_surface, false});
+    spans_.clear();
+    setup_.targets[slots()[slot]].add_spans(*ray_, setup_.thickness, spans_);
+    for (const Span& span : spans_) {
+      crossings_.push_back({span.begin, slot, span.begin_surface, true});
+      crossings_.push_back({span.end, slot, span.end_surface, false});
+    }
   }
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.t != b.t ? a.t < b.t : a.slot < b.slot;
@@ -159,19 +162,20 @@ void RayWalk::collect_changes(const Coincidence& coincidence) {
   drop_what_came_back();
 }
 
-/// Drops the primitives that are both entered and left, which have not changed.
+/// Drops the primitives that are left as often as they are entered, which have not changed. Keeps
+/// the first crossing of each of the others.
 void RayWalk::drop_what_came_back() {
-  std::stable_sort(changed_.begin(), changed_.end(),
-                   [](const Crossing& a, const Crossing& b) { return a.slot < b.slot; });
-  size_t kept = 0;
-  for (size_t i = 0; i < changed_.size(); ++i) {
-    if (i + 1 < changed_.size() && changed_[i + 1].slot == changed_[i].slot) {
-      ++i;
-    } else {
-      changed_[kept++] = changed_[i];
-    }
+  std::sort(changed_.begin(), changed_.end(), [](const Crossing& a, const Crossing& b) {
+    return a.slot != b.slot ? a.slot < b.slot : a.t < b.t;
+  });
+  std::vector<Crossing> kept;
+  for (auto run = changed_.begin(); run != changed_.end();) {
+    const auto next = std::find_if(
+        run, changed_.end(), [&](const Crossing& crossing) { return crossing.slot != run->slot; });
+    if ((next - run) % 2 != 0) kept.push_back(*run);
+    run = next;
   }
-  changed_.resize(kept);
+  changed_ = std::move(kept);
 }
 
 /// Returns the crossing that a coincidence which turns the value shows.

@@ -77,7 +77,8 @@ class RayWalk {
   ReferenceHit describe(const Crossing& crossing) const;
 
   const RaySetup& setup_;
-  CountingTree tree_;                // its point is behind the first passed_ crossings
+  CountingTree tree_;  // its point is behind the first passed_ crossings
+  std::vector<Span> spans_;
   std::vector<Crossing> crossings_;  // sorted by t
   size_t passed_ = 0;
   std::vector<Crossing> changed_;     // the crossings of a coincidence that change primitives,

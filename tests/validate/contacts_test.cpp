@@ -20,7 +20,7 @@ namespace {
 
 using csgcore::Scene;
 using csgcore::Vec3;
-using oracle::ConvexPolyhedron;
+using oracle::FacetedSolid;
 using oracle::NefSolid;
 using oracle::Place;
 using oracle::Rational;
@@ -35,8 +35,8 @@ Scene scene_of(const std::string& csg) {
   return frontend::TextImport(csg, "contacts.csg").finish().scene;
 }
 
-std::vector<ConvexPolyhedron> polyhedra_of(const Scene& scene) {
-  std::vector<ConvexPolyhedron> polyhedra;
+std::vector<FacetedSolid> polyhedra_of(const Scene& scene) {
+  std::vector<FacetedSolid> polyhedra;
   for (const csgcore::Primitive& primitive : scene.primitives) {
     polyhedra.push_back(oracle::faceted(primitive, kAnyFragments));
   }
@@ -64,7 +64,7 @@ TEST(CoplanarContacts, NefEqualsExactCells) {
     const std::string csg = contact_design(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ":\n" + csg);
     const Scene scene = scene_of(csg);
-    const std::vector<ConvexPolyhedron> polyhedra = polyhedra_of(scene);
+    const std::vector<FacetedSolid> polyhedra = polyhedra_of(scene);
     const ExactCells cells(scene.model, polyhedra);
     const oracle::NefBuild nef = NefSolid::build(scene.model, polyhedra);
     ASSERT_EQ(nef.status, oracle::NefStatus::kBuilt) << nef.reason;

@@ -11,7 +11,7 @@ namespace test_support {
 namespace {
 
 using csgcore::Vec3;
-using oracle::ConvexPolyhedron;
+using oracle::FacetedSolid;
 
 RationalPoint exact(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -24,7 +24,7 @@ RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
 }
 
 /// Returns n·M⁻¹·(x − t) ≤ o in world coordinates, multiplied by |det M|.
-std::vector<RationalHalfSpace> half_spaces_in_world(const ConvexPolyhedron& polyhedron) {
+std::vector<RationalHalfSpace> half_spaces_in_world(const FacetedSolid& polyhedron) {
   const csgcore::Mat3& m = polyhedron.local_to_world.linear;
   const RationalPoint columns[] = {exact(m[0]), exact(m[1]), exact(m[2])};
   const RationalPoint cofactors[] = {cross(columns[1], columns[2]), cross(columns[2], columns[0]),
@@ -128,10 +128,10 @@ Rational volume_of(const Faces& solid) {
 
 }  // namespace
 
-ExactCells::ExactCells(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra)
+ExactCells::ExactCells(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra)
     : tree_(tree) {
   assert(polyhedra.size() <= kMostPolyhedra);
-  for (const ConvexPolyhedron& polyhedron : polyhedra) {
+  for (const FacetedSolid& polyhedron : polyhedra) {
     polyhedra_.push_back(half_spaces_in_world(polyhedron));
   }
 }

@@ -23,7 +23,7 @@ struct RationalHalfSpace {
 class ExactCells {
  public:
   /// The polyhedra lie within ±kReach, and there are at most kMostPolyhedra of them.
-  ExactCells(const csgcore::CsgTree& tree, std::span<const oracle::ConvexPolyhedron> polyhedra);
+  ExactCells(const csgcore::CsgTree& tree, std::span<const oracle::FacetedSolid> polyhedra);
   static constexpr double kReach = 1000;
   static constexpr std::size_t kMostPolyhedra = 10;
 

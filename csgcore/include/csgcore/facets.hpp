@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -41,9 +40,5 @@ Mesh sphere_mesh(double radius, int fragments);
 Mesh frustum_mesh(double z_min, double z_max, double r_bottom, double r_top, int fragments);
 /// The mesh of OpenSCAD's cube. The box must not be empty.
 Mesh box_mesh(const Box& box);
-/// The mesh of OpenSCAD's polyhedron, whose faces are given clockwise as seen from outside.
-/// Following OpenSCAD, indices beyond the points are ignored, equal points become one vertex, equal
-/// neighbours within a face become one, and faces with fewer than three vertices left are dropped.
-Mesh polyhedron_mesh(std::span<const Vec3> points, std::span<const std::vector<uint32_t>> faces);
 
 }  // namespace csgcore

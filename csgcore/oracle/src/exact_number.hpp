@@ -53,6 +53,12 @@ inline Interval quotient(const Interval& numerator, const Interval& denominator)
   return numerator / denominator;
 }
 
+/// Returns the parameter that comes `by` later.
+inline ExactRoot moved(ExactRoot t, double by) {
+  if (by != 0) t.p = t.p + Exact(by) * t.r;
+  return t;
+}
+
 /// Returns the root at which the ray enters the wall, or leaves it. It must have this root, and a
 /// discriminant > 0 (or a = 0).
 ExactRoot root_of(const Quadratic<Exact>& quadratic, bool enters);

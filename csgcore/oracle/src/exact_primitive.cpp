@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "exact_mesh.hpp"
 #include "exact_twin.hpp"
 
 namespace oracle {
@@ -102,11 +103,22 @@ Target<Exact> make_target(const Primitive& primitive, const Vec3& pivot, double 
   return target;
 }
 
+namespace {
+
+Plane<Interval> enclose(const Plane<Exact>& plane) {
+  return {{oracle::enclose(plane.normal[0]), oracle::enclose(plane.normal[1]),
+           oracle::enclose(plane.normal[2])},
+          oracle::enclose(plane.limit)};
+}
+
+}  // namespace
+
 Target<Interval> enclose(const Target<Exact>& target) {
   Target<Interval> result;
   result.twin = target.twin;
   result.has_wall = target.has_wall;
   result.weight = target.weight;
+  result.mesh = target.mesh;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) result.to_local[i][j] = enclose(target.to_local[i][j]);
     result.from_middle[i] = enclose(target.from_middle[i]);
@@ -114,12 +126,18 @@ Target<Interval> enclose(const Target<Exact>& target) {
   result.radius = enclose(target.radius);
   result.growth = enclose(target.growth);
   result.squared_height = enclose(target.squared_height);
-  for (const Plane<Exact>& plane : target.planes) {
-    result.planes.push_back(
-        {{enclose(plane.normal[0]), enclose(plane.normal[1]), enclose(plane.normal[2])},
-         enclose(plane.limit)});
-  }
+  for (const Plane<Exact>& plane : target.planes) result.planes.push_back(enclose(plane));
   return result;
+}
+
+template <>
+Plane<Exact> triangle_plane(const ExactMesh& mesh, Surface triangle) {
+  return mesh.plane(uint32_t(triangle));
+}
+
+template <>
+Plane<Interval> triangle_plane(const ExactMesh& mesh, Surface triangle) {
+  return enclose(mesh.plane(uint32_t(triangle)));
 }
 
 template <class Number>
@@ -222,7 +240,7 @@ Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interv
     for (int i = 0; i < 3; ++i) point[i] = ray.o[i] + t * ray.d[i];
     local = target.twin->wall_normal(target, point);
   } else {
-    local = target.planes[uint32_t(surface)].normal;
+    local = with_plane(target, surface, [](const Plane<Interval>& plane) { return plane.normal; });
   }
   Vector<Interval> world;
   for (int i = 0; i < 3; ++i) {
@@ -237,7 +255,9 @@ Interval steepness_at(const Target<Interval>& target, const LocalRay<Interval>& 
   // Half the gradient times the direction is half the derivative along the ray, at a root ±√D.
   const Interval across = surface == Surface::kWall
                               ? CGAL::sqrt(ray.wall(enters).discriminant)
-                              : CGAL::abs(dot(target.planes[uint32_t(surface)].normal, ray.d));
+                              : with_plane(target, surface, [&](const Plane<Interval>& plane) {
+                                  return Interval(CGAL::abs(dot(plane.normal, ray.d)));
+                                });
   return across / length(normal_at(target, ray, t, surface));
 }
 

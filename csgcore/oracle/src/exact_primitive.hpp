@@ -8,12 +8,14 @@
 //   sphere:  |o + t·d|² ≤ (λr)²
 //   frustum: |z| ≤ λk, (2k)²(x² + y²) ≤ ρ(z)², ρ(z) = λk(r₀ + r₁) + (r₁ − r₀)z
 //   polyhedron: n·(o + t·d) ≤ λ(offset − n·middle) for all its half-spaces
+//   mesh: see exact_mesh.hpp
 // A frustum has half the height k and the radii r₀ below and r₁ above; ρ(z) is 2kλ times the radius
 // at z, and not negative within the slab. The wall's inequality is scaled by a power of four, a
 // half-space's by a power of two.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,10 +60,12 @@ struct Walls {
 
 /// What the oracles ask of a kind of primitive (exact_twin.hpp).
 class ExactTwin;
+/// The triangles of a mesh (exact_mesh.hpp).
+class ExactMesh;
 
-/// A valid primitive, prepared for rays relative to a pivot: the solid within its wall, if it has
-/// one, and within all its planes. If it has both, the first two planes are a slab across the z
-/// axis.
+/// A valid primitive, prepared for rays relative to a pivot. A convex one is the solid within its
+/// wall, if it has one, and within all its planes. If it has both, the first two planes are a slab
+/// across the z axis.
 template <class Number>
 struct Target {
   const ExactTwin* twin = nullptr;
@@ -71,6 +75,7 @@ struct Target {
   Number radius;                      // of the wall: λr, or λk(r₀ + r₁)
   Number growth, squared_height;      // r₁ − r₀ and (2k)², for a frustum's wall
   std::vector<Plane<Number>> planes;  // a frustum's bottom and top; a polyhedron's faces
+  std::shared_ptr<const ExactMesh> mesh;  // of a mesh, which has neither wall nor planes; else null
   /// Weights of the coordinates. By the measure Σ weight·x², the solid lies around its middle
   /// roughly like a ball.
   csgcore::Vec3 weight;
@@ -82,15 +87,17 @@ Target<Exact> make_target(const csgcore::Primitive& primitive, const csgcore::Ve
                           double unit);
 Target<Interval> enclose(const Target<Exact>& target);
 
-/// A surface of a primitive: the wall, or the plane with that index. The rims and pointed ends of a
-/// frustum belong to its caps. The edges and vertices of a polyhedron belong to the face with the
-/// lowest index.
+/// A surface of a primitive: the wall, or the plane or the triangle with that index. The rims and
+/// pointed ends of a frustum belong to its caps. The edges and vertices of a polyhedron belong to
+/// the face with the lowest index.
 enum class Surface : uint32_t { kBottom = 0, kTop = 1, kWall = 0xFFFFFFFFu };
 
-/// The surfaces at the ends of the part of a ray within the closed primitive, which has a length >
-/// 0.
+/// The surfaces at the ends of a part of a ray within the closed primitive, which has a length > 0.
 struct Ends {
   Surface begin, end;
+  /// The part ends so much later in t than the ray meets `end`: at the back of an open mesh's
+  /// sheet.
+  double beyond = 0;
 };
 
 /// A ray in a target's local space, magnified by λ.
@@ -110,13 +117,29 @@ LocalRay<Number> localize(const Target<Number>& target, const NearRay<Number>& r
 /// Returns approximately the parameter at which the ray passes the primitive.
 double base_of(const Target<Interval>& target, const NearRay<Interval>& ray);
 
+/// Returns the plane of a triangle that has an area.
+template <class Number>
+Plane<Number> triangle_plane(const ExactMesh& mesh, Surface triangle);
+template <>
+Plane<Exact> triangle_plane(const ExactMesh& mesh, Surface triangle);
+template <>
+Plane<Interval> triangle_plane(const ExactMesh& mesh, Surface triangle);
+
+/// Returns visit(plane) for a surface that is a plane.
+template <class Number, class Visit>
+auto with_plane(const Target<Number>& target, Surface surface, const Visit& visit) {
+  if (target.mesh) return visit(triangle_plane<Number>(*target.mesh, surface));
+  return visit(target.planes[uint32_t(surface)]);
+}
+
 /// Returns the parameter at which the ray meets the surface, which must be that of an end.
 template <class Number>
 auto crossing_of(const Target<Number>& target, const LocalRay<Number>& ray, Surface surface,
                  bool enters) {
   if (surface == Surface::kWall) return root_of(ray.wall(enters), enters);
-  const Plane<Number>& plane = target.planes[uint32_t(surface)];
-  return quotient(Number(plane.limit - dot(plane.normal, ray.o)), dot(plane.normal, ray.d));
+  return with_plane(target, surface, [&](const Plane<Number>& plane) {
+    return quotient(Number(plane.limit - dot(plane.normal, ray.o)), dot(plane.normal, ray.d));
+  });
 }
 
 LocalRay<Interval> enclose(const LocalRay<Exact>& ray);
@@ -133,7 +156,7 @@ std::optional<Ends> ends_of(const Target<Number>& target, const LocalRay<Number>
                             std::span<const uint32_t> planes);
 
 /// Returns the primitive's outward normal in world space, of any length, for all parameters within
-/// `t`.
+/// `t`. That of a mesh is its triangle's own, whichever side of it is inside.
 Vector<Interval> normal_at(const Target<Interval>& target, const LocalRay<Interval>& ray,
                            const Interval& t, Surface surface);
 

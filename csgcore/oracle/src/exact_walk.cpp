@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "exact_mesh.hpp"
 
 namespace oracle {
 namespace {
@@ -58,7 +61,7 @@ void ExactWalk::collect() {
                     from_eye ? eye_t_.inf() : -kInfinity, items_);
   candidates_.clear();
   crossings_.clear();
-  for (const uint32_t item : items_) add_candidate(scene_.boxed[item]);
+  for (const uint32_t item : items_) add_candidates(scene_.boxed[item]);
   for (uint32_t i = 0; i < candidates_.size(); ++i) {
     crossings_.push_back({i, false});
     crossings_.push_back({i, true});
@@ -69,10 +72,11 @@ void ExactWalk::collect() {
   });
 }
 
-void ExactWalk::add_candidate(uint32_t primitive) {
-  ++counts_.segments;
+void ExactWalk::add_candidates(uint32_t primitive) {
   const Target<Interval>& target = scene_.intervals[primitive];
-  Candidate candidate{primitive, {}, base_of(target, ray_), {}, {}, {}, {}};
+  if (target.mesh) return add_mesh_candidates(primitive);
+  ++counts_.segments;
+  Candidate candidate{primitive, 0, {}, base_of(target, ray_), {}, {}, {}, {}};
   candidate.local = localize(target, ray_, candidate.base);
   if (!near_planes_.find(target, candidate.local)) return;
   std::optional<Ends> ends;
@@ -92,6 +96,21 @@ void ExactWalk::add_candidate(uint32_t primitive) {
   candidates_.push_back(std::move(candidate));
 }
 
+/// Which triangles the ray passes is decided exactly, so that the exact ray is there anyway.
+void ExactWalk::add_mesh_candidates(uint32_t primitive) {
+  const Target<Exact>& target = scene_.exact[primitive];
+  const Target<Interval>& enclosed = scene_.intervals[primitive];
+  const std::vector<Ends> segments = mesh_segments(
+      target, enclosed, exact_ray_, base_of(enclosed, ray_), scene_.unit * seen_.thickness);
+  if (segments.empty()) return;
+  const LocalRay<Exact> exact = localize(target, exact_ray_, 0);
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    ++counts_.segments;
+    candidates_.push_back({primitive, i, segments[i], 0, {}, {}, {}, exact});
+    find_ends(candidates_.back());
+  }
+}
+
 /// Finds the parameters of the ends, from the exact ray if there is one.
 void ExactWalk::find_ends(Candidate& candidate) {
   const Surface surfaces[2] = {candidate.ends.begin, candidate.ends.end};
@@ -105,6 +124,7 @@ void ExactWalk::find_ends(Candidate& candidate) {
                                            candidate.local, surfaces[at_end], !at_end)
                         : crossing_of(scene_.intervals[candidate.primitive], candidate.local,
                                       surfaces[at_end], !at_end);
+    if (at_end) candidate.u[at_end] += Interval(candidate.ends.beyond);
     candidate.t[at_end] = Interval(candidate.base) + candidate.u[at_end];
   }
 }
@@ -124,8 +144,9 @@ Surface ExactWalk::surface_of(const Crossing& crossing) const {
 
 ExactRoot ExactWalk::exact_of(const Crossing& crossing) const {
   const Candidate& candidate = candidates_[crossing.candidate];
-  return crossing_of(scene_.exact[candidate.primitive], *candidate.exact, surface_of(crossing),
-                     !crossing.at_end);
+  const ExactRoot met = crossing_of(scene_.exact[candidate.primitive], *candidate.exact,
+                                    surface_of(crossing), !crossing.at_end);
+  return moved(met, beyond_of(crossing));
 }
 
 /// Returns −1 if `a` comes first, 0 if both have the same parameter, 1 otherwise.
@@ -134,7 +155,9 @@ int ExactWalk::order(const Crossing& a, const Crossing& b) {
   ++counts_.comparisons;
   const auto sure = CGAL::compare(t_of(a), t_of(b));
   if (CGAL::is_certain(sure)) return CGAL::get_certain(sure);
-  const auto alike = [this](const Crossing& c) { return scene_.first_alike[primitive_of(c)]; };
+  const auto alike = [this](const Crossing& c) {
+    return std::pair(scene_.first_alike[primitive_of(c)], candidates_[c.candidate].segment);
+  };
   if (a.at_end == b.at_end && alike(a) == alike(b)) return 0;
   refine(candidates_[a.candidate]);
   refine(candidates_[b.candidate]);
@@ -244,18 +267,18 @@ void ExactWalk::collect_changes(const Coincidence& coincidence) {
   drop_what_came_back();
 }
 
-/// Drops both crossings of primitives that are entered and left.
+/// Keeps the first crossing of each primitive that is crossed an odd number of times, and none of
+/// others. The crossings must be in order along the ray.
 void ExactWalk::drop_what_came_back() {
-  std::sort(changed_.begin(), changed_.end(), [this](const Crossing& a, const Crossing& b) {
+  std::stable_sort(changed_.begin(), changed_.end(), [this](const Crossing& a, const Crossing& b) {
     return primitive_of(a) < primitive_of(b);
   });
   std::vector<Crossing> kept;
-  for (const Crossing& crossing : changed_) {
-    if (!kept.empty() && kept.back().candidate == crossing.candidate) {
-      kept.pop_back();
-    } else {
-      kept.push_back(crossing);
+  for (size_t begin = 0, end = 0; begin < changed_.size(); begin = end) {
+    while (end < changed_.size() && primitive_of(changed_[end]) == primitive_of(changed_[begin])) {
+      ++end;
     }
+    if ((end - begin) % 2 == 1) kept.push_back(changed_[begin]);
   }
   changed_ = std::move(kept);
 }
@@ -289,12 +312,16 @@ ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
   const double base = middle(t_of(crossing));
   const LocalRay<Exact> exact = localize(target, exact_ray_, base);
   const LocalRay<Interval> local = enclose(exact);
-  const Interval u = enclose_crossing(target, exact, local, surface, enters);
+  const double beyond = beyond_of(crossing);
+  const Interval u = enclose_crossing(target, exact, local, surface, enters) + Interval(beyond);
   Shown shown;
   shown.hit.primitive = primitive;
-  shown.hit.s = tight_s(crossing_of(target, exact, surface, enters), base,
+  shown.hit.s = tight_s(moved(crossing_of(target, exact, surface, enters), beyond), base,
                         Interval(base_s_) + (Interval(base) + u));
-  const Vector<Interval> normal = normal_at(scene_.intervals[primitive], local, u, surface);
+  Vec3 normal = middle(normal_at(scene_.intervals[primitive], local, u, surface));
+  // Which way a mesh faces makes no difference.
+  const bool is_against = glm::dot(normal, middle(ray_.direction)) < 0;
+  if (target.mesh && is_against != enters) normal = -normal;
   const Interval t = Interval(base) + u, unit(scene_.unit);
   for (int i = 0; i < 3; ++i) {
     const Interval offset = (ray_.origin[i] + t * ray_.direction[i]) / unit;
@@ -304,7 +331,7 @@ ExactWalk::Shown ExactWalk::describe(const Crossing& crossing) const {
   // The normal outward of the solid points against the ray unless the eye is inside.
   const bool is_cut =
       turns(crossing) ? enters == bool(values_[eye_]) : tree_.is_subtracted(primitive);
-  shown.hit.normal = (is_cut ? -1.0 : 1.0) * glm::normalize(middle(normal));
+  shown.hit.normal = (is_cut ? -1.0 : 1.0) * glm::normalize(normal);
   return shown;
 }
 

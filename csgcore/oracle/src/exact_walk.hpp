@@ -35,9 +35,10 @@ class ExactWalk {
   const ExactCounts& counts() const { return counts_; }
 
  private:
-  /// A primitive that the ray meets.
+  /// A segment of the ray within a primitive.
   struct Candidate {
     uint32_t primitive;
+    uint32_t segment;  // how many segments with this primitive come before it
     Ends ends;
     // The ray in intervals, with the parameter u = t − base.
     double base;
@@ -59,7 +60,8 @@ class ExactWalk {
 
   void set_ray(const SeenRay& ray);
   void collect();
-  void add_candidate(uint32_t primitive);
+  void add_candidates(uint32_t primitive);
+  void add_mesh_candidates(uint32_t primitive);
   void evaluate();
   std::optional<Coincidence> first_turning_coincidence();
 
@@ -67,6 +69,10 @@ class ExactWalk {
     return candidates_[crossing.candidate].t[crossing.at_end];
   }
   Surface surface_of(const Crossing& crossing) const;
+  /// How much later than it meets that surface the ray crosses the primitive.
+  double beyond_of(const Crossing& crossing) const {
+    return crossing.at_end ? candidates_[crossing.candidate].ends.beyond : 0;
+  }
   uint32_t primitive_of(const Crossing& crossing) const {
     return candidates_[crossing.candidate].primitive;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "exact_twin.hpp"
 #include "number_text.hpp"
 #include "tree_order.hpp"
@@ -25,7 +26,7 @@ using csgcore::Shape;
 using csgcore::Vec3;
 using Tokens = std::vector<CsgToken>;
 
-/// Returns all numbers of a primitive except those of a polyhedron's solid.
+/// Returns all numbers of a primitive except those of the solid of a polyhedron or a mesh.
 std::vector<double*> numbers_of(Primitive& primitive) {
   std::vector<double*> numbers = twin_of(primitive.shape).sizes(primitive);
   Affine& map = primitive.local_to_world;
@@ -35,18 +36,19 @@ std::vector<double*> numbers_of(Primitive& primitive) {
   return numbers;
 }
 
-/// The size of a scene: tokens, primitives that are no spheres, half-spaces, digits. Sizes are
-/// compared in this order.
-using Size = std::tuple<size_t, size_t, size_t, size_t>;
+/// The size of a scene: tokens, primitives that are no spheres, meshes' triangles, half-spaces,
+/// digits. Sizes are compared in this order.
+using Size = std::tuple<size_t, size_t, size_t, size_t, size_t>;
 
 Size size_of(const Scene& scene) {
-  size_t shapes = 0, half_spaces = 0, digits = 0;
+  size_t shapes = 0, triangles = 0, half_spaces = 0, digits = 0;
   for (Primitive primitive : scene.primitives) {
     shapes += primitive.shape != Shape::kSphere;
     const auto count_digits = [&](double number) {
       if (number != 0) digits += shortest_text(number).size();
     };
     for (const double* number : numbers_of(primitive)) count_digits(*number);
+    if (primitive.mesh) triangles += primitive.mesh->triangles().size();
     if (!primitive.polyhedron) continue;
     half_spaces += primitive.polyhedron->half_spaces().size();
     for (const csgcore::HalfSpace& half_space : primitive.polyhedron->half_spaces()) {
@@ -54,7 +56,7 @@ Size size_of(const Scene& scene) {
       count_digits(half_space.offset);
     }
   }
-  return {scene.model.tokens().size(), shapes, half_spaces, digits};
+  return {scene.model.tokens().size(), shapes, triangles, half_spaces, digits};
 }
 
 /// Returns a scene of the primitives that the tokens name, with their indices for ids.

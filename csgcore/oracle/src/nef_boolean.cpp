@@ -4,10 +4,14 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 
+#include <algorithm>
 #include <queue>
+#include <stdexcept>
 #include <unordered_map>
+#include <vector>
 
 #include "nef_boundary.hpp"
+#include "nef_mesh.hpp"
 #include "nef_polytope.hpp"
 #include "nef_triangulation.hpp"
 
@@ -32,12 +36,36 @@ class SurfaceOf : public CGAL::Modifier_base<Surface::HalfedgeDS> {
   const Polytope& polytope_;
 };
 
-Nef nef_of(const ConvexPolyhedron& polyhedron) {
-  const Polytope polytope = polytope_of(polyhedron);
+Nef nef_of(const Polytope& polytope) {
   Surface surface;
   SurfaceOf build(polytope);
   surface.delegate(build);
+  if (!surface.is_closed()) throw std::invalid_argument("a shell is no closed manifold");
   return Nef(surface);
+}
+
+/// Returns the solid where the winding number of shells is not 0: where the number of outward
+/// shells that hold a point differs from that of inward ones.
+Nef solid_of(const std::vector<MeshShell>& shells) {
+  std::vector<Nef> levels[2];  // [is_inward][k]: where more than k shells of that kind are
+  for (const MeshShell& shell : shells) {
+    std::vector<Nef>& own = levels[shell.is_inward];
+    const Nef nef = nef_of(shell.polytope);
+    own.push_back(Nef(Nef::EMPTY));
+    for (size_t k = own.size(); k-- > 1;) own[k] = own[k] + own[k - 1] * nef;
+    own[0] = own[0] + nef;
+  }
+  const size_t most = std::max(levels[0].size(), levels[1].size());
+  for (std::vector<Nef>& own : levels) own.resize(most, Nef(Nef::EMPTY));
+  Nef result(Nef::EMPTY);
+  for (size_t k = 0; k < most; ++k) {
+    result = result + (levels[0][k] - levels[1][k]) + (levels[1][k] - levels[0][k]);
+  }
+  return result;
+}
+
+Nef nef_of(const FacetedSolid& solid) {
+  return solid.mesh ? solid_of(shells_of(solid)) : nef_of(polytope_of(solid));
 }
 
 /// Combines one or more operands, always the two smallest ones first, since an operation takes time
@@ -71,7 +99,7 @@ Nef apply(csgcore::Op op, std::span<Nef> operands) {
   return operands.front() - accumulate(operands.subspan(1), unite);
 }
 
-Nef value_of(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra) {
+Nef value_of(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra) {
   std::vector<Nef> operands;
   for (const csgcore::CsgToken& token : tree.tokens()) {
     if (token.is_primitive) {
@@ -123,8 +151,7 @@ ExactBoundary boundary_of(const Nef& solid) {
 
 }  // namespace
 
-ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
-                           std::span<const ConvexPolyhedron> polyhedra) {
+ExactBoundary nef_boundary(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra) {
   // Dangling facets and cracks have no volume, and make none in a later operation, so that it is
   // enough to leave them out of the final solid.
   return boundary_of(value_of(tree, polyhedra));

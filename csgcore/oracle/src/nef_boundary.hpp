@@ -19,8 +19,7 @@ struct ExactBoundary {
 
 /// Returns the boundary of the regularised solid of the tree, by Nef polyhedra. Its time has no
 /// limit.
-ExactBoundary nef_boundary(const csgcore::CsgTree& tree,
-                           std::span<const ConvexPolyhedron> polyhedra);
+ExactBoundary nef_boundary(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra);
 
 /// Writes the boundary as text with all digits, for another process to read.
 void write_boundary(std::ostream& out, const ExactBoundary& boundary);

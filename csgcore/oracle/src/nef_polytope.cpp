@@ -53,7 +53,7 @@ Point interior_point(const std::vector<Plane>& planes) {
 }
 
 /// Returns an interior point in world coordinates.
-Point interior_point(const ConvexPolyhedron& polyhedron) {
+Point interior_point(const FacetedSolid& polyhedron) {
   std::vector<Plane> planes;
   for (const csgcore::HalfSpace& h : polyhedron.half_spaces) {
     planes.emplace_back(h.normal.x, h.normal.y, h.normal.z, -h.offset);
@@ -86,7 +86,7 @@ Plane world_plane(const csgcore::HalfSpace& half_space, const csgcore::Affine& l
 // vertices are the solid's facets, and its facets are the solid's vertices. If more than three
 // planes meet in one vertex, the hull has several coplanar triangles, whose poles are the same
 // point.
-Polytope polytope_of(const ConvexPolyhedron& polyhedron) {
+Polytope polytope_of(const FacetedSolid& polyhedron) {
   const Point inside = interior_point(polyhedron);
   const Vector to_inside = inside - CGAL::ORIGIN;
   std::vector<Point> poles;

@@ -13,6 +13,6 @@ struct Polytope {
 
 /// Returns the polytope in world coordinates. Throws std::invalid_argument if the half-spaces have
 /// no common interior, or an unbounded one.
-Polytope polytope_of(const ConvexPolyhedron& polyhedron);
+Polytope polytope_of(const FacetedSolid& polyhedron);
 
 }  // namespace oracle

@@ -12,6 +12,7 @@
 #include "child_process.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "nef_lines.hpp"
+#include "nef_mesh.hpp"
 
 namespace oracle {
 namespace {
@@ -59,7 +60,7 @@ Rational sum_of(std::vector<Rational> terms) {
 class NefSolid::Impl {
  public:
   Impl(const ExactBoundary& boundary, const csgcore::CsgTree& tree,
-       std::span<const ConvexPolyhedron> polyhedra)
+       std::span<const FacetedSolid> polyhedra)
       : triangles_(add_planes(boundary)), lines_(triangles_, planes_) {
     name_polyhedra(tree, polyhedra);
   }
@@ -85,19 +86,26 @@ class NefSolid::Impl {
     return triangles;
   }
 
-  void name_polyhedra(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra) {
+  void name_polyhedra(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra) {
     std::set<uint32_t> in_tree;
     for (const csgcore::CsgToken& token : tree.tokens()) {
       if (token.is_primitive) in_tree.insert(token.value);
     }
     for (const uint32_t polyhedron : in_tree) {
-      for (const csgcore::HalfSpace& half_space : polyhedra[polyhedron].half_spaces) {
-        PlaneKey key = key_of(world_plane(half_space, polyhedra[polyhedron].local_to_world));
-        name(key, polyhedron);
-        for (Rational& coefficient : key) coefficient = -coefficient;
-        name(key, polyhedron);  // the solid may lie outside, if this was subtracted
+      const FacetedSolid& solid = polyhedra[polyhedron];
+      for (const csgcore::HalfSpace& half_space : solid.half_spaces) {
+        name_both(key_of(world_plane(half_space, solid.local_to_world)), polyhedron);
       }
+      if (!solid.mesh) continue;
+      for (const Plane& plane : triangle_planes(solid)) name_both(key_of(plane), polyhedron);
     }
+  }
+
+  /// The solid may lie on either side, if this was subtracted.
+  void name_both(PlaneKey key, uint32_t polyhedron) {
+    name(key, polyhedron);
+    for (Rational& coefficient : key) coefficient = -coefficient;
+    name(key, polyhedron);
   }
 
   void name(const PlaneKey& key, uint32_t polyhedron) {
@@ -114,7 +122,7 @@ class NefSolid::Impl {
   NefLines lines_;
 };
 
-NefBuild NefSolid::build(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra,
+NefBuild NefSolid::build(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra,
                          const NefLimits& limits) {
   const ChildOutput output = run_in_child(
       [&](std::ostream& out) { write_boundary(out, nef_boundary(tree, polyhedra)); }, limits);
@@ -125,7 +133,7 @@ NefBuild NefSolid::build(const csgcore::CsgTree& tree, std::span<const ConvexPol
 }
 
 NefBuild NefSolid::build(const csgcore::Scene& scene, int fragments, const NefLimits& limits) {
-  std::vector<ConvexPolyhedron> polyhedra;
+  std::vector<FacetedSolid> polyhedra;
   for (const Primitive& primitive : scene.primitives) {
     polyhedra.push_back(faceted(primitive, fragments));
   }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <map>
-#include <utility>
+#include <tuple>
+#include <vector>
 
+#include "exact_mesh.hpp"
 #include "exact_twin.hpp"
 #include "oracle/exact_rays.hpp"
 
@@ -17,6 +19,7 @@ using csgcore::Box;
 using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Scene;
+using csgcore::TriangleMesh;
 using csgcore::Vec3;
 
 /// τ, as a share of the model's size (csgcore/NUMERICS.md, 1).
@@ -68,7 +71,10 @@ Vec3 pivot_of(const Scene& scene) {
 }
 
 std::vector<uint32_t> find_alike(const Scene& scene) {
-  std::map<std::pair<const csgcore::Polyhedron*, std::vector<double>>, uint32_t> first;
+  std::map<
+      std::tuple<const csgcore::Polyhedron*, const csgcore::TriangleMesh*, std::vector<double>>,
+      uint32_t>
+      first;
   std::vector<uint32_t> result;
   for (const Primitive& p : scene.primitives) {
     std::vector<double> key{double(p.shape), p.r_bottom, p.r_top, p.z_min, p.z_max};
@@ -76,8 +82,9 @@ std::vector<uint32_t> find_alike(const Scene& scene) {
     for (const Vec3& column : {map.linear[0], map.linear[1], map.linear[2], map.translation}) {
       key.insert(key.end(), {column.x, column.y, column.z});
     }
+    const auto index = uint32_t(result.size());
     result.push_back(
-        first.try_emplace({p.polyhedron.get(), key}, uint32_t(result.size())).first->second);
+        first.try_emplace({p.polyhedron.get(), p.mesh.get(), key}, index).first->second);
   }
   return result;
 }
@@ -110,7 +117,11 @@ PreparedScene::PreparedScene(const Scene& prepared)
   for (uint32_t i = 0; i < all.size(); ++i) {
     if (!outside.names(i)) continue;
     boxed.push_back(i);
-    named.push_back({unit * all[i].min, unit * all[i].max});
+    // The sheets of an open mesh reach out of its box.
+    const TriangleMesh* const mesh = scene.primitives[i].mesh.get();
+    const bool has_sheets = mesh && !mesh->is_closed();
+    const Vec3 reach(has_sheets ? kSheetThickness * thickness / kSheetCosine : 0);
+    named.push_back({unit * (all[i].min - reach), unit * (all[i].max + reach)});
   }
   boxes = BoxTree(named);
 }

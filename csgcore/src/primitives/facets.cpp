@@ -1,11 +1,9 @@
 #include "csgcore/facets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
 #include "base/degrees.hpp"
@@ -121,27 +119,6 @@ Mesh box_mesh(const Box& box) {
                              (i & 4 ? box.max : box.min).z});
   }
   mesh.faces = {{4, 5, 7, 6}, {2, 3, 1, 0}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
-  return mesh;
-}
-
-Mesh polyhedron_mesh(std::span<const Vec3> points, std::span<const std::vector<uint32_t>> faces) {
-  Mesh mesh;
-  std::map<std::array<double, 3>, uint32_t> indices;
-  const auto index_of = [&](const Vec3& p) {
-    const auto [entry, is_new] = indices.try_emplace({p.x, p.y, p.z}, indices.size());
-    if (is_new) mesh.vertices.push_back(p);
-    return entry->second;
-  };
-  for (const std::vector<uint32_t>& clockwise : faces) {
-    std::vector<uint32_t> face;
-    for (auto point = clockwise.rbegin(); point != clockwise.rend(); ++point) {
-      if (*point >= points.size()) continue;
-      const uint32_t vertex = index_of(points[*point]);
-      if (face.empty() || face.back() != vertex) face.push_back(vertex);
-    }
-    while (face.size() > 1 && face.front() == face.back()) face.pop_back();
-    if (face.size() >= 3) mesh.faces.push_back(std::move(face));
-  }
   return mesh;
 }
 

@@ -2,6 +2,8 @@
 // the result of a lane does not depend on other lanes: every instruction set gives the same bits.
 #include "primitives/intersect.hpp"
 
+#include <limits>
+
 #include "base/simd.hpp"
 
 // Vectors whose length is not known to the compiler cannot be put into arrays.
@@ -13,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "primitives/apart-inl.hpp"
+#include "primitives/kind_crossings-inl.hpp"
 #include "primitives/primitive-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,6 +30,11 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   intersect_lanes(frame, rays, 0xF, primitive, segments);
+}
+
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
+  find_crossings(frame, rays, kAllLanes, primitive, search);
 }
 
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
@@ -60,6 +68,7 @@ namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(intersect);
 CSGCORE_SIMD_EXPORT(intersect_four);
+CSGCORE_SIMD_EXPORT(find_next_crossings);
 CSGCORE_SIMD_EXPORT(find_entry_normals);
 CSGCORE_SIMD_EXPORT(find_apart);
 
@@ -71,6 +80,18 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   CSGCORE_SIMD(intersect_four)(frame, rays, primitive, segments);
+}
+
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
+  CSGCORE_SIMD(find_next_crossings)(frame, rays, primitive, search);
+}
+
+void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
+                        const CanonicalPrimitive& primitive, CrossingSearch& search) {
+  for (CrossingSearch::Lane& lane : search.lanes) lane.after = {};
+  search.most = std::numeric_limits<size_t>::max();
+  find_next_crossings(frame, rays, primitive, search);
 }
 
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "csgcore/canonical_primitive.hpp"
+#include "primitives/crossings.hpp"
 #include "primitives/packet_segments.hpp"
 #include "rays/frame_rays.hpp"
 #include "rays/ray_packet.hpp"
@@ -10,9 +11,16 @@ namespace csgcore {
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
-/// Intersects the first four lanes only.
+/// Intersects the first four lanes only. Precondition of both: the primitive is convex.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
+
+/// Finds the crossings of all lanes with a primitive that is not convex that `search` wants.
+void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
+                         const CanonicalPrimitive& primitive, CrossingSearch& search);
+/// Finds all crossings of all lanes with a primitive that is not convex, in order.
+void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
+                        const CanonicalPrimitive& primitive, CrossingSearch& search);
 
 /// Finds the primitive's outward unit normals where the first four lanes enter it, coordinate by
 /// coordinate. Normals of one plane face are the same, bit for bit. `normals` must be aligned as a

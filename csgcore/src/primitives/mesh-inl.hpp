@@ -38,13 +38,18 @@ struct alignas(64) PacketRays {
   double origin[3][kPacketRays];
   double direction[3][kPacketRays];
   double base[kPacketRays];
-  double shear[2][kPacketRays];  // of the two other axes, per unit of the longest
-  double inverse[kPacketRays];   // of the direction along the longest axis
+  double shear[2][kPacketRays];       // of the two other axes, per unit of the longest
+  double least_growth2[kPacketRays];  // see kEdgeOn
+  double inverse[kPacketRays];        // of the direction along the longest axis
   float near_origin[3][kPacketRays];
   float near_inverse[3][kPacketRays];
   float first_t[kPacketRays];  // relative to base: crossings before it are not wanted
   float last_t[kPacketRays];   // nor are those behind it
 };
+
+/// A ray that meets a triangle at a smaller cosine passes it edge-on: the plane alone might place
+/// the crossing beside the triangle, and the edges bound its depth as well.
+constexpr double kEdgeOn = 0x1p-10;
 
 /// 1/d in float, and a number that stands for infinity where d is 0: its product with 0 is 0.
 HWY_INLINE float inverse_in_float(double d) {
@@ -93,6 +98,8 @@ HWY_INLINE void prepare(const CrossingSearch& search, LaneMask lanes, int longes
   const int across[] = {(longest + 1) % 3, (longest + 2) % 3};
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const uint32_t lane = static_cast<uint32_t>(std::countr_zero(left));
+    const Vec3 direction{rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
+    rays.least_growth2[lane] = kEdgeOn * kEdgeOn * glm::dot(direction, direction);
     rays.inverse[lane] = 1 / rays.direction[longest][lane];
     for (int i = 0; i < 2; ++i) {
       rays.shear[i][lane] = rays.direction[across[i]][lane] / rays.direction[longest][lane];
@@ -197,6 +204,19 @@ HWY_INLINE Windings windings_of(const SeenCorners& seen, LaneMask lanes, int chu
   return result;
 }
 
+/// Returns depth_range() of one of the lanes.
+HWY_NOINLINE static HWY_MAYBE_UNUSED DepthRange depth_range_of(const SeenCorners& seen,
+                                                               size_t lane) {
+  alignas(64) double x[3][kLanes], y[3][kLanes], depth[3][kLanes];
+  for (size_t corner = 0; corner < 3; ++corner) {
+    hn::Store(seen.x[corner], Wide(), x[corner]);
+    hn::Store(seen.y[corner], Wide(), y[corner]);
+    hn::Store(seen.depth[corner], Wide(), depth[corner]);
+  }
+  return depth_range({{x[0][lane], y[0][lane]}, {x[1][lane], y[1][lane]}, {x[2][lane], y[2][lane]}},
+                     {depth[0][lane], depth[1][lane], depth[2][lane]});
+}
+
 /// Adds the crossings of the triangle.
 HWY_INLINE void cross_triangle(const TriangleMesh& mesh, uint32_t index, LaneMask lanes,
                                int longest, PacketRays& rays, CrossingSearch& search) {
@@ -207,23 +227,19 @@ HWY_INLINE void cross_triangle(const TriangleMesh& mesh, uint32_t index, LaneMas
     LaneMask passing = windings.positive | windings.negative;
     if (passing == 0) continue;
     const TriangleMesh::Plane& plane = mesh.planes()[index];
-    alignas(64) double nearest[kLanes], furthest[kLanes];
-    const auto min = hn::Min(seen.depth[0], hn::Min(seen.depth[1], seen.depth[2]));
-    const auto max = hn::Max(seen.depth[0], hn::Max(seen.depth[1], seen.depth[2]));
-    hn::Store(min, Wide(), nearest);
-    hn::Store(max, Wide(), furthest);
     for (; passing != 0; passing &= passing - 1) {
       const uint32_t lane = static_cast<uint32_t>(std::countr_zero(passing));
       const Vec3 origin{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]};
       const Vec3 direction{rays.direction[0][lane], rays.direction[1][lane],
                            rays.direction[2][lane]};
       const double inverse = rays.inverse[lane];
-      const double a = nearest[lane - first_lane(c)] * inverse;
-      const double b = furthest[lane - first_lane(c)] * inverse;
       const double growth = glm::dot(plane.normal, direction);
-      const double at = (plane.offset - glm::dot(plane.normal, origin)) / growth;
-      // Along its plane a triangle is passed somewhere between its corners.
-      const double t = std::isnan(at) ? a : std::clamp(at, std::min(a, b), std::max(a, b));
+      double t = (plane.offset - glm::dot(plane.normal, origin)) / growth;
+      if (!(growth * growth >= rays.least_growth2[lane])) {
+        const DepthRange range = depth_range_of(seen, lane - first_lane(c));
+        const double a = range.nearest * inverse, b = range.furthest * inverse;
+        t = std::isnan(t) ? a : std::clamp(t, std::min(a, b), std::max(a, b));
+      }
       // A triangle is seen from outside if its corners are counterclockwise against the ray.
       const bool leaves = (windings.positive >> lane & 1) == (inverse > 0 ? 1u : 0u);
       const double last_t = search.add(lane, {rays.base[lane] + t, index, leaves ? -1 : 1});

@@ -9,7 +9,7 @@
 namespace csgcore {
 namespace {
 
-using Triangle = TriangleMesh::Triangle;
+using Triangle = EdgedTriangle;
 
 /// Spreads a number over all 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood 2014).
 uint64_t mixed(uint64_t x) {

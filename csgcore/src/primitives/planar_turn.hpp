@@ -1,7 +1,10 @@
-// The exact orientation of two points of a plane as seen from its origin.
+// Triangles in a plane as seen from its origin: whether they wind around it, exactly, and at which
+// depth.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace csgcore {
 
@@ -44,6 +47,33 @@ inline int planar_turn(PlanarPoint a, PlanarPoint b) {
 inline int winding_of(PlanarPoint a, PlanarPoint b, PlanarPoint c) {
   const int first = planar_turn(a, b);
   return first == planar_turn(b, c) && first == planar_turn(c, a) ? first : 0;
+}
+
+/// Depths between which a triangle is passed.
+struct DepthRange {
+  double nearest, furthest;
+};
+
+/// Returns the depths between which a triangle is passed at the origin, around which it winds:
+/// those of the two edges that pass the origin on either side, across the longer extent. Of a
+/// triangle that is seen edge-on they tell more than its plane.
+inline DepthRange depth_range(const PlanarPoint (&corners)[3], const double (&depths)[3]) {
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  const bool is_wide = right - left >= high - low;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  DepthRange range{kInfinity, -kInfinity};
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const double from = is_wide ? corners[k].x : corners[k].y;
+    const double to = is_wide ? corners[next].x : corners[next].y;
+    // The origin counts as beyond a corner that is level with it (turn_of_equal_products).
+    if ((from <= 0) == (to <= 0)) continue;
+    const double depth = depths[k] + from / (from - to) * (depths[next] - depths[k]);
+    range.nearest = std::min(range.nearest, depth);
+    range.furthest = std::max(range.furthest, depth);
+  }
+  return range;
 }
 
 }  // namespace csgcore

@@ -53,6 +53,13 @@ bool is_scad(const std::string& path);
 /// be read only once.)
 bool may_be_scad(const std::string& path);
 
+/// Returns the options with the folder of the files that the design names: its own.
+ImportOptions beside(const std::string& path, ImportOptions options);
+
+/// Adds the files that a finished import names to those that its text was read from, the design
+/// last.
+void add_imported_files(const ImportedDesign& design, std::vector<std::string>& files);
+
 /// Returns the files that reading the design is known to need beforehand: the design, and
 /// openscad's parameter file.
 std::vector<NamedPath> design_inputs(const std::string& path,

@@ -31,9 +31,17 @@ struct FacetMesh {
 /// The meshes of the polyhedra of a design, which have to outlive the table.
 using FacetMeshes = std::unordered_map<const csgcore::Polyhedron*, FacetMesh>;
 
-/// Returns the mesh with its edges. `cuts_bands`: OpenSCAD cuts the faces of csgcore's
-/// sphere_mesh() or frustum_mesh() that run between two rings, from the upper vertex i to the lower
-/// vertex i + 1.
-FacetMesh facet_mesh(csgcore::Mesh mesh, bool cuts_bands);
+/// The faces of a solid of revolution, as csgcore's sphere_mesh() and frustum_mesh() make them.
+struct RevolvedFaces {
+  csgcore::Mesh mesh;
+  /// OpenSCAD cuts the faces that run between two rings, from the upper vertex i to the lower
+  /// vertex i + 1.
+  bool cuts_bands = false;
+
+  bool is_cut(const std::vector<uint32_t>& face) const;
+};
+
+/// Returns the mesh with its edges.
+FacetMesh facet_mesh(RevolvedFaces faces);
 
 }  // namespace frontend

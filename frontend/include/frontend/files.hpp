@@ -19,6 +19,9 @@ namespace frontend {
 FileText read_file(const std::string& path, const IsHopeless& is_hopeless = {},
                    const std::stop_token& stop = {});
 
+/// Reads a regular file, which ends. Throws Error for any other.
+FileText read_regular_file(const std::string& path);
+
 /// Reads an open descriptor to its end; `name` is for messages.
 FileText read_descriptor(int descriptor, const std::string& name,
                          const IsHopeless& is_hopeless = {}, const std::stop_token& stop = {});

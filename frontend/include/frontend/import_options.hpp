@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "csgcore/primitive.hpp"
 
@@ -30,6 +31,9 @@ enum class PictureKind : uint8_t {
 constexpr csgcore::Color kSeenFromWithin{1, 0, 1, 1};
 
 struct ImportOptions {
+  /// The folder that the files which a design names are in, unless their paths are absolute. Empty:
+  /// the working folder.
+  std::string folder{};
   Facets facets = Facets::kFew;
   /// Of kFew. People who choose no more than 8 fragments mean the polygon.
   double few_fragments = 8;

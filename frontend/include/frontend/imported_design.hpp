@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "csgcore/geometry.hpp"
@@ -38,6 +39,8 @@ struct ImportedDesign {
   /// Of a final render (PictureKind::kRendered) whose design is a plane figure: its outlines,
   /// closed, at z = 0. The scene has a thin plate for it.
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;
+  /// The files that its nodes name, whether or not they are there.
+  std::vector<std::string> files;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;
 };

@@ -12,6 +12,7 @@
 
 namespace frontend {
 
+struct GlDemands;
 struct GpuFolders;
 
 /// Draws the scene that was loaded last. The object belongs to one thread at a time; if it draws by
@@ -19,8 +20,9 @@ struct GpuFolders;
 class SceneRenderer {
  public:
   SceneRenderer();
-  /// For tests: looks for GPUs in other folders.
+  /// For tests: looks for GPUs in other folders, and makes other demands on OpenGL.
   explicit SceneRenderer(const GpuFolders& folders);
+  SceneRenderer(const GpuFolders& folders, const GlDemands& demands);
   ~SceneRenderer();
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;

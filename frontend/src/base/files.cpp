@@ -88,6 +88,16 @@ FileText read_file(const std::string& path, const IsHopeless& is_hopeless,
   return read_descriptor(file.number(), path, is_hopeless, stop);
 }
 
+FileText read_regular_file(const std::string& path) {
+  // A named pipe without a writer would be waited for.
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.number() < 0) throw cannot_read(path, errno);
+  if (!S_ISREG(status_of(file.number(), path).st_mode)) {
+    throw Error(path, {}, "is no regular file", "check the file");
+  }
+  return read_descriptor(file.number(), path);
+}
+
 void check_input(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw cannot_read(path, errno);

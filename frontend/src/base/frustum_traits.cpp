@@ -60,10 +60,9 @@ class FrustumTraits final : public PrimitiveTraits {
     return csgcore::Polyhedron::frustum(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments);
   }
   /// OpenSCAD leaves a cylinder's sides whole.
-  FacetMesh facet_mesh(const Primitive& p, int fragments) const override {
-    return frontend::facet_mesh(
-        csgcore::frustum_mesh(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments),
-        p.r_bottom != p.r_top);
+  RevolvedFaces revolved_faces(const Primitive& p, int fragments) const override {
+    return {csgcore::frustum_mesh(p.z_min, p.z_max, p.r_bottom, p.r_top, fragments),
+            p.r_bottom != p.r_top};
   }
 
   Roundness roundness(const Primitive& p) const override {

@@ -64,7 +64,7 @@ std::shared_ptr<const csgcore::Polyhedron> PrimitiveTraits::faceted(const Primit
   return nullptr;
 }
 
-FacetMesh PrimitiveTraits::facet_mesh(const Primitive&, int) const { return {}; }
+RevolvedFaces PrimitiveTraits::revolved_faces(const Primitive&, int) const { return {}; }
 
 Roundness PrimitiveTraits::roundness(const Primitive&) const { return {}; }
 
@@ -77,7 +77,7 @@ std::optional<RadialPlace> PrimitiveTraits::radial_place(const Primitive&, const
 }
 
 LocalSolid local_solid(const Primitive& p) {
-  return {p.shape, p.r_bottom, p.r_top, p.z_min, p.z_max, p.polyhedron.get()};
+  return {p.shape, p.r_bottom, p.r_top, p.z_min, p.z_max, p.polyhedron.get(), p.mesh.get()};
 }
 
 }  // namespace frontend

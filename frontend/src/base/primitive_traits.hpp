@@ -64,9 +64,9 @@ class PrimitiveTraits {
   /// there is none: then `scadray validate` does not compare the design with CGAL.
   virtual std::shared_ptr<const csgcore::Polyhedron> faceted(const csgcore::Primitive& primitive,
                                                              int fragments) const;
-  /// Returns the mesh of that polyhedron as OpenSCAD makes it. Empty for a polyhedron, which keeps
-  /// no mesh.
-  virtual FacetMesh facet_mesh(const csgcore::Primitive& primitive, int fragments) const;
+  /// Returns the faces of that polyhedron as OpenSCAD makes them. None for a kind that is not
+  /// round.
+  virtual RevolvedFaces revolved_faces(const csgcore::Primitive& primitive, int fragments) const;
 
   virtual Roundness roundness(const csgcore::Primitive& primitive) const;
   /// Writes the solid's plane faces into `faces`, which is empty before. Writes none if there are
@@ -87,8 +87,8 @@ const PrimitiveTraits& traits_of(csgcore::Shape shape);
 
 /// All parameters that make a local solid: primitives with equal ones have the same solid. A
 /// parameter that Primitive gains has to be added.
-using LocalSolid =
-    std::tuple<csgcore::Shape, double, double, double, double, const csgcore::Polyhedron*>;
+using LocalSolid = std::tuple<csgcore::Shape, double, double, double, double,
+                              const csgcore::Polyhedron*, const csgcore::TriangleMesh*>;
 LocalSolid local_solid(const csgcore::Primitive& primitive);
 
 }  // namespace frontend

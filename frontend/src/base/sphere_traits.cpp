@@ -56,8 +56,8 @@ class SphereTraits final : public PrimitiveTraits {
                                                      int fragments) const override {
     return csgcore::Polyhedron::sphere(primitive.r_bottom, fragments);
   }
-  FacetMesh facet_mesh(const Primitive& primitive, int fragments) const override {
-    return frontend::facet_mesh(csgcore::sphere_mesh(primitive.r_bottom, fragments), true);
+  RevolvedFaces revolved_faces(const Primitive& primitive, int fragments) const override {
+    return {csgcore::sphere_mesh(primitive.r_bottom, fragments), true};
   }
 
   Roundness roundness(const Primitive& primitive) const override {

@@ -141,6 +141,7 @@ class Run {
   std::vector<NamedPath> named_inputs() const {
     std::vector<NamedPath> inputs = design_inputs(options_.input, options_.openscad_arguments);
     for (const std::string& file : files_) inputs.push_back({"a file of the design", file});
+    for (const std::string& file : imported_) inputs.push_back({"a file of the design", file});
     return inputs;
   }
 
@@ -196,13 +197,15 @@ class Run {
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.import.nodes();
     is_exported_ = file.is_exported;
-    for (const std::string& name : file.files) {
-      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
-    }
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file);
     stats_.import_ms = ms_since(import_start);
+    add_imported_files(design, file.files);
+    imported_.insert(imported_.end(), design.files.begin(), design.files.end());
+    for (const std::string& name : file.files) {
+      if (std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    }
     stats_.primitive_nodes = design.primitive_nodes;
     stats_.leaves = design.leaves;
     stats_.compound_leaves = design.compound_leaves;
@@ -275,6 +278,12 @@ class Run {
   void add_wireframe(Image& image, const csgcore::View& view, const Camera& camera) {
     show_progress("finding edges", -1);
     const SolidEdges edges = solid_edges(design_);
+    const auto meshes = std::ranges::count(design_.scene.primitives, csgcore::Shape::kMesh,
+                                           &csgcore::Primitive::shape);
+    if (meshes > 0) {
+      say("warning: --view=wireframe does not show the edges of " + std::to_string(meshes) +
+          (meshes == 1 ? " mesh" : " meshes") + " (polyhedra that are not convex, imported files)");
+    }
     if (!edges.is_complete) {
       say("warning: --view=wireframe shows a part of the edges: the design has too many faces that "
           "may cross (give a smaller $fn)");
@@ -296,9 +305,10 @@ class Run {
   Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
   ImportedDesign design_;
-  bool is_exported_ = false;        // set anew for every frame
-  std::vector<std::string> files_;  // files that the design was read from, for all frames
-  RunStats stats_;                  // of the frame
+  bool is_exported_ = false;           // set anew for every frame
+  std::vector<std::string> files_;     // files that the design was read from, for all frames
+  std::vector<std::string> imported_;  // those that its nodes name, whether or not all are wanted
+  RunStats stats_;                     // of the frame
   ProgressLine progress_;
   std::optional<csgcore::Workers> workers_;
 };

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -28,14 +29,15 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
 /// Parses a text that may turn out to be a .scad's.
 TextImport parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
+  const ImportOptions import_options = beside(path, options.import);
   try {
-    return TextImport(text.csg.view(), text.name, options.import);
+    return TextImport(text.csg.view(), text.name, import_options);
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
   }
   export_design_text(path, options, text);
   options.progress("parsing");
-  return TextImport(text.csg.view(), text.name, options.import);
+  return TextImport(text.csg.view(), text.name, import_options);
 }
 
 DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
@@ -76,6 +78,27 @@ bool may_be_scad(const std::string& path) {
   std::error_code failed;
   return is_scad(path) || (path != "-" && !has_suffix(path, ".csg") &&
                            std::filesystem::is_regular_file(path, failed));
+}
+
+ImportOptions beside(const std::string& path, ImportOptions options) {
+  options.folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
+  return options;
+}
+
+void add_imported_files(const ImportedDesign& design, std::vector<std::string>& files) {
+  if (files.empty()) return;
+  const auto absolute = [](const std::string& path) {
+    std::error_code failed;
+    return std::filesystem::absolute(path, failed).lexically_normal().string();
+  };
+  std::set<std::string> known;
+  for (const std::string& file : files) known.insert(absolute(file));
+  std::string path = std::move(files.back());
+  files.pop_back();
+  for (const std::string& file : design.files) {
+    if (known.insert(absolute(file)).second) files.push_back(file);
+  }
+  files.push_back(std::move(path));
 }
 
 std::vector<NamedPath> design_inputs(const std::string& path,

@@ -9,7 +9,6 @@ namespace frontend {
 namespace {
 
 using csgcore::Mat3;
-using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
@@ -33,16 +32,17 @@ Face face_in_world(const PlaneFace& face, const csgcore::Affine& local_to_world)
 }
 
 const PlaneFaces& Faces::of(const Primitive& primitive) {
-  const Polyhedron* polyhedron = primitive.polyhedron.get();
-  if (!polyhedron) {
+  const void* shared = primitive.polyhedron.get();
+  if (shared == nullptr) shared = primitive.mesh.get();
+  if (shared == nullptr) {
     found_.clear();
     find_faces(primitive, found_);
     return found_;
   }
-  if (polyhedron != last_) {
-    const auto [entry, is_new] = known_.try_emplace(polyhedron);
+  if (shared != last_) {
+    const auto [entry, is_new] = known_.try_emplace(shared);
     if (is_new) find_faces(primitive, entry->second);
-    last_ = polyhedron;
+    last_ = shared;
     last_faces_ = &entry->second;
   }
   return *last_faces_;

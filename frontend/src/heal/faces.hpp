@@ -17,8 +17,8 @@ struct Face {
 
 Face face_in_world(const PlaneFace& face, const csgcore::Affine& local_to_world);
 
-/// Finds the faces of primitives. Keeps those of polyhedra by the polyhedron's address, so that
-/// polyhedra must outlive this object.
+/// Finds the faces of primitives. Keeps those of polyhedra and meshes by their addresses, so that
+/// these must outlive this object.
 class Faces {
  public:
   /// Returns the primitive's faces in local coordinates; valid until the next call.
@@ -29,10 +29,10 @@ class Faces {
   }
 
  private:
-  std::unordered_map<const csgcore::Polyhedron*, PlaneFaces> known_;
-  const csgcore::Polyhedron* last_ = nullptr;  // so that a run of cubes is looked up once
+  std::unordered_map<const void*, PlaneFaces> known_;
+  const void* last_ = nullptr;  // so that a run of cubes is looked up once
   const PlaneFaces* last_faces_ = nullptr;
-  PlaneFaces found_;  // faces of the last primitive without a polyhedron
+  PlaneFaces found_;  // faces of the last primitive that is neither
 };
 
 }  // namespace frontend

@@ -34,9 +34,6 @@ bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
   });
 }
 
-constexpr std::string_view kBecauseManyFaces = "it has too many faces";
-constexpr std::string_view kBecauseNotConvex =
-    "it is not the closed boundary of one convex solid with plane faces";
 constexpr std::string_view kBecauseTooLarge =
     "it is too large, or too far from the origin: scale the design to between 1e-90 and 1e90 "
     "across";
@@ -79,10 +76,25 @@ bool is_supported(const PlaneSubtree& subtree) {
          subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
 }
 
+/// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes").
+void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
+                    NodeProblems& problems) {
+  problems.add(node, "an open mesh", [&] {
+    const uint64_t edges = mesh.open_edges();
+    return NodeProblems::Description{" is not closed: " + std::to_string(edges) +
+                                         (edges == 1 ? " edge has" : " edges have") +
+                                         " a face on one side only",
+                                     "it is drawn as thin sheets where a ray passes a hole"};
+  });
+}
+
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
-    : polyhedra(options.keeps_meshes), tree_(tree), options_(options) {
+    : polyhedra(options.keeps_meshes),
+      files(options.folder, polyhedra),
+      tree_(tree),
+      options_(options) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -259,26 +271,47 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
     primitive = polyhedra.box(read_cube(tree_, node, problems), to_world);
     return csgcore::has_valid_shape(primitive);
   }
-  if (node.kind == NodeKind::kPolyhedron) {
-    const PolyhedronArguments arguments = read_polyhedron(tree_, node, problems);
-    const Convexity convexity = polyhedra.convex(arguments, to_world, primitive);
-    if (convexity == Convexity::kConvex) {
-      is_inside_out = options_.picture == PictureKind::kThrownTogether && faces_inwards(arguments);
-      return true;
-    }
-    const bool is_left_out = convexity != Convexity::kNothing && !contexts_.back().flattened;
-    if (is_left_out) {
-      leave_out(index, convexity == Convexity::kTooLarge ? kBecauseManyFaces : kBecauseNotConvex);
-    }
-    return false;
+  if (node.kind == NodeKind::kSphere || node.kind == NodeKind::kCylinder) {
+    primitive.local_to_world = to_world;
+    return read_round(index, primitive, facets);
   }
-  RoundPrimitive round = read_round_primitive(tree_, node, problems);
+  if (contexts_.back().flattened) return false;
+  const SolidOfFaces* solid =
+      node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
+  if (solid == nullptr || solid->is_empty()) return false;
+  primitive = solid->under(to_world);
+  is_inside_out = options_.picture == PictureKind::kThrownTogether && solid->is_inside_out;
+  if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, problems);
+  return true;
+}
+
+bool Collector::read_round(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets) {
+  RoundPrimitive round = read_round_primitive(tree_, tree_.nodes[index], problems);
+  round.primitive.local_to_world = primitive.local_to_world;
   primitive = std::move(round.primitive);
-  if (!csgcore::has_valid_shape(primitive)) return false;
-  primitive.local_to_world = to_world;
   facets = round.facets;
   if (options_.fn) facets.fn = *options_.fn;
-  return true;
+  return csgcore::has_valid_shape(primitive);
+}
+
+const SolidOfFaces* Collector::read_faces(uint32_t index) {
+  uint64_t unfinite_faces = 0;  // none: the points are finite
+  return &polyhedra.solid(read_polyhedron(tree_, tree_.nodes[index], problems), unfinite_faces);
+}
+
+/// The solid of an import or a surface; null if there is none.
+const SolidOfFaces* Collector::read_file(uint32_t index) {
+  const SyntaxNode& node = tree_.nodes[index];
+  const FileArguments arguments = read_file_arguments(tree_, node, problems);
+  const ImportedFile& file =
+      node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
+  if (file.is_unsupported) leave_out(index, kBecauseUnsupported);
+  if (!file.problem.empty()) {
+    problems.add(node, "a file", [&] {
+      return NodeProblems::Description{": " + file.problem, file.todo};
+    });
+  }
+  return file.solid;
 }
 
 void Collector::note_leaf_place(const Context& context) {

@@ -15,6 +15,7 @@
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/figure_solids.hpp"
+#include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/plane_subtree.hpp"
@@ -41,6 +42,7 @@ class Collector final : public NodeSink {
   std::vector<csgcore::Box> boxes;  // by primitive, faceted
   std::vector<int> fragments;       // by primitive; 0: it is not to be faceted
   PolyhedronPool polyhedra;
+  FileImports files;
   FrameTree frames;
   NodeProblems problems;
   uint32_t primitive_nodes = 0;
@@ -113,6 +115,9 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
+  bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
+  const SolidOfFaces* read_faces(uint32_t node);
+  const SolidOfFaces* read_file(uint32_t node);
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;

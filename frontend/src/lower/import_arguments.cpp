@@ -113,18 +113,31 @@ std::optional<Vec3> vector_of(const SyntaxTree& tree, const Value& list, size_t 
   return result;
 }
 
-/// What a value is that is no vector, or is one with inf or nan.
-std::string words_for(const SyntaxTree& tree, const Value& value) {
-  if (value.kind != ValueKind::kList) return std::string(name_of(value.kind));
-  const std::span<const Value> elements = tree.elements_of(value);
-  for (const Value& element : elements) {
-    if (element.kind == ValueKind::kNumber && std::isfinite(element.number)) continue;
-    const bool is_number = element.kind == ValueKind::kNumber;
-    return "a list with " + std::string(!is_number                   ? name_of(element.kind)
-                                        : std::isnan(element.number) ? "nan"
-                                                                     : "inf");
+/// A value as OpenSCAD writes it, but for what is long: strings, long lists and lists in lists.
+std::string text_of(const SyntaxTree& tree, const Value& value, bool is_inner = false) {
+  constexpr size_t kMostElements = 8, kLongestString = 40;
+  switch (value.kind) {
+    case ValueKind::kUndef:
+      return "undef";
+    case ValueKind::kBool:
+      return value.boolean ? "true" : "false";
+    case ValueKind::kNumber: {
+      std::array<char, 32> text;
+      std::snprintf(text.data(), text.size(), "%g", value.number);
+      return text.data();
+    }
+    case ValueKind::kString:
+      return '"' + std::string(tree.text_of(value).substr(0, kLongestString)) + '"';
+    case ValueKind::kList:
+      break;
   }
-  return "a list of " + std::to_string(elements.size());
+  const std::span<const Value> elements = tree.elements_of(value);
+  if (is_inner && !elements.empty()) return "[...]";
+  std::string text = "[";
+  for (size_t i = 0; i < std::min(elements.size(), kMostElements); ++i) {
+    text += (i > 0 ? ", " : "") + text_of(tree, elements[i], true);
+  }
+  return text + (elements.size() > kMostElements ? ", ...]" : "]");
 }
 
 bool is_finite(const Vec3& v) {
@@ -178,7 +191,7 @@ csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
     if (const std::optional<Vec3> vector = vector_of(tree, *given, 3)) {
       size = *vector;
     } else {
-      note_wrong(problems, node, "size", words_for(tree, *given), kMissing,
+      note_wrong(problems, node, "size", text_of(tree, *given), kMissing,
                  "a number or a list of three numbers");
     }
   }
@@ -201,52 +214,109 @@ std::vector<Vec3> points_of(const SyntaxTree& tree, std::span<const Value> value
   return points;
 }
 
-/// The point that a value of a face names; none where it is beyond the `count` points.
-std::optional<uint32_t> read_index(const SyntaxNode& node, const Value& value, size_t count,
-                                   NodeProblems& problems) {
-  if (value.kind != ValueKind::kNumber) {
-    note_wrong(problems, node, "an index of a face", std::string(name_of(value.kind)),
-               "counts as 0", "a number");
+/// Reads the faces of a polyhedron one by one.
+class FaceReader {
+ public:
+  FaceReader(const SyntaxTree& tree, const SyntaxNode& node, std::span<const Value> points,
+             NodeProblems& problems)
+      : tree_(tree), node_(node), points_(points), problems_(problems) {
+    faces_.points = points_of(tree, points);
   }
-  const double number = value.kind == ValueKind::kNumber ? value.number : 0;
-  if (number > -1 && number < static_cast<double>(count)) return static_cast<uint32_t>(number);
-  problems.add(node, "an index beyond the points", [&] {
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%g", number);
-    return NodeProblems::Description{": " + std::string(text.data()) + " is no index of its " +
-                                         std::to_string(count) +
-                                         (count == 1 ? " point" : " points") + ", and is left out",
-                                     "the first point is 0"};
-  });
-  return std::nullopt;
-}
+
+  FaceSet read(std::span<const Value> faces) {
+    faces_.ends.reserve(faces.size());
+    faces_.corners.reserve(3 * faces.size());
+    for (size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].kind != ValueKind::kList) {
+        note_wrong(problems_, node_, "a face", std::string(name_of(faces[i].kind)), "is left out",
+                   "a list of indices of points");
+        continue;
+      }
+      const size_t begin = faces_.corners.size();
+      const bool goes_on = read_face(tree_.elements_of(faces[i]), i);
+      std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                   faces_.corners.end());
+      faces_.end_face();
+      if (!goes_on) break;
+    }
+    return std::move(faces_);
+  }
+
+ private:
+  /// Returns false if a point is none.
+  bool read_face(std::span<const Value> corners, size_t face) {
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const std::optional<uint32_t> index = read_index(corners[i], face, i);
+      if (!index) continue;
+      if (!is_finite(faces_.points[*index])) {
+        note_bad_point(*index);
+        return false;
+      }
+      faces_.corners.push_back(*index);
+    }
+    return true;
+  }
+
+  /// Returns the point that a value names; none where it is beyond the points.
+  std::optional<uint32_t> read_index(const Value& value, size_t face, size_t place) {
+    if (value.kind != ValueKind::kNumber) {
+      note_wrong(problems_, node_, "an index of a face", std::string(name_of(value.kind)),
+                 "counts as 0", "a number");
+    }
+    const double number = value.kind == ValueKind::kNumber ? value.number : 0;
+    if (number > -1 && number < static_cast<double>(points_.size())) {
+      return static_cast<uint32_t>(number);
+    }
+    problems_.add(node_, "an index beyond the points", [&] {
+      return NodeProblems::Description{
+          ": Point index " + text_of(tree_, value) + " is out of bounds (from faces[" +
+              std::to_string(face) + "][" + std::to_string(place) + "]), and is left out",
+          points_.empty() ? "there are no points"
+                          : "the points are 0 to " + std::to_string(points_.size() - 1)};
+    });
+    return std::nullopt;
+  }
+
+  void note_bad_point(uint32_t index) {
+    problems_.add(node_, "a point", [&] {
+      return NodeProblems::Description{": Unable to convert points[" + std::to_string(index) +
+                                           "] = " + text_of(tree_, points_[index]) +
+                                           " to a vec3 of numbers, and the faces from there on are "
+                                           "left out",
+                                       "it must be a list of three finite numbers"};
+    });
+  }
+
+  const SyntaxTree& tree_;
+  const SyntaxNode& node_;
+  std::span<const Value> points_;
+  NodeProblems& problems_;
+  FaceSet faces_;
+};
 
 }  // namespace
 
-PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node,
-                                    NodeProblems& problems) {
+FaceSet read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
   const std::span<const Value> points = list_argument(tree, node, "points", 0, problems);
-  PolyhedronArguments result{points_of(tree, points), {}};
   std::span<const Value> faces = list_argument(tree, node, "faces", 1, problems);
   if (faces.empty()) faces = list_argument(tree, node, "triangles", kByNameOnly, problems);
-  for (const Value& face : faces) {
-    if (face.kind != ValueKind::kList) {
-      note_wrong(problems, node, "a face", std::string(name_of(face.kind)), "is left out",
-                 "a list of indices of points");
-      continue;
-    }
-    std::vector<uint32_t>& indices = result.faces.emplace_back();
-    for (const Value& value : tree.elements_of(face)) {
-      const std::optional<uint32_t> index = read_index(node, value, points.size(), problems);
-      if (!index) continue;
-      if (!is_finite(result.points[*index])) {
-        note_wrong(problems, node, "a point", words_for(tree, points[*index]),
-                   "the faces from there on are left out", "a list of three finite numbers");
-        return result;
-      }
-      indices.push_back(*index);
-    }
+  return FaceReader(tree, node, points, problems).read(faces);
+}
+
+FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+                                  NodeProblems& problems) {
+  FileArguments result;
+  const Value* file = find_argument(tree, node, "file", 0);
+  if (file != nullptr && file->kind == ValueKind::kString) {
+    result.file = tree.text_of(*file);
+  } else if (file != nullptr) {
+    note_wrong_type(problems, node, "file", *file, "a name");
   }
+  if (node.kind != NodeKind::kSurface) return result;
+  const Value* center = find_argument(tree, node, "center", 1);
+  result.is_centered = center != nullptr && read_center(node, *center, problems);
+  const Value* invert = find_argument(tree, node, "invert", 2);
+  result.is_inverted = invert != nullptr && invert->kind == ValueKind::kBool && invert->boolean;
   return result;
 }
 

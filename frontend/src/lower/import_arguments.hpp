@@ -3,12 +3,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/primitive.hpp"
 #include "frontend/syntax_tree.hpp"
 #include "lower/node_problems.hpp"
+#include "meshes/face_set.hpp"
 
 namespace frontend {
 
@@ -27,17 +28,20 @@ RoundPrimitive read_round_primitive(const SyntaxTree& tree, const SyntaxNode& no
 /// or three, 1 where it is missing.
 csgcore::Box read_cube(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
 
-/// Polyhedron node: its faces should run clockwise seen from outside (csgcore::polyhedron_mesh).
-/// `faces` goes before `triangles`, its older name. A point without a z lies at 0. As in OpenSCAD
-/// 2021.01 (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is
-/// no number is 0, and a point that is none ends the faces where the first of them has it: what
+/// Polyhedron node → its faces, which the file lists clockwise as seen from outside. `faces` goes
+/// before `triangles`, its older name. A point without a z lies at 0. As in OpenSCAD 2021.01
+/// (frontend/OPENSCAD.md, "Polyhedra"), an index beyond the points is left out, one that is no
+/// number is 0, and a point that is none ends the faces where the first of them has it: what
 /// follows is lost. All points that the faces have are finite.
-struct PolyhedronArguments {
-  std::vector<csgcore::Vec3> points;
-  std::vector<std::vector<uint32_t>> faces;
+FaceSet read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
+
+/// Import or surface node. The file's name is as it stands in the file, empty if it is missing.
+struct FileArguments {
+  std::string file;
+  bool is_centered = false, is_inverted = false;  // of a surface
 };
-PolyhedronArguments read_polyhedron(const SyntaxTree& tree, const SyntaxNode& node,
-                                    NodeProblems& problems);
+FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+                                  NodeProblems& problems);
 
 /// The affine part of a multmatrix as it stands in the file, before the division by m[3][3].
 struct FileMatrix {

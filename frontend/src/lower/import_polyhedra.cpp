@@ -1,6 +1,7 @@
 #include "lower/import_polyhedra.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,39 +22,70 @@ Affine resized(const Affine& map, const Vec3& origin, const Vec3& size) {
           map.point(origin)};
 }
 
-double largest_coordinate(const Mesh& mesh) {
+/// Scales the points by a power of two, so that products of coordinates are representable. Returns
+/// its exponent.
+int scale_to_unit(FaceSet& faces) {
   double largest = 0;
-  for (const Vec3& v : mesh.vertices) {
-    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
+  for (const Vec3& point : faces.points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = std::abs(point[axis]);
+      if (size > largest && std::isfinite(size)) largest = size;
+    }
   }
-  return largest;
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  const double factor = std::ldexp(1.0, -exponent);
+  const bool is_normal = std::isnormal(factor);
+  for (Vec3& point : faces.points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      point[axis] = is_normal ? point[axis] * factor : std::ldexp(point[axis], -exponent);
+    }
+  }
+  return exponent;
 }
 
-std::vector<double> numbers_of(const Mesh& mesh) {
-  std::vector<double> numbers;
-  for (const Vec3& v : mesh.vertices) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-  for (const std::vector<uint32_t>& face : mesh.faces) {
-    numbers.push_back(static_cast<double>(face.size()));
-    numbers.insert(numbers.end(), face.begin(), face.end());
+/// Two hashes of a sequence of words.
+class Hashes {
+ public:
+  void add(uint64_t word) {
+    first_ = (std::rotl(first_, 23) ^ word) * 0x9E3779B97F4A7C15u;
+    second_ = (std::rotl(second_, 29) + word) * 0xD6E8FEB86659FD93u;
+    second_ ^= second_ >> 32;
   }
-  return numbers;
+  uint64_t first() const { return first_; }
+  uint64_t second() const { return second_; }
+
+ private:
+  uint64_t first_ = 1, second_ = 2;
+};
+
+std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
+  std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
+  auto mesh =
+      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
+  return mesh->triangles().empty() ? nullptr : mesh;
+}
+
+std::shared_ptr<const csgcore::TriangleMesh> mesh_of(RevolvedFaces revolved) {
+  FaceSet faces;
+  for (const std::vector<uint32_t>& face : revolved.mesh.faces) {
+    if (revolved.is_cut(face)) {
+      for (const size_t i : {0, 1, 3}) faces.corners.push_back(face[i]);
+      faces.end_face();
+      for (const size_t i : {1, 2, 3}) faces.corners.push_back(face[i]);
+    } else {
+      faces.corners.insert(faces.corners.end(), face.begin(), face.end());
+    }
+    faces.end_face();
+  }
+  faces.points = std::move(revolved.mesh.vertices);
+  return mesh_of(std::move(faces));
 }
 
 }  // namespace
 
-bool faces_inwards(const PolyhedronArguments& arguments) {
-  const Mesh mesh = csgcore::polyhedron_mesh(arguments.points, arguments.faces);
-  double volume = 0;  // six times; positive where the faces run counter-clockwise
-  for (const std::vector<uint32_t>& face : mesh.faces) {
-    for (size_t i = 2; i < face.size(); ++i) {
-      // From a vertex of the solid, so that no large offset cancels.
-      const Vec3& apex = mesh.vertices.front();
-      volume +=
-          glm::dot(mesh.vertices[face[0]] - apex,
-                   glm::cross(mesh.vertices[face[i - 1]] - apex, mesh.vertices[face[i]] - apex));
-    }
-  }
-  return volume < 0;
+Primitive SolidOfFaces::under(const Affine& local_to_world) const {
+  const Affine map = resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent)));
+  return polyhedron ? csgcore::make_polyhedron(polyhedron, map) : csgcore::make_mesh(mesh, map);
 }
 
 Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_world) {
@@ -64,41 +96,49 @@ Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_wo
   if (!unit_box_) {
     const csgcore::Box unit{Vec3(0.0), Vec3(1.0)};
     unit_box_ = csgcore::Polyhedron::box(unit);
-    if (keeps_meshes_) meshes_of_[unit_box_.get()] = facet_mesh(csgcore::box_mesh(unit), false);
+    if (keeps_meshes_) meshes_of_[unit_box_.get()] = facet_mesh({csgcore::box_mesh(unit)});
   }
   return csgcore::make_polyhedron(unit_box_, resized(local_to_world, box.min, size));
 }
 
-Convexity PolyhedronPool::convex(const PolyhedronArguments& arguments, const Affine& local_to_world,
-                                 Primitive& primitive) {
-  Mesh mesh = csgcore::polyhedron_mesh(arguments.points, arguments.faces);
-  if (mesh.faces.empty()) return Convexity::kNothing;
-  if (mesh.faces.size() * mesh.vertices.size() > kMostConvexitySteps) return Convexity::kTooLarge;
-  // By a power of two to unit size, so that products of coordinates are representable.
-  const double largest = largest_coordinate(mesh);
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
-  for (Vec3& v : mesh.vertices) {
-    for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], -exponent);
+PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int exponent) {
+  Hashes hashes;
+  for (const Vec3& point : faces.points) {
+    for (int axis = 0; axis < 3; ++axis) hashes.add(std::bit_cast<uint64_t>(point[axis]));
   }
-  const auto [entry, is_new] = meshes_.try_emplace(numbers_of(mesh));
-  if (is_new) {
-    entry->second = csgcore::Polyhedron::from(mesh);
-    if (keeps_meshes_ && entry->second) {
-      meshes_of_[entry->second.get()] = facet_mesh(mesh, false);
+  for (const uint32_t corner : faces.corners) hashes.add(corner);
+  for (const uint32_t end : faces.ends) hashes.add(end);
+  return {faces.points.size(), faces.corners.size(),
+          faces.ends.size(),   std::bit_cast<uint64_t>(int64_t{exponent}),
+          hashes.first(),      hashes.second()};
+}
+
+const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_faces) {
+  // Scaled first: what underflows there must be equal afterwards.
+  const int exponent = scale_to_unit(faces);
+  unfinite_faces += tidy(faces);
+  const auto [entry, is_new] = solids_.try_emplace(key_of(faces, exponent));
+  SolidOfFaces& solid = entry->second;
+  if (!is_new || faces.face_count() == 0) return solid;
+  solid.exponent = exponent;
+  solid.is_inside_out = enclosed_volume(faces) < 0;
+  if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {
+    const Mesh mesh = to_mesh(faces);
+    solid.polyhedron = csgcore::Polyhedron::from(mesh);
+    if (solid.polyhedron && keeps_meshes_) {
+      meshes_of_[solid.polyhedron.get()] = facet_mesh({mesh});
     }
   }
-  if (!entry->second) return Convexity::kNot;
-  primitive = csgcore::make_polyhedron(
-      entry->second, resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent))));
-  return Convexity::kConvex;
+  if (!solid.polyhedron) solid.mesh = mesh_of(std::move(faces));
+  return solid;
 }
 
 bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
   const Faceting faceting = traits_of(primitive.shape).faceting(primitive, fragments);
-  Shared polyhedron = faceted(faceting, fragments);
-  if (!polyhedron) return false;
-  Primitive faceted = csgcore::make_polyhedron(
-      std::move(polyhedron), resized(primitive.local_to_world, faceting.origin, faceting.size));
+  const SolidOfFaces& solid = faceted(faceting, fragments);
+  if (solid.is_empty()) return false;
+  Primitive faceted =
+      solid.under(resized(primitive.local_to_world, faceting.origin, faceting.size));
   // Only where sizes near the ends of double's range meet: not to be drawn in either form.
   if (!csgcore::is_valid(faceted)) return true;
   faceted.color = primitive.color;
@@ -108,18 +148,27 @@ bool PolyhedronPool::facet(Primitive& primitive, int fragments) {
   return true;
 }
 
-PolyhedronPool::Shared PolyhedronPool::faceted(const Faceting& faceting, int fragments) {
+const SolidOfFaces& PolyhedronPool::faceted(const Faceting& faceting, int fragments) {
+  static const SolidOfFaces kNone;
   const FacetedKey key{fragments, local_solid(faceting.unit)};
   const auto found = faceted_.find(key);
   if (found != faceted_.end()) return found->second;
   if (faceting.faces > kFewFacets) {
-    if (facets_ + faceting.faces > kMostFacets) return nullptr;
+    if (facets_ + faceting.faces > kMostFacets) return kNone;
     facets_ += faceting.faces;
   }
+  SolidOfFaces& solid = faceted_[key];
   const PrimitiveTraits& traits = traits_of(faceting.unit.shape);
-  Shared polyhedron = traits.faceted(faceting.unit, fragments);
-  if (keeps_meshes_) meshes_of_[polyhedron.get()] = traits.facet_mesh(faceting.unit, fragments);
-  return faceted_[key] = std::move(polyhedron);
+  if (faceting.faces > kMostHalfSpaces) {
+    solid.mesh = mesh_of(traits.revolved_faces(faceting.unit, fragments));
+    return solid;
+  }
+  solid.polyhedron = traits.faceted(faceting.unit, fragments);
+  if (keeps_meshes_) {
+    meshes_of_[solid.polyhedron.get()] =
+        facet_mesh(traits.revolved_faces(faceting.unit, fragments));
+  }
+  return solid;
 }
 
 }  // namespace frontend

@@ -364,6 +364,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   throw_if_stopped(stop);
   facet(tree, collected, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
+  design.files = collected.files.paths();
   throw_if_stopped(stop);
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);

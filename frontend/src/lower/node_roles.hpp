@@ -26,6 +26,8 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kCylinder:
     case NodeKind::kCube:
     case NodeKind::kPolyhedron:
+    case NodeKind::kImport:
+    case NodeKind::kSurface:
       return Role::kSolid;
     case NodeKind::kMultmatrix:
     case NodeKind::kColor:
@@ -46,8 +48,6 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kRotateExtrude:
       return Role::kPlane;
     case NodeKind::kText:
-    case NodeKind::kImport:
-    case NodeKind::kSurface:
       return Role::kUnsupportedLeaf;
     case NodeKind::kFill:
     case NodeKind::kProjection:

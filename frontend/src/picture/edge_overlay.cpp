@@ -57,7 +57,7 @@ class EdgeFinder {
   bool is_hit(std::size_t pixel) const { return std::isfinite(image_.z[pixel]); }
   /// Returns whether the pixel shows a surface whose edges are not those of a mesh.
   bool is_smooth(std::size_t pixel) const {
-    return is_hit(pixel) && !meshes_.mesh_of(image_.id[pixel]);
+    return is_hit(pixel) && !meshes_.primitive_of(image_.id[pixel]);
   }
 
   /// Returns the depth that is linear over a plane on the screen: 1/z in a perspective view, else

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "picture/overlay_lines.hpp"
 
 namespace frontend {
@@ -48,7 +52,7 @@ class FacetEdgePainter {
     std::vector<uint32_t> ids;
     uint32_t last = csgcore::kNoPrimitive;
     for (const uint32_t id : image_.id) {
-      if (id != last && meshes_.mesh_of(id)) ids.push_back(id);
+      if (id != last && meshes_.primitive_of(id)) ids.push_back(id);
       last = id;
     }
     std::sort(ids.begin(), ids.end());
@@ -58,13 +62,33 @@ class FacetEdgePainter {
   }
 
   void draw_edges_of(uint32_t id) {
-    const FacetMesh& mesh = *meshes_.mesh_of(id);
-    world_.clear();
-    for (const Vec3& vertex : mesh.mesh.vertices) {
-      world_.push_back(meshes_.primitive(id).local_to_world.point(vertex));
+    const Primitive& primitive = *meshes_.primitive_of(id);
+    if (primitive.mesh) {
+      draw_triangles(id, *primitive.mesh, primitive.local_to_world);
+      return;
     }
-    for (const FacetMesh::Edge& edge : mesh.edges)
+    const FacetMesh& facets = meshes_.facets_of(primitive);
+    map_vertices(facets.mesh.vertices, primitive.local_to_world);
+    for (const FacetMesh::Edge& edge : facets.edges) {
       draw_edge(id, world_[edge.from], world_[edge.to]);
+    }
+  }
+
+  void draw_triangles(uint32_t id, const csgcore::TriangleMesh& mesh, const csgcore::Affine& map) {
+    map_vertices(mesh.vertices(), map);
+    for (const csgcore::TriangleMesh::Triangle& triangle : mesh.triangles()) {
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+        // A closed mesh has every edge in both directions.
+        if (mesh.is_closed() && from > to) continue;
+        draw_edge(id, world_[from], world_[to]);
+      }
+    }
+  }
+
+  void map_vertices(std::span<const Vec3> vertices, const csgcore::Affine& local_to_world) {
+    world_.clear();
+    for (const Vec3& vertex : vertices) world_.push_back(local_to_world.point(vertex));
   }
 
   void draw_edge(uint32_t id, const Vec3& from, const Vec3& to) {
@@ -112,8 +136,8 @@ class FacetEdgePainter {
   }
 
   /// Returns the unlit colour of the face that a pixel shows.
-  std::array<double, 3> face_color(std::size_t pixel) const {
-    const Primitive& primitive = meshes_.primitive(image_.id[pixel]);
+  std::array<double, 3> face_color(std::size_t pixel) {
+    const Primitive& primitive = *meshes_.primitive_of(image_.id[pixel]);
     const Rgb& scheme = is_cut_face(primitive, pixel) ? scheme_.back : scheme_.front;
     std::array<double, 3> color = {scheme.r / 255.0, scheme.g / 255.0, scheme.b / 255.0};
     if (primitive.color) {
@@ -125,12 +149,17 @@ class FacetEdgePainter {
     return color;
   }
   /// A face is seen from within the primitive where the primitive has been taken away.
-  bool is_cut_face(const Primitive& primitive, std::size_t pixel) const {
+  bool is_cut_face(const Primitive& primitive, std::size_t pixel) {
     if (primitive.cut_faces != csgcore::CutFaces::kByTree) {
       return primitive.cut_faces == csgcore::CutFaces::kAlways;
     }
+    const Vec3 normal(image_.normal[pixel]), position(image_.position[pixel]);
+    if (primitive.mesh) {
+      const double step = kInFace * glm::distance(position, view_.eye);
+      return csgcore::contains(canonical_of(primitive), position + step * normal);
+    }
     const Vec3 center = primitive.local_to_world.point(primitive.polyhedron->canonical().center);
-    return glm::dot(Vec3(image_.normal[pixel]), Vec3(image_.position[pixel]) - center) < 0;
+    return glm::dot(normal, position - center) < 0;
   }
 
   /// Mixes the pixel's colour with one half way from the face's to white.
@@ -144,6 +173,12 @@ class FacetEdgePainter {
     }
   }
 
+  const csgcore::CanonicalPrimitive& canonical_of(const Primitive& primitive) {
+    const auto [entry, is_new] = canonical_.try_emplace(primitive.id);
+    if (is_new) entry->second = csgcore::canonicalize(primitive);
+    return entry->second;
+  }
+
   Image& image_;
   const View& view_;
   Projector projector_;
@@ -151,6 +186,7 @@ class FacetEdgePainter {
   const MeshLookup& meshes_;
   std::vector<float> strength_;  // by pixel; none if no mesh is seen
   std::vector<Vec3> world_;      // the vertices of the mesh at hand
+  std::unordered_map<uint32_t, csgcore::CanonicalPrimitive> canonical_;  // of meshes, by id
 };
 
 }  // namespace

@@ -2,14 +2,10 @@
 
 namespace frontend {
 
-MeshLookup::MeshLookup(const ImportedDesign& design) {
-  if (design.meshes.empty()) return;
-  meshes_.resize(design.primitive_nodes);
-  primitives_.resize(design.primitive_nodes);
+MeshLookup::MeshLookup(const ImportedDesign& design) : facets_(design.meshes) {
   for (const csgcore::Primitive& primitive : design.scene.primitives) {
-    const auto found = design.meshes.find(primitive.polyhedron.get());
-    if (found == design.meshes.end()) continue;
-    meshes_.at(primitive.id) = &found->second;
+    if (!primitive.mesh && !facets_.contains(primitive.polyhedron.get())) continue;
+    if (primitives_.empty()) primitives_.resize(design.primitive_nodes);
     primitives_.at(primitive.id) = &primitive;
   }
 }

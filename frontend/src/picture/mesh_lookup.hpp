@@ -1,4 +1,4 @@
-// Finds the primitive that a pixel shows, and OpenSCAD's mesh of it.
+// Finds the primitive that a pixel shows, if OpenSCAD's edges of it are known.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,19 @@ class MeshLookup {
   /// The design must outlive the lookup.
   explicit MeshLookup(const ImportedDesign& design);
 
-  /// Returns the mesh of the primitive with that Primitive::id, in its local coordinates; null if
-  /// the primitive is smooth, or unknown.
-  const FacetMesh* mesh_of(uint32_t id) const {
-    return id < meshes_.size() ? meshes_[id] : nullptr;
+  /// Returns the primitive with that Primitive::id; null if it is smooth, or unknown. It is a mesh,
+  /// or a polyhedron with facets_of().
+  const csgcore::Primitive* primitive_of(uint32_t id) const {
+    return id < primitives_.size() ? primitives_[id] : nullptr;
   }
-  /// Precondition: mesh_of(id) is not null.
-  const csgcore::Primitive& primitive(uint32_t id) const { return *primitives_[id]; }
+  /// Returns OpenSCAD's mesh of a polyhedron of primitive_of(), in its local coordinates.
+  const FacetMesh& facets_of(const csgcore::Primitive& primitive) const {
+    return facets_.at(primitive.polyhedron.get());
+  }
 
  private:
-  // By id:
-  std::vector<const FacetMesh*> meshes_;
-  std::vector<const csgcore::Primitive*> primitives_;
+  const FacetMeshes& facets_;
+  std::vector<const csgcore::Primitive*> primitives_;  // by id
 };
 
 }  // namespace frontend

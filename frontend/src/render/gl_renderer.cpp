@@ -1,5 +1,6 @@
 #include "render/gl_renderer.hpp"
 
+#include <algorithm>
 #include <map>
 #include <type_traits>
 #include <utility>
@@ -7,7 +8,6 @@
 #include "base/elapsed.hpp"
 #include "csgcore/changed_areas.hpp"
 #include "glrender/renderer.hpp"
-#include "render/renderer_choice.hpp"
 #include "render/scene_subdivision.hpp"
 #include "render/solid_renderer.hpp"
 
@@ -30,10 +30,11 @@ auto translate_errors(Function function) {
 
 class GlRenderer final : public SolidRenderer {
  public:
-  explicit GlRenderer(bool takes_software) {
-    if (!takes_software && is_software(context_.renderer_name())) {
+  explicit GlRenderer(const GlDemands& demands) {
+    if (!demands.takes_software && is_software(context_.renderer_name())) {
       throw GlFailure("OpenGL runs in software here: " + context_.renderer_name());
     }
+    context_.set_most_texels(std::min(context_.most_texels(), demands.most_texels));
   }
 
   Image draw_model(const Solid& solid, const csgcore::FrameSettings& frame,
@@ -198,8 +199,8 @@ class GlRenderer final : public SolidRenderer {
 
 }  // namespace
 
-std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software) {
-  return translate_errors([&] { return std::make_unique<GlRenderer>(takes_software); });
+std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands& demands) {
+  return translate_errors([&] { return std::make_unique<GlRenderer>(demands); });
 }
 
 }  // namespace frontend

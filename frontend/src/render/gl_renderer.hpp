@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frontend/error.hpp"
+#include "render/renderer_choice.hpp"
 #include "render/solid_renderer.hpp"
 
 namespace frontend {
@@ -21,8 +22,8 @@ class GlFailure : public Error {
   std::string reason_;
 };
 
-/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; without `takes_software` also
-/// if OpenGL runs in software.
-std::unique_ptr<SolidRenderer> make_gl_renderer(bool takes_software);
+/// Starts OpenGL. Throws GlFailure, as do the renderer's functions; also if the driver does not
+/// meet the demands.
+std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands& demands);
 
 }  // namespace frontend

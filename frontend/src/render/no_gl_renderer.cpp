@@ -3,7 +3,7 @@
 
 namespace frontend {
 
-std::unique_ptr<SolidRenderer> make_gl_renderer(bool) {
+std::unique_ptr<SolidRenderer> make_gl_renderer(const GlDemands&) {
   throw GlFailure("this scadray was built without OpenGL", "give --renderer=cpu");
 }
 

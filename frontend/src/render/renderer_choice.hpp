@@ -2,6 +2,8 @@
 // that alone takes longer than the CPU needs for a picture.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -11,6 +13,13 @@ namespace frontend {
 struct GpuFolders {
   std::string devices = "/dev/dri";        // render nodes: renderD128, …
   std::string classes = "/sys/class/drm";  // renderD128/device/driver, a link to the driver
+};
+
+/// What is asked of OpenGL's driver. Tests feign others by it.
+struct GlDemands {
+  bool takes_software = false;  // by `auto`, too
+  /// A driver is taken for one that allows no larger buffers (HeadlessContext::set_most_texels).
+  uint64_t most_texels = std::numeric_limits<uint64_t>::max();
 };
 
 /// Why OpenGL would have no GPU here, as far as can be seen without asking OpenGL; nothing if there

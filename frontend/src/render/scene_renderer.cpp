@@ -40,7 +40,8 @@ csgcore::View pixel_view(const csgcore::View& view, double x_px, double y_px) {
 
 class SceneRenderer::Impl {
  public:
-  explicit Impl(const GpuFolders& folders) : folders_(folders) {}
+  Impl(const GpuFolders& folders, const GlDemands& demands)
+      : folders_(folders), demands_(demands) {}
 
   void load(ScenePointer scene) {
     const Clock::time_point start = Clock::now();
@@ -187,7 +188,9 @@ class SceneRenderer::Impl {
     }
     const Clock::time_point start = Clock::now();
     try {
-      auto renderer = make_gl_renderer(kind == RendererKind::kGl);
+      GlDemands demands = demands_;
+      demands.takes_software |= kind == RendererKind::kGl;
+      auto renderer = make_gl_renderer(demands);
       stats.context_ms = ms_since(start);
       is_replaceable_ = kind == RendererKind::kAuto;
       return renderer;
@@ -200,6 +203,7 @@ class SceneRenderer::Impl {
   }
 
   const GpuFolders folders_;
+  const GlDemands demands_;
   std::shared_ptr<const PreparedScene> scene_;
   int exponent_ = 0;       // of 2, by which the scene is scaled
   double prepare_ms_ = 0;  // not reported yet
@@ -212,7 +216,9 @@ class SceneRenderer::Impl {
 };
 
 SceneRenderer::SceneRenderer() : SceneRenderer(GpuFolders{}) {}
-SceneRenderer::SceneRenderer(const GpuFolders& folders) : impl_(std::make_unique<Impl>(folders)) {}
+SceneRenderer::SceneRenderer(const GpuFolders& folders) : SceneRenderer(folders, GlDemands{}) {}
+SceneRenderer::SceneRenderer(const GpuFolders& folders, const GlDemands& demands)
+    : impl_(std::make_unique<Impl>(folders, demands)) {}
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
 SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;

@@ -1,6 +1,7 @@
 // An OpenGL 3.3 core context without a window or a display.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,11 @@ class HeadlessContext {
 
   /// The driver's GL_RENDERER.
   const std::string& renderer_name() const;
+
+  /// The most texels that the driver allows in a buffer that shaders read. Tests may feign a lesser
+  /// driver, for the renderers that are made from then on.
+  uint64_t most_texels() const;
+  void set_most_texels(uint64_t most);
 
  private:
   struct Impl;

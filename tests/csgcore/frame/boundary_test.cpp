@@ -45,11 +45,11 @@ class TurnOracle {
     std::vector<Turn> crossings;
     std::vector<bool> inside(primitives_.size());
     for (uint32_t i = 0; i < primitives_.size(); ++i) {
-      const RayOracle::Segment segment = primitives_[i].segment(ray);
-      inside[i] = segment.exists() && segment.start <= from_s && segment.end > from_s;
-      if (!segment.exists()) continue;
-      if (segment.start > from_s) crossings.push_back({segment.start, i});
-      if (segment.end > from_s) crossings.push_back({segment.end, i});
+      for (const RayOracle::Segment& segment : primitives_[i].segments(ray)) {
+        if (segment.start <= from_s && segment.end > from_s) inside[i] = true;
+        if (segment.start > from_s) crossings.push_back({segment.start, i});
+        if (segment.end > from_s) crossings.push_back({segment.end, i});
+      }
     }
     std::sort(crossings.begin(), crossings.end(),
               [](const Turn& a, const Turn& b) { return a.s < b.s; });

@@ -69,12 +69,6 @@ std::vector<MeshCase> mesh_cases() {
   add("sphere(r = 12);", sphere_mesh(12, fragment_count(12, {})));
   add("cube([1, 2, 3]);", box_mesh({{0, 0, 0}, {1, 2, 3}}));
   add("cube(0.7, center = true);", box_mesh({Vec3(-0.35), Vec3(0.35)}));
-  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {2, 2, 3}, {2, 2, 3}};
-  const std::vector<std::vector<uint32_t>> faces{
-      {0, 1, 2, 3}, {4, 1, 0}, {5, 2, 1}, {4, 3, 2, 9}, {5, 4, 0, 3}};
-  add("polyhedron([[0,0,0],[4,0,0],[4,4,0],[0,4,0],[2,2,3],[2,2,3]],"
-      "[[0,1,2,3],[4,1,0],[5,2,1],[4,3,2,9],[5,4,0,3]]);",
-      polyhedron_mesh(points, faces));
   return cases;
 }
 

@@ -62,6 +62,12 @@ class CanonicalPrimitiveOf : public testing::TestWithParam<test_support::Variant
     primitive.local_to_world = test_support::random_affine(random);
     return primitive;
   }
+  /// Answers about solids that are not convex are by brute force: fewer of them are asked for.
+  int rounds(int of_convex) const {
+    std::mt19937 random(1);
+    const bool is_convex = test_support::test_kind_of(make(random).shape).is_convex();
+    return is_convex ? of_convex : of_convex / 5;
+  }
 };
 
 INSTANTIATE_TEST_SUITE_P(, CanonicalPrimitiveOf, testing::ValuesIn(test_support::all_variants()),
@@ -69,7 +75,8 @@ INSTANTIATE_TEST_SUITE_P(, CanonicalPrimitiveOf, testing::ValuesIn(test_support:
 
 TEST_P(CanonicalPrimitiveOf, BoundsAreTightAndHoldEverything) {
   std::mt19937 random(1);
-  for (int round = 0; round < 20; ++round) {
+  const int count = rounds(20);
+  for (int round = 0; round < count; ++round) {
     const Primitive primitive = make(random);
     const CanonicalPrimitive canonical = canonicalize(primitive);
     const Extent extent = extent_of(canonical);
@@ -91,7 +98,8 @@ TEST_P(CanonicalPrimitiveOf, BoundsAreTightAndHoldEverything) {
 TEST_P(CanonicalPrimitiveOf, ContainsWhatThePrimitiveDoes) {
   std::mt19937 random(2);
   int inside = 0;
-  for (int round = 0; round < 50; ++round) {
+  const int count = rounds(50);
+  for (int round = 0; round < count; ++round) {
     const Primitive primitive = make(random);
     const CanonicalPrimitive canonical = canonicalize(primitive);
     for (int i = 0; i < 300; ++i) {
@@ -105,7 +113,7 @@ TEST_P(CanonicalPrimitiveOf, ContainsWhatThePrimitiveDoes) {
     ASSERT_TRUE(contains(canonical, glm::mix(core, surface, 1 - 1e-9)));
     ASSERT_FALSE(contains(canonical, glm::mix(core, surface, 1 + 1e-9)));
   }
-  EXPECT_GT(inside, 1000);
+  EXPECT_GT(inside, count == 50 ? 1000 : 50);
 }
 
 TEST(CanonicalPrimitive, KnowsBalls) {

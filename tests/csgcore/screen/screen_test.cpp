@@ -135,6 +135,25 @@ std::vector<View> random_views(std::mt19937& random) {
   return views;
 }
 
+/// Returns the rays' segments with a convex primitive; for another one, from its first crossing to
+/// its last.
+PacketSegments segments_of(const FrameRays& frame, const RayPacket& rays,
+                           const CanonicalPrimitive& primitive) {
+  PacketSegments segments;
+  if (primitive.is_convex) {
+    intersect(frame, rays, primitive, segments);
+    return segments;
+  }
+  CrossingSearch search;
+  find_all_crossings(frame, rays, primitive, search);
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    const std::vector<Crossing>& found = search.lanes[lane].found;
+    segments.start[lane] = found.empty() ? 1 : found.front().t;
+    segments.end[lane] = found.empty() ? 0 : found.back().t;
+  }
+  return segments;
+}
+
 /// Returns whether a part of the segment is in front of the eye.
 bool is_seen(const FrameRays& frame, const PacketSegments& segments, uint32_t lane) {
   return segments.start[lane] < segments.end[lane] && segments.end[lane] > frame.first_t;
@@ -173,8 +192,8 @@ TEST_P(ScreenExtents, HoldWhatRaysMeet) {
       const Extent& extent = screen.extents[i];
       unseen += cull_reason_on_screen(extent) != ScreenCullReason::kVisible;
       const auto points = points_at(screen, primitives[i], random, centers_only);
-      PacketSegments segments;
-      intersect(screen.frame, screen.rays_through(points), screen.primitives[i], segments);
+      const PacketSegments segments =
+          segments_of(screen.frame, screen.rays_through(points), screen.primitives[i]);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
         if (!is_seen(screen.frame, segments, lane)) continue;
         ++seen;
@@ -280,8 +299,7 @@ std::vector<glm::dvec2> points_in(const Box& tile, std::mt19937& random) {
 }
 
 bool any_seen(const Screen& screen, const RayPacket& rays, size_t primitive) {
-  PacketSegments segments;
-  intersect(screen.frame, rays, screen.primitives[primitive], segments);
+  const PacketSegments segments = segments_of(screen.frame, rays, screen.primitives[primitive]);
   bool result = false;
   for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
     result |= is_seen(screen.frame, segments, lane);

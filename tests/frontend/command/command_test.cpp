@@ -222,6 +222,14 @@ TEST_F(Command, AWireframeNeedsNoRenderer) {
   EXPECT_EQ(std::count(picture.pixels.begin(), picture.pixels.end(), edge) > 200, true);
 }
 
+TEST_F(Command, AWireframeLeavesOutMeshes) {
+  const std::string sheet =
+      folder_.write("mesh.csg",
+                    "cube(2); polyhedron([[0,0,0],[1,0,0],[0,1,0],[9,9,9]], [[0,1,2],[2,1,0]]);");
+  EXPECT_THAT(run({"-o", png_, "--render=1", "--view=wireframe", sheet}).err,
+              HasSubstr("warning: --view=wireframe does not show the edges of 1 mesh ("));
+}
+
 TEST_F(Command, TheFinalRenderIsViewedAsTheOperationsLeaveIt) {
   const std::string cut =
       folder_.write("cut.csg",
@@ -515,6 +523,28 @@ TEST_F(Command, ARuleForMake) {
   EXPECT_EQ(run({"-o", "-", "--export-format=png", "-d", rule, scad}).code, ExitCode::kDone);
   EXPECT_THAT(folder_.read("x.d"), StartsWith("<stdout>: "));
   EXPECT_EQ(run({"-o", png_, "-d", "-", file_}).out, png_ + ": \\\n\t" + file_ + "\n");
+}
+
+TEST_F(Command, ARuleForMakeNamesImportedFiles) {
+  folder_.write("b.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string csg = folder_.write("i.csg", "import(\"b.off\"); import(\"gone.stl\");");
+  const Outcome outcome = run({"-o", png_, "-d", folder_ / "x.d", csg});
+  EXPECT_EQ(outcome.code, ExitCode::kDone);
+  EXPECT_THAT(outcome.err, HasSubstr("i.csg:1:18: warning: import: Can't open import file '" +
+                                     folder_ / "gone.stl" + "'"));
+  EXPECT_EQ(folder_.read("x.d"), png_ + ": \\\n\t" + folder_ / "b.off" + " \\\n\t" +
+                                     folder_ / "gone.stl" + " \\\n\t" + csg + "\n");
+  // openscad has named one of them.
+  const Environment openscad(
+      "OPENSCAD", folder_.script("openscad",
+                                 "while [ \"$1\" != -d ]; do shift; done\n"
+                                 "printf 'x: \\\\\n\t" +
+                                     folder_ / "b.off" + " \\\\\n\ta.scad\n' >$2\ncat " + csg));
+  run({"-o", png_, "-d", folder_ / "x.d", folder_.write("a.scad", "import(\"b.off\");")});
+  EXPECT_EQ(folder_.read("x.d"), png_ + ": \\\n\t" + folder_ / "b.off" + " \\\n\t" +
+                                     folder_ / "gone.stl" + " \\\n\ta.scad\n");
+  EXPECT_THAT(run({"-o", png_, "--stats", folder_ / "b.off", csg}).err,
+              HasSubstr("--stats would overwrite a file of the design"));
 }
 
 TEST_F(Command, WhatTheDesignReadsIsNotOverwrittenEither) {

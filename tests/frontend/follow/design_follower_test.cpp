@@ -89,6 +89,28 @@ INSTANTIATE_TEST_SUITE_P(By, Follow, testing::Bool(), [](const auto& test) {
   return std::string(test.param ? "Polling" : "Inotify");
 });
 
+TEST_P(Follow, ImportedFilesAreFollowed) {
+  const std::string path = folder_.write("a.csg", "import(\"part.off\"); sphere();");
+  Followed design(path, options());
+  const DesignVersion missing = design.next();
+  EXPECT_THAT(missing.messages, ElementsAre(HasSubstr("Can't open import file")));
+  EXPECT_THAT(missing.files, ElementsAre(path, folder_ / "part.off"));
+  EXPECT_EQ(missing.design->scene.primitives.size(), 1u);
+  const auto off = [](const std::string& z) {
+    return "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 " + z + "\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
+  };
+  for (const char* z : {"5", "7"}) {
+    folder_.write("part.off", off(z));
+    const DesignVersion found = design.next([&](const DesignVersion& version) {
+      return version.design && version.design->view_box.max.z == std::stod(z);
+    });
+    EXPECT_FALSE(found.unchanged);
+    EXPECT_EQ(found.design->scene.primitives.size(), 2u);
+  }
+  fs::remove(folder_ / "part.off");
+  design.next([](const DesignVersion& version) { return !version.messages.empty(); });
+}
+
 TEST_P(Follow, HalfAFileDoesNotStay) {
   Followed design(folder_.write("a.csg", spheres(1)), options());
   design.next_of(1);

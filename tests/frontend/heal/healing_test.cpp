@@ -547,6 +547,19 @@ TEST(HealingFeatures, PolyhedraMoveAlongWhatTheyShareAlready) {
   EXPECT_NEAR(primitives[2].local_to_world.translation.z, 0.666667, kAgrees);
 }
 
+TEST(HealingFeatures, MeshesMoveByTheirPlanes) {
+  // An L on a floor and against a wall.
+  const std::vector<Primitive> primitives = import_scad(
+      "translate([2/3, 0, 2/3]) { translate([0, 0, -1]) cube([9, 9, 1]);"
+      "  translate([-1, 0, 0]) cube([1, 9, 9]); }"
+      "translate([1/3, 1, 1/3]) translate([1/3, 1, 1/3]) polyhedron("
+      "points = [for (z = [0, 2], p = [[0, 0], [6, 0], [6, 2], [2, 2], [2, 6], [0, 6]])"
+      "  [p.x, p.y, z]], faces = concat([[0, 1, 2, 3, 4, 5], [11, 10, 9, 8, 7, 6]],"
+      "  [for (i = [0:5]) [i, i + 6, (i + 1) % 6 + 6, (i + 1) % 6]]));");
+  EXPECT_EQ(primitives[2].shape, csgcore::Shape::kMesh);
+  EXPECT_EQ(primitives[2].local_to_world.translation, Vec3(0.666667, 2, 0.666667));
+}
+
 TEST(HealingFeatures, LiteralDifferencesOfCubesStay) {
   const std::string turned =  // 17.12345678, 23.23456789, 41.3456789
       "multmatrix([[0.689851,-0.544118,0.477537,0.333333],[0.607024,0.79419,0.0280116,0.666667],"

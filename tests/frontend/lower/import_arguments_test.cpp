@@ -70,11 +70,11 @@ TEST(ImporterPrimitives, TakeArgumentsOfTheWrongTypeForMissing) {
   expect_as("cylinder(center = 1);", "cylinder();", "center is a number");
   expect_as("cylinder(r = 2, $fn = \"6\");", "cylinder(r = 2);", "$fn is a string");
   expect_as("cube(size = [1, 2]);", "cube();",
-            "cube: size is a list of 2, and counts as missing (it must be a number or a list of "
+            "cube: size is [1, 2], and counts as missing (it must be a number or a list of "
             "three numbers)");
-  expect_as("cube([1, undef, 2]);", "cube();", "size is a list with undef");
-  expect_as("cube([1, 2, 3, 4]);", "cube();", "size is a list of 4");
-  expect_as("cube(\"a\");", "cube();", "size is a string");
+  expect_as("cube([1, undef, 2]);", "cube();", "size is [1, undef, 2]");
+  expect_as("cube([1, 2, 3, 4]);", "cube();", "size is [1, 2, 3, 4]");
+  expect_as("cube(\"a\");", "cube();", "size is \"a\"");
   expect_as("cube(3, 1);", "cube(3);", "center is a number");
   expect_as("multmatrix(3) { sphere(); }", "sphere();", "the matrix is a number");
   expect_as("multmatrix([[1,0,0,5], 7, [0,0,2]]) { sphere(); }",
@@ -91,14 +91,14 @@ TEST(ImporterPrimitives, TakeArgumentsOfTheWrongTypeForMissing) {
 TEST(ImporterPrimitives, HaveAWarningForEachKindOfProblem) {
   EXPECT_THAT(
       warnings_of("cube(\"a\"); sphere(\"a\");\ncube([1]); cylinder(\"a\", \"b\"); cube(1, 1);"
-                  "surface(); cube([2]); surface();"),
-      ElementsAre("a.csg:1:1: warning: cube: size is a string, and counts as missing; the "
+                  "text(); cube([2]); text();"),
+      ElementsAre("a.csg:1:1: warning: cube: size is \"a\", and counts as missing; the "
                   "first of 3 (it must be a number or a list of three numbers)",
                   HasSubstr("a.csg:1:12: warning: sphere: r is a string, and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: h is a string, and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: r1 is a string, and"),
                   HasSubstr("a.csg:2:32: warning: cube: center is a number, and"),
-                  "a.csg:2:43: warning: surface is left out; the first of 2 (it cannot be "
+                  "a.csg:2:43: warning: text is left out; the first of 2 (it cannot be "
                   "drawn)"));
 }
 
@@ -148,7 +148,7 @@ TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
 
 TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
   const ImportedDesign design = import_text(
-      "surface(); *sphere(); hull() { sphere(); circle(); } sphere(0); %sphere(); sphere(); "
+      "polygon(); *sphere(); hull() { sphere(); circle(); } sphere(0); %sphere(); sphere(); "
       "text();");
   EXPECT_EQ(design.primitive_nodes, 8u);
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");

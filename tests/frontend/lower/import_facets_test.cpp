@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -158,24 +160,54 @@ TEST(ImporterFacets, TakeNoMemoryOutOfProportion) {
   ASSERT_THAT(design.warnings, SizeIs(1));
   EXPECT_EQ(design.warnings[0].text,
             "a.csg:2:2: warning: 2 round primitives are smooth; this is the first: more than "
-            "131072 facets would be needed (give a smaller $fn)");
+            "1048576 facets would be needed (give a smaller $fn)");
   std::vector<Shape> shapes;
   for (const Primitive& primitive : design.scene.primitives) shapes.push_back(primitive.shape);
   EXPECT_THAT(shapes, ElementsAre(Shape::kPolyhedron, Shape::kSphere, Shape::kFrustum,
                                   Shape::kPolyhedron, Shape::kPolyhedron));
   // Many small primitives are too much as well, beyond those that the length of the text allows.
   std::string text;
-  for (int i = 0; i < 300; ++i) text += "sphere($fn = " + std::to_string(30 + i) + ");";
+  for (int i = 0; i < 3; ++i) text += "sphere($fn = " + std::to_string(1000 + i) + ");";
   text += "cylinder($fn = 6);";
   const ImportedDesign many = import_text(text, {.facets = Facets::kAll});
   uint64_t faces = 0;
   for (const Primitive& primitive : many.scene.primitives) {
-    if (primitive.polyhedron) faces += primitive.polyhedron->half_spaces().size();
+    if (primitive.mesh) faces += primitive.mesh->triangles().size() / 2;
   }
-  EXPECT_GT(faces, 100000u);
-  EXPECT_LT(faces, 131072u + 16u);
+  EXPECT_GT(faces, 900000u);
+  EXPECT_LT(faces, 1048576u);
   EXPECT_EQ(many.scene.primitives.back().shape, Shape::kPolyhedron);
   EXPECT_THAT(many.warnings, SizeIs(1));
+}
+
+/// The number of triangles, and the box.
+TEST(ImporterFacets, AreMeshesWhereTheyAreMany) {
+  const Primitive sphere =
+      import_text("sphere(r = 3, $fn = 200);", {.facets = Facets::kAll}).scene.primitives.at(0);
+  ASSERT_EQ(sphere.shape, Shape::kMesh);
+  EXPECT_TRUE(sphere.mesh->is_closed());
+  EXPECT_EQ(sphere.mesh->triangles().size(), 2u * 99 * 200 + 2 * 198);
+  const csgcore::Box box = csgcore::canonicalize(sphere).bounds;
+  const double top = 3 * std::cos(M_PI / 200), side = 3 * std::cos(M_PI / 200);
+  expect_box(box, Vec3(-side, -side, -top), Vec3(side, side, top), 1e-12);
+  // A quadrilateral of a cone is cut from the upper corner i to the lower corner i + 1.
+  const Primitive cone =
+      import_text("cylinder(h = 2, r1 = 3, r2 = 1, $fn = 20000);", {.facets = Facets::kAll})
+          .scene.primitives.at(0);
+  ASSERT_EQ(cone.shape, Shape::kMesh);
+  EXPECT_EQ(cone.mesh->triangles().size(), 2u * 20000 + 2 * 19998);
+  size_t diagonals = 0;
+  for (const csgcore::TriangleMesh::Triangle& triangle : cone.mesh->triangles()) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Vec3& from = cone.mesh->vertices()[triangle[i]];
+      const Vec3& to = cone.mesh->vertices()[triangle[(i + 1) % 3]];
+      if (from.z <= to.z) continue;
+      const double turn = from.x * to.y - from.y * to.x;
+      diagonals += turn > 1e-9;
+      EXPECT_GT(turn, -1e-9);
+    }
+  }
+  EXPECT_EQ(diagonals, 20000u);
 }
 
 }  // namespace

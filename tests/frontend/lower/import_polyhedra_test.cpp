@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -81,20 +83,60 @@ TEST(ImporterPolyhedron, OfAnySize) {
   }
 }
 
-TEST(ImporterPolyhedron, IsLeftOutWhereItIsNotConvexAndClosed) {
-  const std::string open = "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3]]);";
-  const std::string flat = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);";
-  // An octahedron with one vertex pushed in.
+TEST(ImporterPolyhedron, IsAMeshWhereItIsNotConvex) {
+  // An octahedron with one vertex pushed in; it is twice its size in units of the mesh.
   const std::string dented =
-      "polyhedron([[1,0,0],[0,1,0],[-1,0,0],[0,-1,0],[0,0,1],[0,0,0.5]], [[4,1,0],[4,2,1],[4,3,2],"
+      "polyhedron([[2,0,0],[0,2,0],[-2,0,0],[0,-2,0],[0,0,2],[0,0,1]], [[4,1,0],[4,2,1],[4,3,2],"
       "[4,0,3],[0,1,5],[1,2,5],[2,3,5],[3,0,5]]);";
-  for (const std::string& text : {open, flat, dented}) {
-    const std::string cut = "difference() { cube(); " + text + " }";
-    EXPECT_EQ(model_of(cut), "0") << text;
-    EXPECT_EQ(warning_of(cut),
-              "a.csg:1:24: warning: polyhedron is left out (it is not the closed boundary of one "
-              "convex solid with plane faces)");
+  EXPECT_THAT(warnings_of(dented), IsEmpty());
+  const Primitive primitive = only_primitive(dented);
+  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh->is_closed());
+  EXPECT_EQ(primitive.mesh->triangles().size(), 8u);
+  expect_box(csgcore::canonicalize(primitive).bounds, Vec3(-2, -2, 0), Vec3(2), 1e-15);
+  for (const Vec3& vertex : primitive.mesh->vertices()) EXPECT_LE(vertex.x, 1);
+  EXPECT_EQ(primitive.local_to_world.linear[0].x, 2);
+  // The same faces share one mesh.
+  const std::vector<Primitive> two =
+      import_text(dented + "multmatrix([[1,0,0,9]]) { " + dented + " }").scene.primitives;
+  EXPECT_EQ(two[0].mesh, two[1].mesh);
+}
+
+TEST(ImporterPolyhedron, CutsFacesIntoTriangles) {
+  // An L, extruded.
+  std::string points, sides;
+  const int outline[6][2] = {{0, 0}, {6, 0}, {6, 2}, {2, 2}, {2, 6}, {0, 6}};
+  for (int z = 0; z < 2; ++z) {
+    for (const auto& [x, y] : outline) {
+      points += "[" + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "],";
+    }
   }
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    sides += ",[" + std::to_string(6 + i) + "," + std::to_string(6 + next) + "," +
+             std::to_string(next) + "," + std::to_string(i) + "]";
+  }
+  const Primitive primitive =
+      only_primitive("polyhedron([" + points + "],[[0,1,2,3,4,5],[11,10,9,8,7,6]" + sides + "]);");
+  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh->is_closed());
+  EXPECT_EQ(primitive.mesh->triangles().size(), 20u);
+  csgcore::CanonicalPrimitive canonical = csgcore::canonicalize(primitive);
+  EXPECT_TRUE(csgcore::contains(canonical, Vec3(1, 5, 0.5)));
+  EXPECT_FALSE(csgcore::contains(canonical, Vec3(3, 3, 0.5)));
+}
+
+TEST(ImporterPolyhedron, IsDrawnOpen) {
+  const std::string open = "polyhedron(" + kCorner + "faces = [[0,1,2],[0,3,1],[0,2,3]]);";
+  EXPECT_EQ(model_of("difference() { cube(); " + open + open + " }"), "(0-1-2)");
+  EXPECT_EQ(warning_of("difference() { cube(); " + open + open + " }"),
+            "a.csg:1:24: warning: polyhedron is not closed: 3 edges have a face on one side only; "
+            "the first of 2 (it is drawn as thin sheets where a ray passes a hole)");
+  const std::string sheet = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2]]);";
+  EXPECT_THAT(warning_of(sheet), HasSubstr("3 edges have a face"));
+  EXPECT_EQ(only_primitive(sheet).mesh->triangles().size(), 1u);
+  // Two sheets back to back are closed.
+  EXPECT_THAT(warnings_of("polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);"), IsEmpty());
 }
 
 TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
@@ -121,8 +163,8 @@ TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
     expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
   };
   expect_whole("[[0,1,2,4],[0,3,1],[-1,0,2,3],[1,3,nan,2]]",
-               "4 is no index of its 4 points, and is left out; the first of 3 (the first point "
-               "is 0)");
+               "Point index 4 is out of bounds (from faces[0][3]), and is left out; the first of 3 "
+               "(the points are 0 to 3)");
   expect_whole("[[\"a\",1,2],[undef,3,1],[[1],2,3],[1,3,2]]",
                "an index of a face is a string, and counts as 0; the first of 3 (it must be a "
                "number)");
@@ -133,35 +175,36 @@ TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
 
 TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {
   for (const auto& [point, words] : {std::pair("undef", "undef"),
-                                     {"7", "a number"},
-                                     {"[]", "a list of 0"},
-                                     {"[1]", "a list of 1"},
-                                     {"[1,2,3,4]", "a list of 4"},
-                                     {"[1,\"a\",3]", "a list with a string"},
-                                     {"[1,nan,3]", "a list with nan"},
-                                     {"[-inf,2,3]", "a list with inf"},
-                                     {"[1,2,true]", "a list with a boolean"}}) {
+                                     {"7", "7"},
+                                     {"\"a\"", "\"a\""},
+                                     {"[]", "[]"},
+                                     {"[1]", "[1]"},
+                                     {"[1,2,3,4]", "[1, 2, 3, 4]"},
+                                     {"[1,\"a\",3]", "[1, \"a\", 3]"},
+                                     {"[1,nan,3]", "[1, nan, 3]"},
+                                     {"[-inf,2,3]", "[-inf, 2, 3]"},
+                                     {"[1,[2],true]", "[1, [...], true]"}}) {
     const std::string points =
         "polyhedron(points = [[0,0,0],[3,0,0],[0,4,0],[0,0,5]," + std::string(point) + "], ";
     // The points from the bad one on are ignored.
     const std::string late = points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2,4,0],[4,4,9]]);";
-    EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: a point is " + std::string(words) +
-                                    ", and the faces from there on are left out (it must be a "
-                                    "list of three finite numbers)");
+    EXPECT_EQ(warning_of(late), "a.csg:1:1: warning: polyhedron: Unable to convert points[4] = " +
+                                    std::string(words) +
+                                    " to a vec3 of numbers, and the faces from there on are left "
+                                    "out (it must be a list of three finite numbers)");
     expect_box(box_of(only_primitive(late)), Vec3(0.0), Vec3(3, 4, 5), 0);
-    const std::string early = points + "faces = [[0,1,2],[0,4,1],[0,2,3],[1,3,2]]); cube();";
-    EXPECT_EQ(model_of(early), "1") << point;
-    EXPECT_THAT(warnings_of(early),
-                ElementsAre(HasSubstr("a point is "), HasSubstr("is left out (it is not")));
+    const std::string early = points + "faces = [[0,1,2],[1,3,2,4,1],[0,2,3],[0,3,1]]);";
+    EXPECT_EQ(import_text(early).scene.primitives.at(0).mesh->triangles().size(), 2u);
+    EXPECT_THAT(warnings_of(early), ElementsAre(HasSubstr("Unable to convert points[4]"),
+                                                HasSubstr("is not closed: 4 edges")));
     // No face uses the point.
     EXPECT_THAT(warnings_of(points + kFaces + ");"), IsEmpty()) << point;
   }
 }
 
-TEST(ImporterPolyhedron, OfTooManyFacesIsNotLookedAt) {
+TEST(ImporterPolyhedron, OfManyFacesIsAMesh) {
   // Two apexes and a ring: convex, with n + 2 vertices and 2n faces.
-  constexpr int kRing = 16384;
-  static_assert(2ull * kRing * (kRing + 2) > (1 << 28));
+  constexpr int kRing = 2048;
   std::string points = "[0,0,1],[0,0,-1]", faces;
   for (int i = 0; i < kRing; ++i) {
     const double angle = 2 * M_PI * i / kRing;
@@ -169,15 +212,18 @@ TEST(ImporterPolyhedron, OfTooManyFacesIsNotLookedAt) {
     points += ",[" + std::to_string(std::cos(angle)) + "," + std::to_string(std::sin(angle)) + "]";
     faces += (i == 0 ? "[" : ",[") + b + "," + a + ",0],[" + a + "," + b + ",1]";
   }
-  EXPECT_THAT(warning_of("polyhedron([" + points + "],[" + faces + "]);"),
-              HasSubstr("polyhedron is left out (it has too many faces)"));
+  const Primitive primitive = only_primitive("polyhedron([" + points + "],[" + faces + "]);");
+  ASSERT_EQ(primitive.shape, csgcore::Shape::kMesh);
+  EXPECT_TRUE(primitive.mesh->is_closed());
 }
 
 TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {
   EXPECT_THAT(
       warnings_of("polyhedron(points = 3, faces = [[0,1]]);"),
-      ElementsAre(HasSubstr("points is a number, and counts as missing (it must be a list)"),
-                  HasSubstr("0 is no index of its 0 points, and is left out; the first of 2")));
+      ElementsAre(
+          HasSubstr("points is a number, and counts as missing (it must be a list)"),
+          HasSubstr("Point index 0 is out of bounds (from faces[0][0]), and is left out; the "
+                    "first of 2 (there are no points)")));
   EXPECT_THAT(warning_of("polyhedron([], true);"), HasSubstr("faces is a boolean"));
   EXPECT_THAT(warning_of("polyhedron([], triangles = true);"), HasSubstr("triangles is a boolean"));
 }

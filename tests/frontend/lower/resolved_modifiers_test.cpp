@@ -116,8 +116,8 @@ TEST(ImporterModifiers, RootAndDisable) {
   EXPECT_EQ(only_primitive("multmatrix([[1,0,0,3]]) { color([1,0,0]) { !sphere(); } }")
                 .local_to_world.translation,
             Vec3(0.0));
-  EXPECT_THAT(warnings_of("!sphere(); surface();"), IsEmpty());
-  EXPECT_THAT(warnings_of("sphere(); *surface();"), IsEmpty());
+  EXPECT_THAT(warnings_of("!sphere(); polygon();"), IsEmpty());
+  EXPECT_THAT(warnings_of("sphere(); *polygon();"), IsEmpty());
 }
 
 }  // namespace

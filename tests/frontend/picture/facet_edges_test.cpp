@@ -120,6 +120,26 @@ TEST_F(FacetEdges, DiagonalsCutTheSidesOfConesAndSpheres) {
       << "a cone's sides are triangles";
 }
 
+/// An L, from z = 0 to 2.
+const std::string kStep =
+    "polyhedron([[0,0,0],[6,0,0],[6,2,0],[2,2,0],[2,6,0],[0,6,0],[0,0,2],[6,0,2],[6,2,2],[2,2,2],"
+    "[2,6,2],[0,6,2]], [[0,1,2,3,4,5],[11,10,9,8,7,6],[0,6,7,1],[1,7,8,2],[2,8,9,3],[3,9,10,4],"
+    "[4,10,11,5],[5,11,6,0]]);";
+
+TEST_F(FacetEdges, OfAMeshAreThoseOfItsTriangles) {
+  // Row 45 is at y = 0.9: the outline, the line from (0, 0) to (2, 2), and that on to (6, 0).
+  EXPECT_THAT(lines_of(draw(kStep), 45), testing::ElementsAre(50, 52, 67, 79));
+  EXPECT_THAT(lines_of(draw(kStep), 55), testing::IsEmpty());
+}
+
+TEST_F(FacetEdges, OfAMeshHaveTheColorOfTheirFace) {
+  const auto on_diagonal = [&](const std::string& text) { return color(draw(text), 54, 45); };
+  EXPECT_EQ(on_diagonal(kStep), (std::array<int, 3>{252, 235, 150})) << "f9d72c";
+  EXPECT_EQ(on_diagonal("difference() { cube([16, 16, 3], center = true); " + kStep + "}"),
+            (std::array<int, 3>{206, 229, 168}))
+      << "9dcb51";
+}
+
 TEST_F(FacetEdges, HaveTheColorOfTheirFace) {
   const Image hole = draw(
       "difference() { cube(size = [16, 16, 2], center = true);"

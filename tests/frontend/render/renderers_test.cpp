@@ -2,13 +2,17 @@
 // chooses between them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "frontend/camera.hpp"
 #include "frontend/command.hpp"
 #include "frontend/error.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "render/renderer_choice.hpp"
+#include "support/mesh_models.hpp"
+#include "support/models.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -421,6 +425,30 @@ TEST_F(Renderers, AutoTakesTheCpuWhereOpenGlRunsInSoftware) {
   EXPECT_THAT(drawn.err, StartsWith("renderer: cpu (OpenGL runs in software here: "));
   EXPECT_GT(drawn.stats.context_ms, 0) << "lost on starting OpenGL";
   EXPECT_EQ(drawn.image.rgb, cpu().image.rgb);
+}
+
+TEST_F(Renderers, AutoTakesTheCpuForMeshesThatTheDriverCannotHold) {
+  feign_gpu();
+  SceneRenderer renderer(folders_, {.takes_software = true, .most_texels = 65536});
+  const auto draw = [&](uint32_t around) {
+    renderer.load(std::make_shared<const csgcore::Scene>(test_support::scene_of(
+        csgcore::Op::kUnion,
+        {csgcore::make_mesh(test_support::mesh_of(test_support::torus_shell(3, 1, around, 50)))})));
+    CameraOptions camera;
+    camera.width_px = camera.height_px = 40;
+    RenderStats stats;
+    const Image image = renderer.draw(make_view({csgcore::Vec3(0), {55, 0, 25}, 20}, camera),
+                                      RenderSettings{}, stats);
+    EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
+    EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
+    return stats;
+  };
+  const RenderStats small = draw(100);
+  EXPECT_THAT(small.renderer, StartsWith("gl: "));
+  EXPECT_EQ(small.reason, "");
+  const RenderStats large = draw(200);
+  EXPECT_EQ(large.renderer, "cpu");
+  EXPECT_THAT(large.reason, HasSubstr("triangles of meshes need a buffer of"));
 }
 
 /// Runs in a process of its own, whose EGL finds no driver.

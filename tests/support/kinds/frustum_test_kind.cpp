@@ -15,6 +15,7 @@ using csgcore::LongVec3;
 using csgcore::Primitive;
 using csgcore::Real;
 using csgcore::Vec3;
+using csgcore::reference::ConvexSolid;
 using csgcore::reference::LocalSolid;
 using csgcore::reference::NearRay;
 using csgcore::reference::Span;
@@ -56,7 +57,7 @@ Span cross_slab(const NearRay& ray, Real half_height) {
 }
 
 /// Measures z from the middle.
-class FrustumSolid final : public LocalSolid {
+class FrustumSolid final : public ConvexSolid {
  public:
   explicit FrustumSolid(const Primitive& p)
       : middle_z_((Wide(p.z_min) + Wide(p.z_max)) / 2),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "reference.hpp"
 
@@ -22,10 +23,11 @@ struct NearRay {
   LongVec3 origin, direction;
 };
 
-/// The surface of a crossing. For a polyhedron, the number is that of a half-space.
+/// The surface of a crossing. For a polyhedron, the number is that of a half-space; for a mesh see
+/// mesh_solid.hpp.
 enum class Surface : uint32_t { kBottom = 0, kTop = 1, kSide = 0xFFFFFFFFu };
 
-/// The part of a ray inside a primitive. It is empty unless begin < end.
+/// A part of a ray inside a primitive. It is empty unless begin < end.
 struct Span {
   Real begin = 0, end = 0;
   Surface begin_surface = Surface::kSide, end_surface = Surface::kSide;
@@ -38,9 +40,22 @@ class LocalSolid {
  public:
   virtual ~LocalSolid() = default;
   virtual Wide middle_z() const { return 0; }
-  virtual Span span(const NearRay& ray) const = 0;
+  /// Adds the parts of the ray inside the solid, in order: disjoint, and none empty. `thickness` is
+  /// the tolerance, in world units.
+  virtual void add_spans(const NearRay& ray, Real thickness, std::vector<Span>& spans) const = 0;
   /// Returns the outward normal, of any length, at a point of that surface.
   virtual LongVec3 normal(const LongVec3& point, Surface surface) const = 0;
+};
+
+/// A solid that a ray meets in one span at most.
+class ConvexSolid : public LocalSolid {
+ public:
+  /// Returns the ray's span, which may be empty.
+  virtual Span span(const NearRay& ray) const = 0;
+  void add_spans(const NearRay& ray, Real, std::vector<Span>& spans) const final {
+    const Span own = span(ray);
+    if (!own.empty()) spans.push_back(own);
+  }
 };
 
 }  // namespace csgcore::reference

@@ -17,12 +17,13 @@ using csgcore::Polyhedron;
 using csgcore::Primitive;
 using csgcore::Real;
 using csgcore::Vec3;
+using csgcore::reference::ConvexSolid;
 using csgcore::reference::LocalSolid;
 using csgcore::reference::NearRay;
 using csgcore::reference::Span;
 using csgcore::reference::Surface;
 
-class PolyhedronSolid final : public LocalSolid {
+class PolyhedronSolid final : public ConvexSolid {
  public:
   explicit PolyhedronSolid(const Primitive& primitive) : polyhedron_(primitive.polyhedron) {}
 

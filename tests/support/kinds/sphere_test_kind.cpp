@@ -13,12 +13,13 @@ using csgcore::LongVec3;
 using csgcore::Primitive;
 using csgcore::Real;
 using csgcore::Vec3;
+using csgcore::reference::ConvexSolid;
 using csgcore::reference::LocalSolid;
 using csgcore::reference::NearRay;
 using csgcore::reference::Span;
 using csgcore::reference::Surface;
 
-class SphereSolid final : public LocalSolid {
+class SphereSolid final : public ConvexSolid {
  public:
   explicit SphereSolid(const Primitive& primitive) : radius_(primitive.r_bottom) {}
 

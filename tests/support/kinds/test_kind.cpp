@@ -44,15 +44,27 @@ double Sizes::length() {
   return std::clamp(range_.step * std::round(length / range_.step), range_.low, range_.high);
 }
 
+namespace {
+
+std::vector<Variant> variants_of(bool only_convex) {
+  std::vector<Variant> all;
+  for (const csgcore::Shape shape : kAllShapes) {
+    if (only_convex && !test_kind_of(shape).is_convex()) continue;
+    const std::span<const Variant> some = test_kind_of(shape).variants();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+}  // namespace
+
 const std::vector<Variant>& all_variants() {
-  static const std::vector<Variant> variants = [] {
-    std::vector<Variant> all;
-    for (const csgcore::Shape shape : kAllShapes) {
-      const std::span<const Variant> some = test_kind_of(shape).variants();
-      all.insert(all.end(), some.begin(), some.end());
-    }
-    return all;
-  }();
+  static const std::vector<Variant> variants = variants_of(false);
+  return variants;
+}
+
+const std::vector<Variant>& convex_variants() {
+  static const std::vector<Variant> variants = variants_of(true);
   return variants;
 }
 

@@ -29,7 +29,7 @@ struct Variant {
 
 /// A part of a solid's surface, continued beyond the solid: a wall, a cap or a face.
 struct Side {
-  csgcore::Real outside;  // in local units; convex, negative inside
+  csgcore::Real outside;  // in local units; negative inside; convex if the kind is
   csgcore::LongVec3 gradient;
 };
 
@@ -45,6 +45,8 @@ class TestKind {
  public:
   /// Returns at least one variant. Each special form that may fail by itself is a variant.
   virtual std::span<const Variant> variants() const = 0;
+  /// Returns whether all solids of the kind are convex.
+  virtual bool is_convex() const { return true; }
   /// Returns whether csgcore answers all questions about the kind itself. If it leaves some to the
   /// defaults of PrimitiveKind, the answers must still be right, but need not be tight.
   virtual bool is_told_tightly() const { return true; }
@@ -67,7 +69,8 @@ class TestKind {
   virtual csgcore::LongVec3 middle(const csgcore::Primitive& primitive) const = 0;
   /// Returns a bound of the points' distances from the middle, in world units.
   virtual csgcore::Real reach_world(const csgcore::Primitive& primitive) const = 0;
-  /// Returns the sides at a point. The solid is where all of them are negative or 0.
+  /// Returns the sides at a point, or for a kind that is not convex the distance from the surface.
+  /// The solid is where all of them are negative or 0.
   virtual std::vector<Side> sides(const csgcore::Primitive& primitive,
                                   const csgcore::LongVec3& point) const = 0;
 
@@ -119,6 +122,8 @@ inline constexpr csgcore::Shape kAllShapes[] = {CSGCORE_FOR_EACH_SHAPE(TEST_SUPP
 
 /// Returns the variants of all kinds, kind by kind.
 const std::vector<Variant>& all_variants();
+/// Returns those of the convex kinds.
+const std::vector<Variant>& convex_variants();
 /// Prints a variant in the names of tests, which must not contain an address.
 void PrintTo(const Variant& variant, std::ostream* out);
 

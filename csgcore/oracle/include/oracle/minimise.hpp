@@ -16,8 +16,8 @@ using Shows = std::function<bool(const csgcore::Scene&)>;
 constexpr uint32_t kMostTries = 5000;
 
 /// Returns a scene that `shows` accepts, as it accepts `scene`, and that no single step makes
-/// smaller: no operand, operation or primitive can be left out, no polyhedron can become a simpler
-/// one, no number a rounder one. Only the model is kept. Primitives keep their order, and their
+/// smaller: no operand, operation or primitive can be left out, no polyhedron or mesh can become a
+/// simpler one, no number a rounder one. Only the model is kept. Primitives keep their order, and their
 /// indices become their ids. After `most_tries` calls of `shows`, returns the smallest scene so
 /// far.
 csgcore::Scene minimise(const csgcore::Scene& scene, const Shows& shows,

@@ -1,10 +1,11 @@
-// The Nef oracle computes the solid of a CSG tree over convex polyhedra, by CGAL's Nef polyhedra
-// over an exact kernel (Hachenberger, Kettner, Mehlhorn, "Boolean operations on 3D selective Nef
-// complexes", Computational Geometry 38, 2007). It knows no tolerance: a gap of 1e-30 is a gap.
+// The Nef oracle computes the solid of a CSG tree over convex polyhedra and closed meshes, by
+// CGAL's Nef polyhedra over an exact kernel (Hachenberger, Kettner, Mehlhorn, "Boolean operations
+// on 3D selective Nef complexes", Computational Geometry 38, 2007). It knows no tolerance: a gap of
+// 1e-30 is a gap.
 //
-// A polyhedron is an intersection of half-spaces. Their doubles, and those of its local→world
-// matrix, are taken as exact (csgcore/half_space.hpp says why), so that its facets are plane and
-// its vertices are rationals.
+// A convex polyhedron is an intersection of half-spaces. Their doubles, and those of its
+// local→world matrix, are taken as exact (csgcore/half_space.hpp says why), so that its facets are
+// plane and its vertices are rationals. So are the doubles of a mesh's vertices.
 #pragma once
 
 #include <gmpxx.h>
@@ -23,22 +24,28 @@
 #include "csgcore/half_space.hpp"
 #include "csgcore/primitive.hpp"
 #include "csgcore/scene.hpp"
+#include "csgcore/triangle_mesh.hpp"
 #include "csgcore/view.hpp"
 
 namespace oracle {
 
 using Rational = mpq_class;
 
-/// The half-spaces, in local coordinates, must have a bounded intersection with a point of doubles
-/// in its interior. The matrix must be finite and nonsingular.
-struct ConvexPolyhedron {
+/// A convex polyhedron or, if `mesh` is not null, what the mesh encloses. The matrix must be finite
+/// and nonsingular.
+struct FacetedSolid {
+  /// In local coordinates. They must have a bounded intersection with a point of doubles in its
+  /// interior. A mesh has none.
   std::vector<csgcore::HalfSpace> half_spaces;
   csgcore::Affine local_to_world;
+  /// Its shells, the parts that are connected by edges, must be closed manifolds that do not
+  /// intersect themselves, of triangles with an area. They may intersect each other.
+  std::shared_ptr<const csgcore::TriangleMesh> mesh{};
 };
 
-/// Returns the polyhedron that stands for a primitive: for a smooth one OpenSCAD's facets with so
-/// many fragments (≥ 3), for a polyhedron its own half-spaces.
-ConvexPolyhedron faceted(const csgcore::Primitive& primitive, int fragments);
+/// Returns the solid that stands for a primitive: for a smooth one OpenSCAD's facets with so many
+/// fragments (≥ 3), for a polyhedron its own half-spaces, for a mesh itself.
+FacetedSolid faceted(const csgcore::Primitive& primitive, int fragments);
 
 /// The limits of the time that building a solid may take.
 struct NefLimits {
@@ -51,7 +58,7 @@ enum class NefStatus : uint8_t {
   kBuilt,
   kDeadline,
   kCancelled,
-  kFailed,  // a polyhedron breaks its preconditions, or memory ran out
+  kFailed,  // a solid breaks its preconditions, or memory ran out
 };
 
 enum class Place : uint8_t { kOutside, kBoundary, kInside };
@@ -61,8 +68,8 @@ struct FacetPlane {
   /// normal·x = offset, exactly. The normal points outwards and may have any length.
   Rational normal[3], offset;
   csgcore::Vec3 unit_normal;
-  /// The polyhedra that have a half-space with this boundary, in ascending order. They may lie on
-  /// either side of it.
+  /// The solids that have a half-space with this boundary, or a triangle in it, in ascending order.
+  /// They may lie on either side of it.
   std::vector<uint32_t> polyhedra;
 };
 
@@ -90,10 +97,10 @@ class NefSolid {
   /// Builds the solid of a tree, whose primitives are indices into `polyhedra`. The work is done in
   /// a child process, which is killed at the deadline or when it is cancelled: CGAL cannot be
   /// interrupted otherwise. Throws std::system_error if no process can be made.
-  static NefBuild build(const csgcore::CsgTree& tree, std::span<const ConvexPolyhedron> polyhedra,
+  static NefBuild build(const csgcore::CsgTree& tree, std::span<const FacetedSolid> polyhedra,
                         const NefLimits& limits = {});
-  /// Builds the solid of a scene's model, with so many fragments for smooth primitives. A
-  /// polyhedron's index is that of its primitive.
+  /// Builds the solid of a scene's model, with so many fragments for smooth primitives. The index
+  /// of a solid is that of its primitive.
   static NefBuild build(const csgcore::Scene& scene, int fragments, const NefLimits& limits = {});
   ~NefSolid();
 

@@ -1,0 +1,114 @@
+#include "lower/import_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "meshes/height_map.hpp"
+#include "meshes/read_solid_file.hpp"
+
+namespace frontend {
+namespace {
+
+struct Format {
+  std::string_view suffix;
+  SolidFile (*read)(std::string_view bytes, const std::string& name);
+};
+constexpr std::array<Format, 4> kFormats{
+    {{".stl", read_stl}, {".off", read_off}, {".amf", read_amf}, {".3mf", read_3mf}}};
+constexpr std::array<std::string_view, 3> kUndrawnFormats = {".nef3", ".dxf", ".svg"};
+
+std::string suffix_of(const std::string& name) {
+  std::string suffix = std::filesystem::path(name).extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix;
+}
+
+/// Returns nothing if there is no such file, or it cannot be read.
+std::optional<FileText> bytes_of_file(const std::string& path) {
+  try {
+    return read_regular_file(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string FileImports::path_of(const std::string& name) {
+  std::string path = (std::filesystem::path(folder_) / name).lexically_normal().string();
+  paths_.insert(path);
+  return path;
+}
+
+const ImportedFile& FileImports::import(const FileArguments& arguments) {
+  const auto [entry, is_new] = imports_.try_emplace(arguments.file);
+  if (is_new) entry->second = read_import(arguments.file);
+  return entry->second;
+}
+
+const ImportedFile& FileImports::surface(const FileArguments& arguments) {
+  const auto [entry, is_new] =
+      surfaces_.try_emplace({arguments.file, arguments.is_centered, arguments.is_inverted});
+  if (is_new) entry->second = read_surface(arguments);
+  return entry->second;
+}
+
+ImportedFile FileImports::read_import(const std::string& name) {
+  ImportedFile file;
+  const std::string path = path_of(name);
+  const std::string suffix = suffix_of(name);
+  file.is_unsupported = std::ranges::find(kUndrawnFormats, suffix) != kUndrawnFormats.end();
+  if (file.is_unsupported) return file;
+  const auto format = std::ranges::find(kFormats, suffix, &Format::suffix);
+  if (format == kFormats.end()) {
+    file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
+    file.todo = "convert it to .stl, .off, .amf or .3mf";
+    return file;
+  }
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    file.problem = "Can't open import file '" + path + "'";
+    file.todo = "check its name; it is relative to the design's folder";
+    return file;
+  }
+  SolidFile solid = format->read(bytes->view(), path);
+  file.problem = std::move(solid.problem);
+  if (!file.problem.empty()) file.todo = "the file is damaged: export it again";
+  set_solid(std::move(solid.faces), path, file);
+  return file;
+}
+
+ImportedFile FileImports::read_surface(const FileArguments& arguments) {
+  ImportedFile file;
+  const std::string path = path_of(arguments.file);
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    file.problem = "The file '" + path + "' couldn't be opened";
+    file.todo = "check its name; it is relative to the design's folder";
+    return file;
+  }
+  HeightMap map = read_height_map(bytes->view(), path, arguments.is_inverted);
+  file.problem = std::move(map.problem);
+  if (!file.problem.empty()) file.todo = "check the file";
+  set_solid(solid_below(map, arguments.is_centered), path, file);
+  return file;
+}
+
+void FileImports::set_solid(FaceSet faces, const std::string& path, ImportedFile& file) {
+  uint64_t unfinite_faces = 0;
+  const SolidOfFaces& solid = pool_.solid(std::move(faces), unfinite_faces);
+  if (!solid.is_empty()) file.solid = &solid;
+  if (unfinite_faces == 0 || !file.problem.empty()) return;
+  file.problem = std::to_string(unfinite_faces) + (unfinite_faces == 1 ? " face" : " faces") +
+                 " of '" + path + "' with coordinates that are not finite " +
+                 (unfinite_faces == 1 ? "is" : "are") + " left out";
+  file.todo = "export it again";
+}
+
+}  // namespace frontend

@@ -1,0 +1,52 @@
+// The solids of the files that a design names: import() and surface().
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "lower/import_arguments.hpp"
+#include "lower/import_polyhedra.hpp"
+
+namespace frontend {
+
+/// A file's solid, and what is wrong with it. The messages are OpenSCAD's where it has one.
+struct ImportedFile {
+  const SolidOfFaces* solid = nullptr;  // null: the empty set
+  std::string problem;                  // empty: none
+  std::string todo;
+  /// The file is of a kind that is not drawn.
+  bool is_unsupported = false;
+};
+
+/// Reads every file of a design once.
+class FileImports {
+ public:
+  /// Relative names are looked up in `folder`, in the working folder if it is empty. The pool must
+  /// outlive this.
+  FileImports(std::string folder, PolyhedronPool& pool) : folder_(std::move(folder)), pool_(pool) {}
+
+  /// The results live as long as this. The kind of an import's file is told by its name.
+  const ImportedFile& import(const FileArguments& arguments);
+  const ImportedFile& surface(const FileArguments& arguments);
+
+  /// Returns the paths of all files that were asked for, each once, whether or not they are there.
+  std::vector<std::string> paths() const { return {paths_.begin(), paths_.end()}; }
+
+ private:
+  std::string path_of(const std::string& name);
+  ImportedFile read_import(const std::string& name);
+  ImportedFile read_surface(const FileArguments& arguments);
+  void set_solid(FaceSet faces, const std::string& path, ImportedFile& file);
+
+  const std::string folder_;
+  PolyhedronPool& pool_;
+  std::map<std::string, ImportedFile> imports_;
+  std::map<std::tuple<std::string, bool, bool>, ImportedFile> surfaces_;
+  std::set<std::string> paths_;
+};
+
+}  // namespace frontend

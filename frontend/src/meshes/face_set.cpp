@@ -1,0 +1,192 @@
+#include "meshes/face_set.hpp"
+
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "meshes/triangulation.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+using Triangle = csgcore::TriangleMesh::Triangle;
+
+constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+/// Finds points that are equal, by open addressing.
+class PointTable {
+ public:
+  /// Returns the index of the point among `points`, to which it is added if it is new there.
+  uint32_t index_of(const Vec3& point, std::vector<Vec3>& points) {
+    if (2 * (points.size() + 1) > slots_.size()) grow(points);
+    for (size_t slot = hash(point) & (slots_.size() - 1);;
+         slot = (slot + 1) & (slots_.size() - 1)) {
+      uint32_t& index = slots_[slot];
+      if (index == kNone) {
+        index = static_cast<uint32_t>(points.size());
+        points.push_back(point);
+      } else if (points[index] != point) {
+        continue;
+      }
+      return index;
+    }
+  }
+
+ private:
+  static uint64_t hash(const Vec3& point) {
+    uint64_t result = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      // The sum makes −0 a 0.
+      result = (result ^ std::bit_cast<uint64_t>(point[axis] + 0.0)) * 0x9E3779B97F4A7C15u;
+      result ^= result >> 32;
+    }
+    return result;
+  }
+
+  void grow(const std::vector<Vec3>& points) {
+    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), kNone);
+    for (uint32_t i = 0; i < points.size(); ++i) {
+      size_t slot = hash(points[i]) & (slots_.size() - 1);
+      while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = i;
+    }
+  }
+
+  std::vector<uint32_t> slots_;  // indices of points; as many as a power of two
+};
+
+bool is_finite(const Vec3& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+/// Gives points new indices in the order in which they are asked for, equal ones the same.
+class Renumbering {
+ public:
+  explicit Renumbering(std::vector<Vec3> points)
+      : old_points_(std::move(points)), new_of_(old_points_.size(), kNone) {}
+
+  bool is_finite(uint32_t index) const { return frontend::is_finite(old_points_[index]); }
+  uint32_t operator()(uint32_t index) {
+    uint32_t& known = new_of_[index];
+    if (known == kNone) known = table_.index_of(old_points_[index], points_);
+    return known;
+  }
+  std::vector<Vec3> take_points() { return std::move(points_); }
+
+ private:
+  std::vector<Vec3> old_points_;
+  std::vector<uint32_t> new_of_;
+  std::vector<Vec3> points_;
+  PointTable table_;
+};
+
+Vec3 area_vector(const FaceSet& faces, std::span<const uint32_t> face) {
+  const Vec3& apex = faces.points[face[0]];
+  Vec3 sum(0.0);
+  for (size_t i = 2; i < face.size(); ++i) {
+    sum += glm::cross(faces.points[face[i - 1]] - apex, faces.points[face[i]] - apex);
+  }
+  return sum;
+}
+
+/// A face as it is seen along the axis that its normal is nearest to, counterclockwise.
+void project(const FaceSet& faces, std::span<const uint32_t> face,
+             std::vector<glm::dvec2>& places) {
+  const Vec3 normal = area_vector(faces, face);
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+  }
+  const int right = (axis + 1) % 3, up = (axis + 2) % 3;
+  const double sign = normal[axis] > 0 ? 1 : -1;
+  places.clear();
+  for (const uint32_t corner : face) {
+    places.emplace_back(faces.points[corner][right], sign * faces.points[corner][up]);
+  }
+}
+
+}  // namespace
+
+std::span<const uint32_t> FaceSet::face(size_t index) const {
+  if (ends.empty()) return {corners.data() + 3 * index, 3};
+  const uint32_t begin = index == 0 ? 0 : ends[index - 1];
+  return {corners.data() + begin, ends[index] - begin};
+}
+
+uint64_t tidy(FaceSet& faces) {
+  Renumbering renumber(std::move(faces.points));
+  uint64_t not_finite = 0;
+  uint32_t kept_corners = 0, old_begin = 0;
+  size_t kept_faces = 0;
+  const size_t count = faces.face_count();
+  const bool are_triangles = faces.ends.empty();
+  for (size_t i = 0; i < count; ++i) {
+    // faces.face(i) would begin where the face before ends by now.
+    const uint32_t end = are_triangles ? old_begin + 3 : faces.ends[i];
+    const std::span<const uint32_t> face(faces.corners.data() + old_begin, end - old_begin);
+    old_begin = end;
+    bool has_finite = true;
+    for (const uint32_t corner : face) has_finite = has_finite && renumber.is_finite(corner);
+    not_finite += !has_finite;
+    // A face moves to the front over corners that have been read.
+    const uint32_t begin = kept_corners;
+    const size_t length = has_finite ? face.size() : 0;
+    for (size_t k = 0; k < length; ++k) {
+      const uint32_t corner = renumber(face[k]);
+      if (kept_corners > begin && faces.corners[kept_corners - 1] == corner) continue;
+      faces.corners[kept_corners++] = corner;
+    }
+    while (kept_corners > begin + 1 && faces.corners[kept_corners - 1] == faces.corners[begin]) {
+      --kept_corners;
+    }
+    if (kept_corners < begin + 3) {
+      kept_corners = begin;
+      continue;
+    }
+    if (!are_triangles) faces.ends[kept_faces++] = kept_corners;
+  }
+  faces.corners.resize(kept_corners);
+  if (!are_triangles) faces.ends.resize(kept_faces);
+  faces.points = renumber.take_points();
+  return not_finite;
+}
+
+double enclosed_volume(const FaceSet& faces) {
+  double volume = 0;
+  for (size_t i = 0; i < faces.face_count(); ++i) {
+    const std::span<const uint32_t> face = faces.face(i);
+    // From a vertex of the solid, so that no large offset cancels.
+    volume += glm::dot(faces.points[face[0]] - faces.points.front(), area_vector(faces, face)) / 6;
+  }
+  return volume;
+}
+
+csgcore::Mesh to_mesh(const FaceSet& faces) {
+  csgcore::Mesh mesh;
+  mesh.vertices = faces.points;
+  for (size_t i = 0; i < faces.face_count(); ++i) {
+    const std::span<const uint32_t> face = faces.face(i);
+    mesh.faces.emplace_back(face.begin(), face.end());
+  }
+  return mesh;
+}
+
+std::vector<Triangle> triangles_of(const FaceSet& faces) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(faces.corners.size() - 2 * faces.face_count());
+  std::vector<glm::dvec2> places;
+  for (size_t i = 0; i < faces.face_count(); ++i) {
+    const std::span<const uint32_t> face = faces.face(i);
+    if (face.size() == 3) {
+      triangles.push_back({face[0], face[1], face[2]});
+      continue;
+    }
+    project(faces, face, places);
+    triangulate(face, places, triangles);
+  }
+  return triangles;
+}
+
+}  // namespace frontend

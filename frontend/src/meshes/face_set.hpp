@@ -1,0 +1,45 @@
+// The faces of a solid as a file or a polyhedron() lists them, and what is made of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "csgcore/facets.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/triangle_mesh.hpp"
+
+namespace frontend {
+
+/// Faces, each counterclockwise as seen from outside. Large ones have millions, so that all corners
+/// are in one list.
+struct FaceSet {
+  std::vector<csgcore::Vec3> points;
+  std::vector<uint32_t> corners;  // points by their indices, face by face
+  std::vector<uint32_t> ends;  // by face: one past its last corner. Empty: all have three corners
+
+  size_t face_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
+  std::span<const uint32_t> face(size_t index) const;
+  /// Ends a face with the corners that were added since the last one.
+  void end_face() { ends.push_back(static_cast<uint32_t>(corners.size())); }
+};
+
+/// Makes equal points one, drops points that no face has, equal neighbours within a face, and then
+/// faces with fewer than three corners, or with a point that is not finite. Returns how many faces
+/// were not finite.
+uint64_t tidy(FaceSet& faces);
+
+/// Returns the volume that the faces enclose, but for rounding. It is negative if they run
+/// clockwise.
+double enclosed_volume(const FaceSet& faces);
+
+/// Returns the faces as csgcore has them.
+csgcore::Mesh to_mesh(const FaceSet& faces);
+
+/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along the axis that
+/// its normal is nearest to, and triangulates it there (triangulation.hpp).
+std::vector<csgcore::TriangleMesh::Triangle> triangles_of(const FaceSet& faces);
+
+}  // namespace frontend

@@ -1,0 +1,32 @@
+// The files of solids that OpenSCAD's import() reads.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "meshes/face_set.hpp"
+
+namespace frontend {
+
+/// What a file holds. After a problem there may be faces, too: those before it.
+struct SolidFile {
+  FaceSet faces;
+  std::string problem;  // OpenSCAD's message where it has one; empty: none
+};
+
+/// These read the bytes of a file, whose name is for messages. No file makes them take memory or
+/// time out of proportion to its size.
+
+/// STL, binary if its length is that of its count of facets, and else text if it begins with
+/// "solid". Anything else is empty, without a problem.
+SolidFile read_stl(std::string_view bytes, const std::string& name);
+/// OFF with or without colours and normals, which are ignored.
+SolidFile read_off(std::string_view bytes, const std::string& name);
+/// AMF, perhaps within a zip archive: the meshes of all objects. Units, colours and constellations
+/// are ignored.
+SolidFile read_amf(std::string_view bytes, const std::string& name);
+/// 3MF: every mesh once. Its build items, transformations and units are ignored, as by OpenSCAD
+/// 2021.01.
+SolidFile read_3mf(std::string_view bytes, const std::string& name);
+
+}  // namespace frontend

@@ -1,0 +1,163 @@
+// Tests import() and surface().
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <string>
+#include <vector>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
+#include "lower/imported_text.hpp"
+#include "temporary_folder.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Shape;
+using csgcore::Vec3;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// A tetrahedron, and the same with its first corner at x.
+std::string off_from(const std::string& x) {
+  return "OFF 4 4 0\n" + x + " 0 0\n3 0 0\n0 4 0\n0 0 5\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
+}
+/// The tetrahedron with a dent.
+const std::string kDented =
+    "OFF 5 6 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n.5 .5 .5\n"
+    "3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 4\n3 3 1 4\n3 1 2 4\n";
+
+class ImporterFiles : public testing::Test {
+ protected:
+  ImportedDesign import(const std::string& text) {
+    return import_text(text, {.folder = folder.path()});
+  }
+  std::vector<std::string> warnings(const std::string& text) {
+    std::vector<std::string> texts;
+    for (const Warning& warning : import(text).warnings) texts.push_back(warning.text);
+    return texts;
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(ImporterFiles, AreFoundInTheDesignsFolder) {
+  folder.write("a.off", off_from("0"));
+  folder.write("B.OFF", kDented);
+  const ImportedDesign design = import(
+      "import(\"a.off\"); import(convexity = 3, layer = \"x\", file = \"./B.OFF\", origin = [5, "
+      "5], "
+      "scale = 2);  import(\"" +
+      folder / "a.off" + "\");");
+  EXPECT_THAT(design.warnings, IsEmpty());
+  const std::vector<Primitive>& primitives = design.scene.primitives;
+  ASSERT_THAT(primitives, SizeIs(3));
+  EXPECT_EQ(primitives[0].shape, Shape::kPolyhedron);
+  ASSERT_EQ(primitives[1].shape, Shape::kMesh);
+  expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(0.0), Vec3(3, 4, 5), 1e-15);
+  EXPECT_EQ(primitives[1].id, 1u);
+  EXPECT_EQ(primitives[2].polyhedron, primitives[0].polyhedron);
+  EXPECT_THAT(design.files, ElementsAre(folder / "B.OFF", folder / "a.off"));
+}
+
+TEST_F(ImporterFiles, ShareOneMesh) {
+  folder.write("a.off", kDented);
+  folder.write("b.off", kDented + "# a comment");
+  std::string text = "import(\"b.off\");";
+  for (int i = 0; i < 100; ++i) {
+    text += "multmatrix([[1,0,0," + std::to_string(9 * i) + "]]) { import(\"a.off\"); }";
+  }
+  const ImportedDesign design = import(text);
+  ASSERT_THAT(design.scene.primitives, SizeIs(101));
+  for (const Primitive& primitive : design.scene.primitives) {
+    EXPECT_EQ(primitive.mesh, design.scene.primitives[0].mesh);
+  }
+}
+
+TEST_F(ImporterFiles, ThatAreMissingAreEmpty) {
+  const ImportedDesign design =
+      import("sphere();\n import(\"gone.stl\"); import(\"away.stl\"); surface(\"gone.dat\");");
+  ASSERT_THAT(design.warnings, SizeIs(2));
+  EXPECT_EQ(design.warnings[0].text,
+            "a.csg:2:2: warning: import: Can't open import file '" + folder / "gone.stl" +
+                "'; the first of 2 (check its name; it is relative to the design's folder)");
+  EXPECT_EQ(design.warnings[1].text,
+            "a.csg:2:42: warning: surface: The file '" + folder / "gone.dat" +
+                "' couldn't be opened (check its name; it is relative to the design's folder)");
+  EXPECT_THAT(design.files,
+              ElementsAre(folder / "away.stl", folder / "gone.dat", folder / "gone.stl"));
+  EXPECT_EQ(model_of("difference() { import(\"gone.stl\"); sphere(); }"), "-");
+  EXPECT_EQ(model_of("difference() { sphere(); import(\"gone.stl\"); }"), "0");
+}
+
+TEST_F(ImporterFiles, ThatAreNoFilesAreNotWaitedFor) {
+  ASSERT_EQ(mkfifo((folder / "pipe.stl").c_str(), 0600), 0);
+  for (const char* name : {"pipe.stl", ".", "/dev/zero", ""}) {
+    EXPECT_THAT(warnings("surface(\"" + std::string(name) + "\");"),
+                ElementsAre(HasSubstr("couldn't be opened")))
+        << name;
+  }
+  EXPECT_THAT(warnings("import(\"pipe.stl\");"), ElementsAre(HasSubstr("Can't open")));
+}
+
+TEST_F(ImporterFiles, OfOtherKindsAreNotDrawn) {
+  EXPECT_THAT(warnings("import(\"a.obj\"); import();"),
+              ElementsAre("a.csg:1:1: warning: import: Unsupported file format while trying to "
+                          "import file '\"a.obj\"'; the first of 2 (convert it to .stl, .off, .amf "
+                          "or .3mf)"));
+  EXPECT_THAT(warnings("import(\"a.DXF\");"),
+              ElementsAre("a.csg:1:1: warning: import is left out (it cannot be drawn)"));
+  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.obj\"); }"), "-");
+  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.svg\"); }"), "0");
+}
+
+TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
+  folder.write("a.stl", "solid x\nouter loop\nvertex 1 2 x\n");
+  folder.write("a.amf", "none");
+  folder.write("b.stl", "solid x\nouter loop\nvertex 1 2 3\nvertex 2 2 3\nvertex 5 inf 5\n");
+  EXPECT_THAT(warnings("import(\"a.stl\");"),
+              ElementsAre("a.csg:1:1: warning: import: STL line 3, can't parse vertex line 'vertex "
+                          "1 2 x' importing file '" +
+                          folder / "a.stl" + "' (the file is damaged: export it again)"));
+  EXPECT_THAT(warnings("import(\"a.amf\");"), ElementsAre(HasSubstr("Failed to parse file '")));
+  EXPECT_THAT(warnings("import(\"b.stl\");"),
+              ElementsAre(HasSubstr("1 face of '" + folder / "b.stl" +
+                                    "' with coordinates that are not finite is left out")));
+  folder.write("c.off", "OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n");
+  folder.write("d.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_THAT(warnings("import(\"c.off\");"), ElementsAre(HasSubstr("is not in OFF")));
+  EXPECT_THAT(warnings("import(\"d.off\");"),
+              ElementsAre(HasSubstr("import is not closed: 3 edges")));
+}
+
+TEST_F(ImporterFiles, OfHeightsAreSolids) {
+  folder.write("a.dat", "1 2\n3 9\n2 2\n");
+  const ImportedDesign design = import(
+      "surface(\"a.dat\"); surface(file = \"a.dat\", center = true, invert = true, convexity = 5); "
+      "surface(\"a.dat\", true);");
+  EXPECT_THAT(design.warnings, IsEmpty());
+  const std::vector<Primitive>& primitives = design.scene.primitives;
+  ASSERT_THAT(primitives, SizeIs(3));
+  expect_box(csgcore::canonicalize(primitives[0]).bounds, Vec3(0.0), Vec3(1, 2, 9), 1e-14);
+  expect_box(csgcore::canonicalize(primitives[1]).bounds, Vec3(-0.5, -1, 0), Vec3(0.5, 1, 9),
+             1e-14);
+  EXPECT_EQ(primitives[1].mesh, primitives[2].mesh);
+}
+
+TEST_F(ImporterFiles, ThatFaceInwardsAreMagentaThrownTogether) {
+  folder.write("a.off", kDented);
+  folder.write("b.off",
+               "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+  const ImportedDesign design =
+      import_text("import(\"a.off\"); import(\"b.off\");",
+                  {.folder = folder.path(), .picture = PictureKind::kThrownTogether});
+  EXPECT_FALSE(design.scene.primitives.at(0).color);
+  EXPECT_EQ(design.scene.primitives.at(1).color, kSeenFromWithin);
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,290 @@
+// Tests the readers of imported files, on files that files/make_files has written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "csgcore/triangle_mesh.hpp"
+#include "frontend/files.hpp"
+#include "meshes/gray_png.hpp"
+#include "meshes/height_map.hpp"
+#include "meshes/read_solid_file.hpp"
+#include "meshes/zip_archive.hpp"
+
+namespace frontend {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pointwise;
+using ::testing::SizeIs;
+
+std::string content_of(const std::string& name) {
+  return std::string(read_file(std::string(SCADRAY_MESH_FILES) + "/" + name).view());
+}
+
+using Reader = SolidFile (*)(std::string_view bytes, const std::string& name);
+struct Case {
+  const char* name;
+  Reader read;
+};
+constexpr Case kSteps[] = {{"step.stl", read_stl},        {"step_text.stl", read_stl},
+                           {"step.off", read_off},        {"step.amf", read_amf},
+                           {"step_zipped.amf", read_amf}, {"step.3mf", read_3mf}};
+constexpr const char* kPictures[] = {"gray8.png", "gray4.png", "gray16.png",  "alpha.png",
+                                     "rgb.png",   "rgba.png",  "palette.png", "interlaced.png"};
+
+/// A mesh of what a file has; null if it is empty.
+std::unique_ptr<csgcore::TriangleMesh> mesh_of(FaceSet faces) {
+  tidy(faces);
+  if (faces.face_count() == 0) return nullptr;
+  std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
+  return std::make_unique<csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
+}
+
+TEST(MeshFiles, HoldTheSameStepInEveryFormat) {
+  for (const Case& format : kSteps) {
+    SCOPED_TRACE(format.name);
+    SolidFile file = format.read(content_of(format.name), format.name);
+    EXPECT_EQ(file.problem, "");
+    tidy(file.faces);
+    EXPECT_THAT(file.faces.points, SizeIs(12));
+    EXPECT_NEAR(enclosed_volume(file.faces), 12, 1e-12);
+    const auto mesh = mesh_of(std::move(file.faces));
+    EXPECT_THAT(mesh->triangles(), SizeIs(20));
+    EXPECT_TRUE(mesh->is_closed());
+  }
+}
+
+TEST(MeshFiles, AnotherFormatIsNone) {
+  EXPECT_EQ(read_stl("garbage", "a.stl").problem, "");
+  EXPECT_EQ(read_off("garbage", "a.off").problem, "The file 'a.off' is not in OFF");
+  EXPECT_EQ(read_amf("garbage", "a.amf").problem, "Failed to parse file 'a.amf'");
+  EXPECT_EQ(read_3mf("garbage", "a.3mf").problem, "Could not read file 'a.3mf'");
+  for (const Case& format : kSteps) {
+    EXPECT_EQ(format.read("", "a").faces.face_count(), 0u);
+    for (const Case& other : kSteps) {
+      if (format.read == other.read) continue;
+      EXPECT_EQ(format.read(content_of(other.name), "a").faces.face_count(), 0u)
+          << format.name << " as " << other.name;
+    }
+  }
+}
+
+TEST(Stl, IsTextByItsFirstWordAndBinaryByItsLength) {
+  const std::string binary = content_of("step.stl");
+  EXPECT_EQ(read_stl(binary + "x", "a").faces.face_count(), 0u);
+  EXPECT_EQ(read_stl(" " + content_of("step_text.stl"), "a").faces.face_count(), 0u);
+  std::string more = binary;
+  more[80] = static_cast<char>(more[80] + 1);
+  EXPECT_EQ(read_stl(more, "a").faces.face_count(), 0u);
+}
+
+/// OpenSCAD 2021.01 says the same of these files.
+TEST(Stl, TextIsReadByItsLines) {
+  const auto text_of = [](const std::string& lines) { return "solid x\nouter loop\n" + lines; };
+  const auto faces_of = [&](const std::string& lines) {
+    return read_stl(text_of(lines), "f").faces.face_count();
+  };
+  EXPECT_EQ(faces_of("vertex 0 0 0\n\tvertex\t1 +1 1e0 # more\r\nxvertex 0 1 -.5\n"), 1u);
+  // Without a third number, or a third line, a facet is lost.
+  EXPECT_EQ(faces_of("vertex 0 0 0\nvertex 1 1\nvertex 0 1 0\nouter loop\nvertex 1 1 1"), 0u);
+  EXPECT_EQ(read_stl(text_of("vertex 1 1\n"), "f").problem, "");
+  EXPECT_EQ(faces_of("VERTEX 0 0 0\nvertex 1 1 2\nvertexes 0 1 0\nvertex 1 1 1"), 0u);
+  EXPECT_EQ(read_stl(text_of("vertex 0 0 0\n vertex 1 0 z9\n"), "f").problem,
+            "STL line 4, can't parse vertex line 'vertex 1 0 z9' importing file 'f'");
+  const std::string whole = "vertex 0 0 0\nvertex 1 1 2\nvertex 0 1 0\n";
+  const SolidFile extra = read_stl(text_of(whole + "outer loop\n" + whole + "vertex 5 5 5\n"), "f");
+  EXPECT_EQ(extra.problem, "STL line 10, extra vertex line 'vertex 5 5 5' importing file 'f'");
+  EXPECT_EQ(extra.faces.face_count(), 0u);
+}
+
+/// OpenSCAD 2021.01 takes such files, and leaves out such ones.
+TEST(Amf, IsAllOrNothing) {
+  const std::string whole = content_of("step.amf");
+  const auto faces_with = [&](const std::string& old, const std::string& text) {
+    std::string changed = whole;
+    changed.replace(whole.find(old), old.size(), text);
+    return read_amf(changed, "f").faces.face_count();
+  };
+  EXPECT_EQ(faces_with("<x>4</x>", "<x></x>"), 20u);
+  EXPECT_EQ(faces_with("<x>4</x>", "<x>a</x>"), 0u);
+  EXPECT_EQ(faces_with("<x>4</x>", "<x> 4</x>"), 0u);
+  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>x</v1>"), 0u);
+  EXPECT_EQ(faces_with("<v1>6</v1>", "<v1>12</v1>"), 19u);
+  EXPECT_EQ(faces_with("</volume>", "</volum>"), 0u);
+  EXPECT_EQ(faces_with("</amf>", ""), 0u);
+}
+
+TEST(Off, HasNoFacesWithoutTheirPoints) {
+  const std::string points = "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(read_off(points + "3 0 1 2\n", "f").faces.face_count(), 1u);
+  for (const char* face : {"3 0 1 3\n", "3 0 1 -1\n", "4000000000 0 1 2\n", "3 0 1\n", ""}) {
+    EXPECT_EQ(read_off(points + face, "f").faces.face_count(), 0u) << face;
+  }
+  EXPECT_EQ(read_off("OFF 4000000000 4000000000 0\n0 0 0\n", "f").faces.face_count(), 0u);
+}
+
+/// OpenSCAD 2021.01 writes these triangles to an STL.
+TEST(FaceSets, AreCutAsTheyAreSeenFromOutside) {
+  const auto has_diagonal = [](const std::vector<csgcore::Vec3>& points, uint32_t a, uint32_t b) {
+    FaceSet faces{points, {0, 1, 2, 3}, {4}};
+    size_t found = 0;
+    for (const csgcore::TriangleMesh::Triangle& triangle : triangles_of(faces)) {
+      found += std::ranges::count(triangle, a) + std::ranges::count(triangle, b) == 2 ? 1 : 0;
+    }
+    return found == 2;
+  };
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, 1, 3)) << "upwards";
+  EXPECT_TRUE(has_diagonal({{0, 4, 0}, {4, 4, 0}, {4, 0, 0}, {0, 0, 0}}, 1, 3)) << "downwards";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4}}, 1, 3)) << "along x";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}, 1, 3)) << "along y";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {9, 1, 1}, {90, 2, 0}, {9, 1, -3}}, 1, 3)) << "aslant";
+}
+
+TEST(FaceSets, LoseWhatIsNoFace) {
+  const double inf = std::numeric_limits<double>::infinity();
+  FaceSet faces;
+  faces.points = {{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {0, 1, 0}, {9, 9, 9}, {inf, 0, 0}};
+  for (const std::vector<uint32_t>& face : {std::vector<uint32_t>{0, 1, 2, 3},
+                                            {0, 1, 3, 2},
+                                            {0, 2, 1},
+                                            {0, 1, 5},
+                                            {},
+                                            {1, 1, 3, 0, 0}}) {
+    faces.corners.insert(faces.corners.end(), face.begin(), face.end());
+    faces.end_face();
+  }
+  EXPECT_EQ(tidy(faces), 1u);
+  EXPECT_THAT(faces.points,
+              ElementsAre(csgcore::Vec3(0.0), csgcore::Vec3(1, 0, 0), csgcore::Vec3(0, 1, 0)));
+  EXPECT_THAT(faces.corners, ElementsAre(0, 1, 0, 2, 0, 1, 2, 1, 2, 0));
+  EXPECT_THAT(faces.ends, ElementsAre(4, 7, 10));
+}
+
+TEST(HeightMaps, AreReadFromNumbers) {
+  const HeightMap map = read_height_map(content_of("heights.dat"), "f", false);
+  EXPECT_EQ(map.problem, "");
+  EXPECT_EQ(map.columns, 3u);
+  EXPECT_THAT(map.heights, ElementsAre(1, 2, 3, 4, 5, 0, 6, 7, 8));
+  EXPECT_EQ(map.base, 0);
+  EXPECT_EQ(read_height_map("-3 5\n", "f", true).base, -4);
+  const HeightMap bad = read_height_map("1 2 3\n4 x 6\n7 8 9\n", "f", false);
+  EXPECT_EQ(bad.problem,
+            "Illegal value in 'f': bad lexical cast: source type value could not be interpreted as "
+            "target");
+  EXPECT_THAT(bad.heights, ElementsAre(1, 2, 3, 4, 0, 0));
+}
+
+TEST(HeightMaps, ArePicturesOfAnyType) {
+  for (const char* name : kPictures) {
+    SCOPED_TRACE(name);
+    const HeightMap map = read_height_map(content_of(name), "f", false);
+    EXPECT_EQ(map.problem, "");
+    EXPECT_EQ(map.columns, 3u);
+    // The last row of the picture comes first.
+    EXPECT_THAT(map.heights,
+                Pointwise(DoubleNear(1e-12), {20., 80 / 3., 100 / 3., 0., 20 / 3., 40 / 3.}));
+    EXPECT_EQ(map.base, -1);
+    const HeightMap inverted = read_height_map(content_of(name), "f", true);
+    EXPECT_NEAR(inverted.at(0, 1), 100.0 / 255, 1e-12);
+    EXPECT_NEAR(inverted.at(2, 0), 100.0 / 255 * -84, 1e-12);
+  }
+}
+
+TEST(HeightMaps, ArePicturesOfPaethsFilter) {
+  const std::optional<GrayPicture> picture = read_gray_png(content_of("paeth.png"), kMostCells);
+  ASSERT_TRUE(picture);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      EXPECT_EQ(picture->values[static_cast<size_t>(24 * y + x)],
+                (37 * x * x + 91 * y * y + 13 * x * y) % 256);
+    }
+  }
+}
+
+TEST(HeightMaps, BoundASolid) {
+  const HeightMap map = read_height_map(content_of("heights.dat"), "f", false);
+  FaceSet faces = solid_below(map, true);
+  tidy(faces);
+  EXPECT_NEAR(enclosed_volume(faces),
+              1.0 / 4 * ((1 + 2 + 4 + 5) + (2 + 3 + 5 + 0) + (4 + 5 + 6 + 7) + (5 + 0 + 7 + 8)),
+              1e-12);
+  const auto mesh = mesh_of(std::move(faces));
+  EXPECT_TRUE(mesh->is_closed());
+  csgcore::Box box;
+  for (const csgcore::Vec3& vertex : mesh->vertices()) box.merge(vertex);
+  EXPECT_EQ(box.min, csgcore::Vec3(-1, -1, 0));
+  EXPECT_EQ(box.max, csgcore::Vec3(1, 1, 8));
+  for (const char* few : {"", "1", "#", "1 2", "1\n2"}) {
+    mesh_of(solid_below(read_height_map(few, "f", false), false));
+  }
+}
+
+TEST(HeightMaps, AreOfBoundedSize) {
+  std::string wide = "1";
+  for (int i = 1; i < 2048; ++i) wide += " 1";
+  std::string tall;
+  for (int i = 0; i < 2048; ++i) tall += "1\n";
+  EXPECT_EQ(read_height_map(wide + "\n" + tall, "f", false).problem,
+            "The file 'f' has too many heights");
+  EXPECT_FALSE(read_gray_png(content_of("gray8.png"), 5));
+  EXPECT_TRUE(read_gray_png(content_of("gray8.png"), 6));
+}
+
+TEST(ZipArchives, UnpackNoMoreThanTheySay) {
+  const std::string bytes = content_of("step_zipped.amf");
+  const std::string whole = content_of("step.amf");
+  EXPECT_EQ(ZipArchive(bytes).unpack_first(), whole);
+  EXPECT_FALSE(ZipArchive(bytes).unpack("another"));
+  EXPECT_FALSE(ZipArchive("").unpack_first());
+  // The archive's directory comes last, and holds the unpacked size at this place.
+  const size_t size_at = bytes.rfind("PK\x01\x02") + 24;
+  for (const uint64_t size : {whole.size() - 1, whole.size() + 1, size_t{0xFFFFFFF0}}) {
+    std::string lying = bytes;
+    for (size_t i = 0; i < 4; ++i) lying[size_at + i] = static_cast<char>(size >> (8 * i));
+    EXPECT_FALSE(ZipArchive(lying).unpack_first()) << size;
+  }
+  ZipArchive::Entry other = archive.entries()[0];
+  ++other.checksum;
+  EXPECT_FALSE(archive.unpack(other));
+}
+
+/// No damage may crash a reader or keep it busy.
+TEST(MeshFiles, MayBeDamaged) {
+  std::mt19937 random(1);
+  const auto damage = [&](const std::string& whole, const std::function<void(std::string)>& read) {
+    for (int round = 0; round < 300; ++round) {
+      std::string bytes = whole;
+      if (round % 3 == 0) bytes.resize(random() % bytes.size());
+      for (int flips = round % 4; flips > 0 && !bytes.empty(); --flips) {
+        bytes[random() % bytes.size()] = static_cast<char>(random());
+      }
+      if (round % 5 == 0 && bytes.size() > 8) bytes.insert(random() % bytes.size(), bytes, 0, 8);
+      read(std::move(bytes));
+    }
+  };
+  for (const Case& format : kSteps) {
+    damage(content_of(format.name), [&](const std::string& bytes) {
+      mesh_of(format.read(bytes, "f").faces);
+      if (format.read == read_off) mesh_of(read_stl("solid" + bytes, "f").faces);
+    });
+  }
+  for (const char* name : kPictures) {
+    damage(content_of(name), [](const std::string& bytes) {
+      mesh_of(solid_below(read_height_map(bytes, "f", false), false));
+    });
+  }
+  damage(content_of("heights.dat"), [](const std::string& bytes) {
+    mesh_of(solid_below(read_height_map(bytes, "f", false), false));
+  });
+}
+
+}  // namespace
+}  // namespace frontend
