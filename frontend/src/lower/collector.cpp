@@ -66,6 +66,16 @@ Fit fit_of(const Primitive& primitive) {
   return is_valid ? Fit::kFits : Fit::kFlat;
 }
 
+/// Whether OpenSCAD's extrusion is one that is drawn.
+bool is_supported(const PlaneSubtree& subtree) {
+  const NodeKind kind = subtree.syntax(subtree.root()).kind;
+  if (kind == NodeKind::kLinearExtrude) {
+    return subtree.data<LinearExtrudeArguments>(subtree.root()).is_supported;
+  }
+  return kind != NodeKind::kRotateExtrude ||
+         subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
+}
+
 /// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes").
 void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
                     NodeProblems& problems) {
@@ -76,16 +86,6 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
                                          " a face on one side only",
                                      "it is drawn as thin sheets where a ray passes a hole"};
   });
-}
-
-/// Whether OpenSCAD's extrusion is one that is drawn.
-bool is_supported(const PlaneSubtree& subtree) {
-  const NodeKind kind = subtree.syntax(subtree.root()).kind;
-  if (kind == NodeKind::kLinearExtrude) {
-    return subtree.data<LinearExtrudeArguments>(subtree.root()).is_supported;
-  }
-  return kind != NodeKind::kRotateExtrude ||
-         subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
 }
 
 }  // namespace

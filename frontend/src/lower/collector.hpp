@@ -106,9 +106,6 @@ class Collector final : public NodeSink {
   void note_leaf_place(const Context& context);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   bool& is_inside_out);
-  bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
-  const SolidOfFaces* read_faces(uint32_t node);
-  const SolidOfFaces* read_file(uint32_t node);
   void enter_plane(uint32_t node, uint32_t offset);
   void leave_plane();
   bool may_be_plane(uint32_t node);
@@ -118,6 +115,9 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
+  bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
+  const SolidOfFaces* read_faces(uint32_t node);
+  const SolidOfFaces* read_file(uint32_t node);
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;

@@ -75,12 +75,18 @@ void PlaneEvaluation::find_presence(uint32_t node) {
     case NodeKind::kCylinder:
     case NodeKind::kCube:
     case NodeKind::kPolyhedron:
+    case NodeKind::kSurface:
       own.dimension = 3;
       own.presence = Presence::kSolid;
       return;
-    case NodeKind::kText:
     case NodeKind::kImport:
-    case NodeKind::kSurface:
+      if (!subtree_.data<ImportNode>(node).is_plane) {
+        own.dimension = 3;
+        own.presence = Presence::kSolid;
+        return;
+      }
+      [[fallthrough]];
+    case NodeKind::kText:
     case NodeKind::kProjection:
     case NodeKind::kFill:
     case NodeKind::kRoof:

@@ -104,6 +104,8 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
       result.is_faceted = keeps_facets(options, result.arguments.facets);
       return result;
     }
+    case NodeKind::kImport:
+      return ImportNode{names_drawing(tree, node)};
     default:
       return std::monostate();
   }

@@ -32,8 +32,13 @@ struct RotateExtrudeNode {
   bool is_faceted = false;
 };
 
-using PlaneNodeData = std::variant<std::monostate, FigureNode, MatrixNode, OffsetSettings,
-                                   ResizeArguments, LinearExtrudeArguments, RotateExtrudeNode>;
+struct ImportNode {
+  bool is_plane = false;  // its file is a drawing
+};
+
+using PlaneNodeData =
+    std::variant<std::monostate, FigureNode, MatrixNode, OffsetSettings, ResizeArguments,
+                 LinearExtrudeArguments, RotateExtrudeNode, ImportNode>;
 
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
 class PlaneSubtree {

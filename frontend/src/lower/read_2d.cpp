@@ -1,6 +1,7 @@
 #include "lower/read_2d.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -157,6 +158,17 @@ Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
   }
   std::erase_if(result, [](const Polygon& polygon) { return polygon.size() < 3; });
   return result;
+}
+
+bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node) {
+  const Value* file = find_argument(tree, node, "file", 0);
+  if (file == nullptr || file->kind != ValueKind::kString) return false;
+  const std::string_view name = tree.text_of(*file);
+  constexpr size_t kSuffix = 4;
+  if (name.size() < kSuffix) return false;
+  std::string suffix(name.substr(name.size() - kSuffix));
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix == ".dxf" || suffix == ".svg";
 }
 
 csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node) {

@@ -19,6 +19,9 @@ Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
 /// Polygon node → its paths, all of finite points, filled by the even-odd rule.
 Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
 
+/// Import node → whether its file is a DXF or SVG drawing, by its suffix.
+bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node);
+
 /// $fn, $fa and $fs of a node.
 csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node);
 
