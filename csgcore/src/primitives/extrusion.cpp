@@ -75,7 +75,7 @@ class ExtrusionKind final : public PrimitiveKind {
     const double top = std::min(1.0, cell.center.z + half.z);
     if (bottom > top) return Classification::kOutside;
     const auto scale_at = [&](double z) {
-      constexpr double kPositive = 1e-300;
+      constexpr double kPositive = 1e-100;  // so that no quotient is infinite
       const double scale = primitive.radius_mid + primitive.radius_slope * z;
       return std::max(kPositive, scale / profile.reach());
     };

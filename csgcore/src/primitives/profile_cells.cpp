@@ -26,10 +26,11 @@ bool may_meet(const Profile::Piece& piece, const Rectangle& rectangle) {
   const Vec2 chord = piece.end - piece.start;
   const Vec2 across{chord.y, -chord.x};
   const double bulge = piece.is_line() ? 0 : glm::dot(across, piece.control - piece.start);
-  const Vec2 center = 0.5 * (rectangle.min + rectangle.max);
-  const double height = glm::dot(across, center - piece.start);
-  const double reach = glm::dot(glm::abs(across), 0.5 * (rectangle.max - rectangle.min));
-  return height + reach >= std::min(0.0, bulge) && height - reach <= std::max(0.0, bulge);
+  // One side of the rectangle may be far larger than the other, and than its middle can tell.
+  const Vec2 a = across * (rectangle.min - piece.start), b = across * (rectangle.max - piece.start);
+  const Vec2 lowest = glm::min(a, b), highest = glm::max(a, b);
+  return highest.x + highest.y >= std::min(0.0, bulge) &&
+         lowest.x + lowest.y <= std::max(0.0, bulge);
 }
 
 }  // namespace
