@@ -1,4 +1,4 @@
-// The revolution of a profile of lines (solid_buffers.cpp refuses curves). The half plane that holds the figure is passed by a ray on a branch
+// The revolution of a profile. The half plane that holds the figure is passed by a ray on a branch
 // of a hyperbola, its path (revolution_path.hpp). A point of the half plane is a vec3 here: its
 // distance r from the axis; its height above the path's at τ = 0; and, for the ray's point at this
 // height, the ray's rise times its place ρ.
@@ -13,6 +13,12 @@ const float LEAST_SHARE = 1e-12;
 // A height of 0 counts as one that is less than any other.
 const float NO_HEIGHT = 1e-15;
 const float BOX_MARGIN = 1.0 / 262144.0;  // Profile::kBoxMargin
+
+// Newton's method, which bisects now and then, ends by this many steps, or by a smaller one.
+const int MOST_STEPS = 40;
+const float LEAST_STEP = 1.0 / 8388608.0;
+// What a round counts for (rounds_spent): a driver may run those of the pixels around with it.
+const int ROUND_COST = 4;
 
 struct RevolutionPath {
   float offset, start, height, run, rise;
@@ -123,13 +129,184 @@ void cross_cone(RevolutionPath path, vec3 start, vec3 end, bool from_within, boo
   }
 }
 
+// A curve, or a part of one: the control points and their weights.
+struct PathCurve {
+  vec3 start, control, end;
+  vec3 weights;
+};
+
+vec3 curve_point(PathCurve curve, vec3 shares) {
+  return (shares.x * curve.start + shares.y * curve.control + shares.z * curve.end) /
+         (shares.x + shares.y + shares.z);
+}
+
+vec3 curve_shares(PathCurve curve, float s) {
+  return vec3((1.0 - s) * (1.0 - s), 2.0 * s * (1.0 - s), s * s) * curve.weights;
+}
+
+// Returns how far the curve is within the path at s, and the growth of that.
+vec2 curve_within(RevolutionPath path, PathCurve curve, float s) {
+  vec3 shares = curve_shares(curve, s);
+  vec3 point = curve_point(curve, shares);
+  vec3 growths = vec3(2.0 * s - 2.0, 2.0 - 4.0 * s, 2.0 * s) * curve.weights;
+  vec3 slope = (growths.x * (curve.start - point) + growths.y * (curve.control - point) +
+                growths.z * (curve.end - point)) / (shares.x + shares.y + shares.z);
+  return vec2(within(path, point),
+              2.0 * (path.rise * path.rise * point.x * slope.x - point.z * slope.z));
+}
+
+void note_root(RevolutionPath path, PathCurve curve, float s, bool to_within, bool is_below,
+               int texel, float t, inout ProfileCrossings crossings) {
+  vec3 point = curve_point(curve, curve_shares(curve, s));
+  float across = sqrt(max(0.0, (point.x - path.offset) * (point.x + path.offset)));
+  float rho = is_below == path.upwards > 0.0 ? -across : across;
+  // The place of the point and its height both tell τ. A point on the more level one of the two is
+  // found by the other.
+  bool by_height = path.rise != 0.0 && abs(path.rise) * point.x >= across * path.run;
+  float tau = by_height ? point.y / path.rise : (rho - path.start) / path.run;
+  note_tau(path, tau, to_within ? 1 : -1, texel, t, crossings);
+}
+
+// Crosses the part of a curve that can meet only the lower or the upper half of the path, at the
+// roots of a quartic. Between two roots of its derivative there is one root at most, and between
+// two roots of its second derivative there is one of those.
+void cross_half(RevolutionPath path, PathCurve curve, bool from_within, bool to_within,
+                bool is_below, int texel, float t, inout ProfileCrossings crossings) {
+  vec3 w = curve.weights;
+  // In Bernstein form.
+  float first = w.x * w.x * within(path, curve.start);
+  vec4 bernstein = vec4(w.x * w.y * within_polar(path, curve.start, curve.control),
+                        (2.0 * w.y * w.y * within(path, curve.control) +
+                         w.x * w.z * within_polar(path, curve.start, curve.end)) / 3.0,
+                        w.y * w.z * within_polar(path, curve.control, curve.end),
+                        w.z * w.z * within(path, curve.end));
+  // There are no more roots than changes of sign.
+  bvec4 positive = greaterThan(bernstein, vec4(0.0));
+  int changes = int(from_within != positive.x) + int(positive.x != positive.y) +
+                int(positive.y != positive.z) + int(positive.z != to_within);
+  if (changes == 0) return;
+  // The coefficients of s to s⁴.
+  vec4 power = vec4(
+      4.0 * (bernstein.x - first), 6.0 * (bernstein.y - 2.0 * bernstein.x + first),
+      4.0 * (bernstein.z - 3.0 * (bernstein.y - bernstein.x) - first),
+      bernstein.w - 4.0 * (bernstein.z + bernstein.x) + 6.0 * bernstein.y + first);
+  float discriminant = 9.0 * power.z * power.z - 24.0 * power.w * power.y;
+  vec2 bends = vec2(1.0);  // the roots of the second derivative
+  if (discriminant > 0.0) {
+    float sum = -0.5 * (3.0 * power.z + (power.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
+    if (power.w != 0.0) bends.x = clamp(sum / (6.0 * power.w), 0.0, 1.0);
+    if (sum != 0.0) bends.y = clamp(power.y / sum, 0.0, 1.0);
+  }
+  vec3 ends = vec3(min(bends.x, bends.y), max(bends.x, bends.y), 1.0);
+  float from = 0.0;
+  bool side = power.x > 0.0;
+  // A level path is met at its middle, which is an end of the curve.
+  bool is_level = path.rise == 0.0;
+  int first_part = changes == 1 || is_level ? 6 : 0;
+  for (int i = first_part; i < 7; ++i) {
+    rounds_spent += ROUND_COST;
+    bool is_slope = i < 3;
+    if (i == 3 || i == 6 && first_part == 6) {
+      from = 0.0;
+      side = from_within;
+    }
+    float to = is_slope ? ends[i] : (i < 6 ? ends[i - 3] : 1.0);
+    bool to_side = to_within;
+    if (is_slope) {
+      to_side = power.x + to * (2.0 * power.y + to * (3.0 * power.z + to * 4.0 * power.w)) > 0.0;
+    } else if (i < 6) {
+      to_side = to > from ? curve_within(path, curve, to).x > 0.0 : side;
+    }
+    if (side != to_side) {
+      // Newton's method between bounds.
+      float low = from;
+      float high = to;
+      float s = is_level ? (to_side ? 1.0 : 0.0) : 0.5 * (low + high);
+      float step_before = high - low;
+      for (int round = 0; round < MOST_STEPS && !is_level; ++round) {
+        rounds_spent += ROUND_COST;
+        vec2 value;
+        if (is_slope) {
+          value = vec2(power.x + s * (2.0 * power.y + s * (3.0 * power.z + s * 4.0 * power.w)),
+                       2.0 * power.y + s * (6.0 * power.z + s * 12.0 * power.w));
+        } else {
+          value = curve_within(path, curve, s);
+        }
+        if ((value.x > 0.0) == side) {
+          low = s;
+        } else {
+          high = s;
+        }
+        float next = s - value.x / value.y;
+        if (!(next > low && next < high && 2.0 * abs(next - s) < step_before)) {
+          next = 0.5 * (low + high);
+        }
+        step_before = abs(next - s);
+        s = next;
+        if (step_before <= LEAST_STEP) break;
+      }
+      if (is_slope) {
+        ends[i] = s;
+      } else {
+        note_root(path, curve, s, to_side, is_below, texel, t, crossings);
+      }
+    }
+    from = to;
+    side = to_side;
+  }
+}
+
+void cross_curve(RevolutionPath path, PathCurve curve, bool from_within, bool to_within, int texel,
+                 float t, inout ProfileCrossings crossings) {
+  bool starts_below = curve.start.y < 0.0;
+  bool ends_below = curve.end.y < 0.0;
+  // The path's two halves, of which one comes and one goes, are below and above its middle. The
+  // curve's heights are start·a² + 2·middle·a·b + end·b² for shares a and b.
+  bool is_divided = path.starts_nearest && starts_below != ends_below;
+  float middle = curve.weights.y * curve.control.y;
+  float larger = abs(middle) + sqrt(max(0.0, middle * middle - curve.start.y * curve.end.y));
+  bool is_steeper_at_start = (middle < 0.0) != starts_below;
+  float a = is_steeper_at_start ? larger : abs(curve.end.y);
+  float b = is_steeper_at_start ? abs(curve.start.y) : larger;
+  // De Casteljau's algorithm.
+  vec4 start = vec4(curve.start, 1.0);
+  vec4 control = curve.weights.y * vec4(curve.control, 1.0);
+  vec4 end = vec4(curve.end, 1.0);
+  vec4 left = (a * start + b * control) / (a + b);
+  vec4 right = (a * control + b * end) / (a + b);
+  vec4 at = (a * left + b * right) / (a + b);
+  vec3 cut = vec3(at.x / at.w, 0.0, path.rise * path.start);
+  bool is_middle_within = cut.x > length(vec2(path.offset, path.start));
+  for (int i = is_divided ? 0 : 1; i < 2; ++i) {
+    PathCurve part = curve;
+    bool from = from_within;
+    bool to = to_within;
+    bool is_below = path.starts_nearest ? starts_below : path.start < 0.0 == path.upwards > 0.0;
+    if (is_divided && i == 0) {
+      part = PathCurve(curve.start, left.xyz / left.w, cut, vec3(1.0, left.w, at.w));
+      to = is_middle_within;
+    } else if (is_divided) {
+      part = PathCurve(cut, right.xyz / right.w, curve.end, vec3(at.w, right.w, 1.0));
+      from = is_middle_within;
+      is_below = ends_below;
+    }
+    cross_half(path, part, from, to, is_below, texel, t, crossings);
+  }
+}
+
 void cross_ring(RevolutionPath path, int texel, float t, inout ProfileCrossings crossings) {
   Piece piece = fetch_piece(texel);
   vec3 start = seen_place(path, piece.start);
   vec3 end = seen_place(path, piece.end);
   bool from_within = within(path, start) > 0.0;
   bool to_within = within(path, end) > 0.0;
-  cross_cone(path, start, end, from_within, to_within, texel, t, crossings);
+  if (piece.weight == 0.0) {
+    cross_cone(path, start, end, from_within, to_within, texel, t, crossings);
+  } else {
+    PathCurve curve =
+        PathCurve(start, seen_place(path, piece.control), end, vec3(1.0, piece.weight, 1.0));
+    cross_curve(path, curve, from_within, to_within, texel, t, crossings);
+  }
 }
 
 // Returns the last τ at which the path may be in a box; −∞ if it never is.

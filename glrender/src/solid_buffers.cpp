@@ -60,14 +60,6 @@ std::shared_ptr<const csgcore::Profile> profile_of(const CanonicalPrimitive& pri
   return std::static_pointer_cast<const csgcore::Profile>(primitive.shared_shape);
 }
 
-/// Throws GlError if there are no shaders for the primitive.
-void require_drawn(const CanonicalPrimitive& primitive) {
-  if (primitive.shape != csgcore::Shape::kRevolution) return;
-  const bool has_curves = !std::ranges::all_of(primitive.profile()->pieces(),
-                                               [](const auto& piece) { return piece.is_line(); });
-  if (has_curves) throw GlError("OpenGL does not draw revolved curves (use --renderer=cpu)");
-}
-
 }  // namespace
 
 void TextureBuffer::require_room(size_t bytes) const {
@@ -181,7 +173,6 @@ void SolidBuffers::note_kind(const CanonicalPrimitive& primitive) {
 }
 
 void SolidBuffers::take_in(const CanonicalPrimitive& primitive) {
-  require_drawn(primitive);
   note_kind(primitive);
   if (primitive.is_convex && primitive.shape != primitive.enclosure) cuts_.add(primitive.shape);
   meshes_.first_of(mesh_of(primitive));

@@ -65,8 +65,7 @@ class SolidBuffers {
   static constexpr int kTextureUnits = 6;
 
   /// `solid` must outlive this object. Primitives thinner than `thickness_tolerance`, in world
-  /// units, are left out. A buffer must not have more than `most_texels`. Throws GlError if there
-  /// are more, or if there is a primitive for which there are no shaders.
+  /// units, are left out. A buffer must not have more than `most_texels`.
   SolidBuffers(const csgcore::Solid& solid, double thickness_tolerance, uint64_t most_texels);
 
   /// Follows an edit that changed primitives in place. Uploads those alone; all are placed anew if

@@ -175,6 +175,19 @@ std::vector<NamedScene> scenes() {
                                        {1.7, 1},
                                        {1.3, 0.2},
                                        {0, 0.2}})});
+  const Figure ring = figure({circle({3, 0}, 1)});
+  const Figure bowl = figure({{line({1, 0}), bezier({3, 0.2}, {2.5, 2}), line({2.3, 2}),
+                               bezier({2.6, 0.4}, {0, 0.4}), line({0, 0})}});
+  add("Torus", Op::kUnion, {make_revolution(ring)});
+  add("SkewedTorus", Op::kUnion, {make_revolution(figure({circle({2.2, 0}, 2)}), skewed())});
+  add("Bowl", Op::kUnion, {make_revolution(bowl)});
+  add("BowlFarFromTheOrigin", Op::kUnion, {make_revolution(bowl, at(1000, -2000, 500))});
+  add("HollowTorusCutOpen", Op::kDifference,
+      {make_revolution(figure({circle({3, 0}, 1), circle({3.2, 0}, 0.7)})),
+       cube({-1, -5, 0.2}, {5, 5, 2})});
+  add("BallOfAnArc", Op::kUnion,
+      {make_revolution(figure({{arc({0, 0}, {0, 2}), line({0, -2})}})),
+       make_sphere(1.5, at(1.5, 0, 0))});
   add("Cone", Op::kUnion, {make_revolution(cone)});
   add("SkewedVase", Op::kUnion, {make_revolution(vase, skewed())});
   add("VaseFarFromTheOrigin", Op::kUnion, {make_revolution(vase, at(1000, -2000, 500))});

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "csgcore/profile.hpp"
 #include "frontend/camera.hpp"
 #include "frontend/command.hpp"
 #include "frontend/error.hpp"
@@ -450,36 +449,6 @@ TEST_F(Renderers, AutoTakesTheCpuForMeshesThatTheDriverCannotHold) {
   const RenderStats large = draw(200);
   EXPECT_EQ(large.renderer, "cpu");
   EXPECT_THAT(large.reason, HasSubstr("triangles of meshes need a buffer of"));
-}
-
-TEST_F(Renderers, PrimitivesThatOpenGlDoesNotDrawAreTheCpus) {
-  feign_gpu();
-  using Edge = csgcore::ProfileEdge;
-  const auto disk = std::make_shared<const csgcore::Profile>(
-      std::vector<csgcore::ProfileLoop>{
-          {{Edge::Kind::kArc, true, {0, 0}, {1, 0}}, {Edge::Kind::kArc, true, {2, 0}, {1, 0}}}},
-      csgcore::FillRule::kNonZero);
-  const auto draw = [&](const csgcore::Primitive& primitive, RendererKind kind,
-                        RenderStats& stats) {
-    SceneRenderer renderer(folders_, {.takes_software = true});
-    renderer.load(std::make_shared<const csgcore::Scene>(
-        test_support::scene_of(csgcore::Op::kUnion, {primitive})));
-    CameraOptions camera;
-    camera.width_px = camera.height_px = 40;
-    RenderSettings settings;
-    settings.renderer = kind;
-    return renderer.draw(make_view({csgcore::Vec3(0), {55, 0, 25}, 20}, camera), settings, stats);
-  };
-  const csgcore::Primitive revolution = csgcore::make_revolution(disk);
-  RenderStats by_auto, by_cpu, by_gl;
-  const Image image = draw(revolution, RendererKind::kAuto, by_auto);
-  EXPECT_EQ(by_auto.renderer, "cpu");
-  EXPECT_THAT(by_auto.reason, StartsWith("OpenGL does not draw revolved curves"));
-  EXPECT_EQ(image.rgb, draw(revolution, RendererKind::kCpu, by_cpu).rgb);
-  EXPECT_GT(std::ranges::count(image.rgb, image.rgb[0]), 0);
-  EXPECT_LT(std::ranges::count(image.rgb, image.rgb[0]), 1600);
-  EXPECT_THROW(draw(revolution, RendererKind::kGl, by_gl), Error);
-  EXPECT_NO_THROW(draw(csgcore::make_extrusion(disk, 0, 1), RendererKind::kGl, by_gl));
 }
 
 /// Runs in a process of its own, whose EGL finds no driver.
