@@ -3,30 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "csgcore/profile_edge.hpp"
+
 namespace csgcore {
-
-using Vec2 = glm::dvec2;
-
-/// An edge of a profile, from the point where the edge before it ends.
-struct ProfileEdge {
-  enum class Kind : uint8_t {
-    kLine,
-    kArc,     // of the circle about `control` through the start; at most a half turn
-    kBezier,  // quadratic, with the control point `control`
-  };
-  Kind kind = Kind::kLine;
-  bool is_counterclockwise = true;  // an arc's direction
-  Vec2 end{0.0};
-  Vec2 control{0.0};
-};
-
-/// A closed loop: its last edge ends where the first one begins.
-using ProfileLoop = std::vector<ProfileEdge>;
 
 /// What lies inside of the loops.
 enum class FillRule : uint8_t {
@@ -118,6 +101,24 @@ class Profile {
   std::vector<Piece> pieces_;
   std::vector<Node> nodes_;
 };
+
+/// A parameter of a piece, s = end / (start + end).
+struct PieceShares {
+  double start, end;
+};
+
+/// Returns a combination of the three values of a curve at a parameter: that of its coordinates at
+/// its start, its control point, and its end.
+template <typename Value>
+Value curve_value(const Value& start, const Value& control, const Value& end, double weight,
+                  const PieceShares& at) {
+  const double a = at.start * at.start, b = 2 * at.start * at.end * weight, c = at.end * at.end;
+  return (a * start + b * control + c * end) / (a + b + c);
+}
+
+inline Vec2 curve_point(const Profile::Piece& piece, const PieceShares& at) {
+  return curve_value(piece.start, piece.control, piece.end, piece.weight, at);
+}
 
 /// Returns whether both are null, or both have the same loops and fill rule.
 bool same_profile(const Profile* a, const Profile* b);

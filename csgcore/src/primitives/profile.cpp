@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "csgcore/geometry.hpp"
-#include "primitives/profile_line.hpp"
 #include "primitives/profile_pieces.hpp"
 
 namespace csgcore {
@@ -240,11 +239,6 @@ Profile::Profile(std::vector<ProfileLoop> loops, FillRule fill_rule)
   constexpr double kBeyondRounding = 1 + 1e-9;
   reach_ = std::sqrt(reach2) * kBeyondRounding;
   nodes_ = BvhBuilder(pieces_, loop_begins).take();
-}
-
-bool Profile::contains(const Vec2& point) const {
-  // Only what lies further right counts, so that the y axis may bound the figure.
-  return is_inside(winding_at(*this, {{-1, 0}, -point.y}, -point.x));
 }
 
 Vec2 Profile::support(const Vec2& direction) const {

@@ -43,4 +43,9 @@ Vec2 piece_normal(const Profile::Piece& piece, const Vec2& point) {
   return normal == Vec2(0.0) ? chord : normal;
 }
 
+bool Profile::contains(const Vec2& point) const {
+  // Only what lies further right counts, so that the y axis may bound the figure.
+  return is_inside(winding_at(*this, {{-1, 0}, -point.y}, -point.x));
+}
+
 }  // namespace csgcore

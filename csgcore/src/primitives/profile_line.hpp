@@ -30,24 +30,6 @@ struct ProfileLine {
   double along(const Vec2& p) const { return direction.x * p.x + direction.y * p.y; }
 };
 
-/// A parameter of a piece, s = end / (start + end).
-struct PieceShares {
-  double start, end;
-};
-
-/// Returns a combination of the three values of a curve at a parameter: that of its coordinates at
-/// its start, its control point, and its end.
-template <typename Value>
-Value curve_value(const Value& start, const Value& control, const Value& end, double weight,
-                  const PieceShares& at) {
-  const double a = at.start * at.start, b = 2 * at.start * at.end * weight, c = at.end * at.end;
-  return (a * start + b * control + c * end) / (a + b + c);
-}
-
-inline Vec2 curve_point(const Profile::Piece& piece, const PieceShares& at) {
-  return curve_value(piece.start, piece.control, piece.end, piece.weight, at);
-}
-
 /// Calls visit(along, turn) where the line crosses the piece: `turn` is by how much the winding
 /// number grows there along the line.
 template <typename Visit>

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "csgcore/profile.hpp"
+#include "csgcore/profile_edge.hpp"
 
 namespace csgcore {
 
