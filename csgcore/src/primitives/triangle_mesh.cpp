@@ -327,8 +327,8 @@ int TriangleMesh::winding(const Vec3& point) const {
       };
       const int turn = winding_of(seen(0), seen(1), seen(2));
       if (turn == 0) continue;
-      const auto [nearest, furthest] = depth_range(
-          {seen(0), seen(1), seen(2)}, {corners[0].x, corners[1].x, corners[2].x});
+      const auto [nearest, furthest] =
+          depth_range({seen(0), seen(1), seen(2)}, {corners[0].x, corners[1].x, corners[2].x});
       const Plane& plane = planes_[i];
       const double gap = (plane.offset - glm::dot(plane.normal, point)) / plane.normal.x;
       const double x = std::isnan(gap) ? nearest : std::clamp(point.x + gap, nearest, furthest);

@@ -46,7 +46,8 @@ void TileCuller::find_face_candidates(const CellList& list, const Box& tile, siz
     const uint32_t primitive = list.primitive[i];  // complements have larger numbers than groups
     if (list.if_inside[i] != CellList::kTrue || primitive >= groups_.first_group()) continue;
     const Extent& e = screen_[primitive];
-    if (covers(e, tile) && primitives_[primitive].is_convex) face_candidates_.push_back({i, primitive, nearest_t(e)});
+    if (covers(e, tile) && primitives_[primitive].is_convex)
+      face_candidates_.push_back({i, primitive, nearest_t(e)});
   }
   if (face_candidates_.size() <= most) return;
   // Half of them are the nearest. The others are spread evenly over all others, since plates one

@@ -112,8 +112,7 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 // --- What cannot be drawn -------------------------------------------------------------------
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
-  const ImportedDesign design =
-      import_text("sphere();\ntext();\n hull() { sphere(); }\ntext();");
+  const ImportedDesign design = import_text("sphere();\ntext();\n hull() { sphere(); }\ntext();");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(design.warnings[0].text,

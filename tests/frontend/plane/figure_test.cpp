@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "plane/figure_area.hpp"
 
 namespace frontend {

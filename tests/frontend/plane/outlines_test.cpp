@@ -27,8 +27,7 @@ TEST(United, FillsEachFigureByItsOwnRule) {
 
 TEST(United, TakesFiguresThatOverlap) {
   EXPECT_NEAR(area_of_union({rectangle(0, 0, 2, 2), rectangle(1, 1, 3, 3)}), 7, 1e-7);
-  EXPECT_NEAR(area_of_union({Disc{Vec2(0.0), 1}}), kPi,
-              kPi * kChordsShare);
+  EXPECT_NEAR(area_of_union({Disc{Vec2(0.0), 1}}), kPi, kPi * kChordsShare);
   EXPECT_THAT(united({}).value(), SizeIs(0));
 }
 
