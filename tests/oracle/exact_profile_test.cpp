@@ -93,6 +93,16 @@ TEST(ExactProfile, IsTheSameSolidAsOtherPrimitives) {
   }
 }
 
+TEST(ExactProfile, IsInsideAlongTheAxis) {
+  const Scene scene =
+      test_support::scene_of(Op::kUnion, {make_revolution(profile_of({half_disc(3)}))});
+  const ExactScene exact(scene);
+  ExactRays rays(exact);
+  const ExactHit hit = rays.first_hit({{0, 0, 9}, {0, 0, -1}}, Projection::kPerspective);
+  EXPECT_DOUBLE_EQ(hit.s.lower, 6);
+  EXPECT_EQ(hit.normal, Vec3(0, 0, 1));
+}
+
 TEST(ExactProfile, MeetsATorusWhereItIs) {
   const Scene scene =
       test_support::scene_of(Op::kUnion, {make_revolution(profile_of({circle_loop({3, 0}, 1)}))});

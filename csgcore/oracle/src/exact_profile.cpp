@@ -391,12 +391,13 @@ bool ExactProfile::contains(const Way& way, const Exact& t) const {
     const int beside = sign_at(place, edge.chord[0] * v - edge.chord[1] * x, -edge.chord[1]);
     const bool starts_below = v.sign() >= 0;
     const bool ends_below = (v - edge.chord[1] * place.s).sign() >= 0;
-    if (starts_below != ends_below && (beside > 0) == starts_below) {
+    if (starts_below != ends_below && beside == (starts_below ? 1 : -1)) {
       winding += starts_below ? 1 : -1;
     }
     if (edge.kind == Kind::kLine) continue;
-    const bool is_level = edge.chord[1].is_zero() && edge.chord[0].sign() > 0;
-    if ((beside > 0 || (beside == 0 && is_level)) != edge.bulges_left) continue;
+    const int rise = edge.chord[1].sign();
+    const bool is_further = rise < 0 || (rise == 0 && edge.chord[0].sign() > 0);
+    if ((beside > 0 || (beside == 0 && is_further)) != edge.bulges_left) continue;
     const Exact rest = edge.uu * (u2 + x * x) + edge.uv * x * v + edge.vv * v * v +
                        place.s * (edge.u * x + edge.v * v);
     const Exact factor = Exact(2) * edge.uu * x + edge.uv * v + edge.u * place.s;

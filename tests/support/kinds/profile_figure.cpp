@@ -58,8 +58,10 @@ int bulge(const FigureEdge& edge, const LongVec2& point) {
   const bool is_left = edge.kind == ProfileEdge::Kind::kArc
                            ? !edge.is_counterclockwise
                            : cross(edge.end - edge.start, edge.control - edge.start) > 0;
-  // On the chord the polygon takes the point for one on the right, or above.
-  const bool is_beside = beside > 0 || (beside == 0 && chord.y == 0 && chord.x > 0);
+  // On the chord the polygon takes the point for one further right, or above: so that the axis may
+  // bound a figure that is revolved.
+  const bool is_further = chord.y < 0 || (chord.y == 0 && chord.x > 0);
+  const bool is_beside = beside > 0 || (beside == 0 && is_further);
   if (is_beside != is_left) return 0;
   // A curve that bulges to the left of its chord goes around the part clockwise.
   return is_left ? -1 : 1;
@@ -167,7 +169,7 @@ bool Figure::contains(const LongVec2& point) const {
     const bool starts_below = edge.start.y <= point.y, ends_below = edge.end.y <= point.y;
     if (starts_below == ends_below) continue;
     const Real beside = cross(edge.end - edge.start, point - edge.start);
-    if ((beside > 0) == starts_below) winding += starts_below ? 1 : -1;
+    if (starts_below ? beside > 0 : beside < 0) winding += starts_below ? 1 : -1;
   }
   return fill_rule_ == FillRule::kNonZero ? winding != 0 : winding % 2 != 0;
 }

@@ -5,7 +5,9 @@
 // Numbers, local→world matrices and rays are taken as exact. A ray crosses a quadric or a plane at
 // an algebraic number of degree 2; crossings are ordered exactly (Deakin and Snoeyink, "On the
 // Precision to Sort Line-Quadric Intersections", CCCG 2003), by intervals of doubles if these
-// suffice, and otherwise by CGAL::Sqrt_extension over dyadic numbers of any length.
+// suffice, and otherwise by CGAL::Sqrt_extension over dyadic numbers of any length. Extruded and
+// revolved profiles, whose crossings are of degree 4 at most, are enclosed by exact signs to 2^-90
+// of the way through their box; crossings that are nearer to each other count as equal.
 //
 // Thicknesses are compared with the tolerance τ by intervals, whose width is some 1e-7 of τ.
 // Thicknesses that they cannot compare differ from τ by far less than the displacement at which a
