@@ -138,7 +138,7 @@ std::vector<NamedScene> scenes() {
   add("OverlappingLoops", Op::kUnion, {make_extrusion(overlapping, 0, 1)});
   add("CrossedLoops", Op::kUnion,
       {make_extrusion(figure({rectangle({-1, -1}, {1, 1}), rectangle({0, 0}, {2, 2})}), 0, 1)});
-  add("RoundedL", Op::kUnion, {make_extrusion(figure({rounded_l()}), -1, 1)});
+  add("RoundedL", Op::kUnion, {make_extrusion(figure({rounded_l()}, FillRule::kNonZero), -1, 1)});
   add("Leaves", Op::kUnion, {make_extrusion(leaves, 0, 0.5)});
   add("TaperedLeaves", Op::kUnion, {make_extrusion(leaves, 0, 1.5, 1, 0.4)});
   add("StarToAPoint", Op::kUnion, {make_extrusion(figure({star(5, 2, 0.8)}), 0, 2, 1, 0)});
