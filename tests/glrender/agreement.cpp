@@ -17,13 +17,10 @@ using csgcore::Vec3;
 // they are rounded to 2^-25 of its size, and some tens of operations lead from them to the
 // boundary.
 
-/// Along the normal, as a share of the model's size: half of GL's own tolerance
-/// (kThicknessTolerance).
-constexpr double kSurfaceError = 0x1p-22;
 /// The rounding of a number that the picture stores as a float.
 constexpr double kFloatRounding = 0x1p-24;
 /// The length of the difference of unit normals, times their cosine to the ray: for a point that is
-/// off by kSurfaceError, on surfaces with radii down to 2^-10 of the model's size.
+/// off by EdgeLimits::surface_error, on surfaces with radii down to 2^-10 of the model's size.
 constexpr double kNormalError = 0x1p-12;
 
 }  // namespace
@@ -81,8 +78,8 @@ void expect_agreement(const Image& gl, const Image& cpu, const csgcore::View& vi
   EXPECT_GT(same.hits, 1000u) << name;
   EXPECT_EQ(ids.speckle, 0u) << name;
   EXPECT_LE((ids.wrong + same.other_face) * edges.hits_per_edge_pixel, ids.hits) << name;
-  EXPECT_LE(same.surface, kSurfaceError) << name;
-  EXPECT_LE(same.depth, kSurfaceError) << name;
+  EXPECT_LE(same.surface, edges.surface_error) << name;
+  EXPECT_LE(same.depth, edges.surface_error) << name;
   EXPECT_LE(same.normal, kNormalError) << name;
   EXPECT_LE(same.levels, kLevels) << name;
 }

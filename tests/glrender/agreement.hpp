@@ -28,6 +28,9 @@ struct EdgeLimits {
   double face_distance;
   /// The hits per pixel at an edge whose ray float takes to the other side of it.
   uint64_t hits_per_edge_pixel = 2000;
+  /// Along the normal, as a share of the model's size: half of GL's own tolerance
+  /// (kThicknessTolerance).
+  double surface_error = 0x1p-22;
 };
 
 /// Compares the pictures, and expects the same background at the misses of both.

@@ -203,8 +203,8 @@ TEST(HeightMaps, ArePicturesOfPaethsFilter) {
   ASSERT_TRUE(picture);
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) {
-      EXPECT_EQ(picture->values[static_cast<size_t>(24 * y + x)],
-                (37 * x * x + 91 * y * y + 13 * x * y) % 256);
+      EXPECT_DOUBLE_EQ(picture->values[static_cast<size_t>(24 * y + x)],
+                       (37 * x * x + 91 * y * y + 13 * x * y) % 256);
     }
   }
 }
