@@ -81,6 +81,9 @@ double most_wrong(const std::string& family) {
       {"thin_polyhedra", 0.55},         // a plate and a shell of 1e-7
       {"zero_thickness", 0.4},          // a skin of 1e-6
       {"scales", 0.6},                  // a ball of 1e-9
+      {"scaled_meshes", 0.013},         // a map of condition 1e5
+      {"eyes_in_meshes", 0.047},        // an eye in a face
+      {"mesh_tolerance", 0.55},         // all of it is below a float's precision
       {"tolerance", 0.7},               // all of it is below a float's precision
   };
   const auto found = kMeasured.find(family);
@@ -94,6 +97,7 @@ double most_speckle(const std::string& family) {
       {"prisms", 4e-4},                // along the lines in which a wall touches others
       {"lattice_of_polyhedra", 5e-4},  // eyes in faces
       {"eyes_in_polyhedra", 0.012},    // an eye in an edge
+      {"eyes_in_meshes", 5e-4},        // an eye in a face
   };
   const auto found = kMeasured.find(family);
   return found == kMeasured.end() ? 1e-4 : found->second;
