@@ -446,7 +446,7 @@ TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
   const Outcome outcome = run({"-o", png_, flat});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("flat.csg:1:1: warning: text is left out"),
-                                 HasSubstr("flat.csg:1:19: warning: cube is left out")));
+                                 HasSubstr("flat.csg:1:17: warning: cube is left out")));
   EXPECT_TRUE(std::filesystem::exists(png_));
   EXPECT_EQ(drawings_, 0);
 }
