@@ -33,11 +33,10 @@ struct Coincidences {
 /// Finds coincidences of one packet and list.
 class CoincidenceFinder {
  public:
-  CoincidenceFinder(const FrameRays& frame, const RayPacket& rays, const TraceList& trace,
+  CoincidenceFinder(const RayPacket& rays, const TraceList& trace,
                     const TraceParameters& parameters, ListSegments& segments,
                     PacketWorkspace& workspace)
-      : frame_(frame),
-        rays_(rays),
+      : rays_(rays),
         trace_(trace),
         parameters_(parameters),
         segments_(segments),
@@ -315,7 +314,6 @@ class CoincidenceFinder {
     return turned;
   }
 
-  const FrameRays& frame_;
   const RayPacket& rays_;
   const TraceList& trace_;
   const TraceParameters& parameters_;

@@ -182,7 +182,7 @@ HWY_INLINE void resolve_coincidences(const FrameRays& frame, const RayPacket& ra
   if (lanes == 0) return;
   workspace.resolved_rays += static_cast<uint64_t>(std::popcount(lanes));
   hits.hits &= ~lanes;
-  CoincidenceFinder finder(frame, rays, list, parameters, segments, workspace);
+  CoincidenceFinder finder(rays, list, parameters, segments, workspace);
   LaneMask unclear = 0;
   LaneMask shows_next = parameters.boundary == Boundary::kFirst ? lanes : 0;
   LaneMask value = hits.eye_inside;

@@ -61,8 +61,8 @@ inline DepthRange depth_range(const PlanarPoint (&corners)[3], const double (&de
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   const bool is_wide = right - left >= high - low;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  DepthRange range{kInfinity, -kInfinity};
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  DepthRange range{kEndless, -kEndless};
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
     const double from = is_wide ? corners[k].x : corners[k].y;

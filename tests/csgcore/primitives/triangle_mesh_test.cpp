@@ -91,7 +91,7 @@ TEST(FaceAlike, TakesEachPartByItself) {
   turn(triangles[count + 3]);
   face_alike(triangles);
   const auto by_vertices = [](Triangles list) {
-    for (Triangle& t : list) std::ranges::rotate(t, std::ranges::min_element(t));
+    for (Triangle& t : list) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     std::ranges::sort(list);
     return list;
   };
