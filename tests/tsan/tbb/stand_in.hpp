@@ -162,6 +162,12 @@ class enumerable_thread_specific {
   std::vector<Value*> order_;
 };
 
+/// Sorts by one thread.
+template <class Iterator, class Less>
+void parallel_sort(Iterator begin, Iterator end, const Less& less) {
+  std::sort(begin, end, less);
+}
+
 class global_control {
  public:
   enum parameter { max_allowed_parallelism };

@@ -1,0 +1,4 @@
+// See stand_in.hpp.
+#pragma once
+
+#include "stand_in.hpp"
