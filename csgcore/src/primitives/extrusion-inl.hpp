@@ -337,7 +337,7 @@ struct ExtrusionCrossings {
                    const CanonicalPrimitive& primitive, CrossingSearch& search) {
     const Profile& profile = *primitive.profile();
     extrusion_rays::PacketLines rays;
-    double base[kPacketRays];
+    alignas(64) double base[kPacketRays];
     const LaneMask reaching =
         extrusion_rays::project_lanes(frame, packet, lanes, primitive, rays, base);
     if (reaching == 0) return;

@@ -533,7 +533,7 @@ TEST(RandomSolids, LookTheSameByTilesAndByCells) {
     const Solid solid(canonical_primitives(scene), scene.model);
     const Subdivision subdivision(solid, SubdivisionOptions{});
     Box bounds;
-    for (const CanonicalPrimitive& primitive : *canonical_primitives(scene)) {
+    for (const CanonicalPrimitive& primitive : solid.primitives()) {
       bounds.merge(primitive.bounds);
     }
     const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
