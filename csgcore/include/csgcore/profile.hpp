@@ -65,7 +65,7 @@ class Profile {
   bool has_area() const { return has_area_; }
   /// The least x of the figure, rounded.
   double min_x() const { return min_x_; }
-  /// Of the figure's box.
+  /// The middle and half the sides of the figure's box.
   const Vec2& center() const { return center_; }
   const Vec2& half() const { return half_; }
   /// The largest distance of the canonical figure from its origin, or a little more.

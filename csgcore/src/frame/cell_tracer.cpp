@@ -17,11 +17,6 @@ constexpr uint32_t kTaskSide_px = 32;
 constexpr uint32_t kTileBlocks = kTileSide_px / kPacketHeight_px;
 static_assert(kTileSide_px == kPacketWidth_px);
 
-template <typename Visit>
-void for_each_lane(LaneMask lanes, Visit&& visit) {
-  for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<uint32_t>(std::countr_zero(lanes)));
-}
-
 /// Traces the wanted lanes of each block of a tile.
 class LaneVisitor final : public TileVisitor {
  public:

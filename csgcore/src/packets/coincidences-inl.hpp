@@ -219,8 +219,8 @@ class CoincidenceFinder {
     }
   }
 
-  /// Moves the windows of a primitive that is not convex to its near crossings. A coincidence with
-  /// several of them is not plain.
+  /// Moves the windows of a primitive that is not convex to its near crossings. If a lane has
+  /// others outside of its window, the gap to them keeps its coincidence from being plain.
   HWY_NOINLINE void aim_at_near_crossings(uint32_t index, LaneMask lanes) {
     double t[kPacketRays], near[kPacketRays], from[kPacketRays];
     PacketV last_near;
@@ -231,15 +231,12 @@ class CoincidenceFinder {
       // Twice as far is beyond any rounding.
       last_near.chunk[c] = hn::Add(t_.chunk[c], hn::Add(near_.chunk[c], near_.chunk[c]));
     }
-    const LaneMask several = segments_.find_near(
+    segments_.find_near(
         index, lanes, t_, last_near,
         [&](uint32_t lane, double crossing) {
           return std::abs(crossing - t[lane]) < near[lane] && from[lane] < crossing;
         },
         gap_);
-    for (int c = 0; c < kChunks; ++c) {
-      gap_.chunk[c] = hn::IfThenElse(mask_of(several, c), hn::Zero(Wide()), gap_.chunk[c]);
-    }
   }
 
   /// Updates gap_, the distance to the nearest crossing outside of the coincidence, and end_, the

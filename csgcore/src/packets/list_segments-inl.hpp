@@ -125,18 +125,16 @@ class ListSegments {
   /// Moves the windows of a primitive that is not convex to the segments that have a near crossing,
   /// or else to the first ones that have not ended at t. is_near(lane, crossing) tells which
   /// crossings are; none is beyond `last_near`. Lowers `gap` to the distance from t to the nearest
-  /// crossing outside of the window. Returns the lanes that have several near crossings.
+  /// crossing outside of the window, which may be near as well. The segments must be computed.
   template <class IsNear>
-  HWY_NOINLINE LaneMask find_near(uint32_t index, LaneMask lanes, const PacketV& t,
-                                  const PacketV& last_near, const IsNear& is_near, PacketV& gap) {
-    compute(index, lanes);
+  HWY_NOINLINE void find_near(uint32_t index, LaneMask lanes, const PacketV& t,
+                              const PacketV& last_near, const IsNear& is_near, PacketV& gap) {
     PacketLane at, last, gaps;
     store(t, at);
     store(last_near, last);
     store(gap, gaps);
     PacketSegmentLists& lists = lists_of(index);
     find_beyond(index, lanes, last);
-    LaneMask several = 0;
     for_each_lane(lanes, [&](uint32_t lane) {
       const std::span<const RaySegment> known = lists.lanes[lane].segments();
       uint32_t window = static_cast<uint32_t>(lists.lanes[lane].ended_at(at[lane]));
@@ -146,14 +144,11 @@ class ListSegments {
         return is_near(lane, segment.start) || is_near(lane, segment.end);
       };
       while (first > 0 && touches(known[first - 1])) --first;
-      int near = 0;
-      for (uint32_t i = first; i < known.size(); ++i) {
-        if (known[i].start > last[lane]) break;
-        const int own = is_near(lane, known[i].start) + is_near(lane, known[i].end);
-        if (near == 0 && own > 0) window = i;
-        near += own;
+      for (uint32_t i = first; i < known.size() && known[i].start <= last[lane]; ++i) {
+        if (!touches(known[i])) continue;
+        window = i;
+        break;
       }
-      if (near > 1) several |= LaneMask{1} << lane;
       double& own_gap = gaps[lane];
       if (window > 0) own_gap = std::min(own_gap, std::abs(at[lane] - known[window - 1].end));
       if (window + 1 < known.size()) {
@@ -162,7 +157,6 @@ class ListSegments {
       set_window(index, lists, lane, window);
     });
     load(gaps, gap);
-    return several;
   }
 
   /// Returns all segments of a lane with a primitive that is not convex.
@@ -240,10 +234,6 @@ class ListSegments {
   }
   static HWY_INLINE void load(const PacketLane& lanes, PacketV& v) {
     for (int c = 0; c < kChunks; ++c) v.chunk[c] = hn::LoadU(Wide(), lanes + first_lane(c));
-  }
-  template <class Visit>
-  static HWY_INLINE void for_each_lane(LaneMask lanes, const Visit& visit) {
-    for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<uint32_t>(std::countr_zero(lanes)));
   }
 
   HWY_INLINE PacketSegmentLists& lists_of(uint32_t index) {

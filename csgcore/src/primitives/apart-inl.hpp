@@ -32,9 +32,6 @@ constexpr double kApartAsked = 2.0;
 constexpr double kApartFurthest = 0x1p18;
 constexpr double kApartLeastReach = 0x1p-18;
 
-/// Vectors of as many lanes as the machine has, up to 16.
-using Floats = hn::CappedTag<float, 16>;
-
 /// A packet of points, relative to the pivot; NaN for those that are too far away.
 struct alignas(64) PacketPoints {
   float coordinate[3][kPacketRays];
@@ -74,9 +71,7 @@ HWY_INLINE LaneMask lanes_apart_from(const CanonicalPrimitive& primitive, const 
     const auto apart = kEnclosure == Shape::kSphere
                            ? sphere_rays::lies_apart(d, primitive, point, reach)
                            : frustum_rays::lies_apart(d, primitive, point, reach);
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, apart, bytes);
-    result |= (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
+    result |= float_bits_of(apart, first);
   }
   return result;
 }

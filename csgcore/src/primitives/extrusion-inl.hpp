@@ -21,6 +21,7 @@
 #include "primitives/crossings.hpp"
 #include "primitives/polyhedron-inl.hpp"
 #include "primitives/profile_line.hpp"
+#include "primitives/profile_walk.hpp"
 #include "rays/frame_rays.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -197,15 +198,14 @@ struct Passing {
 
 HWY_INLINE Passing lanes_through(const Profile::Node& node, const PacketLines& rays,
                                  LaneMask lanes) {
-  const hn::CappedTag<float, 16> d;
+  const Floats d;
   const auto center_x = hn::Set(d, 0.5f * (node.min[0] + node.max[0]));
   const auto center_y = hn::Set(d, 0.5f * (node.min[1] + node.max[1]));
   const auto half_x = hn::Set(d, 0.5f * (node.max[0] - node.min[0]));
   const auto half_y = hn::Set(d, 0.5f * (node.max[1] - node.min[1]));
   Passing passing;
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    const LaneMask own = (kAllLanes >> (kPacketRays - hn::Lanes(d))) << first;
-    if ((lanes & own) == 0) continue;
+    if ((lanes & float_lanes(first)) == 0) continue;
     const auto x = hn::Load(d, rays.near_direction[0] + first);
     const auto y = hn::Load(d, rays.near_direction[1] + first);
     const auto height = hn::Sub(hn::Sub(hn::Mul(x, center_y), hn::Mul(y, center_x)),
@@ -216,13 +216,8 @@ HWY_INLINE Passing lanes_through(const Profile::Node& node, const PacketLines& r
     const auto meets = hn::And(hn::Le(hn::Abs(height), across),
                                hn::Le(hn::Sub(along, reach), hn::Load(d, rays.near_last + first)));
     const auto before = hn::Lt(hn::Add(along, reach), hn::Load(d, rays.near_first + first));
-    const auto bits = [&](auto mask) {
-      uint8_t bytes[8] = {};
-      hn::StoreMaskBits(d, mask, bytes);
-      return (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
-    };
-    passing.through |= bits(meets);
-    passing.before |= bits(before);
+    passing.through |= float_bits_of(meets, first);
+    passing.before |= float_bits_of(before, first);
   }
   passing.through &= lanes;
   passing.before &= passing.through;
@@ -255,40 +250,29 @@ HWY_INLINE LaneMask lanes_across(const Profile::Piece& piece, const PacketLines&
 /// line in place of t.
 HWY_INLINE void cross_lines(const Profile& profile, const PacketLines& rays, LaneMask lanes,
                             CrossingSearch& search) {
-  std::vector<CrossingSearch::Visit>& stack = search.stack;
-  stack.assign(1, {0, lanes});
-  while (!stack.empty()) {
-    const CrossingSearch::Visit visit = stack.back();
-    stack.pop_back();
-    const Profile::Node& node = profile.nodes()[visit.node];
-    const Passing passing = lanes_through(node, rays, visit.lanes);
+  const auto pass = [&](const Profile::Node& node, LaneMask visiting) {
+    const Passing passing = lanes_through(node, rays, visiting);
     // Whole loops that lie before the solid's height cancel, and of a chain only the ends count.
     if (node.is_chain) {
-      for (LaneMask left = passing.before; left != 0; left &= left - 1) {
-        const auto lane = static_cast<size_t>(std::countr_zero(left));
+      for_each_lane(passing.before, [&](uint32_t lane) {
         const ProfileLine& line = rays.lines[lane].line;
         const int turn = ProfileLine::is_left(line.height(profile.pieces()[node.begin].start)) -
                          ProfileLine::is_left(line.height(profile.pieces()[node.end - 1].end));
         if (turn != 0) search.lanes[lane].found.push_back({-kInfinity, node.begin, turn});
-      }
+      });
     }
-    const LaneMask through = passing.through & ~passing.before;
-    if (through == 0) continue;
-    if (node.children != 0) {
-      stack.push_back({node.children + 1, through});
-      stack.push_back({node.children, through});
-      continue;
-    }
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const Profile::Piece& piece = profile.pieces()[i];
-      for (LaneMask left = lanes_across(piece, rays, through); left != 0; left &= left - 1) {
-        const auto lane = static_cast<size_t>(std::countr_zero(left));
+    return passing.through & ~passing.before;
+  };
+  walk_profile(
+      profile, lanes, search.stack, pass,
+      [&](const Profile::Piece& piece, LaneMask through) {
+        return lanes_across(piece, rays, through);
+      },
+      [&](uint32_t lane, const Profile::Piece& piece, uint32_t i) {
         for_each_crossing(rays.lines[lane].line, piece, [&](double along, int turn) {
           search.lanes[lane].found.push_back({along, i, turn});
         });
-      }
-    }
-  }
+      });
 }
 
 /// Replaces the crossings of a ray's line with the figure by those of the ray with the solid.

@@ -42,11 +42,7 @@ class ExtrusionKind final : public PrimitiveKind {
     result.canonical_to_world = Mat3{linear[0] * half.x, linear[1] * half.y,
                                      linear * Vec3{slope * place.x, slope * place.y, half_height}};
     result.world_to_canonical = inverse(result.canonical_to_world);
-    const Mat3 rows = glm::transpose(result.canonical_to_world);
-    for (int axis = 0; axis < 3; ++axis) {
-      result.bounds.min[axis] = result.center[axis] - reach(result, -rows[axis]);
-      result.bounds.max[axis] = result.center[axis] + reach(result, rows[axis]);
-    }
+    result.bounds = bounds_of(result);
     return result;
   }
 
@@ -69,8 +65,7 @@ class ExtrusionKind final : public PrimitiveKind {
                           const Box& cell_world) const override {
     const Profile& profile = *primitive.profile();
     const CanonicalCell cell = to_canonical(primitive, cell_world);
-    Vec3 half(cell.slack);
-    for (int i = 0; i < 3; ++i) half += glm::abs(cell.half[i]);
+    const Vec3 half = cell.half_box();
     const double bottom = std::max(-1.0, cell.center.z - half.z);
     const double top = std::min(1.0, cell.center.z + half.z);
     if (bottom > top) return Classification::kOutside;
@@ -89,11 +84,6 @@ class ExtrusionKind final : public PrimitiveKind {
         csgcore::classify(profile, rectangle, center / scale_at(middle), kNowhere);
     const bool is_between = cell.center.z - half.z > -1 && cell.center.z + half.z < 1;
     return figure != Classification::kInside || is_between ? figure : Classification::kCrosses;
-  }
-
- private:
-  double reach(const CanonicalPrimitive& primitive, const Vec3& direction) const {
-    return glm::dot(direction, support(primitive, direction));
   }
 };
 

@@ -2,8 +2,6 @@
 // the result of a lane does not depend on other lanes: every instruction set gives the same bits.
 #include "primitives/intersect.hpp"
 
-#include <limits>
-
 #include "base/simd.hpp"
 
 // Vectors whose length is not known to the compiler cannot be put into arrays.
@@ -27,19 +25,6 @@ void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPri
   intersect_lanes(frame, rays, kAllLanes, primitive, segments);
 }
 
-void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
-               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]) {
-  search.most = CrossingSearch::kAll;
-  find_crossings(frame, rays, kAllLanes, primitive, search);
-  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
-    normals[lane].clear();
-    for (const Crossing& crossing : search.lanes[lane].found) {
-      normals[lane].push_back(normal_of_face(frame, primitive, crossing.face, rays, lane,
-                                             crossing.t, crossing.turn < 0));
-    }
-  }
-}
-
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments) {
   intersect_lanes(frame, rays, 0xF, primitive, segments);
@@ -48,6 +33,18 @@ void intersect_four(const FrameRays& frame, const RayPacket& rays,
 void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
                          const CanonicalPrimitive& primitive, CrossingSearch& search) {
   find_crossings(frame, rays, kAllLanes, primitive, search);
+}
+
+void find_crossing_normals(const FrameRays& frame, const RayPacket& rays,
+                           const CanonicalPrimitive& primitive, const CrossingSearch& search,
+                           std::vector<Vec3> (&normals)[kPacketRays]) {
+  for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
+    normals[lane].clear();
+    for (const Crossing& crossing : search.lanes[lane].found) {
+      normals[lane].push_back(normal_of_face(frame, primitive, crossing.face, rays, lane,
+                                             crossing.t, crossing.turn < 0));
+    }
+  }
 }
 
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,
@@ -80,20 +77,15 @@ HWY_AFTER_NAMESPACE();
 namespace csgcore {
 
 CSGCORE_SIMD_EXPORT(intersect);
-CSGCORE_SIMD_EXPORT(cross_all);
 CSGCORE_SIMD_EXPORT(intersect_four);
 CSGCORE_SIMD_EXPORT(find_next_crossings);
+CSGCORE_SIMD_EXPORT(find_crossing_normals);
 CSGCORE_SIMD_EXPORT(find_entry_normals);
 CSGCORE_SIMD_EXPORT(find_apart);
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments) {
   CSGCORE_SIMD(intersect)(frame, rays, primitive, segments);
-}
-
-void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
-               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]) {
-  CSGCORE_SIMD(cross_all)(frame, rays, primitive, search, normals);
 }
 
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
@@ -109,8 +101,14 @@ void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
 void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
                         const CanonicalPrimitive& primitive, CrossingSearch& search) {
   for (CrossingSearch::Lane& lane : search.lanes) lane.after = {};
-  search.most = std::numeric_limits<size_t>::max();
+  search.most = CrossingSearch::kAll;
   find_next_crossings(frame, rays, primitive, search);
+}
+
+void find_crossing_normals(const FrameRays& frame, const RayPacket& rays,
+                           const CanonicalPrimitive& primitive, const CrossingSearch& search,
+                           std::vector<Vec3> (&normals)[kPacketRays]) {
+  CSGCORE_SIMD(find_crossing_normals)(frame, rays, primitive, search, normals);
 }
 
 void find_entry_normals(const FrameRays& frame, const RayPacket& rays,

@@ -1,6 +1,8 @@
 // The intersection of packets of rays with one primitive.
 #pragma once
 
+#include <vector>
+
 #include "csgcore/canonical_primitive.hpp"
 #include "primitives/crossings.hpp"
 #include "primitives/packet_segments.hpp"
@@ -11,10 +13,6 @@ namespace csgcore {
 
 void intersect(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
                PacketSegments& segments);
-/// Finds all crossings of the rays with a primitive that is not convex, and their faces' unit
-/// normals along the rays. `normals[lane]` has one for each of search.lanes[lane].found.
-void cross_all(const FrameRays& frame, const RayPacket& rays, const CanonicalPrimitive& primitive,
-               CrossingSearch& search, std::vector<Vec3> (&normals)[kPacketRays]);
 /// Intersects the first four lanes only. Precondition of both: the primitive is convex.
 void intersect_four(const FrameRays& frame, const RayPacket& rays,
                     const CanonicalPrimitive& primitive, PacketSegments& segments);
@@ -25,6 +23,11 @@ void find_next_crossings(const FrameRays& frame, const RayPacket& rays,
 /// Finds all crossings of all lanes with a primitive that is not convex, in order.
 void find_all_crossings(const FrameRays& frame, const RayPacket& rays,
                         const CanonicalPrimitive& primitive, CrossingSearch& search);
+/// Finds the outward unit normals at the crossings of such a primitive that were found:
+/// normals[lane] has one for each of search.lanes[lane].found.
+void find_crossing_normals(const FrameRays& frame, const RayPacket& rays,
+                           const CanonicalPrimitive& primitive, const CrossingSearch& search,
+                           std::vector<Vec3> (&normals)[kPacketRays]);
 
 /// Finds the primitive's outward unit normals where the first four lanes enter it, coordinate by
 /// coordinate. Normals of one plane face are the same, bit for bit. `normals` must be aligned as a

@@ -29,9 +29,6 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 namespace mesh_rays {
 
-/// Vectors of as many floats as the machine has, up to 16.
-using Floats = hn::CappedTag<float, 16>;
-
 /// The rays of a packet in canonical space, o + (t − base)·d, and what tests need of them. The
 /// directions of all lanes that are traced together are longest along the same axis.
 struct alignas(64) PacketRays {
@@ -50,13 +47,6 @@ struct alignas(64) PacketRays {
 /// A ray that meets a triangle at a smaller cosine passes it edge-on: the plane alone might place
 /// the crossing beside the triangle, and the edges bound its depth as well.
 constexpr double kEdgeOn = 0x1p-10;
-
-/// 1/d in float, and a number that stands for infinity where d is 0: its product with 0 is 0.
-HWY_INLINE float inverse_in_float(double d) {
-  constexpr double kLargest = 1e30;
-  const double inverse = std::abs(d) * kLargest > 1 ? 1 / d : std::copysign(kLargest, d);
-  return static_cast<float>(inverse);
-}
 
 /// These lie on that side of the number, if not next to it.
 HWY_INLINE float float_below(double t) {
@@ -119,8 +109,7 @@ HWY_INLINE LaneMask lanes_through(const TriangleMesh::Node& node, const PacketRa
   const Floats d;
   LaneMask through = 0;
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    const LaneMask own = (kAllLanes >> (kPacketRays - hn::Lanes(d))) << first;
-    if ((lanes & own) == 0) continue;
+    if ((lanes & float_lanes(first)) == 0) continue;
     auto enter = hn::Load(d, rays.first_t + first);
     auto leave = hn::Load(d, rays.last_t + first);
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -131,9 +120,7 @@ HWY_INLINE LaneMask lanes_through(const TriangleMesh::Node& node, const PacketRa
       enter = hn::Max(enter, hn::Min(a, b));
       leave = hn::Min(leave, hn::Max(a, b));
     }
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, hn::Le(enter, leave), bytes);
-    through |= (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
+    through |= float_bits_of(hn::Le(enter, leave), first);
   }
   return through & lanes;
 }

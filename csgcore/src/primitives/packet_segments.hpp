@@ -13,8 +13,8 @@ struct alignas(64) PacketSegments {
   double end[kPacketRays];
   LaneMask start_on_cap = 0;
   LaneMask end_on_cap = 0;
-  /// Of a primitive that is not convex (else without a meaning): lanes that may meet it again
-  /// behind `end`.
+  /// The lanes that may meet the primitive again behind `end`. It has a meaning only if the
+  /// primitive is not convex.
   LaneMask more = 0;
 };
 

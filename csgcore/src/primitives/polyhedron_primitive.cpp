@@ -40,15 +40,7 @@ class PolyhedronKind final : public PrimitiveKind {
     result.center = primitive.local_to_world.point(canonical.center);
     for (int i = 0; i < 3; ++i) result.canonical_to_world[i] = linear[i] * canonical.scale[i];
     result.world_to_canonical = inverse(result.canonical_to_world);
-    // The support along a world axis is that of the local solid along the axis' row of the map.
-    const Mat3 rows = glm::transpose(result.canonical_to_world);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto reach = [&](const Vec3& direction) {
-        return glm::dot(direction, polyhedron.support(direction));
-      };
-      result.bounds.min[axis] = result.center[axis] - reach(-rows[axis]);
-      result.bounds.max[axis] = result.center[axis] + reach(rows[axis]);
-    }
+    result.bounds = bounds_of(result);
     return result;
   }
 

@@ -109,6 +109,20 @@ bool PrimitiveKind::holds(const CanonicalPrimitive& outer, const CanonicalPrimit
 
 bool PrimitiveKind::is_thinner(const CanonicalPrimitive&, double) const { return false; }
 
+Box PrimitiveKind::bounds_of(const CanonicalPrimitive& primitive) const {
+  // The support along a world axis is that of the canonical solid along the axis' row of the map.
+  const Mat3 rows = glm::transpose(primitive.canonical_to_world);
+  Box bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto reach = [&](const Vec3& direction) {
+      return glm::dot(direction, support(primitive, direction));
+    };
+    bounds.min[axis] = primitive.center[axis] - reach(-rows[axis]);
+    bounds.max[axis] = primitive.center[axis] + reach(rows[axis]);
+  }
+  return bounds;
+}
+
 bool has_valid_shape(const Primitive& primitive) {
   return kind_of(primitive.shape).has_valid_shape(primitive);
 }

@@ -4,6 +4,7 @@
 // and a kind without an implementation does not link.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csgcore/canonical_primitive.hpp"
@@ -40,6 +41,8 @@ class PrimitiveKind {
 
  protected:
   ~PrimitiveKind() = default;
+  /// Returns the bounds of a primitive whose centre and maps are set, by support().
+  Box bounds_of(const CanonicalPrimitive& primitive) const;
 };
 
 const PrimitiveKind& kind_of(Shape shape);
@@ -55,6 +58,10 @@ struct CanonicalCell {
   Vec3 corner(int corner) const {
     return center + ((corner & 1) ? 1.0 : -1.0) * half[0] + ((corner & 2) ? 1.0 : -1.0) * half[1] +
            ((corner & 4) ? 1.0 : -1.0) * half[2];
+  }
+  /// Returns half the sides of a box around the cell, with its slack.
+  Vec3 half_box() const {
+    return Vec3(slack) + glm::abs(half[0]) + glm::abs(half[1]) + glm::abs(half[2]);
   }
   /// Returns the point that is least far along `direction`.
   Vec3 lowest(const Vec3& direction) const {

@@ -18,6 +18,7 @@
 #include "primitives/crossings.hpp"
 #include "primitives/polyhedron-inl.hpp"
 #include "primitives/profile_line.hpp"
+#include "primitives/profile_walk.hpp"
 #include "primitives/revolution_path.hpp"
 #include "rays/frame_rays.hpp"
 
@@ -43,13 +44,6 @@ struct alignas(64) PacketPaths {
   float near_first[kPacketRays];
   float near_last[kPacketRays];
 };
-
-/// 1/rise in float, and a number that stands for infinity where it is 0: its product with 0 is 0.
-HWY_INLINE float inverse_rise(double rise) {
-  constexpr double kLargest = 1e30;
-  const double inverse = std::abs(rise) * kLargest > 1 ? 1 / rise : std::copysign(kLargest, rise);
-  return static_cast<float>(inverse);
-}
 
 /// Finds the paths. Returns the lanes that may meet the solid.
 HWY_INLINE LaneMask find_paths(const FrameRays& frame, const RayPacket& packet, LaneMask lanes,
@@ -90,7 +84,7 @@ HWY_INLINE LaneMask find_paths(const FrameRays& frame, const RayPacket& packet, 
       paths.near_start[lane] = static_cast<float>(path.start);
       paths.near_height[lane] = static_cast<float>(path.height);
       paths.near_run[lane] = static_cast<float>(path.run);
-      paths.near_inverse[lane] = inverse_rise(path.rise);
+      paths.near_inverse[lane] = inverse_in_float(path.rise);
       paths.near_first[lane] = static_cast<float>(path.first) - Profile::kBoxMargin;
       paths.near_last[lane] = static_cast<float>(path.last) + Profile::kBoxMargin;
     }
@@ -101,7 +95,7 @@ HWY_INLINE LaneMask find_paths(const FrameRays& frame, const RayPacket& packet, 
 /// Returns the lanes whose paths pass a node's box.
 HWY_INLINE LaneMask lanes_through(const Profile& profile, const Profile::Node& node,
                                   const PacketPaths& paths, LaneMask lanes) {
-  const hn::CappedTag<float, 16> d;
+  const Floats d;
   const auto bottom = hn::Set(d, node.min[1]), top = hn::Set(d, node.max[1]);
   const auto radius = [&](float x) {
     return static_cast<float>(profile.radii().x + profile.radii().y * double{x});
@@ -111,8 +105,7 @@ HWY_INLINE LaneMask lanes_through(const Profile& profile, const Profile::Node& n
   const auto inner2 = hn::Set(d, inner * inner), outer2 = hn::Set(d, outer * outer);
   LaneMask through = 0;
   for (size_t first = 0; first < kPacketRays; first += hn::Lanes(d)) {
-    const LaneMask own = (kAllLanes >> (kPacketRays - hn::Lanes(d))) << first;
-    if ((lanes & own) == 0) continue;
+    if ((lanes & float_lanes(first)) == 0) continue;
     const auto height = hn::Load(d, paths.near_height + first);
     const auto inverse = hn::Load(d, paths.near_inverse + first);
     const auto a = hn::Mul(hn::Sub(bottom, height), inverse);
@@ -131,9 +124,7 @@ HWY_INLINE LaneMask lanes_through(const Profile& profile, const Profile::Node& n
         hn::And(hn::Le(enter, leave),
                 hn::And(hn::Le(hn::Add(offset2, hn::Mul(nearest, nearest)), outer2),
                         hn::Ge(hn::Add(offset2, hn::Mul(furthest, furthest)), inner2)));
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, meets, bytes);
-    through |= (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
+    through |= float_bits_of(meets, first);
   }
   return through & lanes;
 }
@@ -192,28 +183,17 @@ HWY_INLINE LaneMask lanes_across(const Profile& profile, const Profile::Piece& p
 
 HWY_INLINE void cross_paths(const Profile& profile, const PacketPaths& paths, LaneMask lanes,
                             CrossingSearch& search) {
-  std::vector<CrossingSearch::Visit>& stack = search.stack;
-  stack.assign(1, {0, lanes});
-  while (!stack.empty()) {
-    const CrossingSearch::Visit visit = stack.back();
-    stack.pop_back();
-    const Profile::Node& node = profile.nodes()[visit.node];
-    const LaneMask through = lanes_through(profile, node, paths, visit.lanes);
-    if (through == 0) continue;
-    if (node.children != 0) {
-      stack.push_back({node.children + 1, through});
-      stack.push_back({node.children, through});
-      continue;
-    }
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const Profile::Piece& piece = profile.pieces()[i];
-      for (LaneMask left = lanes_across(profile, piece, paths, through); left != 0;
-           left &= left - 1) {
-        const auto lane = static_cast<size_t>(std::countr_zero(left));
+  walk_profile(
+      profile, lanes, search.stack,
+      [&](const Profile::Node& node, LaneMask visiting) {
+        return lanes_through(profile, node, paths, visiting);
+      },
+      [&](const Profile::Piece& piece, LaneMask through) {
+        return lanes_across(profile, piece, paths, through);
+      },
+      [&](uint32_t lane, const Profile::Piece& piece, uint32_t i) {
         cross_piece(profile, paths.paths[lane], piece, i, search.lanes[lane].found);
-      }
-    }
-  }
+      });
 }
 
 /// Leaves those of the crossings at which the ray enters or leaves the solid.

@@ -37,11 +37,7 @@ class RevolutionKind final : public PrimitiveKind {
     result.canonical_to_world =
         Mat3{linear[0] * radius, linear[1] * radius, linear[2] * profile.half().y};
     result.world_to_canonical = inverse(result.canonical_to_world);
-    const Mat3 rows = glm::transpose(result.canonical_to_world);
-    for (int axis = 0; axis < 3; ++axis) {
-      result.bounds.min[axis] = result.center[axis] - reach(result, -rows[axis]);
-      result.bounds.max[axis] = result.center[axis] + reach(result, rows[axis]);
-    }
+    result.bounds = bounds_of(result);
     return result;
   }
 
@@ -64,8 +60,7 @@ class RevolutionKind final : public PrimitiveKind {
                           const Box& cell_world) const override {
     const Profile& profile = *primitive.profile();
     const CanonicalCell cell = to_canonical(primitive, cell_world);
-    Vec3 half(cell.slack);
-    for (int i = 0; i < 3; ++i) half += glm::abs(cell.half[i]);
+    const Vec3 half = cell.half_box();
     // The cell's distances from the axis: by its box, and across the plane in which its centre is.
     const Vec2 center(cell.center);
     const Vec2 gap = glm::max(glm::abs(center) - Vec2(half), Vec2(0.0));
@@ -88,11 +83,6 @@ class RevolutionKind final : public PrimitiveKind {
     const Rectangle rectangle{{place(nearest - cell.slack), cell.center.z - half.z},
                               {place(furthest + cell.slack), cell.center.z + half.z}};
     return csgcore::classify(profile, rectangle, {place(furthest), cell.center.z}, place(0));
-  }
-
- private:
-  double reach(const CanonicalPrimitive& primitive, const Vec3& direction) const {
-    return glm::dot(direction, support(primitive, direction));
   }
 };
 

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "csgcore/geometry.hpp"
@@ -52,6 +53,29 @@ HWY_INLINE hn::Mask<D> mask_from(D d, LaneMask lanes) {
 }
 HWY_INLINE WideM mask_of(LaneMask lanes, int chunk) {
   return mask_from(Wide(), lanes >> first_lane(chunk));
+}
+
+/// Vectors of as many floats as the machine has, up to 16.
+using Floats = hn::CappedTag<float, 16>;
+
+/// Returns the lanes that are set in the mask of a vector of floats, which begins with lane
+/// `first`.
+HWY_INLINE LaneMask float_bits_of(hn::Mask<Floats> mask, size_t first) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Floats(), mask, bytes);
+  return (LaneMask{bytes[0]} | LaneMask{bytes[1]} << 8) << first;
+}
+/// Returns all lanes of that vector.
+HWY_INLINE LaneMask float_lanes(size_t first) {
+  return (kAllLanes >> (kPacketRays - hn::Lanes(Floats()))) << first;
+}
+
+/// Returns 1/d in float, and a number that stands for infinity where d is 0: its product with 0 is
+/// 0.
+HWY_INLINE float inverse_in_float(double d) {
+  constexpr double kLargest = 1e30;
+  const double inverse = std::abs(d) * kLargest > 1 ? 1 / d : std::copysign(kLargest, d);
+  return static_cast<float>(inverse);
 }
 
 HWY_INLINE LaneMask chunk_lanes(int chunk) {

@@ -1,6 +1,7 @@
 // A packet of rays, which are traced together.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace csgcore {
@@ -14,6 +15,12 @@ static_assert(kPacketWidth_px * kPacketHeight_px == kPacketRays);
 
 using LaneMask = uint32_t;  // bit i: lane i
 constexpr LaneMask kAllLanes = 0xFFFFFFFFu;
+
+/// Calls visit(lane) with each of the lanes.
+template <typename Visit>
+void for_each_lane(LaneMask lanes, Visit&& visit) {
+  for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<uint32_t>(std::countr_zero(lanes)));
+}
 
 /// Origin o, direction d and 1/(d·d) of each lane's ray, in world units, coordinate by coordinate.
 struct alignas(64) RayPacket {

@@ -44,7 +44,9 @@ struct Crossed {
   std::vector<Vec3> normals[kPacketRays];
 
   Crossed(const Primitive& primitive, const FrameRays& frame, const RayPacket& rays) {
-    cross_all(frame, rays, canonicalize(primitive), search, normals);
+    const CanonicalPrimitive canonical = canonicalize(primitive);
+    find_all_crossings(frame, rays, canonical, search);
+    find_crossing_normals(frame, rays, canonical, search, normals);
   }
   /// The segments of a lane that have a length.
   std::vector<std::pair<double, double>> segments(uint32_t lane) const {
