@@ -47,7 +47,7 @@ class ExactWalk {
     Interval u[2], t[2];  // of the two ends
     /// The exact ray with the parameter t, if intervals did not suffice.
     std::optional<LocalRay<Exact>> exact;
-    /// Of a profile's solid: the ends' parameters t, up to an error.
+    /// The ends' parameters t, up to an error, if the primitive is made of a profile.
     std::optional<std::array<ExactRoot, 2>> found = {};
     double error = 0;
   };

@@ -38,8 +38,8 @@ struct ImportedDesign {
   std::vector<Warning> warnings;
   /// The files that its nodes name, whether or not they are there.
   std::vector<std::string> files;
-  /// Of a final render (PictureKind::kRendered) whose design is a plane figure: its outlines,
-  /// closed, at z = 0. The scene has a thin plate for it.
+  /// The outlines, closed, at z = 0, if this is a final render (PictureKind::kRendered) of a plane
+  /// figure. The scene has a thin plate for it.
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;
   /// OpenSCAD's meshes of the scene's polyhedra, where ImportOptions::keeps_meshes asks for them.
   FacetMeshes meshes;

@@ -1,5 +1,8 @@
 #include "lower/argument_lookup.hpp"
 
+#include <array>
+#include <cstdio>
+
 namespace frontend {
 
 std::string_view name_of(ValueKind kind) {
@@ -16,6 +19,14 @@ std::string_view name_of(ValueKind kind) {
       return "a list";
   }
   return "";
+}
+
+std::string scalar_text(const Value& value) {
+  if (value.kind == ValueKind::kUndef) return "undef";
+  if (value.kind == ValueKind::kBool) return value.boolean ? "true" : "false";
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%g", value.number);
+  return text.data();
 }
 
 void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,

@@ -15,6 +15,9 @@ namespace frontend {
 /// Says what a value is: "a number", "undef".
 std::string_view name_of(ValueKind kind);
 
+/// Returns undef, a boolean or a number as OpenSCAD writes it. The value must be one of these.
+std::string scalar_text(const Value& value);
+
 constexpr std::string_view kMissing = "counts as missing";
 
 /// Tells that an argument, or a part of one, is not what is wanted.

@@ -136,8 +136,8 @@ class Collector final : public NodeSink {
   };
   void forget_since(const Candidate& candidate);
   std::optional<Candidate> candidate_;
-  /// Of a final render: the node at the top that was entered last, and the dimension of the first
-  /// one that has any, which all others must have. 0: there was none.
+  /// The node at the top that was entered last, and the dimension of the first one that has any,
+  /// which all others must have (0: there was none). Only final renders keep them.
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;

@@ -237,7 +237,7 @@ Primitive FigureSolids::wedge(double angle, double radius, double z_min, double 
     const double azimuth = angle * i / sides;
     corners.push_back(reach * Vec2(cos_deg(azimuth), sin_deg(azimuth)));
   }
-  // Of half a turn the axis is no corner.
+  // The axis is no corner of half a turn.
   if (angle == 180) corners.erase(corners.begin());
   const double margin = (kMargin - 1) * std::max(z_max - z_min, radius);
   return prism(corners, {z_min - margin, z_max + margin, 1});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
@@ -116,21 +115,10 @@ std::optional<Vec3> vector_of(const SyntaxTree& tree, const Value& list, size_t 
 /// A value as OpenSCAD writes it, but for what is long: strings, long lists and lists in lists.
 std::string text_of(const SyntaxTree& tree, const Value& value, bool is_inner = false) {
   constexpr size_t kMostElements = 8, kLongestString = 40;
-  switch (value.kind) {
-    case ValueKind::kUndef:
-      return "undef";
-    case ValueKind::kBool:
-      return value.boolean ? "true" : "false";
-    case ValueKind::kNumber: {
-      std::array<char, 32> text;
-      std::snprintf(text.data(), text.size(), "%g", value.number);
-      return text.data();
-    }
-    case ValueKind::kString:
-      return '"' + std::string(tree.text_of(value).substr(0, kLongestString)) + '"';
-    case ValueKind::kList:
-      break;
+  if (value.kind == ValueKind::kString) {
+    return '"' + std::string(tree.text_of(value).substr(0, kLongestString)) + '"';
   }
+  if (value.kind != ValueKind::kList) return scalar_text(value);
   const std::span<const Value> elements = tree.elements_of(value);
   if (is_inner && !elements.empty()) return "[...]";
   std::string text = "[";

@@ -61,7 +61,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
   const SyntaxNode& syntax = subtree_.syntax(node);
   if (!subtree_.is_taken(node)) return;
   const bool is_root = node == subtree_.root();
-  // Of the root, the modifiers count where it stands.
+  // The modifiers of the root count where it stands.
   if (!is_root && (syntax.modifiers & (kDisable | kBackground)) != 0) return;
   Node& own = at(node);
   switch (syntax.kind) {

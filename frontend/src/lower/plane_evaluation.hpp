@@ -33,7 +33,7 @@ class PlaneEvaluation {
   /// is the root, the figure is that of its children. Some node on the way to the root combines
   /// outlines, or find_all_figures() was called.
   std::span<const Figure> figures(uint32_t node) const { return at(node).figures; }
-  /// Of a resize node that has figures.
+  /// Returns the map of a resize node that has figures.
   const PlaneMap& resize_map(uint32_t node) const { return at(node).map; }
   /// Finds the figures of all nodes.
   void find_all_figures();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -14,21 +13,8 @@ namespace {
 
 /// The value as OpenSCAD prints it.
 std::string printed(const SyntaxTree& tree, const Value& value) {
-  switch (value.kind) {
-    case ValueKind::kUndef:
-      return "undef";
-    case ValueKind::kBool:
-      return value.boolean ? "true" : "false";
-    case ValueKind::kNumber: {
-      std::array<char, 32> text;
-      std::snprintf(text.data(), text.size(), "%g", value.number);
-      return text.data();
-    }
-    case ValueKind::kString:
-      return "\"" + std::string(tree.text_of(value)) + "\"";
-    case ValueKind::kList:
-      break;
-  }
+  if (value.kind == ValueKind::kString) return '"' + std::string(tree.text_of(value)) + '"';
+  if (value.kind != ValueKind::kList) return scalar_text(value);
   std::string text = "[";
   for (const Value& element : tree.elements_of(value)) {
     if (text.size() > 1) text += ", ";
