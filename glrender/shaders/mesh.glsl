@@ -59,15 +59,17 @@ float sheet_length(Ray world, CanonicalRay ray, vec3 normal) {
   return SHEET_THICKNESS * u_tolerance / max(speed, SHEET_COSINE * length(world.direction));
 }
 
+// Stands in for the infinite inverse of a coordinate that is 0 or almost: its product with 0 is 0.
+const float LARGEST_INVERSE = 1e30;
+
 MeshCrossings mesh_crossings(Ray world, CanonicalRay ray, float t) {
   MeshCrossings result = MeshCrossings(0, 0, INFINITY, 0, 0, -INFINITY, 0);
   vec4 header = texelFetch(u_meshes, ray.faces);
   bool is_closed = header.y != 0.0;
   mat3 frame = mesh_frame(ray.direction);
-  // Stands in for infinity, whose product with 0 is none.
-  vec3 inverse = vec3(1e30);
+  vec3 inverse = vec3(LARGEST_INVERSE);
   for (int axis = 0; axis < 3; ++axis) {
-    if (abs(ray.direction[axis]) > 1e-30) inverse[axis] = 1.0 / ray.direction[axis];
+    if (abs(ray.direction[axis]) * LARGEST_INVERSE > 1.0) inverse[axis] = 1.0 / ray.direction[axis];
   }
   int texel = ray.faces + 1;
   int end = texel + int(header.x);
