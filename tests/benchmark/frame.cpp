@@ -18,6 +18,7 @@ namespace {
 using csgcore::FrameSettings;
 using csgcore::Hits;
 using csgcore::Image;
+using csgcore::Scene;
 using csgcore::Subdivision;
 using csgcore::TraceOptions;
 using csgcore::TraceStats;
@@ -158,6 +159,49 @@ void report(const TraceStats& stats, benchmark::State& state) {
   state.counters["tiles"] = static_cast<double>(stats.tiles);
   state.counters["resolved_rays"] = static_cast<double>(stats.resolved_rays);
   state.counters["cull_ms"] = stats.cull_ms;
+}
+
+void report(const Times& times, benchmark::State& state) {
+  state.counters["median_ms"] = times.median();
+  state.counters["least_ms"] = times.least();
+  state.counters["cpu_ms"] = times.cpu();
+}
+
+void require_agreement(const Subject& subject) {
+  Image tiles, cells;
+  subject.draw({Method::kTiles, 2}, tiles);
+  subject.draw({Method::kCells, 2}, cells);
+  if (tiles.rgb != cells.rgb) give_up("tiles and cells disagree");
+}
+
+void time_first_pictures(benchmark::State& state, const View& view,
+                         const std::function<Scene()>& make) {
+  Times times;
+  for (auto _ : state) {
+    Image image;
+    times.measure([&] {
+      const Subject subject(make(), view);
+      subject.draw({Method::kTiles, 2}, image);
+    });
+    state.SetIterationTime(times.last() / 1000);
+  }
+  report(times, state);
+}
+
+void time_frames(benchmark::State& state, const Subject& subject, const Drawing& drawing) {
+  Times times;
+  Image image;
+  TraceStats stats = subject.draw(drawing, image);
+  for (auto _ : state) {
+    times.measure([&] { stats = subject.draw(drawing, image); });
+    state.SetIterationTime(times.last() / 1000);
+  }
+  report(stats, state);
+  report(times, state);
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& work) {
+  benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
 }
 
 }  // namespace frame_benchmark

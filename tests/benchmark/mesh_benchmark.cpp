@@ -16,6 +16,7 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "frame.hpp"
+#include "models.hpp"
 #ifdef MEASURE_HAS_EMBREE
 #include "embree_frame.hpp"
 #endif
@@ -65,25 +66,16 @@ Triangles bumpy_ball(uint32_t count) {
 }
 
 Scene scene_of(const Triangles& ball, bool is_cut) {
-  Scene scene;
-  scene.primitives.push_back(
-      make_mesh(std::make_shared<TriangleMesh>(ball.vertices, ball.triangles)));
+  std::vector<Primitive> primitives{
+      make_mesh(std::make_shared<TriangleMesh>(ball.vertices, ball.triangles))};
   const Mat3 along[] = {Mat3(1.0), Mat3(Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)),
                         Mat3(Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0))};
   if (is_cut) {
     for (const Mat3& axis : along) {
-      scene.primitives.push_back(make_frustum(-20, 20, 3, 3, {axis, Vec3(0.0)}));
+      primitives.push_back(make_frustum(-20, 20, 3, 3, {axis, Vec3(0.0)}));
     }
   }
-  CsgTreeBuilder builder;
-  builder.open(Op::kDifference);
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
-    scene.primitives[i].id = i;
-    builder.primitive(i);
-  }
-  builder.close();
-  scene.model = builder.finish();
-  return scene;
+  return test_support::scene_of(Op::kDifference, std::move(primitives));
 }
 
 const Box kViewBox{Vec3(-10.0), Vec3(10.0)};
@@ -92,32 +84,10 @@ std::string name_of(uint32_t count, bool is_cut) {
   return std::to_string(count) + (is_cut ? "/cut" : "/alone");
 }
 
-void require_agreement(const Subject& subject) {
-  Image tiles, cells;
-  subject.draw({Method::kTiles, 2}, tiles);
-  subject.draw({Method::kCells, 2}, cells);
-  if (tiles.rgb != cells.rgb) frame_benchmark::give_up("tiles and cells disagree");
-}
-
-void report_times(const Times& times, benchmark::State& state) {
-  state.counters["median_ms"] = times.median();
-  state.counters["least_ms"] = times.least();
-  state.counters["cpu_ms"] = times.cpu();
-}
-
 void draw_first(benchmark::State& state, uint32_t count, bool is_cut) {
   const Triangles ball = bumpy_ball(count);
-  const View view = frame_benchmark::default_view(kViewBox);
-  Times times;
-  for (auto _ : state) {
-    Image image;
-    times.measure([&] {
-      const Subject subject(scene_of(ball, is_cut), view);
-      subject.draw({Method::kTiles, 2}, image);
-    });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  report_times(times, state);
+  frame_benchmark::time_first_pictures(state, frame_benchmark::default_view(kViewBox),
+                                       [&] { return scene_of(ball, is_cut); });
 }
 
 void build(benchmark::State& state, uint32_t count) {
@@ -129,7 +99,7 @@ void build(benchmark::State& state, uint32_t count) {
     if (!mesh->is_closed()) frame_benchmark::give_up("the ball is open");
     state.SetIterationTime(times.last() / 1000);
   }
-  report_times(times, state);
+  frame_benchmark::report(times, state);
 }
 
 void draw_frames(benchmark::State& state, uint32_t count, bool is_cut, const Drawing& drawing) {
@@ -138,17 +108,9 @@ void draw_frames(benchmark::State& state, uint32_t count, bool is_cut, const Dra
   if (!subject) {
     subject = std::make_unique<Subject>(scene_of(bumpy_ball(count), is_cut),
                                         frame_benchmark::default_view(kViewBox));
-    require_agreement(*subject);
+    frame_benchmark::require_agreement(*subject);
   }
-  Times times;
-  Image image;
-  TraceStats stats = subject->draw(drawing, image);
-  for (auto _ : state) {
-    times.measure([&] { stats = subject->draw(drawing, image); });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  frame_benchmark::report(stats, state);
-  report_times(times, state);
+  frame_benchmark::time_frames(state, *subject, drawing);
 }
 
 #ifdef MEASURE_HAS_EMBREE
@@ -170,14 +132,10 @@ void draw_by_embree(benchmark::State& state, uint32_t count) {
     times.measure([&] { frame.draw(view, FrameSettings{}, image); });
     state.SetIterationTime(times.last() / 1000);
   }
-  report_times(times, state);
+  frame_benchmark::report(times, state);
   state.counters["build_ms"] = frame.build_ms();
 }
 #endif
-
-void add(const std::string& name, const std::function<void(benchmark::State&)>& work) {
-  benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
-}
 
 }  // namespace
 
@@ -185,17 +143,20 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   for (const uint32_t count : {1000u, 10'000u, 100'000u, 1'000'000u}) {
-    add("build/" + std::to_string(count), [=](benchmark::State& state) { build(state, count); });
+    frame_benchmark::add("build/" + std::to_string(count),
+                         [=](benchmark::State& state) { build(state, count); });
 #ifdef MEASURE_HAS_EMBREE
-    add("embree/" + std::to_string(count),
-        [=](benchmark::State& state) { draw_by_embree(state, count); });
+    frame_benchmark::add("embree/" + std::to_string(count),
+                         [=](benchmark::State& state) { draw_by_embree(state, count); });
 #endif
     for (const bool is_cut : {false, true}) {
       const std::string name = name_of(count, is_cut);
-      add("first/" + name, [=](benchmark::State& state) { draw_first(state, count, is_cut); });
+      frame_benchmark::add("first/" + name,
+                           [=](benchmark::State& state) { draw_first(state, count, is_cut); });
       for (const Method method : {Method::kTiles, Method::kCells}) {
         const Drawing drawing{method, 2};
-        add("frame/" + name + "/" + frame_benchmark::name_of(drawing),
+        frame_benchmark::add(
+            "frame/" + name + "/" + frame_benchmark::name_of(drawing),
             [=](benchmark::State& state) { draw_frames(state, count, is_cut, drawing); });
       }
     }

@@ -15,6 +15,7 @@
 
 #include "csgcore/profile.hpp"
 #include "frame.hpp"
+#include "models.hpp"
 
 namespace {
 
@@ -100,38 +101,11 @@ struct Design {
   Box view_box;
 };
 
-Scene scene_of(const Design& design) {
-  Scene scene;
-  scene.primitives = design.make();
-  CsgTreeBuilder builder;
-  builder.open(Op::kUnion);
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
-    scene.primitives[i].id = i;
-    builder.primitive(i);
-  }
-  builder.close();
-  scene.model = builder.finish();
-  return scene;
-}
-
-void report_times(const Times& times, benchmark::State& state) {
-  state.counters["median_ms"] = times.median();
-  state.counters["least_ms"] = times.least();
-  state.counters["cpu_ms"] = times.cpu();
-}
+Scene scene_of(const Design& design) { return test_support::scene_of(Op::kUnion, design.make()); }
 
 void draw_first(benchmark::State& state, const Design& design) {
-  const View view = frame_benchmark::default_view(design.view_box);
-  Times times;
-  for (auto _ : state) {
-    Image image;
-    times.measure([&] {
-      const Subject subject(scene_of(design), view);
-      subject.draw({Method::kTiles, 2}, image);
-    });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  report_times(times, state);
+  frame_benchmark::time_first_pictures(state, frame_benchmark::default_view(design.view_box),
+                                       [&] { return scene_of(design); });
 }
 
 void draw_frames(benchmark::State& state, const Design& design, const Drawing& drawing) {
@@ -140,24 +114,9 @@ void draw_frames(benchmark::State& state, const Design& design, const Drawing& d
   if (!subject) {
     subject =
         std::make_unique<Subject>(scene_of(design), frame_benchmark::default_view(design.view_box));
-    Image tiles, cells;
-    subject->draw({Method::kTiles, 2}, tiles);
-    subject->draw({Method::kCells, 2}, cells);
-    if (tiles.rgb != cells.rgb) frame_benchmark::give_up("tiles and cells disagree");
+    frame_benchmark::require_agreement(*subject);
   }
-  Times times;
-  Image image;
-  TraceStats stats = subject->draw(drawing, image);
-  for (auto _ : state) {
-    times.measure([&] { stats = subject->draw(drawing, image); });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  frame_benchmark::report(stats, state);
-  report_times(times, state);
-}
-
-void add(const std::string& name, const std::function<void(benchmark::State&)>& work) {
-  benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
+  frame_benchmark::time_frames(state, *subject, drawing);
 }
 
 }  // namespace
@@ -169,11 +128,12 @@ int main(int argc, char** argv) {
                             {"text", text, {{0, -230, 0}, {320, 10, 2}}},
                             {"polygon", polygon, {{-22, -22, 0}, {22, 22, 5}}}};
   for (const Design& design : designs) {
-    add("first/" + design.name, [=](benchmark::State& state) { draw_first(state, design); });
+    frame_benchmark::add("first/" + design.name,
+                         [=](benchmark::State& state) { draw_first(state, design); });
     for (const Method method : {Method::kTiles, Method::kCells}) {
       const Drawing drawing{method, 2};
-      add("frame/" + design.name + "/" + frame_benchmark::name_of(drawing),
-          [=](benchmark::State& state) { draw_frames(state, design, drawing); });
+      frame_benchmark::add("frame/" + design.name + "/" + frame_benchmark::name_of(drawing),
+                           [=](benchmark::State& state) { draw_frames(state, design, drawing); });
     }
   }
   benchmark::RunSpecifiedBenchmarks();

@@ -53,9 +53,7 @@ struct Run {
 };
 
 void report_times(const Times& times, double bar_ms, benchmark::State& state) {
-  state.counters["median_ms"] = times.median();
-  state.counters["least_ms"] = times.least();
-  state.counters["cpu_ms"] = times.cpu();
+  frame_benchmark::report(times, state);
   if (bar_ms > 0) state.counters["of_bar"] = times.median() / bar_ms;
 }
 

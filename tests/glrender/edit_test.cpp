@@ -7,8 +7,8 @@
 
 #include "csgcore/polyhedron.hpp"
 #include "fixture.hpp"
-#include "support/mesh_models.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace {
 
@@ -151,18 +151,18 @@ TEST_P(GlEdit, PrimitivesBecomeMeshesAndBack) {
     return followed.follow(scene);
   };
   const csgcore::Affine place = scene.primitives[5].local_to_world;
-  const auto torus = test_support::mesh_of(test_support::torus_shell(2, 1, 32, 16));
+  const auto torus = test_support::torus_parts(2, 1, 32, 16).mesh();
   const uint64_t triangles_bytes = torus->triangles().size() * 3 * 16;
   EXPECT_GT(replace(5, csgcore::make_mesh(torus, place)), triangles_bytes);
   // Neither a mesh that has moved nor another primitive with it is uploaded again.
   csgcore::Affine moved = place;
   moved.translation.z += 0.5;
   EXPECT_LT(replace(5, csgcore::make_mesh(torus, moved)), triangles_bytes);
-  const auto equal = test_support::mesh_of(test_support::torus_shell(2, 1, 32, 16));
+  const auto equal = test_support::torus_parts(2, 1, 32, 16).mesh();
   EXPECT_LT(replace(9, csgcore::make_mesh(equal, scene.primitives[9].local_to_world)),
             triangles_bytes);
   // Another mesh is added to those that are there.
-  const auto prism = test_support::mesh_of(test_support::l_prism_shell(1));
+  const auto prism = test_support::l_prism_parts(2, 1, 1).mesh();
   EXPECT_LT(replace(7, csgcore::make_mesh(prism, place)), triangles_bytes);
   replace(5, csgcore::make_sphere(1, place));
   replace(9, csgcore::make_sphere(1, scene.primitives[9].local_to_world));

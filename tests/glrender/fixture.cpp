@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "csgcore/polyhedron.hpp"
+
 namespace gl_test {
 
 using csgcore::Image;
@@ -162,6 +164,23 @@ void expect_right(const Scene& scene, const View& view, const Way& way) {
   // At an edge two primitives are equally right, as are their normals.
   EXPECT_LE(result.id * 1000, std::max<uint64_t>(result.hits, 1000));
   EXPECT_LE(result.normal * 1000, std::max<uint64_t>(result.hits, 1000));
+}
+
+const std::vector<Way>& all_ways() {
+  static const std::vector<Way> ways{leaves_of(2), leaves_of(8), by_tiles()};
+  return ways;
+}
+
+csgcore::Affine at(double x, double y, double z) { return {csgcore::Mat3{1.0}, {x, y, z}}; }
+
+csgcore::Affine skewed() {
+  return {csgcore::Mat3{csgcore::Vec3{-1, 0.3, 0}, csgcore::Vec3{0.5, 2, 0.1},
+                        csgcore::Vec3{0, 0.7, 1}},
+          {7, 8, 9}};
+}
+
+csgcore::Primitive cube(const csgcore::Vec3& min, const csgcore::Vec3& max) {
+  return csgcore::make_polyhedron(csgcore::Polyhedron::box({min, max}));
 }
 
 }  // namespace gl_test

@@ -62,6 +62,15 @@ csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view, cons
 /// The default rule with the given K.
 csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
 
+/// Cells of few and of many primitives, and tiles.
+const std::vector<Way>& all_ways();
+
+/// A map that only moves.
+csgcore::Affine at(double x, double y, double z);
+/// A sheared, mirrored, uneven map.
+csgcore::Affine skewed();
+csgcore::Primitive cube(const csgcore::Vec3& min, const csgcore::Vec3& max);
+
 struct Comparison {
   uint64_t hits = 0;         // hits of the oracle
   uint64_t hit_or_miss = 0;  // pixels that only one of both hits

@@ -9,8 +9,8 @@
 
 #include "agreement.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "support/mesh_models.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace {
 
@@ -28,13 +28,14 @@ using csgcore::Projection;
 using csgcore::Scene;
 using csgcore::Vec3;
 using csgcore::View;
+using gl_test::at;
+using gl_test::cube;
 using gl_test::leaves_of;
 using gl_test::LoadedScene;
+using gl_test::skewed;
 using gl_test::Way;
 using test_support::joined;
-using test_support::mesh_of;
-using test_support::reversed;
-using test_support::Shell;
+using test_support::MeshParts;
 
 /// Normals of one triangle are equal up to rounding; those of neighbours are further apart, even in
 /// the finest mesh.
@@ -43,19 +44,8 @@ constexpr gl_test::EdgeLimits kEdges{.face_distance = kOtherFace};
 /// For views along an axis, where rays lie in edges.
 constexpr gl_test::EdgeLimits kAlongAnAxis{.face_distance = kOtherFace, .hits_per_edge_pixel = 500};
 
-const Way kWays[] = {leaves_of(2), leaves_of(8), gl_test::by_tiles()};
-
-Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
-
-/// A sheared, mirrored, uneven map.
-Affine skewed() { return {Mat3{Vec3{-1, 0.3, 0}, Vec3{0.5, 2, 0.1}, Vec3{0, 0.7, 1}}, {7, 8, 9}}; }
-
-Primitive mesh(Shell shell, const Affine& place = {}) {
-  return make_mesh(mesh_of(std::move(shell)), place);
-}
-
-Primitive cube(const Vec3& min, const Vec3& max) {
-  return make_polyhedron(Polyhedron::box({min, max}));
+Primitive mesh(const MeshParts& parts, const Affine& place = {}) {
+  return make_mesh(parts.mesh(), place);
 }
 
 struct NamedScene {
@@ -67,31 +57,35 @@ struct NamedScene {
 void PrintTo(const NamedScene& one, std::ostream* out) { *out << one.name; }
 
 std::vector<NamedScene> scenes() {
-  using test_support::ball_shell;
-  using test_support::box_shell;
-  using test_support::l_prism_shell;
-  using test_support::torus_shell;
-  const Shell ball = ball_shell(3, 3), torus = torus_shell(3, 1, 48, 24);
-  const Shell coil = test_support::coil_shell(3, 0.4, 1, 6, 32, 8);
+  using test_support::box_parts;
+  using test_support::icosphere_parts;
+  using test_support::l_prism_parts;
+  using test_support::torus_parts;
+  const MeshParts ball = icosphere_parts(3, 3), torus = torus_parts(3, 1, 48, 24);
+  const MeshParts coil = test_support::helix_parts(3, 0.4, 1, 6, 32, 8);
   std::vector<NamedScene> all;
   const auto add = [&](const char* name, Op op, std::vector<Primitive> primitives) {
     all.push_back({name, test_support::scene_of(op, std::move(primitives))});
   };
-  add("LPrism", Op::kUnion, {mesh(l_prism_shell(1))});
-  add("SkewedLPrism", Op::kUnion, {mesh(l_prism_shell(1), skewed())});
+  add("LPrism", Op::kUnion, {mesh(l_prism_parts(2, 1, 1))});
+  add("SkewedLPrism", Op::kUnion, {mesh(l_prism_parts(2, 1, 1), skewed())});
   add("Torus", Op::kUnion, {mesh(torus)});
   add("SkewedTorus", Op::kUnion, {mesh(torus, skewed())});
   add("Coil", Op::kUnion, {mesh(coil)});
   add("FarFromTheOrigin", Op::kUnion, {mesh(torus, at(1000, -2000, 500))});
   add("Thousandth", Op::kUnion,
-      {mesh(l_prism_shell(1), {Mat3{0.001}, {0.1, 0.2, 0.3}}), make_sphere(0.05, at(0, 0.2, 0.3))});
+      {mesh(l_prism_parts(2, 1, 1), {Mat3{0.001}, {0.1, 0.2, 0.3}}),
+       make_sphere(0.05, at(0, 0.2, 0.3))});
   add("BallWithCavityCutOpen", Op::kDifference,
-      {mesh(joined({ball, reversed(ball_shell(2, 2))})), cube({0, -4, 0}, {4, 4, 4})});
-  add("InsideOut", Op::kUnion, {mesh(reversed(torus)), mesh(reversed(l_prism_shell(1)))});
+      {mesh(joined({ball, icosphere_parts(2, 2).inside_out()})), cube({0, -4, 0}, {4, 4, 4})});
+  add("InsideOut", Op::kUnion,
+      {mesh(torus.inside_out()), mesh(l_prism_parts(2, 1, 1).inside_out())});
   add("OverlappingShells", Op::kUnion,
-      {mesh(joined({ball, ball_shell(2, 2, {2, 1, 0}), box_shell({-3, -1, -1}, {0, 1, 3.5})}))});
+      {mesh(joined(
+          {ball, icosphere_parts(2, 2).moved({2, 1, 0}), box_parts({-3, -1, -1}, {0, 1, 3.5})}))});
   add("OverlappingShellsCutOpen", Op::kDifference,
-      {mesh(joined({ball, ball_shell(2, 2, {2, 1, 0}), box_shell({-3, -1, -1}, {0, 1, 3.5})})),
+      {mesh(joined(
+           {ball, icosphere_parts(2, 2).moved({2, 1, 0}), box_parts({-3, -1, -1}, {0, 1, 3.5})})),
        cube({-5, -5, 0.3}, {5, 5, 5})});
   add("TorusLessCylinders", Op::kDifference,
       {mesh(torus), make_frustum(-2, 2, 0.6, 0.6, at(3, 0, 0)),
@@ -102,22 +96,23 @@ std::vector<NamedScene> scenes() {
   add("TorusAndBall", Op::kIntersection, {mesh(torus), mesh(ball, at(1, 0, 0))});
   add("Coils", Op::kUnion, {mesh(coil), mesh(coil, at(3, 0, 0.5)), make_sphere(2, at(0, 0, 3))});
   add("CubeWithFacesOfAMesh", Op::kUnion,
-      {cube({0, 0, 0}, {1, 1, 1}), mesh(l_prism_shell(1)), cube({1, 1, 0}, {2, 2, 1})});
-  add("MeshWithFacesOfACube", Op::kUnion, {mesh(l_prism_shell(1)), cube({0, 0, 0}, {1, 1, 1})});
+      {cube({0, 0, 0}, {1, 1, 1}), mesh(l_prism_parts(2, 1, 1)), cube({1, 1, 0}, {2, 2, 1})});
+  add("MeshWithFacesOfACube", Op::kUnion,
+      {mesh(l_prism_parts(2, 1, 1)), cube({0, 0, 0}, {1, 1, 1})});
   add("CubeWithFacesOfShells", Op::kUnion,
       {cube({0, 0, 0}, {1, 1, 1}),
-       mesh(joined({l_prism_shell(1), box_shell(Vec3(1e-7), Vec3(1 - 1e-7))}))});
+       mesh(joined({l_prism_parts(2, 1, 1), box_parts(Vec3(1e-7), Vec3(1 - 1e-7))}))});
   add("FlushCuts", Op::kDifference,
-      {mesh(l_prism_shell(2)), cube({0, 0, 1}, {1, 1, 2}), mesh(box_shell({1, 0, 0}, {2, 1, 1})),
-       make_frustum(1, 2, 0.4, 0.4, at(0.5, 1.5, 0))});
+      {mesh(l_prism_parts(2, 1, 2)), cube({0, 0, 1}, {1, 1, 2}),
+       mesh(box_parts({1, 0, 0}, {2, 1, 1})), make_frustum(1, 2, 0.4, 0.4, at(0.5, 1.5, 0))});
   add("EqualMeshes", Op::kIntersection,
-      {mesh(l_prism_shell(1)), mesh(l_prism_shell(1)), mesh(l_prism_shell(2))});
-  add("OpenBox", Op::kUnion, {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1}))});
+      {mesh(l_prism_parts(2, 1, 1)), mesh(l_prism_parts(2, 1, 1)), mesh(l_prism_parts(2, 1, 2))});
+  add("OpenBox", Op::kUnion, {mesh(test_support::open_box_parts({-2, -1, 0}, {2, 1, 1}))});
   add("Sheet", Op::kUnion,
-      {mesh(test_support::sheet_shell(3)), make_sphere(0.5, at(1.5, 1.5, 0.2)),
-       mesh(test_support::sheet_shell(2), at(0.5, 0, 1))});
+      {mesh(test_support::sheet_parts(3)), make_sphere(0.5, at(1.5, 1.5, 0.2)),
+       mesh(test_support::sheet_parts(2), at(0.5, 0, 1))});
   add("OpenBoxLessCylinder", Op::kDifference,
-      {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1})), make_frustum(-1, 2, 0.5, 0.5),
+      {mesh(test_support::open_box_parts({-2, -1, 0}, {2, 1, 1})), make_frustum(-1, 2, 0.5, 0.5),
        cube({1, -2, 0.5}, {3, 2, 3})});
   return all;
 }
@@ -170,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(, MeshTest, testing::ValuesIn(scenes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(MeshTest, EveryChannelIsTheTracers) {
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(GetParam().scene, way);
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
       const std::string name = GetParam().name + ", " + gl_test::name_of(way);
@@ -184,15 +179,15 @@ TEST_P(MeshTest, EveryChannelIsTheTracers) {
 /// A hollow ball with a torus in its cavity and a hole through all of it.
 Scene rooms() {
   return test_support::scene_of(
-      Op::kDifference,
-      {mesh(joined({test_support::ball_shell(5, 3), reversed(test_support::ball_shell(4, 3)),
-                    test_support::torus_shell(2.5, 0.8, 32, 16)})),
-       make_frustum(-6, 6, 0.5, 0.5, at(2, 2, 0)), cube({0, -6, -6}, {6, 0, 0})});
+      Op::kDifference, {mesh(joined({test_support::icosphere_parts(5, 3),
+                                     test_support::icosphere_parts(4, 3).inside_out(),
+                                     test_support::torus_parts(2.5, 0.8, 32, 16)})),
+                        make_frustum(-6, 6, 0.5, 0.5, at(2, 2, 0)), cube({0, -6, -6}, {6, 0, 0})});
 }
 
 TEST(MeshPictureTest, EyeInsideTheSolidACavityAndACut) {
   const Scene scene = rooms();
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     View view = view_of(loaded, Projection::kPerspective, 30, 20);
     view.half_height = 0.7;
@@ -207,9 +202,9 @@ TEST(MeshPictureTest, EyeInsideTheSolidACavityAndACut) {
 
 TEST(MeshPictureTest, EyeInAnOpenMesh) {
   const Scene scene = test_support::scene_of(
-      Op::kUnion, {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1})),
+      Op::kUnion, {mesh(test_support::open_box_parts({-2, -1, 0}, {2, 1, 1})),
                    make_sphere(0.3, at(1, 0, 0.2)), cube({-3, -3, -2}, {3, 3, -1})});
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     View view = view_of(loaded, Projection::kPerspective, 200, 10);
     view.half_height = 1;
@@ -223,8 +218,8 @@ TEST(MeshPictureTest, EyeInAnOpenMesh) {
 
 TEST(MeshPictureTest, BehindASheetIsItsOtherSide) {
   const Scene scene = test_support::scene_of(
-      Op::kUnion, {mesh(test_support::open_box_shell({-2, -1, 0}, {2, 1, 1}))});
-  for (const Way& way : kWays) {
+      Op::kUnion, {mesh(test_support::open_box_parts({-2, -1, 0}, {2, 1, 1}))});
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     const View view = view_of(loaded, Projection::kPerspective, 25, 35);
     loaded.draw(view);
@@ -241,8 +236,8 @@ TEST(MeshPictureTest, BehindASheetIsItsOtherSide) {
 TEST(MeshPictureTest, WhatLiesBehindAFront) {
   for (const Scene& scene :
        {rooms(), test_support::scene_of(Op::kUnion,
-                                        {mesh(test_support::coil_shell(3, 0.4, 1, 6, 32, 8))})}) {
-    for (const Way& way : kWays) {
+                                        {mesh(test_support::helix_parts(3, 0.4, 1, 6, 32, 8))})}) {
+    for (const Way& way : gl_test::all_ways()) {
       LoadedScene loaded(scene, way);
       const View view = view_of(loaded, Projection::kPerspective, 25, 35);
       loaded.draw(view);
@@ -255,8 +250,8 @@ TEST(MeshPictureTest, WhatLiesBehindAFront) {
 }
 
 TEST(MeshPictureTest, RaysThroughVerticesAndEdgesDoNotLeak) {
-  const Scene scene = test_support::scene_of(Op::kUnion, {mesh(test_support::slab_shell(40))});
-  for (const Way& way : kWays) {
+  const Scene scene = test_support::scene_of(Op::kUnion, {mesh(test_support::slab_parts(40))});
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     View view = view_of(loaded, Projection::kOrthographic, 0, 90);
     view.width_px = view.height_px =
@@ -277,10 +272,10 @@ TEST(MeshPictureTest, RaysThroughVerticesAndEdgesDoNotLeak) {
 TEST(MeshPictureTest, Samples) {
   const Scene scene = test_support::scene_of(
       Op::kDifference,
-      {mesh(test_support::l_prism_shell(1)),
-       mesh(test_support::box_shell({0.2, 0.2, 0.5}, {0.8, 0.8, 2})),
+      {mesh(test_support::l_prism_parts(2, 1, 1)),
+       mesh(test_support::box_parts({0.2, 0.2, 0.5}, {0.8, 0.8, 2})),
        make_polyhedron(Polyhedron::frustum(0.3, 2, 0.4, 0.4, 6), at(1.5, 0.5, 0))});
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     const View view = view_of(loaded, Projection::kPerspective, 25, 35);
     const Image plain = loaded.draw(view);
@@ -298,11 +293,11 @@ TEST(MeshPictureTest, Samples) {
 }
 
 TEST(MeshPictureTest, HundredThousandTriangles) {
-  const Shell torus = test_support::torus_shell(3, 1, 250, 200);
+  const MeshParts torus = test_support::torus_parts(3, 1, 250, 200);
   ASSERT_EQ(torus.triangles.size(), 100'000u);
   const Scene scene = test_support::scene_of(
       Op::kDifference, {mesh(torus), make_sphere(1.5, at(3, 0, 1)), mesh(torus, at(0, 4, 0))});
-  for (const Way& way : {kWays[1], kWays[2]}) {
+  for (const Way& way : {Way(leaves_of(8)), gl_test::by_tiles()}) {
     LoadedScene loaded(scene, way);
     expect_agreement(loaded, view_of(loaded, Projection::kPerspective, 25, 35), "100,000");
     expect_agreement(loaded, view_of(loaded, Projection::kOrthographic, 200, -20), "100,000");
@@ -330,11 +325,11 @@ TEST(MeshPictureTest, CellsOfASolid) {
 
 /// Many meshes in one list, and polyhedra beside them.
 TEST(MeshPictureTest, LongLists) {
-  std::vector<Primitive> all{mesh(test_support::ball_shell(3, 2))};
+  std::vector<Primitive> all{mesh(test_support::icosphere_parts(3, 2))};
   for (int i = 0; i < 40; ++i) {
     const double around = 0.157 * i;
     const Affine place = at(2.5 * std::cos(around), 2.5 * std::sin(around), 0.05 * i - 1);
-    all.push_back(i % 2 == 0 ? mesh(test_support::l_prism_shell(0.5), place)
+    all.push_back(i % 2 == 0 ? mesh(test_support::l_prism_parts(2, 1, 0.5), place)
                              : make_polyhedron(Polyhedron::sphere(0.5, 12), place));
   }
   const Scene scene = test_support::scene_of(Op::kDifference, std::move(all));
@@ -346,10 +341,10 @@ TEST(MeshPictureTest, LongLists) {
 }
 
 /// A hundred plates, the first at x, with a block behind them.
-Shell plates(double x, double block_x) {
-  Shell all = test_support::box_shell({block_x, -30, -30}, {120, 30, 30});
+MeshParts plates(double x, double block_x) {
+  MeshParts all = test_support::box_parts({block_x, -30, -30}, {120, 30, 30});
   for (int i = 0; i < 100; ++i, x += 1) {
-    all = joined({all, test_support::box_shell({x, -30, -30}, {x + 0.4, 30, 30})});
+    all = joined({all, test_support::box_parts({x, -30, -30}, {x + 0.4, 30, 30})});
   }
   return all;
 }
@@ -358,7 +353,7 @@ TEST(MeshPictureTest, PixelsThatTakeTooManyRoundsAreTheTracers) {
   // A ray passes from plate to plate, but only the blocks have points in common.
   const Scene scene =
       test_support::scene_of(Op::kIntersection, {mesh(plates(0, 110)), mesh(plates(0.5, 105))});
-  for (const Way& way : {kWays[1], kWays[2]}) {
+  for (const Way& way : {Way(leaves_of(8)), gl_test::by_tiles()}) {
     LoadedScene loaded(scene, way);
     const View view = view_of(loaded, Projection::kOrthographic, 180, 0);
     const Image gl = loaded.draw(view), cpu = gl_test::draw_by_cpu(loaded, view);
@@ -386,7 +381,7 @@ TEST(MeshPictureTest, RefusesMeshesThatTheDriverCannotHold) {
   const FewTexels lesser(65536);  // the least that OpenGL asks of a driver
   const auto draw = [&](uint32_t around) {
     const Scene scene =
-        test_support::scene_of(Op::kUnion, {mesh(test_support::torus_shell(3, 1, around, 50))});
+        test_support::scene_of(Op::kUnion, {mesh(test_support::torus_parts(3, 1, around, 50))});
     const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
     glrender::Renderer renderer(gl_test::context(), solid);
   };

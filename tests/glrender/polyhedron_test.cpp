@@ -27,6 +27,8 @@ using csgcore::Projection;
 using csgcore::Scene;
 using csgcore::Vec3;
 using csgcore::View;
+using gl_test::at;
+using gl_test::cube;
 using gl_test::leaves_of;
 using gl_test::LoadedScene;
 using gl_test::Way;
@@ -39,14 +41,6 @@ constexpr gl_test::EdgeLimits kEdges{.face_distance = kOtherFace};
 constexpr gl_test::EdgeLimits kManyEdges{.face_distance = kOtherFace, .hits_per_edge_pixel = 1000};
 /// For views along an axis, where some of the rays lie in edges.
 constexpr gl_test::EdgeLimits kAlongAnAxis{.face_distance = kOtherFace, .hits_per_edge_pixel = 500};
-
-const Way kWays[] = {leaves_of(2), leaves_of(8), gl_test::by_tiles()};
-
-Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
-
-Primitive cube(const Vec3& min, const Vec3& max) {
-  return make_polyhedron(Polyhedron::box({min, max}));
-}
 
 Primitive ball(double radius, int fragments, const Affine& place = {}) {
   return make_polyhedron(Polyhedron::sphere(radius, fragments), place);
@@ -152,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(, PolyhedronTest, testing::ValuesIn(scenes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(PolyhedronTest, EveryChannelIsTheTracers) {
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(GetParam().scene, way);
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
       expect_agreement(loaded, view_of(loaded, projection, 25, 35), GetParam().name);
@@ -170,7 +164,7 @@ NamedScene cube_with_rooms() {
 
 TEST(PolyhedronPictureTest, EyeInsideTheSolidACellAndACut) {
   const NamedScene rooms = cube_with_rooms();
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(rooms.scene, way);
     View view = view_of(loaded, Projection::kPerspective, 30, 20);
     view.half_height = 0.7;
@@ -184,7 +178,7 @@ TEST(PolyhedronPictureTest, EyeInsideTheSolidACellAndACut) {
 
 TEST(PolyhedronPictureTest, WhatLiesBehindAFront) {
   const NamedScene rooms = cube_with_rooms();
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(rooms.scene, way);
     const View view = view_of(loaded, Projection::kPerspective, 25, 35);
     loaded.draw(view);
@@ -196,7 +190,7 @@ TEST(PolyhedronPictureTest, WhatLiesBehindAFront) {
 }
 
 TEST(PolyhedronPictureTest, Samples) {
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(cube_with_rooms().scene, way);
     const View view = view_of(loaded, Projection::kPerspective, 25, 35);
     const Image plain = loaded.draw(view);

@@ -12,8 +12,8 @@
 
 #include "agreement.hpp"
 #include "csgcore/polyhedron.hpp"
-#include "support/mesh_models.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace {
 
@@ -37,8 +37,10 @@ using csgcore::Scene;
 using csgcore::Vec2;
 using csgcore::Vec3;
 using csgcore::View;
-using gl_test::leaves_of;
+using gl_test::at;
+using gl_test::cube;
 using gl_test::LoadedScene;
+using gl_test::skewed;
 using gl_test::Way;
 
 using Figure = std::shared_ptr<const Profile>;
@@ -47,17 +49,6 @@ using Figure = std::shared_ptr<const Profile>;
 constexpr gl_test::EdgeLimits kEdges{.face_distance = 1e-3, .hits_per_edge_pixel = 1000};
 /// For views along an axis, where rays lie in edges.
 constexpr gl_test::EdgeLimits kAlongAnAxis{.face_distance = 1e-3, .hits_per_edge_pixel = 200};
-
-const Way kWays[] = {leaves_of(2), leaves_of(8), gl_test::by_tiles()};
-
-Affine at(double x, double y, double z) { return {Mat3{1.0}, {x, y, z}}; }
-
-/// A sheared, mirrored, uneven map.
-Affine skewed() { return {Mat3{Vec3{-1, 0.3, 0}, Vec3{0.5, 2, 0.1}, Vec3{0, 0.7, 1}}, {7, 8, 9}}; }
-
-Primitive cube(const Vec3& min, const Vec3& max) {
-  return make_polyhedron(Polyhedron::box({min, max}));
-}
 
 ProfileEdge line(const Vec2& end) { return {ProfileEdge::Kind::kLine, true, end, {}}; }
 ProfileEdge bezier(const Vec2& control, const Vec2& end) {
@@ -230,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(, ProfileTest, testing::ValuesIn(scenes()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(ProfileTest, EveryChannelIsTheTracers) {
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(GetParam().scene, way);
     const std::string name = GetParam().name + ", " + gl_test::name_of(way);
     const auto perspective = Projection::kPerspective, orthographic = Projection::kOrthographic;
@@ -252,7 +243,7 @@ Scene parts() {
 
 TEST(ProfilePictureTest, EyeInsideTheSolidAHoleAndACut) {
   const Scene scene = parts();
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     View view = view_of(loaded, Projection::kPerspective, 30, 20);
     view.half_height = 0.7;
@@ -266,7 +257,7 @@ TEST(ProfilePictureTest, EyeInsideTheSolidAHoleAndACut) {
 }
 
 TEST(ProfilePictureTest, WhatLiesBehindAFront) {
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(parts(), way);
     const View view = view_of(loaded, Projection::kPerspective, 25, 35);
     loaded.draw(view);
@@ -287,7 +278,7 @@ TEST(ProfilePictureTest, RaysThroughVerticesAndEdgesDoNotLeak) {
   }
   const Scene scene = test_support::scene_of(
       Op::kUnion, {make_extrusion(figure(std::move(squares), FillRule::kNonZero), 0, 1)});
-  for (const Way& way : kWays) {
+  for (const Way& way : gl_test::all_ways()) {
     LoadedScene loaded(scene, way);
     View view = view_of(loaded, Projection::kOrthographic, 0, 90);
     view.width_px = view.height_px = 79;  // all centres at multiples of half a unit

@@ -21,7 +21,7 @@
 #include "profile_texels.hpp"
 #include "shader_program.hpp"
 #include "support/full_run.hpp"
-#include "support/mesh_models.hpp"
+#include "support/test_meshes.hpp"
 
 namespace {
 
@@ -301,9 +301,8 @@ TEST(MeshTexelsTest, HoldEveryTriangleOnce) {
   MeshTexels all;
   EXPECT_TRUE(all.empty());
   EXPECT_EQ(all.first_of(nullptr), 0u);
-  const auto torus = test_support::mesh_of(test_support::torus_shell(3, 1, 20, 10));
-  const auto open_box =
-      test_support::mesh_of(test_support::open_box_shell(csgcore::Vec3(0), csgcore::Vec3(1)));
+  const auto torus = test_support::torus_parts(3, 1, 20, 10).mesh();
+  const auto open_box = test_support::open_box_parts(csgcore::Vec3(0), csgcore::Vec3(1)).mesh();
   EXPECT_EQ(all.first_of(torus), 1u);
   std::vector<MeshTexels::Texel> texels = all.take_added();
   EXPECT_EQ(texels.size(), all.size());
@@ -328,12 +327,12 @@ TEST(MeshTexelsTest, HoldEveryTriangleOnce) {
     }
   }
   // A mesh of the same content is the same mesh.
-  EXPECT_EQ(all.first_of(test_support::mesh_of(test_support::torus_shell(3, 1, 20, 10))), 1u);
+  EXPECT_EQ(all.first_of(test_support::torus_parts(3, 1, 20, 10).mesh()), 1u);
   EXPECT_TRUE(all.take_added().empty());
 }
 
 TEST(MeshTexelsTest, RefuseMoreThanFloatsCanCount) {
-  const auto ball = test_support::mesh_of(test_support::ball_shell(1, 0));
+  const auto ball = test_support::icosphere_parts(1, 0).mesh();
   MeshTexels all;
   all.first_of(ball);
   EXPECT_NO_THROW(MeshTexels(all.size()).first_of(ball));

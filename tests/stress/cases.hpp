@@ -72,6 +72,10 @@ std::vector<Family> mesh_families();
 Family tolerance_family();
 std::vector<Family> design_families();
 
+/// Adds cases of the part under extreme maps: huge, tiny, far away, sheared, mirrored, stretched,
+/// nearly flat.
+void add_mapped(Part (*make)(), Family& family);
+
 // --- Cameras ---
 
 /// Returns the model's box, or a box about the origin if the model is empty.

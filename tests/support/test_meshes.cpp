@@ -94,6 +94,48 @@ MeshParts box_parts(const Vec3& min, const Vec3& max) {
   return parts;
 }
 
+MeshParts open_box_parts(const Vec3& min, const Vec3& max) {
+  MeshParts parts = box_parts(min, max);
+  std::erase_if(parts.triangles, [&](const TriangleMesh::Triangle& triangle) {
+    return std::ranges::all_of(triangle, [&](uint32_t i) { return parts.vertices[i].z == max.z; });
+  });
+  return parts;
+}
+
+MeshParts sheet_parts(uint32_t side) {
+  MeshParts parts;
+  for (uint32_t y = 0; y <= side; ++y) {
+    for (uint32_t x = 0; x <= side; ++x) parts.add(Vec3(x, y, 0));
+  }
+  for (uint32_t y = 0; y < side; ++y) {
+    for (uint32_t x = 0; x < side; ++x) {
+      const uint32_t first = y * (side + 1) + x, above = first + side + 1;
+      parts.triangles.push_back({first, first + 1, above + 1});
+      parts.triangles.push_back({first, above + 1, above});
+    }
+  }
+  return parts;
+}
+
+MeshParts slab_parts(uint32_t side) {
+  MeshParts parts = joined({sheet_parts(side).inside_out(), sheet_parts(side).moved({0, 0, 1})});
+  const auto upper = static_cast<uint32_t>(parts.vertices.size() / 2);
+  const auto add_wall = [&](uint32_t first, int step) {
+    for (uint32_t i = 0; i < side; ++i) {
+      const uint32_t next = first + static_cast<uint32_t>(step);
+      parts.triangles.push_back({first, next, upper + next});
+      parts.triangles.push_back({first, upper + next, upper + first});
+      first = next;
+    }
+  };
+  const int row = static_cast<int>(side) + 1;
+  add_wall(0, 1);
+  add_wall(side, row);
+  add_wall(upper - 1, -1);
+  add_wall(upper - 1 - side, -row);
+  return parts;
+}
+
 MeshParts sliced_box_parts(const Vec3& half, uint32_t cuts, std::mt19937& random) {
   std::vector<double> places[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -267,6 +309,12 @@ MeshParts star_parts(double low, double high, uint32_t divisions, std::mt19937& 
   MeshParts parts = icosphere_parts(1, divisions);
   for (Vec3& vertex : parts.vertices) vertex *= uniform(random, low, high);
   return parts;
+}
+
+MeshParts joined(std::initializer_list<MeshParts> shells) {
+  MeshParts result;
+  for (const MeshParts& shell : shells) result.add(shell);
+  return result;
 }
 
 MeshParts with_holes(const MeshParts& parts, double share, std::mt19937& random) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <random>
 #include <vector>
@@ -29,6 +30,13 @@ struct MeshParts {
 MeshParts parts_of(const csgcore::Mesh& mesh);
 MeshParts tetrahedron_parts(double scale);
 MeshParts box_parts(const csgcore::Vec3& min, const csgcore::Vec3& max);
+/// A box without its upper side.
+MeshParts open_box_parts(const csgcore::Vec3& min, const csgcore::Vec3& max);
+/// A square in the xy plane from the origin to (side, side), of so many squares of 1 × 1; it is
+/// open.
+MeshParts sheet_parts(uint32_t side);
+/// Such squares at z = 0 and z = 1, with walls between them.
+MeshParts slab_parts(uint32_t side);
 /// A box whose sides are divided by `cuts` lines in both directions, some of them so close to
 /// others that the triangles between them are slivers.
 MeshParts sliced_box_parts(const csgcore::Vec3& half, uint32_t cuts, std::mt19937& random);
@@ -46,6 +54,8 @@ MeshParts height_field_parts(double size, uint32_t cells, double low, double hig
                              std::mt19937& random);
 /// A ball of random radii in [low, high], which every ray from the origin leaves once.
 MeshParts star_parts(double low, double high, uint32_t divisions, std::mt19937& random);
+/// One mesh of several shells.
+MeshParts joined(std::initializer_list<MeshParts> shells);
 /// The mesh without some of its triangles, at random.
 MeshParts with_holes(const MeshParts& parts, double share, std::mt19937& random);
 

@@ -11,8 +11,8 @@
 #include "frontend/error.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "render/renderer_choice.hpp"
-#include "support/mesh_models.hpp"
 #include "support/models.hpp"
+#include "support/test_meshes.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -433,7 +433,7 @@ TEST_F(Renderers, AutoTakesTheCpuForMeshesThatTheDriverCannotHold) {
   const auto draw = [&](uint32_t around) {
     renderer.load(std::make_shared<const csgcore::Scene>(test_support::scene_of(
         csgcore::Op::kUnion,
-        {csgcore::make_mesh(test_support::mesh_of(test_support::torus_shell(3, 1, around, 50)))})));
+        {csgcore::make_mesh(test_support::torus_parts(3, 1, around, 50).mesh())})));
     CameraOptions camera;
     camera.width_px = camera.height_px = 40;
     RenderStats stats;
