@@ -54,9 +54,8 @@ void for_each_edge(std::span<const Side> sides, const Visit& visit) {
   }
 }
 
-/// Returns whether all edges are balanced. An edge is added for one direction and subtracted for
-/// the other, as two random numbers. A mesh that is not closed has a sum of 0 with a probability of
-/// 2⁻¹²⁸.
+}  // namespace
+
 bool is_balanced(std::span<const Triangle> triangles) {
   uint64_t sums[2] = {};
   for (const Triangle& triangle : triangles) {
@@ -70,8 +69,6 @@ bool is_balanced(std::span<const Triangle> triangles) {
   }
   return sums[0] == 0 && sums[1] == 0;
 }
-
-}  // namespace
 
 uint64_t count_open_edges(std::span<const Triangle> triangles) {
   if (is_balanced(triangles)) return 0;

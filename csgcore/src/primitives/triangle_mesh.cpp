@@ -248,8 +248,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
     : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
   std::erase_if(triangles_,
                 [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-  open_edges_ = count_open_edges(triangles_);
-  if (open_edges_ > 0) {
+  if (!is_balanced(triangles_)) {
     face_alike(triangles_);
     open_edges_ = count_open_edges(triangles_);
   }
