@@ -1,4 +1,5 @@
-// The walk of a packet of rays through the BVH of a profile, which extrusions and revolutions share.
+// The walk of a packet of rays through the BVH of a profile, which extrusions and revolutions
+// share.
 #pragma once
 
 #include <vector>
