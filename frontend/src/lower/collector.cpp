@@ -70,7 +70,7 @@ Fit fit_of(const Primitive& primitive) {
 bool is_supported(const PlaneSubtree& subtree) {
   const NodeKind kind = subtree.syntax(subtree.root()).kind;
   if (kind == NodeKind::kLinearExtrude) {
-    return subtree.data<LinearExtrudeArguments>(subtree.root()).is_supported;
+    return subtree.data<LinearExtrudeNode>(subtree.root()).arguments.is_supported;
   }
   return kind != NodeKind::kRotateExtrude ||
          subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;

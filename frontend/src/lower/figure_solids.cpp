@@ -6,6 +6,7 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "heal/matrix_healing.hpp"
+#include "meshes/ring_cap.hpp"
 
 namespace frontend {
 namespace {
@@ -78,6 +79,23 @@ std::optional<Disc> half_disc(const Figure& figure) {
   const Disc* disc = std::get_if<Disc>(&figure);
   if (disc == nullptr || disc->center.x != 0) return std::nullopt;
   return *disc;
+}
+
+/// The azimuths of the rings, in degrees. A partial turn has one more beyond each end, within what
+/// is cut away.
+std::vector<double> azimuths_of(const TurnSections& sections) {
+  std::vector<double> result;
+  for (int ring = 0; ring < sections.count; ++ring) {
+    const double turn = sections.angle * ring / sections.count;
+    result.push_back(sections.start + (sections.is_closed() ? -turn : turn));
+  }
+  if (sections.is_closed()) return result;
+  const double end = sections.start + sections.angle;
+  const double beyond =
+      std::copysign(std::min((360 - std::abs(sections.angle)) / 3, 60.0), sections.angle);
+  result.insert(result.begin(), sections.start - beyond);
+  result.insert(result.end(), {end, end + beyond});
+  return result;
 }
 
 void add_numbers(const Vec2& v, std::vector<double>& key) { key.insert(key.end(), {v.x, v.y}); }
@@ -163,39 +181,33 @@ Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
                                       const TurnSections& sections) {
   std::vector<Vec3> vertices;
   std::vector<csgcore::TriangleMesh::Triangle> triangles;
-  // A full turn's last ring is the first one.
-  const int rings = sections.is_closed() ? sections.count : sections.count + 1;
-  const Rectangle bounds = bounds_of(polygons);
-  const bool is_left = bounds.min.x < 0;
+  const std::vector<double> azimuths = azimuths_of(sections);
+  const bool is_left = bounds_of(polygons).min.x < 0;
   const bool is_reversed = (sections.angle > 0 && !sections.is_closed()) != is_left;
-  const auto radial = [&](double azimuth, const Vec2& point) {
-    return Vec3(point.x * cos_deg(azimuth), point.x * sin_deg(azimuth), point.y);
-  };
   std::map<std::pair<double, double>, uint32_t> on_axis;
   for (const Polygon& given : polygons) {
     Polygon polygon = given;
     if (is_reversed) std::reverse(polygon.begin(), polygon.end());
     const size_t count = polygon.size();
-    // By ring and corner; the rings share what lies on the axis.
-    std::vector<std::vector<uint32_t>> vertex(static_cast<size_t>(rings));
-    for (int ring = 0; ring < rings; ++ring) {
-      const double turn = sections.angle * ring / sections.count;
-      const double azimuth = sections.start + (sections.is_closed() ? -turn : turn);
+    // The rings share what lies on the axis.
+    std::vector<std::vector<uint32_t>> rings;
+    for (const double azimuth : azimuths) {
+      std::vector<uint32_t>& ring = rings.emplace_back();
       for (const Vec2& corner : polygon) {
         const auto next = static_cast<uint32_t>(vertices.size());
         if (corner.x != 0) {
-          vertex[static_cast<size_t>(ring)].push_back(next);
-          vertices.push_back(radial(azimuth, corner));
+          ring.push_back(next);
+          vertices.emplace_back(corner.x * cos_deg(azimuth), corner.x * sin_deg(azimuth), corner.y);
           continue;
         }
         const auto [entry, is_new] = on_axis.try_emplace({corner.x, corner.y}, next);
         if (is_new) vertices.emplace_back(0, 0, corner.y);
-        vertex[static_cast<size_t>(ring)].push_back(entry->second);
+        ring.push_back(entry->second);
       }
     }
-    for (int section = 0; section < sections.count; ++section) {
-      const std::vector<uint32_t>& from = vertex[static_cast<size_t>(section)];
-      const std::vector<uint32_t>& to = vertex[static_cast<size_t>((section + 1) % rings)];
+    for (size_t r = 0; r + (sections.is_closed() ? 0 : 1) < rings.size(); ++r) {
+      const std::vector<uint32_t>& from = rings[r];
+      const std::vector<uint32_t>& to = rings[(r + 1) % rings.size()];
       for (size_t i = 0; i < count; ++i) {
         const size_t j = (i + 1) % count;
         triangles.push_back({from[i], from[j], to[j]});
@@ -203,24 +215,9 @@ Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
       }
     }
     if (sections.is_closed()) continue;
-    // An apex a little beyond each end, within what is cut away.
-    const double beyond = std::min((360 - std::abs(sections.angle)) / 3, 60.0);
-    const double sign = sections.angle > 0 ? 1 : -1;
-    const auto add_pyramid = [&](const std::vector<uint32_t>& ring, double azimuth, bool flips) {
-      const auto apex = static_cast<uint32_t>(vertices.size());
-      vertices.push_back(radial(azimuth, {is_left ? bounds.min.x : bounds.max.x, 0}));
-      for (size_t i = 0; i < count; ++i) {
-        const uint32_t a = ring[i];
-        const uint32_t b = ring[(i + 1) % count];
-        if (flips) {
-          triangles.push_back({apex, a, b});
-        } else {
-          triangles.push_back({apex, b, a});
-        }
-      }
-    };
-    add_pyramid(vertex.front(), sections.start - sign * beyond, false);
-    add_pyramid(vertex.back(), sections.start + sections.angle + sign * beyond, true);
+    std::reverse(rings.front().begin(), rings.front().end());
+    close_ring(rings.front(), triangles);
+    close_ring(rings.back(), triangles);
   }
   return csgcore::make_mesh(
       std::make_shared<csgcore::TriangleMesh>(std::move(vertices), std::move(triangles)));

@@ -20,6 +20,7 @@ struct Layers {
   double z_min = 0;  // < z_max
   double z_max = 0;
   double top_scale = 1;  // ≥ 0
+  Vec2 lean{0.0};  // how far x and y are moved for each unit of z; FigureSolids leaves that out
 };
 
 /// How a full or partial turn is divided (frontend/OPENSCAD.md, "Extrusions").
@@ -43,7 +44,7 @@ class FigureSolids {
   std::optional<csgcore::Primitive> revolved(const Figure& figure);
 
   /// Returns OpenSCAD's mesh of the polygons, revolved. Of a partial turn it goes on beyond the two
-  /// ends, by a pyramid on each, and has to be cut there. All points have x ≥ 0, or all x ≤ 0.
+  /// ends, and has to be cut there. All points have x ≥ 0, or all x ≤ 0.
   csgcore::Primitive revolved_mesh(const SimplePolygons& polygons, const TurnSections& sections);
 
   /// Returns the part of space around z between the azimuths 0 and `angle` (from above 0 to 180),

@@ -11,6 +11,7 @@
 #include "lower/faceted_box.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/sliced_solid.hpp"
 
 namespace frontend {
 namespace {
@@ -172,11 +173,11 @@ CsgTree tree_of_parts(const FigureTree& figures, std::vector<LoweredSubtree::Par
 }
 
 /// What the layers' scaling about the root's origin makes of a figure's place in the plane: its
-/// translation grows with z.
+/// translation grows with z. So it does where they lean.
 Affine scaled_place(const PlaneMap& map, const Layers& layers) {
   const double slope = (layers.top_scale - 1) / (layers.z_max - layers.z_min);
   Affine place = in_space(map);
-  place.linear[2] = Vec3(slope * map.translation, 1);
+  place.linear[2] = Vec3(slope * map.translation + layers.lean, 1);
   place.translation = Vec3((1 - slope * layers.z_min) * map.translation, 0);
   return place;
 }
@@ -190,15 +191,17 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
       [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
         std::optional<Primitive> primitive = solids.extruded(placed.figure, layers);
         if (!primitive) return std::nullopt;
-        const Affine to_world = layers.top_scale == 1
+        const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
+        const Affine to_world = is_upright
                                     ? frames[placed.frame].to_world
                                     : compose(root_to_world, scaled_place(placed.map, layers));
         primitive->local_to_world = compose(to_world, primitive->local_to_world);
         const Rectangle bounds = faceted_bounds(placed);
         Box box;
         for (const Vec2& corner : {bounds.min, bounds.max}) {
-          box.merge(Vec3(corner, is_plate ? 0 : layers.z_min));
-          box.merge(Vec3(layers.top_scale * corner, is_plate ? 0 : layers.z_max));
+          box.merge(Vec3(corner + layers.z_min * layers.lean, is_plate ? 0 : layers.z_min));
+          box.merge(Vec3(layers.top_scale * corner + layers.z_max * layers.lean,
+                         is_plate ? 0 : layers.z_max));
         }
         return LoweredSubtree::Part{std::move(*primitive), placed.frame,
                                     mapped(root_to_world, box)};
@@ -280,6 +283,137 @@ double flat_thickness(const FigureTree& figures) {
   const Rectangle bounds = positive_bounds(figures);
   return bounds.empty() ? kPlateThickness : kShare * glm::length(bounds.max - bounds.min);
 }
+
+/// Extrudes a figure tree.
+class Extruding {
+ public:
+  Extruding(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, uint32_t frame,
+            const FrameTree& frames, FigureSolids& solids, NodeProblems& problems)
+      : subtree_(subtree),
+        evaluation_(evaluation),
+        frame_(frame),
+        frames_(frames),
+        solids_(solids),
+        problems_(problems),
+        data_(subtree.data<LinearExtrudeNode>(subtree.root())) {
+    const LinearExtrudeArguments& given = data_.arguments;
+    layers_.z_min = given.is_centered ? -given.height / 2 : 0;
+    layers_.z_max = layers_.z_min + given.height;
+    layers_.twist = given.twist;
+    layers_.top_scale = given.top_scale;
+  }
+
+  LoweredSubtree lower(const FigureTree& figures) {
+    if (layers_.is_twisted() && !is_round(figures)) return lower_slices(figures);
+    const Layers layers{layers_.z_min, layers_.z_max, layers_.top_scale.x, lean()};
+    LoweredSubtree solid =
+        extrude(figures, layers, false, frames_[frame_].to_world, frames_, solids_);
+    if (edge_count(figures) > kMostLookedAtEdges) solid.box = positive_box(solid);
+    return solid;
+  }
+
+ private:
+  /// Sides that turn need triangles for each chord and each slice.
+  static Chords chords_of(const FigureTree& figures) {
+    const Rectangle bounds = positive_bounds(figures);
+    const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
+    constexpr int kMost = 120;
+    return {kMost, kSmoothTolerance * reach};
+  }
+
+  Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
+
+  /// Whether a twist leaves all figures as they are: they are discs about the axis.
+  bool is_round(const FigureTree& figures) const {
+    return layers_.top_scale.x == layers_.top_scale.y &&
+           std::all_of(figures.figures.begin(), figures.figures.end(), [](const auto& placed) {
+             const Disc* disc = std::get_if<Disc>(&placed.figure);
+             return disc != nullptr && keeps_circles(placed.map) &&
+                    placed.map.point(disc->center) == Vec2(0.0);
+           });
+  }
+
+  LoweredSubtree lower_slices(const FigureTree& figures) {
+    evaluation_.find_all_figures();
+    std::optional<SimplePolygons> outline =
+        united(evaluation_.figures(subtree_.root()), chords_of(figures));
+    if (!outline) {
+      problems_.add(subtree_.syntax(subtree_.root()), "crossings", [] {
+        return NodeProblems::Description{" is left out: its edges cross too often",
+                                         "let its outline not cross itself"};
+      });
+      return {};
+    }
+    if (outline->empty()) return {};
+    const LinearExtrudeArguments& given = data_.arguments;
+    const double slices =
+        given.slices ? *given.slices : slice_count(layers_, *outline, given.facets);
+    Slicing slicing = openscad_slicing(slices, given.segments, *outline);
+    if (slicing.slices < slices) note_fewer(slicing.slices);
+    Affine leaning;
+    leaning.linear[2] = Vec3(lean(), 1);
+    const Affine to_world = compose(frames_[frame_].to_world, leaning);
+    const Box box = mapped(to_world, sliced_box(layers_, slicing.slices, *outline));
+    const double radius = reach_of(*outline);
+    if (!data_.is_faceted) slicing = smooth_slicing(layers_, slices, std::move(*outline));
+    LoweredSubtree result = cut_at_ends(sliced_mesh(layers_, slicing), radius);
+    for (LoweredSubtree::Part& part : result.parts) {
+      part.primitive.local_to_world = compose(to_world, part.primitive.local_to_world);
+      part.primitive.id = figures.figures.front().id;
+      part.frame = frame_;
+      part.box = box;
+    }
+    result.box = box;
+    return result;
+  }
+
+  void note_fewer(int slices) {
+    problems_.add(subtree_.syntax(subtree_.root()), "slices", [&] {
+      return NodeProblems::Description{
+          " is drawn with " + std::to_string(slices) + " slices: more would be too many triangles",
+          "give fewer slices, or a simpler outline"};
+    });
+  }
+
+  /// The distance from the axis that no layer goes beyond.
+  double reach_of(const SimplePolygons& outline) const {
+    double reach = 0;
+    for (const Polygon& polygon : outline) {
+      for (const Vec2& point : polygon) reach = std::max(reach, glm::length(point));
+    }
+    return reach * std::max({1.0, layers_.top_scale.x, layers_.top_scale.y});
+  }
+
+  /// Cuts away what the mesh has beyond the ends.
+  LoweredSubtree cut_at_ends(Primitive mesh, double radius) const {
+    constexpr double kMargin = 1.5;
+    const Polygon square = square_of(kMargin * radius);
+    LoweredSubtree result;
+    CsgTreeBuilder builder;
+    builder.open(Op::kIntersection);
+    result.parts.push_back({std::move(mesh), frame_, {}});
+    std::optional<Primitive> slab =
+        solids_.extruded(outline_of(Polygons{square}), {layers_.z_min, layers_.z_max, 1});
+    if (slab) result.parts.push_back({std::move(*slab), frame_, {}});
+    for (uint32_t i = 0; i < result.parts.size(); ++i) builder.primitive(i);
+    builder.close();
+    result.solid = builder.finish();
+    return result;
+  }
+
+  static Polygon square_of(double half) {
+    return {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  }
+
+  const PlaneSubtree& subtree_;
+  PlaneEvaluation& evaluation_;
+  uint32_t frame_;
+  const FrameTree& frames_;
+  FigureSolids& solids_;
+  NodeProblems& problems_;
+  const LinearExtrudeNode& data_;
+  TwistedLayers layers_;
+};
 
 /// Revolves a figure tree about the y axis of its plane.
 class Revolving {
@@ -445,13 +579,8 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
     return Revolving(subtree, evaluation, frame, root_to_world, solids, problems).lower(figures);
   }
   if (kind == NodeKind::kLinearExtrude) {
-    const auto& extrusion = subtree.data<LinearExtrudeArguments>(subtree.root());
-    if (!(extrusion.height > 0)) return {};
-    const double z_min = extrusion.is_centered ? -extrusion.height / 2 : 0;
-    LoweredSubtree solid = extrude(figures, {z_min, z_min + extrusion.height, extrusion.top_scale},
-                                   false, root_to_world, frames, solids);
-    if (edge_count(figures) > kMostLookedAtEdges) solid.box = positive_box(solid);
-    return solid;
+    if (!(subtree.data<LinearExtrudeNode>(subtree.root()).arguments.height > 0)) return {};
+    return Extruding(subtree, evaluation, frame, frames, solids, problems).lower(figures);
   }
   if (plate == Plate::kFlat) {
     const FigureTree rest = evaluated(figures, evaluation, subtree.root(), frame);

@@ -81,6 +81,15 @@ OffsetSettings offset_settings(const OffsetArguments& arguments, const ImportOpt
   return settings;
 }
 
+LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
+                                      const ImportOptions& options) {
+  arguments.facets = chosen(options, arguments.facets);
+  // Few slices are kept as few fragments are.
+  csgcore::FacetSettings asked = arguments.facets;
+  if (arguments.slices) asked.fn = *arguments.slices;
+  return {arguments, keeps_facets(options, asked)};
+}
+
 PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
                       NodeProblems& problems) {
   switch (node.kind) {
@@ -97,7 +106,7 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
     case NodeKind::kResize:
       return read_resize(tree, node);
     case NodeKind::kLinearExtrude:
-      return read_linear_extrude(tree, node, problems);
+      return linear_extrude_node(read_linear_extrude(tree, node, problems), options);
     case NodeKind::kRotateExtrude: {
       RotateExtrudeNode result{read_rotate_extrude(tree, node)};
       result.arguments.facets = chosen(options, result.arguments.facets);

@@ -27,6 +27,11 @@ struct MatrixNode {
   bool is_finite = true;
 };
 
+struct LinearExtrudeNode {
+  LinearExtrudeArguments arguments;
+  bool is_faceted = false;  // a twisted one has OpenSCAD's slices
+};
+
 struct RotateExtrudeNode {
   RotateExtrudeArguments arguments;
   bool is_faceted = false;
@@ -38,7 +43,7 @@ struct ImportNode {
 
 using PlaneNodeData =
     std::variant<std::monostate, FigureNode, MatrixNode, OffsetSettings, ResizeArguments,
-                 LinearExtrudeArguments, RotateExtrudeNode, ImportNode>;
+                 LinearExtrudeNode, RotateExtrudeNode, ImportNode>;
 
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
 class PlaneSubtree {

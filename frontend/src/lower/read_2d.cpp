@@ -109,6 +109,54 @@ Polygon read_path(const SyntaxTree& tree, const SyntaxNode& node, const Polygon&
   return result;
 }
 
+/// A number of at least 1, without its fraction.
+std::optional<double> count_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                     std::string_view name) {
+  const std::optional<double> value = number_argument(tree, node, name);
+  if (!value || !(*value >= 1) || !std::isfinite(*value)) return std::nullopt;
+  return std::trunc(*value);
+}
+
+/// Three finite numbers.
+std::optional<std::array<double, 3>> triple_of(const SyntaxTree& tree, const Value* value) {
+  if (value == nullptr || value->kind != ValueKind::kList || value->count != 3) return std::nullopt;
+  std::array<double, 3> result{};
+  for (size_t i = 0; i < result.size(); ++i) {
+    const Value& element = tree.elements_of(*value)[i];
+    if (element.kind != ValueKind::kNumber || !std::isfinite(element.number)) return std::nullopt;
+    result[i] = element.number;
+  }
+  return result;
+}
+
+/// Height and direction. A direction alone is as long as the extrusion; with a height it is the
+/// direction only.
+void read_height(const SyntaxTree& tree, const SyntaxNode& node, LinearExtrudeArguments& result) {
+  std::optional<double> height = number_argument(tree, node, "height", 0);
+  if (!height) height = number_argument(tree, node, "h");
+  if (height && std::isfinite(*height)) result.height = *height;
+  const auto direction = triple_of(tree, find_argument(tree, node, "v", kByNameOnly));
+  if (!direction) return;
+  const auto [x, y, z] = *direction;
+  const double length = std::hypot(x, y, z);
+  const double share = height && length > 0 ? result.height / length : 1;
+  result.height = share * z;
+  result.lean = share * Vec2(x, y);
+}
+
+Vec2 read_top_scale(const SyntaxTree& tree, const SyntaxNode& node) {
+  Vec2 scale(1.0);
+  const Value* given = find_argument(tree, node, "scale", kByNameOnly);
+  if (given != nullptr) {
+    if (given->kind == ValueKind::kNumber) scale = Vec2(given->number);
+    scale = pair_of(tree, *given).value_or(scale);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    scale[axis] = std::isfinite(scale[axis]) ? std::max(scale[axis], 0.0) : 1;
+  }
+  return scale;
+}
+
 }  // namespace
 
 Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
@@ -206,27 +254,17 @@ ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node) {
 LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxNode& node,
                                            NodeProblems& problems) {
   LinearExtrudeArguments result;
-  std::optional<double> height = number_argument(tree, node, "height", 0);
-  if (!height) height = number_argument(tree, node, "h");
-  if (height && std::isfinite(*height)) result.height = *height;
+  result.facets = read_facet_settings(tree, node);
+  read_height(tree, node, result);
   const Value* center = find_argument(tree, node, "center", kByNameOnly);
   result.is_centered = center != nullptr && read_center(node, *center, problems);
   const double twist = number_argument(tree, node, "twist").value_or(0);
-  Vec2 scale(1.0);
-  const Value* given = find_argument(tree, node, "scale", kByNameOnly);
-  if (given != nullptr) {
-    if (given->kind == ValueKind::kNumber) scale = Vec2(given->number);
-    scale = pair_of(tree, *given).value_or(scale);
-  }
-  for (int axis = 0; axis < 2; ++axis) {
-    scale[axis] = std::isfinite(scale[axis]) ? std::max(scale[axis], 0.0) : 1;
-  }
-  result.top_scale = scale.x;
+  if (std::isfinite(twist)) result.twist = twist;
+  result.top_scale = read_top_scale(tree, node);
+  result.slices = count_argument(tree, node, "slices");
+  result.segments = count_argument(tree, node, "segments");
   const Value* file = find_argument(tree, node, "file", kByNameOnly);
-  const bool has_file = file != nullptr && file->kind == ValueKind::kString && file->count > 0;
-  const bool has_direction = is_given(find_argument(tree, node, "v", kByNameOnly));
-  const bool has_twist = std::isfinite(twist) && twist != 0;
-  result.is_supported = !has_file && !has_direction && !has_twist && scale.x == scale.y;
+  result.is_supported = file == nullptr || file->kind != ValueKind::kString || file->count == 0;
   return result;
 }
 

@@ -40,10 +40,15 @@ struct ResizeArguments {
 ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
 
 struct LinearExtrudeArguments {
-  bool is_supported = true;  // false: it has a file, a twist, or a scale that differs in x and y
+  bool is_supported = true;  // false: it has a file
   double height = 100;       // ≤ 0: nothing
   bool is_centered = false;
-  double top_scale = 1;  // ≥ 0
+  double twist = 0;                // degrees, clockwise
+  Vec2 top_scale{1.0};             // ≥ 0
+  Vec2 lean{0.0};                  // how far the top is moved against the bottom
+  std::optional<double> slices{};  // ≥ 1
+  std::optional<double> segments{};
+  csgcore::FacetSettings facets;
 };
 LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxNode& node,
                                            NodeProblems& problems);

@@ -14,10 +14,6 @@ using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// A quadratic Bézier curve, which turns by less than half a turn, has as many chords as an arc of
-/// half a turn.
-constexpr int kChordsOfBezier = kChordsOfCircle / 2;
-
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 ProfileEdge line_to(const Vec2& end) {
@@ -42,19 +38,32 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+int chords_of_circle(const Chords& chords, double radius) {
+  if (chords.tolerance == 0) return chords.most;
+  const double half_angle = std::acos(std::max(1 - chords.tolerance / radius, -1.0));
+  const double count = std::ceil(kTurn / 2 / half_angle);
+  return static_cast<int>(std::clamp<double>(count, Chords::kFewest, chords.most));
+}
+
 /// Calls visit(point) for the points on the edge after its start, among them its end.
 template <typename Visit>
-void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit) {
+void visit_chords(const Vec2& start, const ProfileEdge& edge, const Chords& chords,
+                  const Visit& visit) {
   if (edge.kind == ProfileEdge::Kind::kArc) {
     const double sweep = sweep_of(start, edge);
-    const int count = static_cast<int>(std::ceil(std::abs(sweep) / kTurn * kChordsOfCircle));
+    const int count = static_cast<int>(std::ceil(
+        std::abs(sweep) / kTurn * chords_of_circle(chords, glm::length(start - edge.control))));
     for (int i = 1; i < count; ++i) {
       visit(edge.control + turned(start - edge.control, sweep * i / count));
     }
   }
   if (edge.kind == ProfileEdge::Kind::kBezier) {
-    for (int i = 1; i < kChordsOfBezier; ++i) {
-      const double t = static_cast<double>(i) / kChordsOfBezier;
+    // The curve turns by less than half a turn.
+    const double reach =
+        std::max(glm::length(edge.control - start), glm::length(edge.control - edge.end));
+    const int count = chords_of_circle(chords, reach) / 2;
+    for (int i = 1; i < count; ++i) {
+      const double t = static_cast<double>(i) / count;
       visit((1 - t) * (1 - t) * start + 2 * t * (1 - t) * edge.control + t * t * edge.end);
     }
   }
@@ -72,10 +81,10 @@ void visit_edges(const ProfileLoop& loop, const Visit& visit) {
   }
 }
 
-Polygon chords_of(const ProfileLoop& loop) {
+Polygon chords_of(const ProfileLoop& loop, const Chords& chords = {}) {
   Polygon polygon;
   visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
-    visit_chords(start, edge, [&](const Vec2& point) { polygon.push_back(point); });
+    visit_chords(start, edge, chords, [&](const Vec2& point) { polygon.push_back(point); });
   });
   return polygon;
 }
@@ -144,7 +153,7 @@ class RightHalf {
       add_arc(at, edge.end, edge);
     } else {
       Vec2 at = start;
-      visit_chords(start, edge, [&](const Vec2& point) {
+      visit_chords(start, edge, Chords{}, [&](const Vec2& point) {
         add_line(at, point);
         at = point;
       });
@@ -251,13 +260,13 @@ Outline outline_of(const Figure& figure) {
   return std::get<Outline>(figure);
 }
 
-Polygons chords_of(const Figure& figure) {
+Polygons chords_of(const Figure& figure, const Chords& chords) {
   if (const Disc* disc = std::get_if<Disc>(&figure)) {
-    return {circle_polygon(*disc, kChordsOfCircle)};
+    return {circle_polygon(*disc, chords_of_circle(chords, disc->radius))};
   }
   Polygons result;
   for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
-    result.push_back(chords_of(loop));
+    result.push_back(chords_of(loop, chords));
   }
   return result;
 }
@@ -289,7 +298,7 @@ Rectangle bounds_of(const Figure& figure) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
       result.merge(edge.end);
       if (edge.kind == ProfileEdge::Kind::kBezier) {
-        visit_chords(start, edge, [&](const Vec2& point) { result.merge(point); });
+        visit_chords(start, edge, Chords{}, [&](const Vec2& point) { result.merge(point); });
       }
       if (edge.kind != ProfileEdge::Kind::kArc) return;
       const double radius = glm::length(start - edge.control);
@@ -312,6 +321,14 @@ Rectangle bounds_of(std::span<const Polygon> polygons) {
     for (const Vec2& point : polygon) result.merge(point);
   }
   return result;
+}
+
+double signed_area(const Polygon& polygon) {
+  double twice = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  return twice / 2;
 }
 
 std::optional<Polygon> convex_corners(const Figure& figure) {

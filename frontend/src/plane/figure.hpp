@@ -42,6 +42,14 @@ struct Rectangle {
 /// most 4e-5 of its radius away from them, which is less than a pixel up to radii of 25,000 pixels.
 constexpr int kChordsOfCircle = 360;
 
+/// How curves become chords.
+struct Chords {
+  int most = kChordsOfCircle;  // for a whole circle
+  /// A circle has fewer chords, but no fewer than kFewest, if they are no farther from it.
+  double tolerance = 0;
+  static constexpr int kFewest = 24;
+};
+
 /// Returns OpenSCAD's polygon for a circle: its corners lie on the circle, the first one on +x.
 Polygon circle_polygon(const Disc& disc, int fragments);
 
@@ -52,7 +60,7 @@ Outline outline_of(const Disc& disc);
 Outline outline_of(const Figure& figure);
 
 /// Returns the loops as polygons, with chords in place of curves.
-Polygons chords_of(const Figure& figure);
+Polygons chords_of(const Figure& figure, const Chords& chords = {});
 /// Returns whether the figure has no curves.
 bool is_polygonal(const Figure& figure);
 
@@ -61,6 +69,9 @@ Figure mapped(const PlaneMap& map, const Figure& figure);
 
 Rectangle bounds_of(const Figure& figure);
 Rectangle bounds_of(std::span<const Polygon> polygons);
+
+/// Returns the area of a polygon that does not cross itself, negative if it runs clockwise.
+double signed_area(const Polygon& polygon);
 
 /// Returns the corners of a convex polygon counterclockwise, without those that are no corners;
 /// nothing if the figure is none.

@@ -165,12 +165,12 @@ ClipperLib::JoinType join_type(Corners corners) {
 
 }  // namespace
 
-std::optional<SimplePolygons> united(std::span<const Figure> figures) {
+std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords) {
   std::vector<Polygons> parts;
   std::vector<Segment> segments;
   Rectangle box;
   for (const Figure& figure : figures) {
-    const Polygons& part = parts.emplace_back(chords_of(figure));
+    const Polygons& part = parts.emplace_back(chords_of(figure, chords));
     add_segments(part, segments);
     box.merge(bounds_of(part));
   }

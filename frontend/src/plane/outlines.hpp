@@ -23,7 +23,7 @@ using SimplePolygons = Polygons;
 constexpr uint64_t kMostCrossings = 1 << 19;
 
 /// Returns the union of the figures; nothing if their edges cross too often (kMostCrossings).
-std::optional<SimplePolygons> united(std::span<const Figure> figures);
+std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords = {});
 
 /// Returns what the operation makes of the operands. Nothing if their edges cross too often.
 std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePolygons> operands);

@@ -102,15 +102,78 @@ TEST(LinearExtrude, ScalesAboutItsOrigin) {
   EXPECT_TRUE(point(9.9, 0.9, -1.95));
 }
 
-TEST(LinearExtrude, IsLeftOutWithATwistOrAnUnevenScale) {
-  EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, twist = 90")),
-              HasSubstr("linear_extrude is left out (it cannot be drawn)"));
-  EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, scale = [1, 2]")),
-              HasSubstr("linear_extrude is left out"));
+TEST(LinearExtrude, IsLeftOutWithAFile) {
   EXPECT_THAT(warning_of("linear_extrude(file = \"a.dxf\", height = 1);"),
               HasSubstr("linear_extrude is left out"));
-  EXPECT_THAT(warnings_of(extruded("square(1);", "height = 4, twist = 0, scale = [2, 2]")),
-              IsEmpty());
+}
+
+TEST(LinearExtrude, TurnsClockwise) {
+  const std::string bar = moved(5, 0, "square([4, 1], center = true);");
+  const Inside smooth(extruded(bar, "height = 4, twist = 90"));
+  // At the height z the bar points to −90°·z/4.
+  EXPECT_TRUE(smooth(5, 0, 0.01));
+  EXPECT_TRUE(smooth(5 * std::sqrt(0.5), -5 * std::sqrt(0.5), 2));
+  EXPECT_TRUE(smooth(0, -5, 3.99));
+  EXPECT_FALSE(smooth(0, 5, 3.99));
+  EXPECT_FALSE(smooth(5, 0, 2));
+  EXPECT_FALSE(smooth(5, 0, -0.01));
+  EXPECT_FALSE(smooth(0, -5, 4.01));
+}
+
+TEST(LinearExtrude, ScalesAfterItTurns) {
+  const Inside inside(extruded(moved(5, 0, "square([4, 1], center = true);"),
+                               "height = 4, center = true, twist = -90, scale = [1, 2]"));
+  EXPECT_TRUE(inside(5, 0, -1.99));
+  EXPECT_TRUE(inside(0, 13.5, 1.99));
+  EXPECT_FALSE(inside(0.8, 10, 1.99));
+  EXPECT_FALSE(inside(0, 6.4 * 1.5, -1.99));
+}
+
+TEST(LinearExtrude, MayEndInALineOrAPoint) {
+  const Inside line(extruded("square(2, center = true);", "height = 4, scale = [0, 1]"));
+  EXPECT_TRUE(line(0, 0.99, 3.99));
+  EXPECT_FALSE(line(0.1, 0, 3.9));
+  EXPECT_TRUE(line(0.9, 0, 0.1));
+  const Inside point(extruded("square(2, center = true);", "height = 4, scale = 0, twist = 360"));
+  EXPECT_TRUE(point(0, 0, 3.99));
+  EXPECT_FALSE(point(0.1, 0.1, 3.9));
+}
+
+TEST(LinearExtrude, OfADiscAboutTheAxisIsAFrustum) {
+  EXPECT_EQ(shape_of_only(extruded("circle(2);", "height = 4, twist = 90, scale = 0.5")),
+            Shape::kFrustum);
+  EXPECT_EQ(model_of(extruded("circle(2);", "height = 4, twist = 90, scale = [1, 2]")), "(0*0)");
+  EXPECT_EQ(model_of(extruded(moved(1, 0, "circle(2);"), "height = 4, twist = 90")), "(0*0)");
+}
+
+TEST(LinearExtrude, HasOpenScadsSlicesWhereTheyAreMeant) {
+  // One slice: the sides are spanned between the ends, which are a half turn apart.
+  const std::string bar = "square([8, 1], center = true);";
+  const std::string one_slice = "height = 4, twist = 90, slices = 1";
+  EXPECT_FALSE(Inside(extruded(bar, one_slice))(2.5, -2.5, 2));
+  EXPECT_TRUE(Inside(extruded(bar, one_slice), {.facets = Facets::kNone})(2.5, -2.5, 2));
+  EXPECT_TRUE(Inside(extruded(bar, "height = 4, twist = 90, slices = 100"))(2.5, -2.5, 2));
+}
+
+TEST(LinearExtrude, TellsOfFewerSlicesThanAskedFor) {
+  EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, twist = 90, slices = 1e9")),
+              HasSubstr("linear_extrude is drawn with 524288 slices"));
+}
+
+TEST(LinearExtrude, MayLean) {
+  const std::string arguments = "v = [3, 0, 4]";
+  for (const char* figure : {"circle(r = 1);", "square(2, center = true);"}) {
+    const Inside inside(extruded(moved(0, 5, figure), arguments));
+    EXPECT_TRUE(inside(0.9, 5, 0.01)) << figure;
+    EXPECT_TRUE(inside(3.9, 5, 3.99)) << figure;
+    EXPECT_FALSE(inside(0, 5, 3.99)) << figure;
+  }
+  const Inside twisted(extruded(moved(0, 5, "circle(r = 1);"), arguments + ", twist = 180"));
+  EXPECT_TRUE(twisted(3, -5, 3.99));
+  const Inside as_high(extruded("square(2, center = true);", "height = 10, v = [3, 0, 4]"));
+  EXPECT_TRUE(as_high(6, 0, 7.99));
+  EXPECT_FALSE(as_high(6, 0, 8.01));
+  EXPECT_EQ(model_of(extruded("square(1);", "v = [0, 0, -1]") + "cube(1);"), "1");
 }
 
 TEST(LinearExtrude, KeepsFacetsThatAreMeant) {

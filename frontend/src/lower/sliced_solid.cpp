@@ -1,0 +1,201 @@
+#include "lower/sliced_solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "csgcore/triangle_mesh.hpp"
+#include "meshes/ring_cap.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+
+/// The mesh goes on beyond an end by this share of the extrusion's height. Any share does.
+constexpr double kBeyondEnd = 0.125;
+
+/// A polygon of the outline by the numbers of its points; points at one place have one number.
+struct Loop {
+  std::vector<uint32_t> points;
+  size_t offset = 0;  // Slicing::offsets
+  bool is_hole = false;
+};
+
+/// Two corners of a layer, and the two that they are joined to in the next one, by their places
+/// among all corners.
+struct Side {
+  size_t p1, q1, p2, q2;
+};
+
+class SlicedMesh {
+ public:
+  SlicedMesh(const TwistedLayers& layers, const Slicing& slicing)
+      : layers_(layers), slices_(static_cast<uint32_t>(slicing.slices)) {
+    for (size_t i = 0; i < slicing.outline.size(); ++i) {
+      add_loop(slicing.outline[i], slicing.offsets[i]);
+    }
+  }
+
+  csgcore::Primitive make() {
+    const bool has_top = layers_.top_scale.x > 0 && layers_.top_scale.y > 0;
+    add_layers(has_top);
+    for (const Loop& loop : loops_) add_sides(loop, has_top);
+    go_on(0, layers_.z_min - kBeyondEnd * height());
+    if (has_top) {
+      go_on(slices_, layers_.z_max + kBeyondEnd * height());
+    } else {
+      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
+    }
+    return csgcore::make_mesh(
+        std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
+  }
+
+ private:
+  double height() const { return layers_.z_max - layers_.z_min; }
+
+  void add_loop(const Polygon& polygon, size_t offset) {
+    Loop& loop = loops_.emplace_back();
+    loop.offset = offset;
+    loop.is_hole = signed_area(polygon) < 0;
+    for (const Vec2& point : polygon) {
+      const auto [entry, is_new] =
+          number_of_.try_emplace({point.x, point.y}, static_cast<uint32_t>(points_.size()));
+      if (is_new) points_.push_back(point);
+      loop.points.push_back(entry->second);
+    }
+  }
+
+  void add_layers(bool has_top) {
+    const size_t count = points_.size();
+    plan_.reserve(count * (slices_ + 1));
+    for (uint32_t layer = 0; layer <= slices_; ++layer) {
+      const double share = static_cast<double>(layer) / slices_;
+      for (const Vec2& point : points_) plan_.push_back(layers_.point_at(share, point));
+    }
+    for (uint32_t layer = 0; layer <= slices_; ++layer) {
+      const double z =
+          layer == slices_ ? layers_.z_max : layers_.z_min + height() * layer / slices_;
+      if (layer == slices_ && !has_top) {
+        add_flat_top(z);
+        return;
+      }
+      for (size_t i = 0; i < count; ++i) {
+        vertex_.push_back(static_cast<uint32_t>(vertices_.size()));
+        vertices_.emplace_back(plan_[layer * count + i], z);
+      }
+    }
+  }
+
+  /// Points of a top without an area may fall together.
+  void add_flat_top(double z) {
+    std::map<std::pair<double, double>, uint32_t> at;
+    for (size_t i = slices_ * points_.size(); i < plan_.size(); ++i) {
+      const auto [entry, is_new] =
+          at.try_emplace({plan_[i].x, plan_[i].y}, static_cast<uint32_t>(vertices_.size()));
+      if (is_new) vertices_.emplace_back(plan_[i], z);
+      vertex_.push_back(entry->second);
+    }
+  }
+
+  void add_sides(const Loop& loop, bool has_top) {
+    const size_t count = loop.points.size();
+    for (uint32_t layer = 0; layer < slices_; ++layer) {
+      const size_t below = layer * points_.size();
+      const size_t above = below + points_.size();
+      for (size_t i = 0; i < count; ++i) {
+        const Side side{below + loop.points[i], below + loop.points[(i + 1) % count],
+                        above + loop.points[(i + loop.offset) % count],
+                        above + loop.points[(i + loop.offset + 1) % count]};
+        bool takes_p1_q2 = is_p1_q2(side, loop.is_hole);
+        // OpenSCAD chooses the other one where the extrusion ends in a line or a point.
+        if (!has_top && layer + 1 == slices_) takes_p1_q2 = !takes_p1_q2;
+        const uint32_t p1 = vertex_[side.p1], q1 = vertex_[side.q1];
+        const uint32_t p2 = vertex_[side.p2], q2 = vertex_[side.q2];
+        triangles_.push_back({p1, q1, takes_p1_q2 ? q2 : p2});
+        triangles_.push_back({takes_p1_q2 ? p1 : q1, q2, p2});
+      }
+    }
+  }
+
+  /// Whether the diagonal from p1 to q2 is OpenSCAD's: it takes the shorter one.
+  bool is_p1_q2(const Side& side, bool is_hole) const {
+    // As OpenSCAD compares them.
+    constexpr double kEqual = 0.5e-5;
+    const double rising = glm::length(plan_[side.p1] - plan_[side.q2]);
+    const double falling = glm::length(plan_[side.q1] - plan_[side.p2]);
+    if (std::abs(rising - falling) <= kEqual * (rising + falling)) {
+      return (layers_.twist > 0) != is_hole;
+    }
+    return rising < falling;
+  }
+
+  /// Adds a prism on the first or last layer.
+  void go_on(uint32_t layer, double z) {
+    const auto first = static_cast<uint32_t>(vertices_.size());
+    for (size_t i = 0; i < points_.size(); ++i) {
+      vertices_.emplace_back(plan_[layer * points_.size() + i], z);
+    }
+    for (const Loop& loop : loops_) {
+      const std::vector<uint32_t> from = vertices_of(loop, layer);
+      std::vector<uint32_t> to;
+      for (const uint32_t point : loop.points) to.push_back(first + point);
+      const bool is_bottom = layer == 0;
+      for (size_t i = 0; i < from.size(); ++i) {
+        const size_t j = (i + 1) % from.size();
+        const uint32_t p = from[is_bottom ? j : i], q = from[is_bottom ? i : j];
+        const uint32_t p_end = to[is_bottom ? j : i], q_end = to[is_bottom ? i : j];
+        triangles_.push_back({p, q, q_end});
+        triangles_.push_back({p, q_end, p_end});
+      }
+      close(std::move(to), is_bottom);
+    }
+  }
+
+  std::vector<uint32_t> vertices_of(const Loop& loop, uint32_t layer) const {
+    std::vector<uint32_t> result;
+    for (const uint32_t point : loop.points) {
+      result.push_back(vertex_[layer * points_.size() + point]);
+    }
+    return result;
+  }
+
+  void close(std::vector<uint32_t> ring, bool is_bottom) {
+    if (is_bottom) std::reverse(ring.begin(), ring.end());
+    close_ring(std::move(ring), triangles_);
+  }
+
+  const TwistedLayers& layers_;
+  uint32_t slices_;
+  std::map<std::pair<double, double>, uint32_t> number_of_;
+  std::vector<Vec2> points_;
+  std::vector<Loop> loops_;
+  std::vector<Vec2> plan_;        // by layer and point
+  std::vector<uint32_t> vertex_;  // by layer and point
+  std::vector<Vec3> vertices_;
+  std::vector<csgcore::TriangleMesh::Triangle> triangles_;
+};
+
+}  // namespace
+
+csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing) {
+  return SlicedMesh(layers, slicing).make();
+}
+
+csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline) {
+  csgcore::Box box;
+  for (int layer = 0; layer <= slices; ++layer) {
+    const double share = static_cast<double>(layer) / slices;
+    const double z = layers.z_min + (layers.z_max - layers.z_min) * share;
+    for (const Polygon& polygon : outline) {
+      for (const Vec2& point : polygon) box.merge(Vec3(layers.point_at(share, point), z));
+    }
+  }
+  return box;
+}
+
+}  // namespace frontend

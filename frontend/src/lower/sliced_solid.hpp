@@ -1,0 +1,17 @@
+// The solid between the layers of an extrusion that is cut into slices.
+#pragma once
+
+#include "csgcore/primitive.hpp"
+#include "lower/slices.hpp"
+
+namespace frontend {
+
+/// Returns the mesh of the sides. It goes on beyond both ends, unless the top has no area, and has
+/// to be cut there. Of the two diagonals of a quadrilateral it takes the one
+/// that OpenSCAD takes. The polygons of the outline do not cross.
+csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing);
+
+/// Returns the box of the corners of all layers.
+csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline);
+
+}  // namespace frontend

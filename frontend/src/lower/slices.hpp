@@ -1,0 +1,59 @@
+// How a linear extrusion that turns, or that is scaled differently in x and y, is cut into slices.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "csgcore/facets.hpp"
+#include "plane/figure.hpp"
+#include "plane/outlines.hpp"
+
+namespace frontend {
+
+/// Layers of a figure from z_min to z_max. At the share t of the way up, the figure is turned by
+/// −t·twist about the origin, and then scaled by 1 − t·(1 − top_scale), by coordinate.
+struct TwistedLayers {
+  double z_min = 0;  // < z_max
+  double z_max = 0;
+  double twist = 0;     // degrees, finite
+  Vec2 top_scale{1.0};  // ≥ 0
+
+  bool is_twisted() const { return twist != 0 || top_scale.x != top_scale.y; }
+  Vec2 scale_at(double share) const { return 1.0 - share * (1.0 - top_scale); }
+  /// Returns the image of a point of the figure.
+  Vec2 point_at(double share, const Vec2& point) const;
+};
+
+/// Returns OpenSCAD's number of slices (frontend/OPENSCAD.md, "Extrusions"), where the design gives
+/// none. The settings are taken as they are, without a lower bound.
+double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
+                   const csgcore::FacetSettings& facets);
+
+/// Slices, and an outline whose edges are cut, between which triangles are to be spanned.
+struct Slicing {
+  int slices = 1;
+  SimplePolygons outline;
+  /// By polygon: how many corners further the sides of a slice go on at its upper end. Edge i at
+  /// the lower end faces edge (i + offset) modulo the number of corners.
+  std::vector<size_t> offsets;
+};
+
+/// How far triangles may be from smooth sides, as a share of the figure's reach: a quarter of a
+/// pixel of a figure that is 1,000 pixels wide.
+constexpr double kSmoothTolerance = 0x1p-11;
+
+/// The most triangles of the sides of an extrusion.
+constexpr double kMostSideTriangles = 1 << 22;
+
+/// Returns OpenSCAD's slices, with edges that are cut to get `segments` of them for each polygon,
+/// if that is given. There are fewer slices if the triangles would be more than kMostSideTriangles.
+Slicing openscad_slicing(double slices, const std::optional<double>& segments,
+                         SimplePolygons outline);
+
+/// Returns at least as many slices as given, and edges that are cut, so that the triangles are
+/// nowhere farther from the smooth sides than kSmoothTolerance.
+/// Sides that need too many triangles for that are coarser.
+Slicing smooth_slicing(const TwistedLayers& layers, double slices, SimplePolygons outline);
+
+}  // namespace frontend

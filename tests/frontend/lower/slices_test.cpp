@@ -1,0 +1,136 @@
+// Tests how extrusions are cut into slices, and the meshes between them.
+#include "lower/slices.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "csgcore/triangle_mesh.hpp"
+#include "lower/sliced_solid.hpp"
+
+namespace frontend {
+namespace {
+
+SimplePolygons square(double size) { return {{{0, 0}, {size, 0}, {size, size}, {0, size}}}; }
+
+struct Given {
+  TwistedLayers layers;
+  csgcore::FacetSettings facets;
+};
+
+double slices(const Given& given) { return slice_count(given.layers, square(5), given.facets); }
+
+TEST(SliceCount, IsOpenScads) {
+  // As OpenSCAD 2021.01 writes them.
+  EXPECT_EQ(slices({{0, 10, 90}, {}}), 8);
+  EXPECT_EQ(slices({{0, 10, 360}, {}}), 23);
+  EXPECT_EQ(slices({{0, 10, 0, {1, 2}}, {}}), 6);
+  EXPECT_EQ(slices({{0, 10, 90, {2, 2}}, {0, 1, 0.5}}), 28);
+  EXPECT_EQ(slices({{0, 10, 200, {0.3, 0.3}}, {0, 1, 0.5}}), 40);
+  EXPECT_EQ(slices({{0, 10, 200, {0.3, 0.3}}, {}}), 10);
+  EXPECT_EQ(slices({{0, 10, 0, {2, 2}}, {}}), 1);
+}
+
+TEST(SliceCount, IsFinite) {
+  EXPECT_EQ(slices({{0, 10, 400}, {std::nan(""), 12, 2}}), 4);
+  EXPECT_EQ(slices({{0, 10, 90}, {100, 12, 2}}), 25);
+  EXPECT_EQ(slices({{0, 10, 90}, {0, 12, 0}}), 1);
+  EXPECT_EQ(slices({{0, 10, 0, {1, 2}}, {0, 12, 0}}), 1);
+  EXPECT_EQ(slices({{0, 10, 0, {1, 2}}, {7.5, 12, 2}}), 7);
+  EXPECT_EQ(slice_count({0, 10, 90}, {}, {}), 1);
+}
+
+TEST(OpenScadSlicing, CutsTheLongestEdges) {
+  const SimplePolygons outline{{{0, 0}, {4, 0}, {4, 2}, {0, 2}}};
+  EXPECT_EQ(openscad_slicing(3, std::nullopt, outline).outline, outline);
+  EXPECT_EQ(openscad_slicing(3, 3, outline).outline, outline);
+  const Polygon six = openscad_slicing(3, 7, outline).outline.front();
+  EXPECT_EQ(six, (Polygon{{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 2}, {0, 2}}));
+  EXPECT_EQ(openscad_slicing(3, 12, outline).outline.front().size(), 12u);
+}
+
+TEST(OpenScadSlicing, IsBounded) {
+  const Slicing slicing = openscad_slicing(1e300, 1e300, square(1));
+  EXPECT_LE(2.0 * slicing.slices * static_cast<double>(slicing.outline.front().size()),
+            kMostSideTriangles);
+  EXPECT_EQ(openscad_slicing(1e300, std::nullopt, square(1)).slices, kMostSideTriangles / 8);
+}
+
+/// The largest distance between the middle of a quadrilateral's diagonal and the smooth side, as a
+/// share of the reach.
+double error_of(const TwistedLayers& layers, const Slicing& slicing) {
+  double worst = 0;
+  for (int k = 0; k < slicing.slices; ++k) {
+    const double from = static_cast<double>(k) / slicing.slices;
+    const double to = (k + 1.0) / slicing.slices;
+    const Polygon& polygon = slicing.outline.front();
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2& p = polygon[i];
+      const Vec2& q = polygon[(i + 1) % polygon.size()];
+      const Vec2 chord = (layers.point_at(from, p) + layers.point_at(to, q)) / 2.0;
+      worst = std::max(worst, glm::length(chord - layers.point_at((from + to) / 2, (p + q) / 2.0)));
+    }
+  }
+  return worst / glm::length(Vec2(5, 5));
+}
+
+TEST(SmoothSlicing, IsNearTheSmoothSides) {
+  for (const TwistedLayers& layers :
+       {TwistedLayers{0, 10, 90}, TwistedLayers{0, 10, 720}, TwistedLayers{0, 10, 0, {1, 2}},
+        TwistedLayers{0, 10, 0, {0, 3}}, TwistedLayers{0, 10, 30, {0, 0.5}}}) {
+    const Slicing slicing = smooth_slicing(layers, 2, square(5));
+    EXPECT_LT(error_of(layers, slicing), 3e-3);
+    EXPECT_LT(2 * slicing.slices * slicing.outline.front().size(), 1u << 18);
+    EXPECT_GT(error_of(layers, openscad_slicing(2, std::nullopt, square(5))), 1e-2);
+  }
+}
+
+TEST(SmoothSlicing, HasNoFewerSlicesThanOpenScad) {
+  EXPECT_EQ(smooth_slicing({0, 10, 90}, 1000, square(5)).slices, 1000);
+}
+
+TEST(SmoothSlicing, IsCoarserWhereItHasToBe) {
+  const Slicing slicing = smooth_slicing({0, 10, 1e9}, 100, square(5));
+  EXPECT_GE(slicing.slices, 100);
+  EXPECT_LE(2 * slicing.slices * slicing.outline.front().size(), 1u << 18);
+}
+
+TEST(SmoothSlicing, JoinsTheEdgesOfRoundOutlinesThatFaceEachOther) {
+  const Polygon circle = circle_polygon({{1, 0}, 10}, 120);
+  const TwistedLayers layers{0, 10, -360};
+  const Slicing slicing = smooth_slicing(layers, 60, {circle});
+  const double edges = static_cast<double>(slicing.outline.front().size());
+  const auto offset = static_cast<size_t>(std::round(edges / slicing.slices));
+  EXPECT_EQ(slicing.offsets.front(), slicing.outline.front().size() - offset);
+  const Polygon hole(circle.rbegin(), circle.rend());
+  EXPECT_EQ(smooth_slicing(layers, 60, {hole}).offsets.front(), offset);
+  EXPECT_EQ(smooth_slicing(layers, 60, square(5)).offsets.front(), 0u);
+}
+
+TEST(SlicedMesh, IsClosed) {
+  const Polygon hole{{1, 1}, {1, 2}, {2, 2}, {2, 1}};
+  const Polygon neighbour{{5, 5}, {7, 5}, {7, 7}};  // shares a corner with the square
+  for (const Vec2& scale : {Vec2(1, 1), Vec2(2, 0.5), Vec2(0, 1), Vec2(1, 0), Vec2(0, 0)}) {
+    const TwistedLayers layers{-1, 3, 77, scale};
+    SimplePolygons outline = square(5);
+    outline.push_back(hole);
+    outline.push_back(neighbour);
+    outline.push_back(circle_polygon({{20, 1}, 3}, 61));
+    for (const Slicing& slicing :
+         {openscad_slicing(3, 11, outline), openscad_slicing(1, {}, outline),
+          smooth_slicing(layers, 4, outline)}) {
+      const csgcore::Primitive mesh = sliced_mesh(layers, slicing);
+      EXPECT_TRUE(mesh.mesh->is_closed()) << scale.x << ' ' << scale.y;
+      EXPECT_TRUE(csgcore::is_valid(mesh));
+    }
+  }
+}
+
+TEST(SlicedBox, IsThatOfAllLayers) {
+  const csgcore::Box box = sliced_box({0, 10, 180}, 2, square(1));
+  EXPECT_EQ(box.min, csgcore::Vec3(-1, -1, 0));
+  EXPECT_EQ(box.max, csgcore::Vec3(1, 1, 10));
+}
+
+}  // namespace
+}  // namespace frontend
