@@ -88,6 +88,16 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
   });
 }
 
+/// A part of a final render that has another dimension than the first one.
+void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) {
+  problems.add(node, "dimension", [&] {
+    return NodeProblems::Description{
+        dimension == 2 ? ": Ignoring 2D child object for 3D operation"
+                       : ": Ignoring 3D child object for 2D operation",
+        "Mixing 2D and 3D objects is not supported: the first part is kept"};
+  });
+}
+
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
@@ -426,6 +436,7 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   if (options_.picture == PictureKind::kRendered) {
     if (rendered_dimension_ == 0) rendered_dimension_ = 3;
     if (rendered_dimension_ == 2) {
+      note_mixing(tree_.nodes[root], 3, problems);
       plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
     }
   }
@@ -441,6 +452,7 @@ void Collector::leave_candidate() {
   if (options_.picture == PictureKind::kRendered) {
     if (rendered_dimension_ == 0) rendered_dimension_ = 2;
     if (rendered_dimension_ == 3) {
+      note_mixing(tree_.nodes[candidate.subtree.root()], 2, problems);
       plane_leaves.push_back({candidate.subtree.root(), 0, Presence::kEmpty, {}, {}, false});
       return;
     }

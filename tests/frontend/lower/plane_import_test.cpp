@@ -288,8 +288,14 @@ TEST(Plate, CutsThickerThanItIs) {
 TEST(Plate, CountsInAFinalRenderAsTheFirstPartDoes) {
   const ImportOptions rendered{.picture = PictureKind::kRendered};
   EXPECT_EQ(model_of("square(4); cube(1); circle(1);", rendered), "(0+2)");
+  const ImportedDesign flat = import_text("square(4); cube(1); circle(1);", rendered);
+  ASSERT_THAT(flat.warnings, SizeIs(1));
+  EXPECT_THAT(flat.warnings[0].text,
+              HasSubstr("1:12: warning: cube: Ignoring 3D child object for 2D operation"));
   EXPECT_EQ(model_of("cube(1); square(4); group() { sphere(); square(1); }", rendered), "(0+2)");
   EXPECT_EQ(model_of("cube(1); group() { square(1); sphere(); }", rendered), "0");
+  EXPECT_THAT(import_text("cube(1); square(4);", rendered).warnings, SizeIs(1));
+  EXPECT_THAT(import_text("cube(1); square(4);").warnings, IsEmpty());
   EXPECT_EQ(model_of("%cube(1); group(); group() { square(4); }", rendered), "1");
   EXPECT_EQ(model_of("multmatrix([[1,0,0,0],[0,0,-1,0],[0,1,0,0]]) { square(4); }", rendered), "-");
   EXPECT_EQ(model_of(extruded("square(4);") + "square(9);", rendered), "0");
