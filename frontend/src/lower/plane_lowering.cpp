@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
 #include "lower/sliced_solid.hpp"
+#include "lower/smooth_slices.hpp"
 
 namespace frontend {
 namespace {
@@ -313,12 +315,16 @@ class Extruding {
   }
 
  private:
-  /// Sides that turn need triangles for each chord and each slice.
-  static Chords chords_of(const FigureTree& figures) {
+  /// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
+  /// has as many chords as slices in a turn.
+  Chords chords_of(const FigureTree& figures) const {
     const Rectangle bounds = positive_bounds(figures);
     const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
-    constexpr int kMost = 120;
-    return {kMost, kSmoothTolerance * reach};
+    constexpr double kMost = 120;
+    if (!has_flat_sides(layers_, reach)) return {static_cast<int>(kMost), kSmoothTolerance * reach};
+    const double turns = layers_.turn() / (2 * std::numbers::pi);
+    const double slices = data_.arguments.slices.value_or(1) / turns;
+    return {static_cast<int>(std::clamp(std::ceil(slices), kMost, double{kChordsOfCircle})), 0};
   }
 
   Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
@@ -354,7 +360,7 @@ class Extruding {
     leaning.linear[2] = Vec3(lean(), 1);
     const Affine to_world = compose(frames_[frame_].to_world, leaning);
     const Box box = mapped(to_world, sliced_box(layers_, slicing.slices, *outline));
-    const double radius = reach_of(*outline);
+    const double radius = reach_of(*outline) * layers_.largest_scale();
     if (!data_.is_faceted) slicing = smooth_slicing(layers_, slices, std::move(*outline));
     LoweredSubtree result = cut_at_ends(sliced_mesh(layers_, slicing), radius);
     for (LoweredSubtree::Part& part : result.parts) {
@@ -373,15 +379,6 @@ class Extruding {
           " is drawn with " + std::to_string(slices) + " slices: more would be too many triangles",
           "give fewer slices, or a simpler outline"};
     });
-  }
-
-  /// The distance from the axis that no layer goes beyond.
-  double reach_of(const SimplePolygons& outline) const {
-    double reach = 0;
-    for (const Polygon& polygon : outline) {
-      for (const Vec2& point : polygon) reach = std::max(reach, glm::length(point));
-    }
-    return reach * std::max({1.0, layers_.top_scale.x, layers_.top_scale.y});
   }
 
   /// Cuts away what the mesh has beyond the ends.

@@ -19,6 +19,9 @@ struct TwistedLayers {
   double twist = 0;     // degrees, finite
   Vec2 top_scale{1.0};  // ≥ 0
 
+  double height() const { return z_max - z_min; }
+  double turn() const;           // radians, ≥ 0
+  double largest_scale() const;  // ≥ 1
   bool is_twisted() const { return twist != 0 || top_scale.x != top_scale.y; }
   Vec2 scale_at(double share) const { return 1.0 - share * (1.0 - top_scale); }
   /// Returns the image of a point of the figure.
@@ -30,6 +33,17 @@ struct TwistedLayers {
 double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
                    const csgcore::FacetSettings& facets);
 
+/// Returns the largest distance of the outline from the origin.
+double reach_of(const SimplePolygons& outline);
+double edge_count(const SimplePolygons& outline);
+/// Calls visit(start, end) for each edge.
+template <typename Visit>
+void visit_edges(const Polygon& polygon, const Visit& visit) {
+  for (size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[(i + 1) % polygon.size()]);
+}
+/// Cuts each edge into as many pieces of equal length as `count` has for it.
+Polygon cut(const Polygon& polygon, const std::vector<int>& count);
+
 /// Slices, and an outline whose edges are cut, between which triangles are to be spanned.
 struct Slicing {
   int slices = 1;
@@ -39,21 +53,14 @@ struct Slicing {
   std::vector<size_t> offsets;
 };
 
-/// How far triangles may be from smooth sides, as a share of the figure's reach: a quarter of a
-/// pixel of a figure that is 1,000 pixels wide.
-constexpr double kSmoothTolerance = 0x1p-11;
-
 /// The most triangles of the sides of an extrusion.
 constexpr double kMostSideTriangles = 1 << 22;
+/// Returns the slices without their fraction, or as many as kMostSideTriangles allows.
+int affordable_slices(double slices, double edges);
 
 /// Returns OpenSCAD's slices, with edges that are cut to get `segments` of them for each polygon,
 /// if that is given. There are fewer slices if the triangles would be more than kMostSideTriangles.
 Slicing openscad_slicing(double slices, const std::optional<double>& segments,
                          SimplePolygons outline);
-
-/// Returns at least as many slices as given, and edges that are cut, so that the triangles are
-/// nowhere farther from the smooth sides than kSmoothTolerance.
-/// Sides that need too many triangles for that are coarser.
-Slicing smooth_slicing(const TwistedLayers& layers, double slices, SimplePolygons outline);
 
 }  // namespace frontend

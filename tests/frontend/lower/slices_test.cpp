@@ -7,6 +7,7 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "lower/sliced_solid.hpp"
+#include "lower/smooth_slices.hpp"
 
 namespace frontend {
 namespace {
@@ -76,7 +77,7 @@ double error_of(const TwistedLayers& layers, const Slicing& slicing) {
 
 TEST(SmoothSlicing, IsNearTheSmoothSides) {
   for (const TwistedLayers& layers :
-       {TwistedLayers{0, 10, 90}, TwistedLayers{0, 10, 720}, TwistedLayers{0, 10, 0, {1, 2}},
+       {TwistedLayers{0, 10, 90}, TwistedLayers{0, 10, 300}, TwistedLayers{0, 10, 0, {1, 2}},
         TwistedLayers{0, 10, 0, {0, 3}}, TwistedLayers{0, 10, 30, {0, 0.5}}}) {
     const Slicing slicing = smooth_slicing(layers, 2, square(5));
     EXPECT_LT(error_of(layers, slicing), 3e-3);
@@ -90,21 +91,27 @@ TEST(SmoothSlicing, HasNoFewerSlicesThanOpenScad) {
 }
 
 TEST(SmoothSlicing, IsCoarserWhereItHasToBe) {
-  const Slicing slicing = smooth_slicing({0, 10, 1e9}, 100, square(5));
+  const Slicing slicing = smooth_slicing({0, 1e9, 1e9}, 100, square(5));
   EXPECT_GE(slicing.slices, 100);
   EXPECT_LE(2 * slicing.slices * slicing.outline.front().size(), 1u << 18);
 }
 
-TEST(SmoothSlicing, JoinsTheEdgesOfRoundOutlinesThatFaceEachOther) {
+TEST(SmoothSlicing, OfAThreadJoinsEdgesOfTheSameDirection) {
   const Polygon circle = circle_polygon({{1, 0}, 10}, 120);
-  const TwistedLayers layers{0, 10, -360};
+  const TwistedLayers layers{0, 10, -359};
   const Slicing slicing = smooth_slicing(layers, 60, {circle});
-  const double edges = static_cast<double>(slicing.outline.front().size());
-  const auto offset = static_cast<size_t>(std::round(edges / slicing.slices));
-  EXPECT_EQ(slicing.offsets.front(), slicing.outline.front().size() - offset);
+  EXPECT_EQ(slicing.slices, 120);
+  EXPECT_EQ(slicing.outline.front(), circle);
+  EXPECT_EQ(slicing.offsets.front(), 119u);
   const Polygon hole(circle.rbegin(), circle.rend());
-  EXPECT_EQ(smooth_slicing(layers, 60, {hole}).offsets.front(), offset);
-  EXPECT_EQ(smooth_slicing(layers, 60, square(5)).offsets.front(), 0u);
+  EXPECT_EQ(smooth_slicing(layers, 60, {hole}).offsets.front(), 1u);
+}
+
+TEST(SmoothSlicing, OfAThreadWithCornersIsOpenScads) {
+  const Slicing slicing = smooth_slicing({0, 1, 360}, 30, square(5));
+  EXPECT_EQ(slicing.slices, 30);
+  EXPECT_EQ(slicing.outline, square(5));
+  EXPECT_EQ(slicing.offsets.front(), 0u);
 }
 
 TEST(SlicedMesh, IsClosed) {
@@ -124,6 +131,13 @@ TEST(SlicedMesh, IsClosed) {
       EXPECT_TRUE(csgcore::is_valid(mesh));
     }
   }
+}
+
+TEST(SlicedMesh, OfARoundThreadIsClosed) {
+  const TwistedLayers layers{0, 2, 800};
+  const Slicing slicing = smooth_slicing(layers, 4, {circle_polygon({{1, 0}, 10}, 90)});
+  EXPECT_NE(slicing.offsets.front(), 0u);
+  EXPECT_TRUE(sliced_mesh(layers, slicing).mesh->is_closed());
 }
 
 TEST(SlicedBox, IsThatOfAllLayers) {
