@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "follow/file_signature.hpp"
+#include "base/file_signature.hpp"
 
 namespace frontend {
 

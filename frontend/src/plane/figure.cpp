@@ -82,14 +82,48 @@ Polygon chords_of(const ProfileLoop& loop) {
 
 bool is_line(const ProfileEdge& edge) { return edge.kind == ProfileEdge::Kind::kLine; }
 
+bool has_arcs(const ProfileLoop& loop) {
+  return std::any_of(loop.begin(), loop.end(),
+                     [](const ProfileEdge& edge) { return edge.kind == ProfileEdge::Kind::kArc; });
+}
+
+bool has_arcs(const Outline& outline) {
+  return std::any_of(outline.loops.begin(), outline.loops.end(),
+                     [](const ProfileLoop& loop) { return has_arcs(loop); });
+}
+
+/// Adds the points of an arc that are furthest along the axes.
+void merge_arc(const Vec2& start, const ProfileEdge& arc, Rectangle& box) {
+  const double radius = glm::length(start - arc.control);
+  const double first = std::atan2(start.y - arc.control.y, start.x - arc.control.x);
+  const double sweep = sweep_of(start, arc);
+  for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+    double angle = std::remainder(std::atan2(way.y, way.x) - first, kTurn);
+    if (sweep > 0 && angle < 0) angle += kTurn;
+    if (sweep < 0 && angle > 0) angle -= kTurn;
+    if (std::abs(angle) <= std::abs(sweep)) box.merge(arc.control + radius * way);
+  }
+}
+
+/// Adds the points of a Bézier curve that are furthest along the axes. Its ends are in the box.
+void merge_bezier(const Vec2& start, const Vec2& control, const Vec2& end, Rectangle& box) {
+  for (int axis = 0; axis < 2; ++axis) {
+    // Where the derivative is 0: its ends' signs differ only if the control point is beyond the
+    // curve's ends.
+    const double first = control[axis] - start[axis];
+    const double last = end[axis] - control[axis];
+    if (!(first * last < 0)) continue;
+    const double t = first / (first - last);
+    box.merge((1 - t) * (1 - t) * start + 2 * t * (1 - t) * control + t * t * end);
+  }
+}
+
 Outline mapped(const PlaneMap& map, const Outline& outline) {
   Outline result = outline;
   const bool keeps = keeps_circles(map);
   const bool mirrors = map.determinant() < 0;
   for (ProfileLoop& loop : result.loops) {
-    if (!keeps && std::any_of(loop.begin(), loop.end(), [](const ProfileEdge& edge) {
-          return edge.kind == ProfileEdge::Kind::kArc;
-        })) {
+    if (!keeps && has_arcs(loop)) {
       const Polygon polygon = chords_of(loop);
       loop.clear();
       for (const Vec2& point : polygon) loop.push_back(line_to(point));
@@ -288,20 +322,28 @@ Rectangle bounds_of(const Figure& figure) {
   for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
       result.merge(edge.end);
+      if (edge.kind == ProfileEdge::Kind::kArc) merge_arc(start, edge, result);
       if (edge.kind == ProfileEdge::Kind::kBezier) {
-        visit_chords(start, edge, [&](const Vec2& point) { result.merge(point); });
-      }
-      if (edge.kind != ProfileEdge::Kind::kArc) return;
-      const double radius = glm::length(start - edge.control);
-      const double first = std::atan2(start.y - edge.control.y, start.x - edge.control.x);
-      const double sweep = sweep_of(start, edge);
-      for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
-        double angle = std::remainder(std::atan2(way.y, way.x) - first, kTurn);
-        if (sweep > 0 && angle < 0) angle += kTurn;
-        if (sweep < 0 && angle > 0) angle -= kTurn;
-        if (std::abs(angle) <= std::abs(sweep)) result.merge(edge.control + radius * way);
+        merge_bezier(start, edge.control, edge.end, result);
       }
     });
+  }
+  return result;
+}
+
+Rectangle bounds_of(const PlaneMap& map, const Figure& figure) {
+  const Outline* outline = std::get_if<Outline>(&figure);
+  if (outline == nullptr || has_arcs(*outline)) return bounds_of(mapped(map, figure));
+  Rectangle result;
+  for (const ProfileLoop& loop : outline->loops) {
+    if (loop.empty()) continue;
+    Vec2 start = map.point(loop.back().end);
+    for (const ProfileEdge& edge : loop) {
+      const Vec2 end = map.point(edge.end);
+      result.merge(end);
+      if (!is_line(edge)) merge_bezier(start, map.point(edge.control), end, result);
+      start = end;
+    }
   }
   return result;
 }
