@@ -29,6 +29,7 @@ bool load(FontLibraries::FreeType& freetype) {
   library.find("FT_Init_FreeType", freetype.init);
   library.find("FT_New_Memory_Face", freetype.new_memory_face);
   library.find("FT_Done_Face", freetype.done_face);
+  library.find("FT_Select_Charmap", freetype.select_charmap);
   library.find("FT_Set_Char_Size", freetype.set_char_size);
   library.find("FT_Load_Glyph", freetype.load_glyph);
   library.find("FT_Outline_Decompose", freetype.outline_decompose);

@@ -19,6 +19,7 @@ struct FontLibraries {
     decltype(&FT_Init_FreeType) init;
     decltype(&FT_New_Memory_Face) new_memory_face;
     decltype(&FT_Done_Face) done_face;
+    decltype(&FT_Select_Charmap) select_charmap;
     decltype(&FT_Set_Char_Size) set_char_size;
     decltype(&FT_Load_Glyph) load_glyph;
     decltype(&FT_Outline_Decompose) outline_decompose;
