@@ -14,9 +14,11 @@ using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// A quadratic Bézier curve, which turns by less than half a turn, has as many chords as an arc of
-/// half a turn.
-constexpr int kChordsOfBezier = kChordsOfCircle / 2;
+/// A quadratic Bézier curve, which turns by less than half a turn, has no more chords than an arc
+/// of half a turn.
+constexpr int kMostChordsOfBezier = kChordsOfCircle / 2;
+/// The distance of a circle from its chords, in shares of the radius.
+constexpr double kDistanceFromChords = 4e-5;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -42,9 +44,19 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// Calls visit(point) for the points on the edge after its start, among them its end.
+/// Returns how many chords a Bézier curve needs, none of which is further away than `distance`.
+int chords_of_bezier(const Vec2& start, const ProfileEdge& edge, double distance) {
+  // One chord is this far away, and each of n of them a share of 1/n² of it.
+  const double furthest = glm::length(start - 2.0 * edge.control + edge.end) / 4;
+  if (!(furthest > distance)) return 1;
+  const double count = std::ceil(std::sqrt(furthest / distance));
+  return static_cast<int>(std::min(count, static_cast<double>(kMostChordsOfBezier)));
+}
+
+/// Calls visit(point) for the points on the edge after its start, among them its end. The chords of
+/// a Bézier curve are as far away as `distance` at most.
 template <typename Visit>
-void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit) {
+void visit_chords(const Vec2& start, const ProfileEdge& edge, double distance, const Visit& visit) {
   if (edge.kind == ProfileEdge::Kind::kArc) {
     const double sweep = sweep_of(start, edge);
     const int count = static_cast<int>(std::ceil(std::abs(sweep) / kTurn * kChordsOfCircle));
@@ -53,8 +65,9 @@ void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit
     }
   }
   if (edge.kind == ProfileEdge::Kind::kBezier) {
-    for (int i = 1; i < kChordsOfBezier; ++i) {
-      const double t = static_cast<double>(i) / kChordsOfBezier;
+    const int count = chords_of_bezier(start, edge, distance);
+    for (int i = 1; i < count; ++i) {
+      const double t = static_cast<double>(i) / count;
       visit((1 - t) * (1 - t) * start + 2 * t * (1 - t) * edge.control + t * t * edge.end);
     }
   }
@@ -72,10 +85,20 @@ void visit_edges(const ProfileLoop& loop, const Visit& visit) {
   }
 }
 
-Polygon chords_of(const ProfileLoop& loop) {
+/// Returns how far chords may be away from the curves of a figure: as from a circle of its size.
+double distance_from_chords(const Outline& outline) {
+  Rectangle box;
+  for (const ProfileLoop& loop : outline.loops) {
+    for (const ProfileEdge& edge : loop) box.merge(edge.end);
+  }
+  const Vec2 size = box.max - box.min;
+  return kDistanceFromChords * std::max(size.x, size.y) / 2;
+}
+
+Polygon chords_of(const ProfileLoop& loop, double distance) {
   Polygon polygon;
   visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
-    visit_chords(start, edge, [&](const Vec2& point) { polygon.push_back(point); });
+    visit_chords(start, edge, distance, [&](const Vec2& point) { polygon.push_back(point); });
   });
   return polygon;
 }
@@ -124,7 +147,7 @@ Outline mapped(const PlaneMap& map, const Outline& outline) {
   const bool mirrors = map.determinant() < 0;
   for (ProfileLoop& loop : result.loops) {
     if (!keeps && has_arcs(loop)) {
-      const Polygon polygon = chords_of(loop);
+      const Polygon polygon = chords_of(loop, distance_from_chords(outline));
       loop.clear();
       for (const Vec2& point : polygon) loop.push_back(line_to(point));
     }
@@ -160,7 +183,8 @@ std::vector<double> axis_crossings(const Vec2& start, const ProfileEdge& arc) {
 /// Moves what lies left of the axis x = 0 onto it. That changes no winding number right of it.
 class RightHalf {
  public:
-  explicit RightHalf(const ProfileLoop& loop) {
+  /// `distance`: how far chords may be away from curves.
+  RightHalf(const ProfileLoop& loop, double distance) : distance_(distance) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) { add(start, edge); });
   }
   ProfileLoop take() { return std::move(result_); }
@@ -178,7 +202,7 @@ class RightHalf {
       add_arc(at, edge.end, edge);
     } else {
       Vec2 at = start;
-      visit_chords(start, edge, [&](const Vec2& point) {
+      visit_chords(start, edge, distance_, [&](const Vec2& point) {
         add_line(at, point);
         at = point;
       });
@@ -206,6 +230,7 @@ class RightHalf {
     result_.push_back(line_to({std::max(end.x, 0.0), end.y}));
   }
 
+  double distance_;
   ProfileLoop result_;
 };
 
@@ -289,10 +314,10 @@ Polygons chords_of(const Figure& figure) {
   if (const Disc* disc = std::get_if<Disc>(&figure)) {
     return {circle_polygon(*disc, kChordsOfCircle)};
   }
+  const Outline& outline = std::get<Outline>(figure);
+  const double distance = distance_from_chords(outline);
   Polygons result;
-  for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
-    result.push_back(chords_of(loop));
-  }
+  for (const ProfileLoop& loop : outline.loops) result.push_back(chords_of(loop, distance));
   return result;
 }
 
@@ -361,7 +386,7 @@ std::optional<Polygon> convex_corners(const Figure& figure) {
   if (outline == nullptr || outline->loops.size() != 1 || !is_polygonal(figure)) {
     return std::nullopt;
   }
-  Polygon polygon = without_straight_corners(chords_of(outline->loops.front()));
+  Polygon polygon = without_straight_corners(chords_of(figure).front());
   if (polygon.size() < 3) return std::nullopt;
   // All corners turn the same way, and all of them together once.
   double turned_by = 0;
@@ -380,7 +405,8 @@ std::optional<Polygon> convex_corners(const Figure& figure) {
 
 Outline right_half(const Figure& figure) {
   Outline outline = outline_of(figure);
-  for (ProfileLoop& loop : outline.loops) loop = RightHalf(loop).take();
+  const double distance = distance_from_chords(outline);
+  for (ProfileLoop& loop : outline.loops) loop = RightHalf(loop, distance).take();
   return outline;
 }
 
