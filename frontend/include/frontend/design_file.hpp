@@ -53,8 +53,9 @@ bool is_scad(const std::string& path);
 /// be read only once.)
 bool may_be_scad(const std::string& path);
 
-/// Returns the options with the folder of the files that the design names: its own.
-ImportOptions beside(const std::string& path, ImportOptions options);
+/// Returns the options with the folder of the files that the design names: its own; and with the
+/// fonts that it uses, if it is a .scad, which was exported.
+ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options);
 
 /// Adds the files that a finished import names to those that its text was read from, the design
 /// last.

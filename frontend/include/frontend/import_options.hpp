@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "csgcore/primitive.hpp"
 
@@ -34,6 +36,9 @@ struct ImportOptions {
   /// The folder that the files which a design names are in, unless their paths are absolute. Empty:
   /// the working folder.
   std::string folder{};
+  /// Returns the font files that the design brings along. Called once, if it has text; may be
+  /// empty.
+  std::function<std::vector<std::string>()> font_files{};
   Facets facets = Facets::kFew;
   /// Of kFew. People who choose no more than 8 fragments mean the polygon.
   double few_fragments = 8;

@@ -36,8 +36,11 @@ struct ImportedDesign {
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
-  /// The files that its nodes name, whether or not they are there.
+  /// The files that its nodes name, and the fonts that it brings along if it has text, whether or
+  /// not they are there.
   std::vector<std::string> files;
+  /// Whether it has text, which fonts change that no node names.
+  bool has_text = false;
   /// The outlines, closed, at z = 0, if this is a final render (PictureKind::kRendered) of a plane
   /// figure. The scene has a thin plate for it.
   std::vector<std::vector<csgcore::Vec3>> flat_outlines;

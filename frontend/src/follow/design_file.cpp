@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/elapsed.hpp"
+#include "follow/included_files.hpp"
 #include "frontend/error.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
@@ -29,15 +30,14 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
 /// Parses a text that may turn out to be a .scad's.
 TextImport parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
-  const ImportOptions import_options = beside(path, options.import);
   try {
-    return TextImport(text.csg.view(), text.name, import_options);
+    return TextImport(text.csg.view(), text.name, beside(path, text, options.import));
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
   }
   export_design_text(path, options, text);
   options.progress("parsing");
-  return TextImport(text.csg.view(), text.name, import_options);
+  return TextImport(text.csg.view(), text.name, beside(path, text, options.import));
 }
 
 DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
@@ -80,8 +80,9 @@ bool may_be_scad(const std::string& path) {
                            std::filesystem::is_regular_file(path, failed));
 }
 
-ImportOptions beside(const std::string& path, ImportOptions options) {
+ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options) {
   options.folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
+  if (text.is_exported) options.font_files = [path] { return IncludedFiles().fonts_of(path); };
   return options;
 }
 

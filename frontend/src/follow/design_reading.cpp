@@ -25,11 +25,12 @@ std::function<void(const std::string&)> keeping_messages(DesignVersion& version)
   };
 }
 
-/// Returns nothing if the text is that of the version before, and names no files, which may have
-/// changed.
+/// Returns nothing if the text is that of the version before, and neither names files nor has text,
+/// whose fonts may have changed.
 std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions& options,
                                      DesignReading& reading, const std::stop_token& stop) {
-  reading.version.unchanged = reading.good.design && reading.good.design->files.empty() &&
+  const ImportedDesign* const before = reading.good.design.get();
+  reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
                               reading.good.csg->view() == text.csg.view();
   if (reading.version.unchanged) return std::nullopt;
   const Clock::time_point start = Clock::now();
@@ -55,16 +56,15 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   file_options.progress = [](const char*) {};
   DesignText text = read_design_text(path, file_options, stop);
   std::optional<TextImport> import;
-  const ImportOptions import_options = beside(path, options.import);
   try {
-    import = parse_text(text, import_options, reading, stop);
+    import = parse_text(text, beside(path, text, options.import), reading, stop);
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
     reading.is_scad = true;
   }
   if (reading.is_scad) {
     export_design_text(path, file_options, text, stop);
-    import = parse_text(text, import_options, reading, stop);
+    import = parse_text(text, beside(path, text, options.import), reading, stop);
   }
   if (import) reading.good = finish_import(*import, text, version, stop);
   version.export_ms = text.export_ms;

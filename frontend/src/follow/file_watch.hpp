@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/descriptor.hpp"
-#include "follow/file_signature.hpp"
+#include "base/file_signature.hpp"
 
 struct inotify_event;
 

@@ -1,6 +1,7 @@
 #include "follow/included_files.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -97,6 +98,14 @@ std::vector<std::string> included_names(std::string_view scad) {
   return names;
 }
 
+bool is_font_name(std::string_view name) {
+  constexpr std::size_t kSuffix = 4;
+  if (name.size() < kSuffix) return false;
+  std::string suffix(name.substr(name.size() - kSuffix));
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix == ".ttf" || suffix == ".otf";
+}
+
 std::vector<std::string> IncludedFiles::of(const std::string& scad_path) {
   const std::vector<fs::path> libraries = library_folders();
   std::vector<std::string> paths = {scad_path};
@@ -113,12 +122,20 @@ std::vector<std::string> IncludedFiles::of(const std::string& scad_path) {
   return paths;
 }
 
+std::vector<std::string> IncludedFiles::fonts_of(const std::string& scad_path) {
+  std::vector<std::string> paths = of(scad_path);
+  std::erase_if(paths, [](const std::string& path) {
+    return !is_font_name(path) || !FileSignature(path).is_regular();
+  });
+  return paths;
+}
+
 const std::vector<std::string>& IncludedFiles::names_in(const std::string& path) {
   Known& known = known_[path];
   const FileSignature signature(path);
   if (signature == known.signature) return known.names;
   known = {signature, {}};
-  if (!signature.is_regular()) return known.names;
+  if (!signature.is_regular() || is_font_name(path)) return known.names;
   try {
     known.names = included_names(read_file(path).view());
   } catch (const Error&) {

@@ -6,13 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "follow/file_signature.hpp"
+#include "base/file_signature.hpp"
 
 namespace frontend {
 
 /// Returns the names in the `include <…>` and `use <…>` of a .scad's text, as written there.
 /// Comments and strings are skipped.
 std::vector<std::string> included_names(std::string_view scad);
+
+/// Returns whether OpenSCAD takes a file that is used for a font, by its suffix.
+bool is_font_name(std::string_view name);
 
 /// Finds the files to watch where openscad does not name them: `openscad -d` names what a design
 /// has read, but nothing if the design has an error, and no missing file.
@@ -22,6 +25,8 @@ class IncludedFiles {
   /// that is found nowhere yields its path in each folder in which OpenSCAD looks. Files that have
   /// not changed since the last call are not read again.
   std::vector<std::string> of(const std::string& scad_path);
+  /// Returns those of them that are fonts, and are there.
+  std::vector<std::string> fonts_of(const std::string& scad_path);
 
  private:
   struct Known {

@@ -65,6 +65,9 @@ class MemoryFile {
   int file_;
 };
 
+/// An ERROR after which OpenSCAD goes on: another font stands in.
+constexpr std::string_view kMissingFont = "ERROR: Can't read font with path";
+
 /// Collects openscad's messages line by line. The first ERROR is kept, to be thrown.
 class Messages {
  public:
@@ -91,7 +94,7 @@ class Messages {
 
   void line(const std::string& text) {
     if (text.empty()) return;
-    if (text.starts_with("ERROR: ") && !first_error_) {
+    if (text.starts_with("ERROR: ") && !text.starts_with(kMissingFont) && !first_error_) {
       first_error_ = text.substr(std::strlen("ERROR: "));
     } else {
       message_(text);

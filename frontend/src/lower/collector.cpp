@@ -103,6 +103,7 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes),
       files(options.folder, polyhedra),
+      fonts(options.font_files),
       tree_(tree),
       options_(options) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
@@ -193,7 +194,7 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   if (candidate_) take_into_candidate(index, id);
   if (plane_) {
     if (is_primitive_node(node.kind)) note_leaf_place(plane_context_);
-    plane_->take(index, id, options_, problems);
+    plane_->take(index, id, options_, fonts, problems);
     return true;
   }
   if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
@@ -208,15 +209,12 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
       return true;
     case Role::kPlane:
       enter_plane(index, offset);
-      plane_->take(index, id, options_, problems);
+      plane_->take(index, id, options_, fonts, problems);
       return true;
     case Role::kUnsupportedOperation:
-      leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
-      return false;
-    case Role::kUnsupportedLeaf:
       break;
   }
-  leave_out(index, kBecauseUnsupported);
+  leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
   return false;
 }
 
@@ -428,7 +426,7 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const bool is_solid = role == Role::kSolid || is_extrusion(kind);
   if (candidate_->is_plane || !is_part || !is_solid) {
     candidate_->is_plane = candidate_->is_plane || (is_part && is_plane_primitive(kind));
-    candidate_->subtree.take(node, id, options_, candidate_->problems);
+    candidate_->subtree.take(node, id, options_, fonts, candidate_->problems);
     return;
   }
   // It is a solid, and all that it would need is collected.

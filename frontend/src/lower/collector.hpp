@@ -10,6 +10,7 @@
 #include "csg/node_sink.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
+#include "fonts/design_fonts.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/imported_design.hpp"
 #include "heal/frames.hpp"
@@ -43,6 +44,7 @@ class Collector final : public NodeSink {
   std::vector<int> fragments;       // by primitive; 0: it is not to be faceted
   PolyhedronPool polyhedra;
   FileImports files;
+  DesignFonts fonts;
   FrameTree frames;
   NodeProblems problems;
   uint32_t primitive_nodes = 0;

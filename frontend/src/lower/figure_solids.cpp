@@ -141,7 +141,8 @@ FigureSolids::Profile FigureSolids::profile(const Outline& outline) {
   return shared;
 }
 
-std::optional<Primitive> FigureSolids::extruded(const Figure& figure, const Layers& layers) {
+std::optional<Primitive> FigureSolids::extruded(const Figure& figure, const Layers& layers,
+                                                const Profile& made) {
   if (const Disc* disc = std::get_if<Disc>(&figure)) {
     if (!(disc->radius > 0)) return std::nullopt;
     Primitive frustum = csgcore::make_frustum(layers.z_min, layers.z_max, disc->radius,
@@ -156,8 +157,8 @@ std::optional<Primitive> FigureSolids::extruded(const Figure& figure, const Laye
   if (bounds_of(figure).empty()) return std::nullopt;
   const std::optional<Polygon> corners = convex_corners(figure);
   if (corners && corners->size() <= kMostPrismSides) return prism(*corners, layers);
-  return csgcore::make_extrusion(profile(std::get<Outline>(figure)), layers.z_min, layers.z_max, 1,
-                                 layers.top_scale);
+  return csgcore::make_extrusion(made ? made : profile(std::get<Outline>(figure)), layers.z_min,
+                                 layers.z_max, 1, layers.top_scale);
 }
 
 std::optional<Primitive> FigureSolids::revolved(const Figure& figure) {

@@ -34,9 +34,12 @@ struct TurnSections {
 /// Makes the solids of a design. Those that have the same local solid share it.
 class FigureSolids {
  public:
+  using Profile = std::shared_ptr<const csgcore::Profile>;
+
   /// Returns the extruded figure: a frustum, a convex polyhedron or an extruded profile. Nothing if
-  /// the figure is empty.
-  std::optional<csgcore::Primitive> extruded(const Figure& figure, const Layers& layers);
+  /// the figure is empty. `made` is its profile, where that is made already.
+  std::optional<csgcore::Primitive> extruded(const Figure& figure, const Layers& layers,
+                                             const Profile& made = {});
 
   /// Returns the figure revolved by a full turn about z: x becomes the radius, and y becomes z. No
   /// point has x < 0. It is a sphere, a frustum or a revolved profile. Nothing if the figure is
@@ -53,7 +56,6 @@ class FigureSolids {
 
  private:
   using Polyhedron = std::shared_ptr<const csgcore::Polyhedron>;
-  using Profile = std::shared_ptr<const csgcore::Profile>;
 
   csgcore::Primitive prism(const Polygon& corners, const Layers& layers);
   Profile profile(const Outline& outline);

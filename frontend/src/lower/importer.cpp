@@ -365,6 +365,9 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   facet(tree, collected, design.warnings);
   design.meshes = collected.polyhedra.take_meshes();
   design.files = collected.files.paths();
+  design.has_text = collected.fonts.are_used();
+  const std::vector<std::string>& fonts = collected.fonts.files();
+  design.files.insert(design.files.end(), fonts.begin(), fonts.end());
   throw_if_stopped(stop);
   Leaves leaves(static_cast<uint32_t>(collected.primitives.size()));
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);

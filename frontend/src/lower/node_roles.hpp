@@ -14,7 +14,6 @@ enum class Role : uint8_t {
   kSolid,
   kOperation,
   kPlane,  // a 2D primitive, or a node of 2D ones that OpenSCAD evaluates as a whole
-  kUnsupportedLeaf,
   kUnsupportedOperation,
 };
 
@@ -40,6 +39,7 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kCircle:
     case NodeKind::kSquare:
     case NodeKind::kPolygon:
+    case NodeKind::kText:
     case NodeKind::kHull:
     case NodeKind::kMinkowski:
     case NodeKind::kOffset:
@@ -47,8 +47,6 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kLinearExtrude:
     case NodeKind::kRotateExtrude:
       return Role::kPlane;
-    case NodeKind::kText:
-      return Role::kUnsupportedLeaf;
     case NodeKind::kFill:
     case NodeKind::kProjection:
     case NodeKind::kRoof:
@@ -64,13 +62,13 @@ inline bool is_compound_leaf(NodeKind kind, PictureKind picture) {
 }
 
 inline bool is_plane_primitive(NodeKind kind) {
-  return kind == NodeKind::kCircle || kind == NodeKind::kSquare || kind == NodeKind::kPolygon;
+  return kind == NodeKind::kCircle || kind == NodeKind::kSquare || kind == NodeKind::kPolygon ||
+         kind == NodeKind::kText;
 }
 
 /// A node that has a place among Primitive::id.
 inline bool is_primitive_node(NodeKind kind) {
-  const Role role = role_of(kind);
-  return role == Role::kSolid || role == Role::kUnsupportedLeaf || is_plane_primitive(kind);
+  return role_of(kind) == Role::kSolid || is_plane_primitive(kind);
 }
 
 inline bool is_extrusion(NodeKind kind) {

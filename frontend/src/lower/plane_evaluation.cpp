@@ -71,6 +71,11 @@ void PlaneEvaluation::find_presence(uint32_t node) {
       own.dimension = 2;
       own.presence = subtree_.data<FigureNode>(node).figure ? Presence::kSolid : Presence::kEmpty;
       return;
+    case NodeKind::kText:
+      own.dimension = 2;
+      own.presence =
+          subtree_.data<TextNode>(node).letters.empty() ? Presence::kEmpty : Presence::kSolid;
+      return;
     case NodeKind::kSphere:
     case NodeKind::kCylinder:
     case NodeKind::kCube:
@@ -86,7 +91,6 @@ void PlaneEvaluation::find_presence(uint32_t node) {
         return;
       }
       [[fallthrough]];
-    case NodeKind::kText:
     case NodeKind::kProjection:
     case NodeKind::kFill:
     case NodeKind::kRoof:
@@ -200,6 +204,13 @@ std::optional<std::vector<Figure>> PlaneEvaluation::combined_figures(uint32_t no
     case NodeKind::kSquare:
     case NodeKind::kPolygon:
       return std::vector<Figure>{*subtree_.data<FigureNode>(node).figure};
+    case NodeKind::kText: {
+      std::vector<Figure> figures;
+      for (const PlacedGlyph& letter : subtree_.data<TextNode>(node).letters) {
+        figures.push_back(mapped(letter.place, *letter.shape.figure));
+      }
+      return figures;
+    }
     case NodeKind::kDifference:
     case NodeKind::kIntersection:
       return figures_of_operation(node);

@@ -33,11 +33,16 @@ constexpr double kSubtractedPlateStretch = 1.1;
 
 /// A figure where it stands in the subtree.
 struct PlacedFigure {
-  Figure figure;
-  PlaneMap map;    // to the root's plane
+  std::shared_ptr<const Figure> figure;
+  PlaneMap map;    // of its node, to the root's plane
   uint32_t frame;  // of which the map is the part within the root's
   uint32_t id;
-  int fragments;  // of a circle: OpenSCAD's; else 0
+  int fragments = 0;                                  // of a circle: OpenSCAD's
+  PlaneMap place_in_node{};                           // of a letter
+  std::shared_ptr<const csgcore::Profile> profile{};  // of the figure, where it is made already
+
+  /// To the root's plane.
+  PlaneMap place() const { return compose(map, place_in_node); }
 };
 
 /// The subtree as operations on figures.
@@ -93,6 +98,11 @@ class FigureTreeWriter {
         add(*data.figure, node, data.fragments);
         return end;
       }
+      case NodeKind::kText:
+        builder_.open(Op::kUnion);
+        for (const PlacedGlyph& letter : subtree_.data<TextNode>(node).letters) add(letter, node);
+        builder_.close();
+        return end;
       case NodeKind::kHull:
       case NodeKind::kMinkowski:
       case NodeKind::kOffset:
@@ -124,7 +134,14 @@ class FigureTreeWriter {
 
   void add(const Figure& figure, uint32_t node, int fragments) {
     builder_.primitive(static_cast<uint32_t>(figures_.size()));
-    figures_.push_back({figure, open_.back().map, open_.back().frame, first_id(node), fragments});
+    figures_.push_back({std::make_shared<const Figure>(figure), open_.back().map,
+                        open_.back().frame, first_id(node), fragments});
+  }
+
+  void add(const PlacedGlyph& letter, uint32_t node) {
+    builder_.primitive(static_cast<uint32_t>(figures_.size()));
+    figures_.push_back({letter.shape.figure, open_.back().map, open_.back().frame,
+                        subtree_.id(node), 0, letter.place, letter.shape.profile});
   }
 
   uint32_t first_id(uint32_t node) const {
@@ -144,11 +161,11 @@ class FigureTreeWriter {
 
 /// The corners that OpenSCAD has of the figure, in the root's plane.
 Rectangle faceted_bounds(const PlacedFigure& placed) {
-  if (placed.fragments == 0) return bounds_of(mapped(placed.map, placed.figure));
+  if (placed.fragments == 0) return bounds_of(placed.place(), *placed.figure);
   Rectangle result;
-  const Rectangle circle = bounds_of(placed.figure);
-  const double radius = std::get_if<Disc>(&placed.figure) != nullptr
-                            ? std::get<Disc>(placed.figure).radius
+  const Rectangle circle = bounds_of(*placed.figure);
+  const double radius = std::get_if<Disc>(placed.figure.get()) != nullptr
+                            ? std::get<Disc>(*placed.figure).radius
                             : circle.max.x;  // the first corner lies there
   for (const Vec2& corner : circle_polygon({Vec2(0.0), radius}, placed.fragments)) {
     result.merge(placed.map.point(corner));
@@ -191,12 +208,13 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
   result.solid = tree_of_parts(
       figures, result.parts,
       [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
-        std::optional<Primitive> primitive = solids.extruded(placed.figure, layers);
+        std::optional<Primitive> primitive =
+            solids.extruded(*placed.figure, layers, placed.profile);
         if (!primitive) return std::nullopt;
         const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
-        const Affine to_world = is_upright
-                                    ? frames[placed.frame].to_world
-                                    : compose(root_to_world, scaled_place(placed.map, layers));
+        const Affine to_world =
+            is_upright ? compose(frames[placed.frame].to_world, in_space(placed.place_in_node))
+                       : compose(root_to_world, scaled_place(placed.place(), layers));
         primitive->local_to_world = compose(to_world, primitive->local_to_world);
         const Rectangle bounds = faceted_bounds(placed);
         Box box;
@@ -217,7 +235,7 @@ constexpr size_t kMostLookedAtEdges = 2000;
 size_t edge_count(const FigureTree& figures) {
   size_t count = 0;
   for (const PlacedFigure& placed : figures.figures) {
-    const Outline* outline = std::get_if<Outline>(&placed.figure);
+    const Outline* outline = std::get_if<Outline>(placed.figure.get());
     if (outline == nullptr) continue;
     for (const csgcore::ProfileLoop& loop : outline->loops) count += loop.size();
   }
@@ -254,7 +272,7 @@ std::optional<Box> box_of_rest(const FigureTree& figures, PlaneEvaluation& evalu
 Rectangle positive_bounds(const FigureTree& figures) {
   std::vector<Box> boxes;
   for (const PlacedFigure& placed : figures.figures) {
-    const Rectangle bounds = bounds_of(mapped(placed.map, placed.figure));
+    const Rectangle bounds = bounds_of(placed.place(), *placed.figure);
     Box& box = boxes.emplace_back();
     if (bounds.empty()) continue;
     box.merge(Vec3(bounds.min, 0));
@@ -273,7 +291,8 @@ FigureTree evaluated(const FigureTree& figures, PlaneEvaluation& evaluation, uin
   CsgTreeBuilder builder;
   for (const Figure& figure : evaluation.figures(root)) {
     builder.primitive(static_cast<uint32_t>(result.figures.size()));
-    result.figures.push_back({figure, {}, frame, figures.figures.front().id, 0});
+    result.figures.push_back(
+        {std::make_shared<const Figure>(figure), {}, frame, figures.figures.front().id});
   }
   result.tree = builder.finish();
   return result;
@@ -333,9 +352,9 @@ class Extruding {
   bool is_round(const FigureTree& figures) const {
     return layers_.top_scale.x == layers_.top_scale.y &&
            std::all_of(figures.figures.begin(), figures.figures.end(), [](const auto& placed) {
-             const Disc* disc = std::get_if<Disc>(&placed.figure);
+             const Disc* disc = std::get_if<Disc>(placed.figure.get());
              return disc != nullptr && keeps_circles(placed.map) &&
-                    placed.map.point(disc->center) == Vec2(0.0);
+                    placed.place().point(disc->center) == Vec2(0.0);
            });
   }
 
@@ -496,16 +515,16 @@ class Revolving {
     if (is_left_) to_right.linear[0].x = -1;
     Affine place;
     if (is_left_) place = turned_about_z(180);
-    result.solid =
-        tree_of_parts(figures, result.parts,
-                      [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
-                        std::optional<Primitive> primitive =
-                            solids_.revolved(mapped(compose(to_right, placed.map), placed.figure));
-                        if (!primitive) return std::nullopt;
-                        primitive->local_to_world =
-                            compose(compose(root_to_world_, place), primitive->local_to_world);
-                        return LoweredSubtree::Part{std::move(*primitive), frame_, box_};
-                      });
+    result.solid = tree_of_parts(
+        figures, result.parts,
+        [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
+          std::optional<Primitive> primitive =
+              solids_.revolved(mapped(compose(to_right, placed.place()), *placed.figure));
+          if (!primitive) return std::nullopt;
+          primitive->local_to_world =
+              compose(compose(root_to_world_, place), primitive->local_to_world);
+          return LoweredSubtree::Part{std::move(*primitive), frame_, box_};
+        });
   }
 
   void lower_mesh(const FigureTree& figures, LoweredSubtree& result) {

@@ -59,6 +59,23 @@ FigureNode polygon_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProb
   return result;
 }
 
+/// OpenSCAD's chords of a curve in a text; 0: it is kept.
+int pieces_of_curves(const SyntaxTree& tree, const SyntaxNode& node, double size,
+                     const ImportOptions& options) {
+  const csgcore::FacetSettings facets = chosen(options, read_facet_settings(tree, node));
+  const int fragments = csgcore::fragment_count(size, facets);
+  if (!keeps_facets(options, facets) || fragments > kMostFragments) return 0;
+  constexpr int kFragmentsOfPiece = 8, kFewestPieces = 2;
+  return std::max(kFewestPieces, fragments / kFragmentsOfPiece + 1);
+}
+
+TextNode text_node(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
+                   DesignFonts& fonts, NodeProblems& problems) {
+  const TextSettings text = read_text(tree, node, problems);
+  const int pieces = pieces_of_curves(tree, node, text.size, options);
+  return {letters_of(node, text, pieces, fonts, problems)};
+}
+
 MatrixNode matrix_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
   FileMatrix file = read_matrix(tree, node, problems);
   MatrixNode result;
@@ -91,7 +108,7 @@ LinearExtrudeNode linear_extrude_node(LinearExtrudeArguments arguments,
 }
 
 PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const ImportOptions& options,
-                      NodeProblems& problems) {
+                      DesignFonts& fonts, NodeProblems& problems) {
   switch (node.kind) {
     case NodeKind::kCircle:
       return circle_node(tree, node, options, problems);
@@ -99,6 +116,8 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
       return square_node(tree, node, problems);
     case NodeKind::kPolygon:
       return polygon_node(tree, node, problems);
+    case NodeKind::kText:
+      return text_node(tree, node, options, fonts, problems);
     case NodeKind::kMultmatrix:
       return matrix_node(tree, node, problems);
     case NodeKind::kOffset:
@@ -123,9 +142,9 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
 }  // namespace
 
 void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options,
-                        NodeProblems& problems) {
+                        DesignFonts& fonts, NodeProblems& problems) {
   nodes_.resize(node - root_ + 1);
-  nodes_.back() = {true, id, data_of(tree_, tree_.nodes[node], options, problems)};
+  nodes_.back() = {true, id, data_of(tree_, tree_.nodes[node], options, fonts, problems)};
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {

@@ -11,6 +11,7 @@
 #include "heal/matrix_healing.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/read_2d.hpp"
+#include "lower/read_text.hpp"
 
 namespace frontend {
 
@@ -20,6 +21,11 @@ struct FigureNode {
   std::optional<Figure> figure;
   /// Of a circle: OpenSCAD's polygon, whose box it draws a picture of. 0: not a circle.
   int fragments = 0;
+};
+
+/// The letters of a text node, whose union it is; none: it is empty.
+struct TextNode {
+  std::vector<PlacedGlyph> letters;
 };
 
 struct MatrixNode {
@@ -42,7 +48,7 @@ struct ImportNode {
 };
 
 using PlaneNodeData =
-    std::variant<std::monostate, FigureNode, MatrixNode, OffsetSettings, ResizeArguments,
+    std::variant<std::monostate, FigureNode, TextNode, MatrixNode, OffsetSettings, ResizeArguments,
                  LinearExtrudeNode, RotateExtrudeNode, ImportNode>;
 
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
@@ -51,7 +57,8 @@ class PlaneSubtree {
   PlaneSubtree(const SyntaxTree& tree, uint32_t root) : tree_(tree), root_(root) {}
 
   /// Reads the arguments of a node of the subtree. `id` is its place among the primitive nodes.
-  void take(uint32_t node, uint32_t id, const ImportOptions& options, NodeProblems& problems);
+  void take(uint32_t node, uint32_t id, const ImportOptions& options, DesignFonts& fonts,
+            NodeProblems& problems);
 
   const SyntaxTree& tree() const { return tree_; }
   uint32_t root() const { return root_; }

@@ -14,6 +14,12 @@ using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
 constexpr double kTurn = 2 * std::numbers::pi;
+/// A quadratic Bézier curve, which turns by less than half a turn, has no more chords than an arc
+/// of half a turn.
+constexpr int kMostChordsOfBezier = kChordsOfCircle / 2;
+/// The distance of a circle from its chords, in shares of the radius.
+constexpr double kDistanceFromChords = 4e-5;
+
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 ProfileEdge line_to(const Vec2& end) {
@@ -38,6 +44,12 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+/// How many chords curves get.
+struct CurveChords {
+  Chords of_arcs;
+  double distance;  // from a Bézier curve, at most
+};
+
 int chords_of_circle(const Chords& chords, double radius) {
   if (chords.tolerance == 0) return chords.most;
   const double half_angle = std::acos(std::max(1 - chords.tolerance / radius, -1.0));
@@ -45,23 +57,29 @@ int chords_of_circle(const Chords& chords, double radius) {
   return static_cast<int>(std::clamp<double>(count, Chords::kFewest, chords.most));
 }
 
+/// Returns how many chords a Bézier curve needs, none of which is further away than `distance`.
+int chords_of_bezier(const Vec2& start, const ProfileEdge& edge, double distance) {
+  // One chord is this far away, and each of n of them a share of 1/n² of it.
+  const double furthest = glm::length(start - 2.0 * edge.control + edge.end) / 4;
+  if (!(furthest > distance)) return 1;
+  const double count = std::ceil(std::sqrt(furthest / distance));
+  return static_cast<int>(std::min(count, static_cast<double>(kMostChordsOfBezier)));
+}
+
 /// Calls visit(point) for the points on the edge after its start, among them its end.
 template <typename Visit>
-void visit_chords(const Vec2& start, const ProfileEdge& edge, const Chords& chords,
+void visit_chords(const Vec2& start, const ProfileEdge& edge, const CurveChords& chords,
                   const Visit& visit) {
   if (edge.kind == ProfileEdge::Kind::kArc) {
     const double sweep = sweep_of(start, edge);
-    const int count = static_cast<int>(std::ceil(
-        std::abs(sweep) / kTurn * chords_of_circle(chords, glm::length(start - edge.control))));
+    const int of_circle = chords_of_circle(chords.of_arcs, glm::length(start - edge.control));
+    const int count = static_cast<int>(std::ceil(std::abs(sweep) / kTurn * of_circle));
     for (int i = 1; i < count; ++i) {
       visit(edge.control + turned(start - edge.control, sweep * i / count));
     }
   }
   if (edge.kind == ProfileEdge::Kind::kBezier) {
-    // The curve turns by less than half a turn.
-    const double reach =
-        std::max(glm::length(edge.control - start), glm::length(edge.control - edge.end));
-    const int count = chords_of_circle(chords, reach) / 2;
+    const int count = chords_of_bezier(start, edge, chords.distance);
     for (int i = 1; i < count; ++i) {
       const double t = static_cast<double>(i) / count;
       visit((1 - t) * (1 - t) * start + 2 * t * (1 - t) * edge.control + t * t * edge.end);
@@ -81,7 +99,19 @@ void visit_edges(const ProfileLoop& loop, const Visit& visit) {
   }
 }
 
-Polygon chords_of(const ProfileLoop& loop, const Chords& chords = {}) {
+/// Returns how many chords the curves of a figure get: they may be as far away as those of a circle
+/// of its size.
+CurveChords chords_for(const Outline& outline, const Chords& chords = {}) {
+  Rectangle box;
+  for (const ProfileLoop& loop : outline.loops) {
+    for (const ProfileEdge& edge : loop) box.merge(edge.end);
+  }
+  const Vec2 size = box.max - box.min;
+  const double distance = kDistanceFromChords * std::max(size.x, size.y) / 2;
+  return {chords, std::max(distance, chords.tolerance)};
+}
+
+Polygon chords_of(const ProfileLoop& loop, const CurveChords& chords) {
   Polygon polygon;
   visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
     visit_chords(start, edge, chords, [&](const Vec2& point) { polygon.push_back(point); });
@@ -91,15 +121,49 @@ Polygon chords_of(const ProfileLoop& loop, const Chords& chords = {}) {
 
 bool is_line(const ProfileEdge& edge) { return edge.kind == ProfileEdge::Kind::kLine; }
 
+bool has_arcs(const ProfileLoop& loop) {
+  return std::any_of(loop.begin(), loop.end(),
+                     [](const ProfileEdge& edge) { return edge.kind == ProfileEdge::Kind::kArc; });
+}
+
+bool has_arcs(const Outline& outline) {
+  return std::any_of(outline.loops.begin(), outline.loops.end(),
+                     [](const ProfileLoop& loop) { return has_arcs(loop); });
+}
+
+/// Adds the points of an arc that are furthest along the axes.
+void merge_arc(const Vec2& start, const ProfileEdge& arc, Rectangle& box) {
+  const double radius = glm::length(start - arc.control);
+  const double first = std::atan2(start.y - arc.control.y, start.x - arc.control.x);
+  const double sweep = sweep_of(start, arc);
+  for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+    double angle = std::remainder(std::atan2(way.y, way.x) - first, kTurn);
+    if (sweep > 0 && angle < 0) angle += kTurn;
+    if (sweep < 0 && angle > 0) angle -= kTurn;
+    if (std::abs(angle) <= std::abs(sweep)) box.merge(arc.control + radius * way);
+  }
+}
+
+/// Adds the points of a Bézier curve that are furthest along the axes. Its ends are in the box.
+void merge_bezier(const Vec2& start, const Vec2& control, const Vec2& end, Rectangle& box) {
+  for (int axis = 0; axis < 2; ++axis) {
+    // Where the derivative is 0: its ends' signs differ only if the control point is beyond the
+    // curve's ends.
+    const double first = control[axis] - start[axis];
+    const double last = end[axis] - control[axis];
+    if (!(first * last < 0)) continue;
+    const double t = first / (first - last);
+    box.merge((1 - t) * (1 - t) * start + 2 * t * (1 - t) * control + t * t * end);
+  }
+}
+
 Outline mapped(const PlaneMap& map, const Outline& outline) {
   Outline result = outline;
   const bool keeps = keeps_circles(map);
   const bool mirrors = map.determinant() < 0;
   for (ProfileLoop& loop : result.loops) {
-    if (!keeps && std::any_of(loop.begin(), loop.end(), [](const ProfileEdge& edge) {
-          return edge.kind == ProfileEdge::Kind::kArc;
-        })) {
-      const Polygon polygon = chords_of(loop);
+    if (!keeps && has_arcs(loop)) {
+      const Polygon polygon = chords_of(loop, chords_for(outline));
       loop.clear();
       for (const Vec2& point : polygon) loop.push_back(line_to(point));
     }
@@ -135,7 +199,7 @@ std::vector<double> axis_crossings(const Vec2& start, const ProfileEdge& arc) {
 /// Moves what lies left of the axis x = 0 onto it. That changes no winding number right of it.
 class RightHalf {
  public:
-  explicit RightHalf(const ProfileLoop& loop) {
+  RightHalf(const ProfileLoop& loop, const CurveChords& chords) : chords_(chords) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) { add(start, edge); });
   }
   ProfileLoop take() { return std::move(result_); }
@@ -153,7 +217,7 @@ class RightHalf {
       add_arc(at, edge.end, edge);
     } else {
       Vec2 at = start;
-      visit_chords(start, edge, Chords{}, [&](const Vec2& point) {
+      visit_chords(start, edge, chords_, [&](const Vec2& point) {
         add_line(at, point);
         at = point;
       });
@@ -181,6 +245,7 @@ class RightHalf {
     result_.push_back(line_to({std::max(end.x, 0.0), end.y}));
   }
 
+  CurveChords chords_;
   ProfileLoop result_;
 };
 
@@ -264,10 +329,10 @@ Polygons chords_of(const Figure& figure, const Chords& chords) {
   if (const Disc* disc = std::get_if<Disc>(&figure)) {
     return {circle_polygon(*disc, chords_of_circle(chords, disc->radius))};
   }
+  const Outline& outline = std::get<Outline>(figure);
+  const CurveChords of_curves = chords_for(outline, chords);
   Polygons result;
-  for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
-    result.push_back(chords_of(loop, chords));
-  }
+  for (const ProfileLoop& loop : outline.loops) result.push_back(chords_of(loop, of_curves));
   return result;
 }
 
@@ -297,20 +362,28 @@ Rectangle bounds_of(const Figure& figure) {
   for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
       result.merge(edge.end);
+      if (edge.kind == ProfileEdge::Kind::kArc) merge_arc(start, edge, result);
       if (edge.kind == ProfileEdge::Kind::kBezier) {
-        visit_chords(start, edge, Chords{}, [&](const Vec2& point) { result.merge(point); });
-      }
-      if (edge.kind != ProfileEdge::Kind::kArc) return;
-      const double radius = glm::length(start - edge.control);
-      const double first = std::atan2(start.y - edge.control.y, start.x - edge.control.x);
-      const double sweep = sweep_of(start, edge);
-      for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
-        double angle = std::remainder(std::atan2(way.y, way.x) - first, kTurn);
-        if (sweep > 0 && angle < 0) angle += kTurn;
-        if (sweep < 0 && angle > 0) angle -= kTurn;
-        if (std::abs(angle) <= std::abs(sweep)) result.merge(edge.control + radius * way);
+        merge_bezier(start, edge.control, edge.end, result);
       }
     });
+  }
+  return result;
+}
+
+Rectangle bounds_of(const PlaneMap& map, const Figure& figure) {
+  const Outline* outline = std::get_if<Outline>(&figure);
+  if (outline == nullptr || has_arcs(*outline)) return bounds_of(mapped(map, figure));
+  Rectangle result;
+  for (const ProfileLoop& loop : outline->loops) {
+    if (loop.empty()) continue;
+    Vec2 start = map.point(loop.back().end);
+    for (const ProfileEdge& edge : loop) {
+      const Vec2 end = map.point(edge.end);
+      result.merge(end);
+      if (!is_line(edge)) merge_bezier(start, map.point(edge.control), end, result);
+      start = end;
+    }
   }
   return result;
 }
@@ -336,7 +409,7 @@ std::optional<Polygon> convex_corners(const Figure& figure) {
   if (outline == nullptr || outline->loops.size() != 1 || !is_polygonal(figure)) {
     return std::nullopt;
   }
-  Polygon polygon = without_straight_corners(chords_of(outline->loops.front()));
+  Polygon polygon = without_straight_corners(chords_of(figure).front());
   if (polygon.size() < 3) return std::nullopt;
   // All corners turn the same way, and all of them together once.
   double turned_by = 0;
@@ -355,7 +428,8 @@ std::optional<Polygon> convex_corners(const Figure& figure) {
 
 Outline right_half(const Figure& figure) {
   Outline outline = outline_of(figure);
-  for (ProfileLoop& loop : outline.loops) loop = RightHalf(loop).take();
+  const CurveChords chords = chords_for(outline);
+  for (ProfileLoop& loop : outline.loops) loop = RightHalf(loop, chords).take();
   return outline;
 }
 

@@ -68,6 +68,8 @@ bool is_polygonal(const Figure& figure);
 Figure mapped(const PlaneMap& map, const Figure& figure);
 
 Rectangle bounds_of(const Figure& figure);
+/// Returns the bounds of the figure's image.
+Rectangle bounds_of(const PlaneMap& map, const Figure& figure);
 Rectangle bounds_of(std::span<const Polygon> polygons);
 
 /// Returns the area of a polygon that does not cross itself, negative if it runs clockwise.

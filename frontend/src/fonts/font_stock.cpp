@@ -1,0 +1,169 @@
+#include "fonts/font_stock.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+
+namespace frontend {
+namespace {
+
+constexpr std::string_view kDefaultFont = "Liberation Sans:style=Regular";
+
+const FcChar8* fc_string(const std::string& text) {
+  return reinterpret_cast<const FcChar8*>(text.c_str());
+}
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n\v\f";
+  const size_t first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(kSpace) + 1 - first));
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// Returns the folders whose fonts count besides those of fontconfig's settings.
+std::vector<std::string> font_folders() {
+  std::vector<std::string> folders;
+  if (const char* home = std::getenv("HOME")) {
+    folders.push_back((std::filesystem::path(home) / ".fonts").string());
+  }
+  if (const char* set = std::getenv("OPENSCAD_FONT_PATH")) {
+    for (std::string_view rest = set; !rest.empty();) {
+      const std::string_view folder = rest.substr(0, rest.find(':'));
+      if (!folder.empty()) folders.emplace_back(folder);
+      rest.remove_prefix(std::min(folder.size() + 1, rest.size()));
+    }
+  }
+  return folders;
+}
+
+/// A fontconfig pattern, which is destroyed with this.
+class Pattern {
+ public:
+  Pattern(const FontLibraries::Fontconfig& fontconfig, FcPattern* pattern)
+      : fontconfig_(fontconfig), pattern_(pattern) {}
+  Pattern(const Pattern&) = delete;
+  Pattern& operator=(const Pattern&) = delete;
+  ~Pattern() {
+    if (pattern_ != nullptr) fontconfig_.pattern_destroy(pattern_);
+  }
+
+  FcPattern* get() const { return pattern_; }
+
+  /// Returns the i-th value of a property; null if there is none.
+  const char* string(const char* property, int i = 0) const {
+    FcChar8* text = nullptr;
+    const bool has = fontconfig_.pattern_get_string(pattern_, property, i, &text) == FcResultMatch;
+    return has ? reinterpret_cast<const char*>(text) : nullptr;
+  }
+  int integer(const char* property) const {
+    int value = 0;
+    fontconfig_.pattern_get_integer(pattern_, property, 0, &value);
+    return value;
+  }
+  bool has_family(std::string_view family) const {
+    for (int i = 0; const char* name = string(FC_FAMILY, i); ++i) {
+      if (same_name(name, family)) return true;
+    }
+    return false;
+  }
+
+ private:
+  const FontLibraries::Fontconfig& fontconfig_;
+  FcPattern* pattern_;
+};
+
+}  // namespace
+
+FontStock* FontStock::instance() {
+  static FontStock* const stock =
+      font_libraries() == nullptr ? nullptr : new FontStock(*font_libraries());
+  return stock;
+}
+
+FontStock::FontStock(const FontLibraries& libraries) : libraries_(libraries) {
+  if (libraries.freetype.init(&freetype_) != 0) freetype_ = nullptr;
+}
+
+void FontStock::use_files(const std::vector<std::string>& files) {
+  Sources sources{font_folders(), files, {}};
+  for (const std::string& file : files) sources.signatures.emplace_back(file);
+  const bool is_current = config_ != nullptr && sources == sources_ &&
+                          libraries_.fontconfig.config_up_to_date(config_) == FcTrue;
+  if (is_current) return;
+  sources_ = std::move(sources);
+  found_.clear();
+  std::erase_if(faces_, [](const auto& entry) {
+    return !(entry.second.signature == FileSignature(entry.first.first));
+  });
+  load_list();
+}
+
+void FontStock::load_list() {
+  const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
+  if (config_ != nullptr) fc.config_destroy(config_);
+  config_ = fc.init_load_config_and_fonts();
+  if (config_ == nullptr) return;
+  for (const std::string& folder : sources_.folders) {
+    fc.config_app_font_add_dir(config_, fc_string(folder));
+  }
+  for (size_t i = 0; i < sources_.files.size(); ++i) {
+    // Fontconfig would wait for a named pipe's writer.
+    if (!sources_.signatures[i].is_regular()) continue;
+    fc.config_app_font_add_file(config_, fc_string(sources_.files[i]));
+  }
+}
+
+const FoundFont& FontStock::find(std::string_view pattern) {
+  auto found = found_.find(pattern);
+  if (found == found_.end()) {
+    found = found_.emplace(std::string(pattern), match(trimmed(pattern))).first;
+  }
+  return found->second;
+}
+
+FoundFont FontStock::match(const std::string& pattern) {
+  const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
+  FoundFont result;
+  if (config_ == nullptr) return result;
+  const std::string wanted = pattern.empty() ? std::string(kDefaultFont) : pattern;
+  const Pattern asked(fc, fc.name_parse(fc_string(wanted)));
+  if (asked.get() == nullptr) return result;
+  const char* const family = asked.string(FC_FAMILY);
+  const std::string asked_family = family == nullptr || pattern.empty() ? "" : family;
+  fc.pattern_add_bool(asked.get(), FC_OUTLINE, FcTrue);
+  fc.pattern_add_bool(asked.get(), FC_SCALABLE, FcTrue);
+  fc.config_substitute(config_, asked.get(), FcMatchPattern);
+  fc.default_substitute(asked.get());
+  FcResult outcome = FcResultNoMatch;
+  const Pattern best(fc, fc.font_match(config_, asked.get(), &outcome));
+  if (best.get() == nullptr) return result;
+  const char* const path = best.string(FC_FILE);
+  if (path == nullptr) return result;
+  if (const char* name = best.string(FC_FAMILY)) result.family = name;
+  if (!asked_family.empty() && !best.has_family(asked_family)) result.missing_family = asked_family;
+  result.face = open(path, best.integer(FC_INDEX));
+  return result;
+}
+
+std::shared_ptr<FontFace> FontStock::open(const std::string& path, int index) {
+  if (freetype_ == nullptr) return nullptr;
+  const auto [entry, is_new] = faces_.try_emplace({path, index});
+  if (!is_new) return entry->second.face;
+  entry->second.signature = FileSignature(path);
+  try {
+    entry->second.face = FontFace::open(libraries_, freetype_, read_regular_file(path), index);
+  } catch (const Error&) {  // the file vanished: there is no face
+  }
+  return entry->second.face;
+}
+
+}  // namespace frontend

@@ -1,0 +1,91 @@
+#include "fonts/text_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frontend {
+namespace {
+
+/// OpenSCAD divides outlines by kOutlineUnits, and all that is between them by this.
+constexpr double kAdvanceUnits = 1.024e5;
+
+/// Lengths that alignment needs, in units of kAdvanceUnits.
+struct Measures {
+  double width = 0;
+  double ascent = 0, descent = 0;  // above and below the baseline
+};
+
+Measures measures_of(const std::vector<ShapedGlyph>& glyphs, const TextSettings& text,
+                     bool is_vertical, FontFace& font) {
+  Measures result;
+  double widest = 0;
+  Vec2 advance(0.0);
+  for (const ShapedGlyph& glyph : glyphs) {
+    advance += text.spacing * glyph.advance;
+    const Rectangle& box = font.pixel_box(glyph.index);
+    if (box.empty()) continue;
+    result.ascent = std::max(result.ascent, box.max.y);
+    result.descent = std::max(result.descent, -box.min.y);
+    widest = std::max(widest, box.max.x - box.min.x);
+  }
+  result.width = is_vertical ? widest : advance.x;
+  if (!is_vertical) return result;
+  // OpenSCAD takes the way down for the letters' height, with its sign.
+  result.ascent = advance.y;
+  result.descent = 0;
+  return result;
+}
+
+double aligned_x(HorizontalAlign align, const Measures& measures) {
+  switch (align) {
+    case HorizontalAlign::kLeft:
+      return 0;
+    case HorizontalAlign::kCenter:
+      return -measures.width / 2;
+    case HorizontalAlign::kRight:
+      return -measures.width;
+  }
+  return 0;
+}
+
+double aligned_y(VerticalAlign align, const Measures& measures) {
+  switch (align) {
+    case VerticalAlign::kBaseline:
+      return 0;
+    case VerticalAlign::kTop:
+      return -measures.ascent;
+    case VerticalAlign::kCenter:
+      return (measures.descent - measures.ascent) / 2;
+    case VerticalAlign::kBottom:
+      return measures.descent;
+  }
+  return 0;
+}
+
+bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+}  // namespace
+
+std::vector<PlacedGlyph> lay_out(const FontLibraries& libraries, const TextSettings& text,
+                                 FontFace& font, int pieces) {
+  std::vector<PlacedGlyph> result;
+  if (!std::isfinite(text.size) || text.size == 0) return result;
+  const TextRun run = run_of(libraries, text.letters);
+  const std::vector<ShapedGlyph> glyphs = font.shape(run);
+  Vec2 at(0.0);
+  if (text.halign != HorizontalAlign::kLeft || text.valign != VerticalAlign::kBaseline) {
+    const Measures measures = measures_of(glyphs, text, run.is_vertical(), font);
+    at = {aligned_x(text.halign, measures), aligned_y(text.valign, measures)};
+  }
+  for (const ShapedGlyph& glyph : glyphs) {
+    const GlyphShape& shape = font.shape_of_glyph(glyph.index, pieces);
+    const Vec2 place = text.size / kAdvanceUnits * (at + glyph.offset);
+    if (shape.figure && is_finite(place)) {
+      result.push_back({shape, {glm::dmat2(text.size / kOutlineUnits), place}});
+    }
+    at += text.spacing * glyph.advance;
+  }
+  return result;
+}
+
+}  // namespace frontend
