@@ -1,7 +1,6 @@
 #include "lower/read_2d.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -146,17 +145,6 @@ Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
   return result;
 }
 
-bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node) {
-  const Value* file = find_argument(tree, node, "file", 0);
-  if (file == nullptr || file->kind != ValueKind::kString) return false;
-  const std::string_view name = tree.text_of(*file);
-  constexpr size_t kSuffix = 4;
-  if (name.size() < kSuffix) return false;
-  std::string suffix(name.substr(name.size() - kSuffix));
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix == ".dxf" || suffix == ".svg";
-}
-
 csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node) {
   const csgcore::FacetSettings defaults;
   return {number_argument(tree, node, "$fn").value_or(defaults.fn),
@@ -222,11 +210,9 @@ LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxN
     scale[axis] = std::isfinite(scale[axis]) ? std::max(scale[axis], 0.0) : 1;
   }
   result.top_scale = scale.x;
-  const Value* file = find_argument(tree, node, "file", kByNameOnly);
-  const bool has_file = file != nullptr && file->kind == ValueKind::kString && file->count > 0;
   const bool has_direction = is_given(find_argument(tree, node, "v", kByNameOnly));
   const bool has_twist = std::isfinite(twist) && twist != 0;
-  result.is_supported = !has_file && !has_direction && !has_twist && scale.x == scale.y;
+  result.is_supported = !has_direction && !has_twist && scale.x == scale.y;
   return result;
 }
 
@@ -237,8 +223,6 @@ RotateExtrudeArguments read_rotate_extrude(const SyntaxTree& tree, const SyntaxN
   if (angle && *angle > -360 && *angle <= 360) result.angle = *angle;
   result.start = number_argument(tree, node, "start");
   if (result.start && !std::isfinite(*result.start)) result.start.reset();
-  const Value* file = find_argument(tree, node, "file", kByNameOnly);
-  result.is_supported = file == nullptr || file->kind != ValueKind::kString || file->count == 0;
   return result;
 }
 
