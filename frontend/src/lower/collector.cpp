@@ -13,6 +13,7 @@
 #include "lower/node_roles.hpp"
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
+#include "lower/read_drawing.hpp"
 
 namespace frontend {
 namespace {
@@ -23,15 +24,6 @@ using csgcore::Primitive;
 bool is_identity(const FileMatrix& file) {
   return file.divisor == 1 && file.map.linear == csgcore::Mat3(1.0) &&
          file.map.translation == csgcore::Vec3(0.0);
-}
-
-/// A file to read (`file`, up to 2021) makes something of a node without children.
-bool names_file(const SyntaxTree& tree, const SyntaxNode& node) {
-  const auto arguments = tree.arguments_of(node);
-  return std::any_of(arguments.begin(), arguments.end(), [](const Argument& argument) {
-    return argument.name == "file" && argument.value.kind == ValueKind::kString &&
-           argument.value.count > 0;
-  });
 }
 
 constexpr std::string_view kBecauseTooLarge =
@@ -64,16 +56,6 @@ Fit fit_of(const Primitive& primitive) {
     return map.linear == csgcore::Mat3(0.0) ? Fit::kFlat : Fit::kTooSmall;
   }
   return is_valid ? Fit::kFits : Fit::kFlat;
-}
-
-/// Whether OpenSCAD's extrusion is one that is drawn.
-bool is_supported(const PlaneSubtree& subtree) {
-  const NodeKind kind = subtree.syntax(subtree.root()).kind;
-  if (kind == NodeKind::kLinearExtrude) {
-    return subtree.data<LinearExtrudeNode>(subtree.root()).arguments.is_supported;
-  }
-  return kind != NodeKind::kRotateExtrude ||
-         subtree.data<RotateExtrudeNode>(subtree.root()).arguments.is_supported;
 }
 
 /// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes").
@@ -125,7 +107,7 @@ void Collector::take(uint32_t index, uint32_t offset) {
   if (candidate_ && !is_within(index, candidate_->subtree.root())) leave_candidate();
   primitive_of.push_back(kNoPrimitive);
   const uint32_t id = primitive_nodes;
-  if (is_primitive_node(node.kind)) {
+  if (has_place(tree_, node)) {
     ++primitive_nodes;
     if (options_.keeps_places) places.push_back({node.location.line, offset});
   }
@@ -156,6 +138,13 @@ void Collector::finish() {
     });
   }
   maybe_left_out_ = {};
+  for (const uint32_t node : solid_fills_) {
+    if (tree_.nodes[node].subtree_end == node + 1) continue;
+    problems.add(tree_.nodes[node], "solids", [] {
+      return NodeProblems::Description{": fill() not yet implemented for 3D",
+                                       "it is drawn as a union"};
+    });
+  }
 }
 
 const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
@@ -185,6 +174,7 @@ void Collector::select(uint32_t root) {
   contexts_.resize(1);
   skipped_.reset();
   maybe_left_out_.clear();
+  solid_fills_.clear();
 }
 
 /// False: the children do not matter.
@@ -193,12 +183,12 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   if (!candidate_ && may_be_plane(index)) enter_candidate(index, offset);
   if (candidate_) take_into_candidate(index, id);
   if (plane_) {
-    if (is_primitive_node(node.kind)) note_leaf_place(plane_context_);
-    plane_->take(index, id, options_, fonts, problems);
+    if (has_place(tree_, node)) note_leaf_place(plane_context_);
+    plane_->take(index, id, options_, {fonts, files}, problems);
     return true;
   }
   if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
-  switch (role_of(node.kind)) {
+  switch (names_drawing(tree_, node) ? Role::kPlane : role_of(node.kind)) {
     case Role::kSolid:
       add_solid(index, id);
       return false;
@@ -206,15 +196,16 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
       if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index, offset);
+      if (node.kind == NodeKind::kFill) solid_fills_.push_back(index);
       return true;
     case Role::kPlane:
       enter_plane(index, offset);
-      plane_->take(index, id, options_, fonts, problems);
+      plane_->take(index, id, options_, {fonts, files}, problems);
       return true;
     case Role::kUnsupportedOperation:
       break;
   }
-  leave_out(index, kBecauseUnsupported, !names_file(tree_, node));
+  leave_out(index, kBecauseUnsupported, true);
   return false;
 }
 
@@ -371,7 +362,7 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_.emplace(tree_, node);
   plane_context_ = contexts_.back();
-  const bool is_leaf_by_itself = is_primitive_node(tree_.nodes[node].kind);
+  const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
   if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
     plane_context_.leaf_line = tree_.nodes[node].location.line;
     plane_context_.leaf_offset = offset;
@@ -392,11 +383,11 @@ void Collector::leave_plane() {
   plane_.reset();
 }
 
-/// OpenSCAD's render() node, and in its final render all that stands at the top, is a plane figure
-/// if its first child is one.
+/// OpenSCAD's render() and fill() nodes, and in its final render all that stands at the top, is a
+/// plane figure if its first child is one.
 bool Collector::may_be_plane(uint32_t node) {
   if (options_.picture != PictureKind::kRendered) {
-    return tree_.nodes[node].kind == NodeKind::kRender && !contexts_.back().in_leaf && !plane_;
+    return is_leaf_of_either(tree_.nodes[node].kind) && !contexts_.back().in_leaf && !plane_;
   }
   if (top_node_ && is_within(node, *top_node_)) return false;
   top_node_ = node;
@@ -416,17 +407,19 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
                                plane_leaves.size(),
                                compound_leaves.size(),
                                maybe_left_out_.size(),
+                               solid_fills_.size(),
                                false});
 }
 
 void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const NodeKind kind = tree_.nodes[node].kind;
-  const Role role = role_of(kind);
+  const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
   const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
-  const bool is_solid = role == Role::kSolid || is_extrusion(kind);
+  const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
+  const bool is_figure = is_plane_primitive(kind) || (is_drawing && !is_extrusion(kind));
   if (candidate_->is_plane || !is_part || !is_solid) {
-    candidate_->is_plane = candidate_->is_plane || (is_part && is_plane_primitive(kind));
-    candidate_->subtree.take(node, id, options_, fonts, candidate_->problems);
+    candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
+    candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
     return;
   }
   // It is a solid, and all that it would need is collected.
@@ -469,6 +462,7 @@ void Collector::forget_since(const Candidate& candidate) {
   shorten(plane_leaves, candidate.plane_leaves);
   shorten(compound_leaves, candidate.compound_leaves);
   shorten(maybe_left_out_, candidate.left_out);
+  shorten(solid_fills_, candidate.solid_fills);
   std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
 }
 
@@ -484,8 +478,8 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   const uint32_t root = subtree.root();
   PlaneEvaluation evaluation(subtree, told,
                              [&](uint32_t left, std::string_view why) { leave_out(left, why); });
-  if (evaluation.is_solid() || !is_supported(subtree)) {
-    leave_out(root, kBecauseUnsupported, is_supported(subtree));
+  if (evaluation.is_solid()) {
+    leave_out(root, kBecauseUnsupported, true);
     return Presence::kLeftOut;
   }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);

@@ -133,7 +133,7 @@ class Collector final : public NodeSink {
     PlaneSubtree subtree;
     Context context;
     NodeProblems problems;  // those of the nodes are told already
-    size_t primitives, plane_leaves, compound_leaves, left_out;  // what there was before it
+    size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills;  // before it
     bool is_plane;  // its first geometry is a plane figure's
   };
   void forget_since(const Candidate& candidate);
@@ -147,6 +147,7 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
   std::vector<LeftOut> maybe_left_out_;
+  std::vector<uint32_t> solid_fills_;  // fill nodes that are not of plane figures, as far as known
 };
 
 }  // namespace frontend

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -21,7 +22,7 @@ struct Format {
 };
 constexpr std::array<Format, 4> kFormats{
     {{".stl", read_stl}, {".off", read_off}, {".amf", read_amf}, {".3mf", read_3mf}}};
-constexpr std::array<std::string_view, 3> kUndrawnFormats = {".nef3", ".dxf", ".svg"};
+constexpr std::string_view kUndrawnFormat = ".nef3";
 
 std::string suffix_of(const std::string& name) {
   std::string suffix = std::filesystem::path(name).extension().string();
@@ -59,16 +60,51 @@ const ImportedFile& FileImports::surface(const FileArguments& arguments) {
   return entry->second;
 }
 
+const ImportedDrawing& FileImports::drawing(const DrawingArguments& arguments) {
+  const DxfSettings& dxf = arguments.dxf;
+  const SvgSettings& svg = arguments.svg;
+  std::vector<double> numbers{static_cast<double>(arguments.format),
+                              dxf.origin.x,
+                              dxf.origin.y,
+                              dxf.scale,
+                              dxf.facets.fn,
+                              dxf.facets.fa,
+                              dxf.facets.fs,
+                              static_cast<double>(dxf.is_faceted),
+                              static_cast<double>(svg.is_centered),
+                              svg.dpi,
+                              static_cast<double>(svg.is_faceted)};
+  // No nan, which equals nothing.
+  for (double& number : numbers) number = std::isnan(number) ? 0 : number;
+  const auto [entry, is_new] =
+      drawings_.try_emplace({arguments.file, dxf.layer, std::move(numbers)});
+  if (is_new) entry->second = read_drawing(arguments);
+  return entry->second;
+}
+
+ImportedDrawing FileImports::read_drawing(const DrawingArguments& arguments) {
+  const std::string path = path_of(arguments.file);
+  const bool is_dxf = arguments.format == DrawingFormat::kDxf;
+  const std::optional<FileText> bytes = bytes_of_file(path);
+  if (!bytes) {
+    return {{},
+            {{std::string(is_dxf ? "Can't open DXF file '" : "Can't open file '") + path + "'",
+              "check its name; it is relative to the design's folder"}}};
+  }
+  return is_dxf ? read_dxf(bytes->view(), path, arguments.dxf)
+                : read_svg(bytes->view(), path, arguments.svg);
+}
+
 ImportedFile FileImports::read_import(const std::string& name) {
   ImportedFile file;
   const std::string path = path_of(name);
   const std::string suffix = suffix_of(name);
-  file.is_unsupported = std::ranges::find(kUndrawnFormats, suffix) != kUndrawnFormats.end();
+  file.is_unsupported = suffix == kUndrawnFormat;
   if (file.is_unsupported) return file;
   const auto format = std::ranges::find(kFormats, suffix, &Format::suffix);
   if (format == kFormats.end()) {
     file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
-    file.todo = "convert it to .stl, .off, .amf or .3mf";
+    file.todo = "convert it to .stl, .off, .amf, .3mf, .svg or .dxf";
     return file;
   }
   const std::optional<FileText> bytes = bytes_of_file(path);

@@ -1,4 +1,4 @@
-// The solids of the files that a design names: import() and surface().
+// The solids and drawings of the files that a design names.
 #pragma once
 
 #include <map>
@@ -10,6 +10,7 @@
 
 #include "lower/import_arguments.hpp"
 #include "lower/import_polyhedra.hpp"
+#include "lower/read_drawing.hpp"
 
 namespace frontend {
 
@@ -22,7 +23,10 @@ struct ImportedFile {
   bool is_unsupported = false;
 };
 
-/// Reads every file of a design once.
+/// A file's figures, and what is wrong with it.
+using ImportedDrawing = Drawing;
+
+/// Reads every file of a design once, and a drawing once for each way of reading it.
 class FileImports {
  public:
   /// Relative names are looked up in `folder`, in the working folder if it is empty. The pool must
@@ -32,6 +36,7 @@ class FileImports {
   /// The results live as long as this. The kind of an import's file is told by its name.
   const ImportedFile& import(const FileArguments& arguments);
   const ImportedFile& surface(const FileArguments& arguments);
+  const ImportedDrawing& drawing(const DrawingArguments& arguments);
 
   /// Returns the paths of all files that were asked for, each once, whether or not they are there.
   std::vector<std::string> paths() const { return {paths_.begin(), paths_.end()}; }
@@ -40,12 +45,15 @@ class FileImports {
   std::string path_of(const std::string& name);
   ImportedFile read_import(const std::string& name);
   ImportedFile read_surface(const FileArguments& arguments);
+  ImportedDrawing read_drawing(const DrawingArguments& arguments);
   void set_solid(FaceSet faces, const std::string& path, ImportedFile& file);
 
   const std::string folder_;
   PolyhedronPool& pool_;
   std::map<std::string, ImportedFile> imports_;
   std::map<std::tuple<std::string, bool, bool>, ImportedFile> surfaces_;
+  /// By the file and all settings; two texts, and numbers.
+  std::map<std::tuple<std::string, std::string, std::vector<double>>, ImportedDrawing> drawings_;
   std::set<std::string> paths_;
 };
 

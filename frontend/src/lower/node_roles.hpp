@@ -32,6 +32,7 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kColor:
     case NodeKind::kGroup:
     case NodeKind::kRender:
+    case NodeKind::kFill:
     case NodeKind::kUnion:
     case NodeKind::kDifference:
     case NodeKind::kIntersection:
@@ -47,7 +48,6 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kLinearExtrude:
     case NodeKind::kRotateExtrude:
       return Role::kPlane;
-    case NodeKind::kFill:
     case NodeKind::kProjection:
     case NodeKind::kRoof:
       break;
@@ -55,10 +55,15 @@ inline Role role_of(NodeKind kind) {
   return Role::kUnsupportedOperation;
 }
 
-/// A node that OpenSCAD's preview evaluates as a whole, to one leaf (leaves.hpp). Its final render
-/// has no leaves.
+/// A node that is one leaf of OpenSCAD's preview, whether it is of solids or of plane figures.
+inline bool is_leaf_of_either(NodeKind kind) {
+  return kind == NodeKind::kRender || kind == NodeKind::kFill;
+}
+
+/// A node of solids that OpenSCAD's preview evaluates as a whole, to one leaf (leaves.hpp). Its
+/// final render has no leaves.
 inline bool is_compound_leaf(NodeKind kind, PictureKind picture) {
-  return kind == NodeKind::kRender && picture != PictureKind::kRendered;
+  return is_leaf_of_either(kind) && picture != PictureKind::kRendered;
 }
 
 inline bool is_plane_primitive(NodeKind kind) {

@@ -25,7 +25,7 @@ bool wants_plane(NodeKind kind) {
 /// Nodes that need the figures of their operands, and not the operands alone.
 bool combines_figures(NodeKind kind) {
   return kind == NodeKind::kHull || kind == NodeKind::kMinkowski || kind == NodeKind::kOffset ||
-         kind == NodeKind::kResize;
+         kind == NodeKind::kResize || kind == NodeKind::kFill;
 }
 
 }  // namespace
@@ -64,6 +64,11 @@ void PlaneEvaluation::find_presence(uint32_t node) {
   // The modifiers of the root count where it stands.
   if (!is_root && (syntax.modifiers & (kDisable | kBackground)) != 0) return;
   Node& own = at(node);
+  if (const ImportedDrawing* drawing = subtree_.drawing(node)) {
+    own.dimension = is_extrusion(syntax.kind) && !is_root ? 3 : 2;
+    own.presence = drawing->figures.empty() ? Presence::kEmpty : Presence::kSolid;
+    return;
+  }
   switch (syntax.kind) {
     case NodeKind::kCircle:
     case NodeKind::kSquare:
@@ -85,14 +90,10 @@ void PlaneEvaluation::find_presence(uint32_t node) {
       own.presence = Presence::kSolid;
       return;
     case NodeKind::kImport:
-      if (!subtree_.data<ImportNode>(node).is_plane) {
-        own.dimension = 3;
-        own.presence = Presence::kSolid;
-        return;
-      }
-      [[fallthrough]];
+      own.dimension = 3;
+      own.presence = Presence::kSolid;
+      return;
     case NodeKind::kProjection:
-    case NodeKind::kFill:
     case NodeKind::kRoof:
       own.presence = Presence::kLeftOut;
       leave_out_(node, kBecauseUnsupported);
@@ -190,6 +191,7 @@ void PlaneEvaluation::find_figures(uint32_t node) {
 }
 
 std::vector<Figure> PlaneEvaluation::union_of_operands(uint32_t node) const {
+  if (const ImportedDrawing* drawing = subtree_.drawing(node)) return drawing->figures;
   std::vector<Figure> all;
   visit_operands(node, [&](uint32_t child) {
     const std::vector<Figure>& figures = at(child).figures;
@@ -218,6 +220,8 @@ std::optional<std::vector<Figure>> PlaneEvaluation::combined_figures(uint32_t no
       return figures_of_minkowski(node);
     case NodeKind::kOffset:
       return offset(union_of_operands(node), subtree_.data<OffsetSettings>(node));
+    case NodeKind::kFill:
+      return without_holes(union_of_operands(node));
     case NodeKind::kHull: {
       std::vector<Disc> discs;
       for (const Figure& figure : union_of_operands(node)) add_hull_points(figure, discs);

@@ -12,6 +12,7 @@
 #include "lower/faceted_box.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/read_drawing.hpp"
 #include "lower/sliced_solid.hpp"
 #include "lower/smooth_slices.hpp"
 
@@ -62,6 +63,10 @@ class FigureTreeWriter {
 
   FigureTree write() {
     const bool is_extrusion = frontend::is_extrusion(subtree_.syntax(subtree_.root()).kind);
+    if (is_extrusion && subtree_.drawing(subtree_.root()) != nullptr) {
+      add_figures(subtree_.root());
+      return {std::move(figures_), builder_.finish()};
+    }
     for (uint32_t i = subtree_.root() + (is_extrusion ? 1 : 0); i < subtree_.end();) {
       close_until(i);
       i = enter(i);
@@ -103,12 +108,12 @@ class FigureTreeWriter {
         for (const PlacedGlyph& letter : subtree_.data<TextNode>(node).letters) add(letter, node);
         builder_.close();
         return end;
+      case NodeKind::kImport:
       case NodeKind::kHull:
       case NodeKind::kMinkowski:
       case NodeKind::kOffset:
-        builder_.open(Op::kUnion);
-        for (const Figure& figure : evaluation_.figures(node)) add(figure, node, 0);
-        builder_.close();
+      case NodeKind::kFill:
+        add_figures(node);
         return end;
       case NodeKind::kMultmatrix:
         open(node, subtree_.data<MatrixNode>(node).matrix);
@@ -124,6 +129,16 @@ class FigureTreeWriter {
         open_.push_back({end, open_.back().frame, open_.back().map});
     }
     return node + 1;
+  }
+
+  /// All of a node that was evaluated, or of a drawing.
+  void add_figures(uint32_t node) {
+    const ImportedDrawing* drawing = subtree_.drawing(node);
+    const std::span<const Figure> figures =
+        drawing != nullptr ? std::span<const Figure>(drawing->figures) : evaluation_.figures(node);
+    builder_.open(Op::kUnion);
+    for (const Figure& figure : figures) add(figure, node, 0);
+    builder_.close();
   }
 
   void open(uint32_t node, const HealedMatrix& matrix) {
@@ -145,7 +160,7 @@ class FigureTreeWriter {
   }
 
   uint32_t first_id(uint32_t node) const {
-    while (node + 1 < subtree_.end_of(node) && !is_primitive_node(subtree_.syntax(node).kind)) {
+    while (node + 1 < subtree_.end_of(node) && !has_place(subtree_.tree(), subtree_.syntax(node))) {
       ++node;
     }
     return subtree_.id(node);

@@ -5,6 +5,7 @@
 
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/read_drawing.hpp"
 
 namespace frontend {
 namespace {
@@ -43,20 +44,7 @@ FigureNode square_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 }
 
 FigureNode polygon_node(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
-  const Figure read = outline_of(read_polygon(tree, node, problems));
-  FigureNode result;
-  if (std::optional<Polygon> convex = convex_corners(read)) {
-    result.figure = outline_of(Polygons{std::move(*convex)});
-    return result;
-  }
-  // Without what is empty, and with what crosses itself cut, as far as that can be afforded.
-  std::optional<SimplePolygons> outline = united({&read, 1});
-  if (!outline) {
-    result.figure = read;
-  } else if (!outline->empty()) {
-    result.figure = outline_of(std::move(*outline));
-  }
-  return result;
+  return {cleaned(outline_of(read_polygon(tree, node, problems)))};
 }
 
 /// OpenSCAD's chords of a curve in a text; 0: it is kept.
@@ -132,19 +120,37 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
       result.is_faceted = keeps_facets(options, result.arguments.facets);
       return result;
     }
-    case NodeKind::kImport:
-      return ImportNode{names_drawing(tree, node)};
     default:
       return std::monostate();
   }
 }
 
+const ImportedDrawing* drawing_of(const SyntaxTree& tree, const SyntaxNode& node,
+                                  const ImportOptions& options, FileImports& files,
+                                  NodeProblems& problems) {
+  if (!names_drawing(tree, node)) return nullptr;
+  DrawingArguments arguments = read_drawing_arguments(tree, node, problems);
+  arguments.dxf.facets = chosen(options, arguments.dxf.facets);
+  arguments.dxf.is_faceted = keeps_facets(options, arguments.dxf.facets);
+  // OpenSCAD's chords of an SVG do not depend on $fn: none is meant to be a polygon.
+  arguments.svg.is_faceted = options.facets == Facets::kAll;
+  const ImportedDrawing& drawing = files.drawing(arguments);
+  for (const DrawingProblem& problem : drawing.problems) {
+    problems.add(node, problem.what, [&] {
+      return NodeProblems::Description{": " + problem.what, problem.todo};
+    });
+  }
+  return &drawing;
+}
+
 }  // namespace
 
 void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options,
-                        DesignFonts& fonts, NodeProblems& problems) {
+                        const PlaneSources& sources, NodeProblems& problems) {
   nodes_.resize(node - root_ + 1);
-  nodes_.back() = {true, id, data_of(tree_, tree_.nodes[node], options, fonts, problems)};
+  const SyntaxNode& syntax = tree_.nodes[node];
+  nodes_.back() = {true, id, data_of(tree_, syntax, options, sources.fonts, problems),
+                   drawing_of(tree_, syntax, options, sources.files, problems)};
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {

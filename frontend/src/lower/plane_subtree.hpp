@@ -9,6 +9,7 @@
 #include "frontend/import_options.hpp"
 #include "frontend/syntax_tree.hpp"
 #include "heal/matrix_healing.hpp"
+#include "lower/import_files.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/read_2d.hpp"
 #include "lower/read_text.hpp"
@@ -43,21 +44,23 @@ struct RotateExtrudeNode {
   bool is_faceted = false;
 };
 
-struct ImportNode {
-  bool is_plane = false;  // its file is a drawing
-};
+using PlaneNodeData = std::variant<std::monostate, FigureNode, TextNode, MatrixNode, OffsetSettings,
+                                   ResizeArguments, LinearExtrudeNode, RotateExtrudeNode>;
 
-using PlaneNodeData =
-    std::variant<std::monostate, FigureNode, TextNode, MatrixNode, OffsetSettings, ResizeArguments,
-                 LinearExtrudeNode, RotateExtrudeNode, ImportNode>;
+/// Where nodes get what the design does not hold itself.
+struct PlaneSources {
+  DesignFonts& fonts;
+  FileImports& files;
+};
 
 /// The nodes of the subtree, in the tree's order, as far as they were taken.
 class PlaneSubtree {
  public:
   PlaneSubtree(const SyntaxTree& tree, uint32_t root) : tree_(tree), root_(root) {}
 
-  /// Reads the arguments of a node of the subtree. `id` is its place among the primitive nodes.
-  void take(uint32_t node, uint32_t id, const ImportOptions& options, DesignFonts& fonts,
+  /// Reads the arguments of a node of the subtree, and the drawing that it names. `id` is its place
+  /// among the primitive nodes. The files must outlive this.
+  void take(uint32_t node, uint32_t id, const ImportOptions& options, const PlaneSources& sources,
             NodeProblems& problems);
 
   const SyntaxTree& tree() const { return tree_; }
@@ -70,6 +73,8 @@ class PlaneSubtree {
   bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
   const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
+  /// Returns the drawing that the node names; null if it names none.
+  const ImportedDrawing* drawing(uint32_t node) const { return nodes_[node - root_].drawing; }
   template <typename Data>
   const Data& data(uint32_t node) const {
     return std::get<Data>(nodes_[node - root_].data);
@@ -80,6 +85,7 @@ class PlaneSubtree {
     bool is_taken = false;
     uint32_t id = 0;
     PlaneNodeData data;
+    const ImportedDrawing* drawing = nullptr;
   };
   const SyntaxTree& tree_;
   uint32_t root_;

@@ -1,7 +1,6 @@
 #include "lower/read_2d.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -194,17 +193,6 @@ Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
   return result;
 }
 
-bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node) {
-  const Value* file = find_argument(tree, node, "file", 0);
-  if (file == nullptr || file->kind != ValueKind::kString) return false;
-  const std::string_view name = tree.text_of(*file);
-  constexpr size_t kSuffix = 4;
-  if (name.size() < kSuffix) return false;
-  std::string suffix(name.substr(name.size() - kSuffix));
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix == ".dxf" || suffix == ".svg";
-}
-
 csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node) {
   const csgcore::FacetSettings defaults;
   return {number_argument(tree, node, "$fn").value_or(defaults.fn),
@@ -263,8 +251,6 @@ LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxN
   result.top_scale = read_top_scale(tree, node);
   result.slices = count_argument(tree, node, "slices");
   result.segments = count_argument(tree, node, "segments");
-  const Value* file = find_argument(tree, node, "file", kByNameOnly);
-  result.is_supported = file == nullptr || file->kind != ValueKind::kString || file->count == 0;
   return result;
 }
 
@@ -275,8 +261,6 @@ RotateExtrudeArguments read_rotate_extrude(const SyntaxTree& tree, const SyntaxN
   if (angle && *angle > -360 && *angle <= 360) result.angle = *angle;
   result.start = number_argument(tree, node, "start");
   if (result.start && !std::isfinite(*result.start)) result.start.reset();
-  const Value* file = find_argument(tree, node, "file", kByNameOnly);
-  result.is_supported = file == nullptr || file->kind != ValueKind::kString || file->count == 0;
   return result;
 }
 

@@ -19,9 +19,6 @@ Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
 /// Polygon node → its paths, all of finite points, filled by the even-odd rule.
 Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);
 
-/// Import node → whether its file is a DXF or SVG drawing, by its suffix.
-bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node);
-
 /// $fn, $fa and $fs of a node.
 csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxNode& node);
 
@@ -40,8 +37,7 @@ struct ResizeArguments {
 ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
 
 struct LinearExtrudeArguments {
-  bool is_supported = true;  // false: it has a file
-  double height = 100;       // ≤ 0: nothing
+  double height = 100;  // ≤ 0: nothing
   bool is_centered = false;
   double twist = 0;                // degrees, clockwise
   Vec2 top_scale{1.0};             // ≥ 0
@@ -54,8 +50,7 @@ LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxN
                                            NodeProblems& problems);
 
 struct RotateExtrudeArguments {
-  bool is_supported = true;  // false: it has a file
-  double angle = 360;        // from −360 to 360, the former exclusive; 0: nothing
+  double angle = 360;  // from −360 to 360, the former exclusive; 0: nothing
   std::optional<double> start{};
   csgcore::FacetSettings facets;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lower/node_roles.hpp"
+
 namespace frontend {
 namespace {
 
@@ -66,7 +68,7 @@ Presence presence_of(const Open& open) {
 ResolvedNode close(const Open& open) {
   ResolvedNode node_state;
   node_state.presence = presence_of(open);
-  if (node_state.presence == Presence::kSolid && open.kind != NodeKind::kRender) {
+  if (node_state.presence == Presence::kSolid && !is_leaf_of_either(open.kind)) {
     node_state.keeps_highlighted = open.kind == NodeKind::kDifference
                                        ? open.first.highlighted
                                        : open.all_highlighted && open.any_solid;
@@ -152,9 +154,9 @@ class ModifierResolver {
       const bool own_background =
           (node.modifiers & kBackground) != 0 && node_state.presence == Presence::kBackground;
       const bool carried_on = !own_background && parent.keeps_highlighted;
-      const bool in_render = parent.kind == NodeKind::kRender;
-      if (own_background && !in_render) resolved_.background.push_back(i);
-      if (node_state.highlighted && !carried_on && !in_render &&
+      const bool in_leaf = is_leaf_of_either(parent.kind);
+      if (own_background && !in_leaf) resolved_.background.push_back(i);
+      if (node_state.highlighted && !carried_on && !in_leaf &&
           highlight_ends.size() < kMostNestedHighlights) {
         resolved_.highlight.push_back(i);
         highlight_ends.push_back(node.subtree_end);

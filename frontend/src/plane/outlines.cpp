@@ -163,6 +163,28 @@ ClipperLib::JoinType join_type(Corners corners) {
   return ClipperLib::jtRound;
 }
 
+double signed_area(const Polygon& polygon) {
+  double twice = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i] - polygon.front();
+    const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon.front();
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice / 2;
+}
+
+ClipperLib::EndType end_type(LineEnds ends) {
+  switch (ends) {
+    case LineEnds::kButt:
+      return ClipperLib::etOpenButt;
+    case LineEnds::kSquare:
+      return ClipperLib::etOpenSquare;
+    case LineEnds::kRound:
+      return ClipperLib::etOpenRound;
+  }
+  return ClipperLib::etOpenSquare;
+}
+
 }  // namespace
 
 std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chords& chords) {
@@ -225,6 +247,54 @@ SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Co
   ClipperLib::Paths result;
   offset.Execute(result, scaled);
   return grid.polygons(result);
+}
+
+SimplePolygons stroked(const Polygon& path, const StrokeSettings& settings) {
+  const double reach = reach_of(bounds_of(std::span(&path, 1))) + settings.width;
+  // OpenSCAD's whole numbers, as far as the library has them.
+  constexpr double kCoarseUnit = 1e-4;
+  const bool is_coarse = settings.is_coarse && reach < std::ldexp(kCoarseUnit, kMostGridBits);
+  const double unit = is_coarse ? kCoarseUnit : 1;
+  Polygon scaled;
+  for (const Vec2& point : path) scaled.push_back(point / unit);
+  Grid grid(is_coarse ? 0 : reach);
+  const double half_width = grid.scaled(settings.width / unit / 2);
+  constexpr double kMiterLimit = 2;  // the library's own, and OpenSCAD's, too
+  constexpr double kCoarseTolerance = 0.25;
+  ClipperLib::ClipperOffset offset(
+      kMiterLimit, is_coarse ? kCoarseTolerance
+                             : half_width * (1 - std::cos(std::numbers::pi / kChordsOfCircle)));
+  offset.AddPaths(grid.paths(std::span(&scaled, 1)), join_type(settings.corners),
+                  end_type(settings.ends));
+  ClipperLib::Paths result;
+  offset.Execute(result, half_width);
+  SimplePolygons polygons = grid.polygons(result);
+  for (Polygon& polygon : polygons) {
+    for (Vec2& point : polygon) point *= unit;
+  }
+  return polygons;
+}
+
+std::optional<Figure> cleaned(Outline outline) {
+  std::optional<Polygon> convex = convex_corners(outline);
+  if (convex) return outline_of(Polygons{std::move(*convex)});
+  const Figure figure = std::move(outline);
+  std::optional<SimplePolygons> polygons = united({&figure, 1});
+  if (!polygons) return figure;
+  if (polygons->empty()) return std::nullopt;
+  return outline_of(std::move(*polygons));
+}
+
+std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures) {
+  std::optional<SimplePolygons> polygons = united(figures);
+  if (!polygons) return std::nullopt;
+  std::erase_if(*polygons, [](const Polygon& polygon) { return signed_area(polygon) <= 0; });
+  std::vector<Figure> result;
+  if (!std::all_of(figures.begin(), figures.end(), is_polygonal)) {
+    result.assign(figures.begin(), figures.end());
+  }
+  result.push_back(outline_of(std::move(*polygons), FillRule::kNonZero));
+  return result;
 }
 
 }  // namespace frontend

@@ -28,6 +28,14 @@ std::optional<SimplePolygons> united(std::span<const Figure> figures, const Chor
 /// Returns what the operation makes of the operands. Nothing if their edges cross too often.
 std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePolygons> operands);
 
+/// Returns the outline, which has no curves, without what is empty, and with edges that cross cut
+/// there as far as that can be afforded; nothing if all is empty.
+std::optional<Figure> cleaned(Outline outline);
+
+/// Returns figures whose union is that of `figures` with its holes filled; nothing if their edges
+/// cross too often. Curves that bound it on the outside stay what they are.
+std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures);
+
 /// What becomes of the corners where an outline is moved.
 enum class Corners : uint8_t {
   kRound,   // arcs, as chords
@@ -39,5 +47,23 @@ enum class Corners : uint8_t {
 /// number of chords of a whole circle for kRound.
 SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Corners corners,
                              int fragments);
+
+/// How a line is drawn that ends.
+enum class LineEnds : uint8_t {
+  kButt,
+  kSquare,  // longer by half the width
+  kRound,
+};
+
+struct StrokeSettings {
+  double width = 1;  // > 0
+  LineEnds ends = LineEnds::kSquare;
+  Corners corners = Corners::kSharp;  // those of less than 60° are cut square
+  /// Compute in multiples of 1e-4, as OpenSCAD 2021.01 does.
+  bool is_coarse = false;
+};
+
+/// Returns what a pen draws along the open path, whose points are finite.
+SimplePolygons stroked(const Polygon& path, const StrokeSettings& settings);
 
 }  // namespace frontend

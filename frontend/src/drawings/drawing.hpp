@@ -1,0 +1,49 @@
+// The drawings that OpenSCAD's import() and extrusions read as plane figures.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "csgcore/facets.hpp"
+#include "plane/figure.hpp"
+
+namespace frontend {
+
+/// What is wrong with a drawing; the messages are OpenSCAD's where it has one.
+struct DrawingProblem {
+  std::string what;
+  std::string todo;
+};
+
+/// What a file holds: the union of the figures. After a problem there may be figures, too.
+struct Drawing {
+  std::vector<Figure> figures;
+  std::vector<DrawingProblem> problems;
+};
+
+struct DxfSettings {
+  std::string layer{};  // empty: all layers
+  Vec2 origin{0.0};
+  double scale = 1;  // ≤ 0 or nan: 1
+  csgcore::FacetSettings facets{};
+  /// Curves are OpenSCAD's chords; else they are exact.
+  bool is_faceted = false;
+};
+
+struct SvgSettings {
+  bool is_centered = false;
+  double dpi = 72;  // < 0.001 or nan: 72
+  bool is_faceted = false;
+};
+
+/// These read the bytes of a file, whose name is for messages. No file makes them take memory or
+/// time out of proportion to its size.
+
+/// DXF, in text: lines, polylines without bulges, circles, arcs, ellipses and inserted blocks.
+/// Their ends are joined where they meet on OpenSCAD's grid of 1/1024.
+Drawing read_dxf(std::string_view bytes, const std::string& name, const DxfSettings& settings);
+/// SVG: paths, rectangles, circles, ellipses, lines, polylines, polygons and groups.
+Drawing read_svg(std::string_view bytes, const std::string& name, const SvgSettings& settings);
+
+}  // namespace frontend

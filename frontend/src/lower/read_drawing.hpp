@@ -1,0 +1,33 @@
+// Nodes that read a drawing: import() of a DXF or SVG, and the extrusions of older designs.
+#pragma once
+
+#include <string>
+
+#include "drawings/drawing.hpp"
+#include "frontend/syntax_tree.hpp"
+#include "lower/node_problems.hpp"
+
+namespace frontend {
+
+/// Returns whether the node's figure is a drawing: that of an import by its file's suffix, and that
+/// of an extrusion where it names a file.
+bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node);
+
+/// Returns whether the node has a place among Primitive::id.
+bool has_place(const SyntaxTree& tree, const SyntaxNode& node);
+
+enum class DrawingFormat : uint8_t { kDxf, kSvg };
+
+/// What a node says of its drawing; is_faceted is left to its reader.
+struct DrawingArguments {
+  std::string file;  // as it stands in the design
+  DrawingFormat format = DrawingFormat::kDxf;
+  DxfSettings dxf{};
+  SvgSettings svg{};
+};
+
+/// The node names a drawing. Extrusions read DXF alone, as in OpenSCAD.
+DrawingArguments read_drawing_arguments(const SyntaxTree& tree, const SyntaxNode& node,
+                                        NodeProblems& problems);
+
+}  // namespace frontend
