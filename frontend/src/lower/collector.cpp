@@ -11,8 +11,8 @@
 #include "lower/import_arguments.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
-#include "lower/plane_evaluation.hpp"
-#include "lower/plane_lowering.hpp"
+#include "lower/solid_evaluation.hpp"
+#include "lower/solid_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -474,12 +474,13 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   const uint32_t root = subtree.root();
   PlaneEvaluation evaluation(subtree, told,
                              [&](uint32_t left, std::string_view why) { leave_out(left, why); });
-  if (evaluation.is_solid() || !is_supported(subtree)) {
-    leave_out(root, kBecauseUnsupported, is_supported(subtree));
+  if (!is_supported(subtree)) {
+    leave_out(root, kBecauseUnsupported);
     return Presence::kLeftOut;
   }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
+  if (evaluation.is_solid()) return lower_solids(subtree, evaluation, context, told, leaf);
   const bool is_rendered = options_.picture == PictureKind::kRendered;
   const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
@@ -489,12 +490,31 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
     const std::span<const Figure> figures = evaluation.figures(root);
     leaf.figures.assign(figures.begin(), figures.end());
   }
+  return take_lowered(std::move(lowered), context, leaf);
+}
+
+Presence Collector::lower_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                                 const Context& context, NodeProblems& told, PlaneLeaf& leaf) {
+  const uint32_t root = subtree.root();
+  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files, figure_solids_}, told);
+  const std::optional<SolidValue> value = solids.run();
+  if (!value) {
+    leave_out(root, solids.failure());
+    return Presence::kLeftOut;
+  }
+  return take_lowered(
+      lower_solid(*value, frames[leaf.frame].to_world, leaf.frame, subtree.first_id(root), hulls_),
+      context, leaf);
+}
+
+Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {
   leaf.is_plate = lowered.is_plate;
+  leaf.is_faceted = lowered.is_faceted;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
     LoweredSubtree::Part& part = lowered.parts[index];
     const uint32_t primitive =
-        add_primitive(std::move(part.primitive), root, context, part.frame, part.box, 0);
+        add_primitive(std::move(part.primitive), leaf.node, context, part.frame, part.box, 0);
     if (primitive == kNoPrimitive) return to.empty();
     to.primitive(primitive);
   });

@@ -15,9 +15,12 @@
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/figure_solids.hpp"
+#include "lower/hull_pool.hpp"
 #include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/plane_evaluation.hpp"
+#include "lower/plane_lowering.hpp"
 #include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
 
@@ -64,6 +67,7 @@ class Collector final : public NodeSink {
     bool is_plate;
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
+    bool is_faceted = false;                  // facets stand for something round
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
@@ -115,6 +119,9 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
+  Presence lower_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                        const Context& context, NodeProblems& told, PlaneLeaf& leaf);
+  Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
   const SolidOfFaces* read_file(uint32_t node);
@@ -141,6 +148,7 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
+  HullPool hulls_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter

@@ -121,14 +121,8 @@ class FigureTreeWriter {
 
   void add(const Figure& figure, uint32_t node, int fragments) {
     builder_.primitive(static_cast<uint32_t>(figures_.size()));
-    figures_.push_back({figure, open_.back().map, open_.back().frame, first_id(node), fragments});
-  }
-
-  uint32_t first_id(uint32_t node) const {
-    while (node + 1 < subtree_.end_of(node) && !is_primitive_node(subtree_.syntax(node).kind)) {
-      ++node;
-    }
-    return subtree_.id(node);
+    figures_.push_back(
+        {figure, open_.back().map, open_.back().frame, subtree_.first_id(node), fragments});
   }
 
   const PlaneSubtree& subtree_;

@@ -5,6 +5,7 @@
 
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/node_roles.hpp"
 
 namespace frontend {
 namespace {
@@ -116,7 +117,14 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
 void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options,
                         NodeProblems& problems) {
   nodes_.resize(node - root_ + 1);
-  nodes_.back() = {true, id, data_of(tree_, tree_.nodes[node], options, problems)};
+  const SyntaxNode& syntax = tree_.nodes[node];
+  nodes_.back() = {true, id, data_of(tree_, syntax, options, problems),
+                   read_solid_node(tree_, syntax, options, problems)};
+}
+
+uint32_t PlaneSubtree::first_id(uint32_t node) const {
+  while (node + 1 < end_of(node) && !is_primitive_node(syntax(node).kind)) ++node;
+  return id(node);
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {

@@ -11,6 +11,7 @@
 #include "heal/matrix_healing.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/read_2d.hpp"
+#include "lower/solid_node.hpp"
 
 namespace frontend {
 
@@ -58,16 +59,21 @@ class PlaneSubtree {
   bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
   const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
+  /// That of the first primitive node from this one on.
+  uint32_t first_id(uint32_t node) const;
   template <typename Data>
   const Data& data(uint32_t node) const {
     return std::get<Data>(nodes_[node - root_].data);
   }
+  /// What the node of a solid says.
+  const SolidNode& solid(uint32_t node) const { return nodes_[node - root_].solid; }
 
  private:
   struct Node {
     bool is_taken = false;
     uint32_t id = 0;
     PlaneNodeData data;
+    SolidNode solid;
   };
   const SyntaxTree& tree_;
   uint32_t root_;
