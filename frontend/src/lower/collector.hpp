@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/pending_solids.hpp"
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
 #include "lower/plane_subtree.hpp"
@@ -35,8 +37,8 @@ class Collector final : public NodeSink {
   /// Makes room: growing by doubling would copy, and touch, twice the memory.
   void reserve(size_t nodes, size_t solids, size_t matrices);
   void take(uint32_t node, uint32_t offset) override;
-  /// After the last node.
-  void finish();
+  /// After the last node. Throws if it is stopped (throw_if_stopped).
+  void finish(const std::stop_token& stop);
 
   static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
   std::vector<uint32_t> primitive_of;  // by node: index into `primitives`, or kNoPrimitive
@@ -119,8 +121,9 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
-  Presence lower_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                        const Context& context, NodeProblems& told, PlaneLeaf& leaf);
+  Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                           const Context& context, NodeProblems& told);
+  void add_pending(const std::stop_token& stop);
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
@@ -138,7 +141,7 @@ class Collector final : public NodeSink {
     PlaneSubtree subtree;
     Context context;
     NodeProblems problems;  // those of the nodes are told already
-    size_t primitives, plane_leaves, compound_leaves, left_out;  // what there was before it
+    size_t primitives, plane_leaves, compound_leaves, left_out, pending;  // what there was before
     bool is_plane;  // its first geometry is a plane figure's
   };
   void forget_since(const Candidate& candidate);
@@ -153,6 +156,9 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
   std::vector<LeftOut> maybe_left_out_;
+  /// Hulls of solids, in file order, and what their roots are handed down.
+  std::vector<PendingSolid> pending_;
+  std::vector<Context> pending_contexts_;
 };
 
 }  // namespace frontend

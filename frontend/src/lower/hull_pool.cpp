@@ -1,5 +1,7 @@
 #include "lower/hull_pool.hpp"
 
+#include <functional>
+#include <string_view>
 #include <utility>
 
 namespace frontend {
@@ -30,19 +32,29 @@ std::vector<double> key_of(const Generators& generators) {
 
 }  // namespace
 
+ConvexSolid HullPool::shared(const Generators& generators) {
+  Key key = key_of(generators);
+  const std::string_view bytes(reinterpret_cast<const char*>(key.data()),
+                               key.size() * sizeof(double));
+  {
+    const std::lock_guard lock(mutex_);
+    if (seen_.insert(std::hash<std::string_view>()(bytes)).second) key.clear();
+    const auto found = solids_.find(key);
+    if (found != solids_.end()) return found->second;
+  }
+  // Made without the lock: threads that want the same solid at once make it once each.
+  ConvexSolid result = convex_solid(generators);
+  if (key.empty()) return result;
+  const std::lock_guard lock(mutex_);
+  return solids_.try_emplace(std::move(key), std::move(result)).first->second;
+}
+
 ConvexSolid HullPool::solid(const Generators& generators) {
   if (generators.empty()) return {};
   const Vec3 origin = generators.front().center;
   Generators moved = generators;
   map_all({csgcore::Mat3(1.0), -origin}, moved);
-  ConvexSolid result;
-  if (moved.size() > kMostShared) {
-    result = convex_solid(moved);
-  } else {
-    const auto [entry, is_new] = solids_.try_emplace(key_of(moved));
-    if (is_new) entry->second = convex_solid(moved);
-    result = entry->second;
-  }
+  ConvexSolid result = moved.size() > kMostShared ? convex_solid(moved) : shared(moved);
   for (csgcore::Primitive& piece : result.pieces) piece.local_to_world.translation += origin;
   return result;
 }
