@@ -13,7 +13,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 }  // namespace
 
 void CircleArcs::cut(double a, double b, double c) {
-  const double amplitude = std::hypot(a, b);
+  const double amplitude = std::sqrt(a * a + b * b);
   if (c >= amplitude) return;
   if (c < -amplitude) {
     arcs_.clear();

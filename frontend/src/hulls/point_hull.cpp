@@ -36,7 +36,7 @@ class Quickhull {
     start(simplex);
     for (uint32_t i = 0; i < faces_.size(); ++i) {
       // New faces come last; a face that was replaced has no points.
-      if (!faces_[i].beyond.empty()) add_corner(i);
+      if (faces_[i].first_beyond != kNone) add_corner(i);
     }
   }
 
@@ -66,11 +66,13 @@ class Quickhull {
     Triangle corners{};
     Triangle neighbors{};
     Vec3 normal{0.0};
-    Vec3 bound{0.0};               // what the rounding of `normal` is a share of
-    std::vector<uint32_t> beyond;  // points on the outer side
+    Vec3 bound{0.0};                // what the rounding of `normal` is a share of
+    uint32_t first_beyond = kNone;  // the first of the points on the outer side (next_)
     bool is_alive = true;
     bool is_visible = false;  // from the point that is being added
   };
+  static constexpr size_t kMostReserved = 1 << 10;
+
   struct HorizonEdge {
     uint32_t from, to, outer;
   };
@@ -109,44 +111,55 @@ class Quickhull {
     faces_[1].neighbors = {0, 3, 2};
     faces_[2].neighbors = {0, 1, 3};
     faces_[3].neighbors = {0, 2, 1};
+    // Each corner replaces some faces by two more.
+    faces_.reserve(std::min(points_.size(), kMostReserved) * 4);
     start_of_.assign(points_.size(), kNone);
-    std::vector<uint32_t> all(points_.size());
-    for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    distribute(all, 0);
+    next_.resize(points_.size());
+    for (uint32_t i = 0; i < points_.size(); ++i) give_to_face(i, 0);
   }
 
-  /// Gives each point to one of the faces from `first` on that it lies beyond, if there is one.
-  void distribute(const std::vector<uint32_t>& points, uint32_t first) {
-    for (const uint32_t point : points) {
-      for (uint32_t i = first; i < faces_.size(); ++i) {
-        if (!sees(point, faces_[i])) continue;
-        faces_[i].beyond.push_back(point);
-        break;
-      }
+  /// Gives the point to one of the faces from `first` on that it lies beyond, if there is one.
+  void give_to_face(uint32_t point, uint32_t first) {
+    for (uint32_t i = first; i < faces_.size(); ++i) {
+      Face& face = faces_[i];
+      if (!sees(point, face)) continue;
+      next_[point] = face.first_beyond;
+      face.first_beyond = point;
+      return;
     }
+  }
+
+  /// The point beyond the face that is furthest from it.
+  uint32_t furthest_beyond(const Face& face) const {
+    uint32_t best = face.first_beyond;
+    double most = height(face, best);
+    for (uint32_t point = next_[best]; point != kNone; point = next_[point]) {
+      const double here = height(face, point);
+      if (here <= most) continue;
+      most = here;
+      best = point;
+    }
+    return best;
   }
 
   void add_corner(uint32_t start) {
-    const std::vector<uint32_t>& beyond = faces_[start].beyond;
-    const uint32_t corner =
-        *std::max_element(beyond.begin(), beyond.end(), [&](uint32_t a, uint32_t b) {
-          return height(faces_[start], a) < height(faces_[start], b);
-        });
+    const uint32_t corner = furthest_beyond(faces_[start]);
     find_visible(start, corner);
-    std::vector<uint32_t> points;
+    points_to_give_.clear();
     for (const uint32_t face : visible_) {
       faces_[face].is_alive = false;
-      points.insert(points.end(), faces_[face].beyond.begin(), faces_[face].beyond.end());
-      faces_[face].beyond = {};
+      for (uint32_t p = faces_[face].first_beyond; p != kNone; p = next_[p]) {
+        if (p != corner) points_to_give_.push_back(p);
+      }
+      faces_[face].first_beyond = kNone;
     }
-    std::erase(points, corner);
     const auto first = static_cast<uint32_t>(faces_.size());
     for (const HorizonEdge& edge : horizon_) {
       start_of_[edge.from] = static_cast<uint32_t>(faces_.size());
       faces_.push_back(face_of({edge.from, edge.to, corner}));
     }
     for (uint32_t i = 0; i < horizon_.size(); ++i) link(horizon_[i], first + i);
-    distribute(points, first);
+    for (const uint32_t point : points_to_give_) give_to_face(point, first);
   }
 
   /// The visible faces are connected, and the horizon around them is one simple loop.
@@ -185,7 +198,9 @@ class Quickhull {
 
   const std::vector<GridPoint>& points_;
   std::vector<Face> faces_;
-  std::vector<uint32_t> visible_;
+  std::vector<uint32_t> next_;  // by point: the next one beyond the same face
+  // Buffers of add_corner().
+  std::vector<uint32_t> visible_, points_to_give_;
   std::vector<HorizonEdge> horizon_;
   std::vector<uint32_t> start_of_;  // by point: the new face whose horizon edge starts there
 };
