@@ -99,18 +99,12 @@ Generators in_frame(const Mat3& frame, const Generators& generators) {
   return result;
 }
 
-/// Points for the parts that are not round: they lie on them.
-void replace_parts(const Generator& generator, int rings, std::vector<RoundGenerator>& result) {
+/// Puts points for the parts that are chosen: they lie on them.
+void replace_parts(const Generator& generator, int rings, bool replaces_round,
+                   std::vector<RoundGenerator>& result) {
   const double turn = 2 * std::numbers::pi;
-  const auto with = [&](const Vec3& offset, bool keeps_disc, bool keeps_ball) {
-    Generator point = generator;
-    point.center += offset;
-    if (!keeps_disc) point.disc_a = point.disc_b = Vec3(0.0);
-    if (!keeps_ball) point.ball = Mat3(0.0);
-    return point;
-  };
   std::vector<Generator> without_ball;
-  if (!generator.has_ball() || is_similarity(generator.ball)) {
+  if (!generator.has_ball() || (!replaces_round && is_similarity(generator.ball))) {
     without_ball.push_back(generator);
   } else {
     for (int i = 0; i <= rings; ++i) {
@@ -120,12 +114,14 @@ void replace_parts(const Generator& generator, int rings, std::vector<RoundGener
         const double azimuth = turn * k / points;
         const Vec3 direction(std::sin(polar) * std::cos(azimuth),
                              std::sin(polar) * std::sin(azimuth), std::cos(polar));
-        without_ball.push_back(with(generator.ball * direction, true, false));
+        Generator& part = without_ball.emplace_back(generator);
+        part.center += generator.ball * direction;
+        part.ball = Mat3(0.0);
       }
     }
   }
   for (const Generator& part : without_ball) {
-    if (is_round(part)) {
+    if (!part.has_disc() || (!replaces_round && is_round(part))) {
       result.push_back(round_of(part));
       continue;
     }
@@ -171,7 +167,7 @@ RoundedGenerators rounded_in(const Mat3& frame, const Generators& generators) {
       result.generators.push_back(round_of(generator));
     } else {
       result.is_faceted = true;
-      replace_parts(generator, rings, result.generators);
+      replace_parts(generator, rings, false, result.generators);
     }
   }
   return result;
@@ -268,6 +264,21 @@ void replace_disc(const RoundGenerator& generator, std::vector<RoundGenerator>& 
     point.disc_radius = 0;
     result.push_back(point);
   }
+}
+
+PointSet points_of(const Generators& generators) {
+  PointSet result;
+  for (const Generator& generator : generators) {
+    if (!generator.has_disc() && !generator.has_ball()) {
+      result.points.push_back(generator.center);
+      continue;
+    }
+    result.is_faceted = true;
+    std::vector<RoundGenerator> points;
+    replace_parts(generator, kChordsOfCutDisc / 4, true, points);
+    for (const RoundGenerator& point : points) result.points.push_back(point.center);
+  }
+  return result;
 }
 
 std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators& b) {

@@ -53,6 +53,17 @@ RoundedGenerators rounded(const Generators& generators);
 /// Puts points for the disc.
 void replace_disc(const RoundGenerator& generator, std::vector<RoundGenerator>& result);
 
+/// Chords that stand for a disc within the outcome of set operations: 1e-3 of its radius, a pixel
+/// at a radius of 1,000 pixels.
+constexpr int kChordsOfCutDisc = 72;
+
+/// Returns points whose hull is that of the generators, up to facets.
+struct PointSet {
+  std::vector<csgcore::Vec3> points;
+  bool is_faceted = false;  // points stand for something round
+};
+PointSet points_of(const Generators& generators);
+
 /// Generators of the Minkowski sum of the two hulls.
 struct GeneratorSum {
   Generators generators;

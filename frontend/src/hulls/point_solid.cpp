@@ -49,6 +49,16 @@ class LocalHull {
         std::make_shared<csgcore::Polyhedron>(std::move(faces), vertices_)));
   }
 
+  /// In the coordinates of the points.
+  std::vector<HalfSpace> placed_half_spaces() const {
+    std::vector<HalfSpace> result = half_spaces();
+    const double size = std::ldexp(1 / kUnit, grid_.exponent);
+    for (HalfSpace& face : result) {
+      face.offset = size * face.offset + glm::dot(face.normal, grid_.origin);
+    }
+    return result;
+  }
+
   Primitive sheet() const {
     const std::vector<uint32_t>& around = hull_.corners;
     const Vec3 normal = glm::normalize(normal_of_polygon());
@@ -168,6 +178,13 @@ class LocalHull {
 };
 
 }  // namespace
+
+std::vector<HalfSpace> faces_of(std::span<const Vec3> corners) {
+  const PointGrid grid = on_grid(corners);
+  const PointHull hull = point_hull(grid);
+  if (hull.dimension < 3) return {};
+  return LocalHull(grid, hull).placed_half_spaces();
+}
 
 std::optional<PointSolid> solid_of_points(std::span<const Vec3> points) {
   const PointGrid grid = on_grid(points);

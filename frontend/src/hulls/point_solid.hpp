@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "csgcore/half_space.hpp"
 #include "csgcore/primitive.hpp"
 
 namespace frontend {
@@ -18,5 +20,8 @@ struct PointSolid {
 /// must be finite. No point of the space within the hull is left out, and what is added is at most
 /// 2^-45 of its size thick.
 std::optional<PointSolid> solid_of_points(std::span<const csgcore::Vec3> points);
+
+/// Returns the half-spaces whose intersection is the hull; none if it has no volume.
+std::vector<csgcore::HalfSpace> faces_of(std::span<const csgcore::Vec3> points);
 
 }  // namespace frontend

@@ -8,6 +8,7 @@
 #include "base/primitive_traits.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/solid_cuts.hpp"
 #include "lower/solid_sums.hpp"
 
 namespace frontend {
@@ -19,8 +20,6 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseBoolean =
-    "it needs the outcome of a difference or an intersection of solids";
 constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
 
 bool is_affine(const FileMatrix& file) {
@@ -188,9 +187,10 @@ SolidValue SolidEvaluation::hull(uint32_t node) {
   SupportSet support;
   Box box;
   for (const SolidValue& operand : operands(node)) {
-    if (!operand.is_union()) fail(kBecauseBoolean);
-    for (const SolidPart& part : operand.parts) part.add_support(support);
-    box.merge(operand.box());
+    for (const SolidPart& part : united(operand)) {
+      part.add_support(support);
+      box.merge(part.box);
+    }
   }
   if (support.generators.empty()) return {};
   return value_of(part_of(std::move(support), box));
@@ -206,14 +206,19 @@ SolidValue SolidEvaluation::minkowski(uint32_t node) {
   return result;
 }
 
+/// Convex parts whose union is the value, as far as that can be found.
+std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value) {
+  SolidCuts cuts;
+  std::vector<SolidPart> parts = cuts.united(value);
+  if (!cuts.failure().empty()) fail(cuts.failure());
+  return parts;
+}
+
 SolidValue SolidEvaluation::sum(const SolidValue& a, const SolidValue& b) {
-  if (!a.is_union() || !b.is_union()) {
-    fail(kBecauseBoolean);
-    return {};
-  }
+  const std::vector<SolidPart> others = united(b);
   SolidSums sums;
-  for (const SolidPart& part : a.parts) {
-    for (const SolidPart& other : b.parts) sums.add(part, other);
+  for (const SolidPart& part : united(a)) {
+    for (const SolidPart& other : others) sums.add(part, other);
   }
   if (!sums.failure().empty()) fail(sums.failure());
   return union_of(sums.take());
@@ -222,11 +227,10 @@ SolidValue SolidEvaluation::sum(const SolidValue& a, const SolidValue& b) {
 SolidValue SolidEvaluation::resized(uint32_t node) {
   SolidValue result = combined(Op::kUnion, operands(node));
   if (result.is_empty()) return {};
-  if (!result.is_union()) {
-    fail(kBecauseBoolean);
-    return {};
-  }
-  const Vec3 factors = resize_factors(subtree_.data<ResizeArguments>(node), result.box().size());
+  Box box;
+  for (const SolidPart& part : united(result)) box.merge(part.box);
+  if (box.empty()) return {};
+  const Vec3 factors = resize_factors(subtree_.data<ResizeArguments>(node), box.size());
   Affine map;
   for (int axis = 0; axis < 3; ++axis) map.linear[axis][axis] = factors[axis];
   result.map(map);
