@@ -174,8 +174,8 @@ RoundedGenerators rounded_in(const Mat3& frame, const Generators& generators) {
 }
 
 /// Keeps those that the hull of the others may not hold: of generators without round parts, the
-/// corners of their hull.
-void leave_out_inner_points(std::vector<RoundGenerator>& generators) {
+/// corners of their hull. Returns whether all are points, and lie in a plane.
+bool leave_out_inner_points(std::vector<RoundGenerator>& generators) {
   std::vector<Vec3> points;
   std::vector<RoundGenerator> kept;
   for (const RoundGenerator& generator : generators) {
@@ -186,10 +186,11 @@ void leave_out_inner_points(std::vector<RoundGenerator>& generators) {
       kept.push_back(generator);
     }
   }
-  for (const uint32_t corner : point_hull(on_grid(points)).corners) {
-    kept.push_back({points[corner]});
-  }
+  const PointHull hull = point_hull(on_grid(points));
+  const bool is_flat = kept.empty() && hull.dimension < 3;
+  for (const uint32_t corner : hull.corners) kept.push_back({points[corner]});
   generators = std::move(kept);
+  return is_flat;
 }
 
 /// A frame in which all are round, if there is one.
@@ -299,7 +300,7 @@ std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators&
       if (sums.size() > kMostSums) return std::nullopt;
     }
   }
-  leave_out_inner_points(sums);
+  result.is_flat = leave_out_inner_points(sums);
   for (const RoundGenerator& sum : sums) {
     result.generators.push_back(mapped({frame, Vec3(0.0)}, general_of(sum)));
   }

@@ -68,6 +68,7 @@ PointSet points_of(const Generators& generators);
 struct GeneratorSum {
   Generators generators;
   bool is_faceted = false;
+  bool is_flat = false;  // it consists of points in a plane, and has no volume
 };
 /// Returns nothing if they would be too many.
 std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators& b);

@@ -201,9 +201,21 @@ SolidValue SolidEvaluation::minkowski(uint32_t node) {
   std::erase_if(all, [](const SolidValue& value) { return value.is_empty(); });
   if (all.empty()) return {};
   if (all.size() == 1) return std::move(all.front());
-  SolidValue result = std::move(all.front());
-  for (size_t i = 1; i < all.size() && failure_.empty(); ++i) result = sum(result, all[i]);
-  return result;
+  std::vector<SolidPart> result;
+  for (const SolidValue& operand : all) {
+    // OpenSCAD ignores what is empty.
+    std::vector<SolidPart> parts = united(operand);
+    if (!failure_.empty()) return {};
+    if (parts.empty()) continue;
+    if (result.empty()) {
+      result = std::move(parts);
+      continue;
+    }
+    // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.
+    result = sum(result, parts);
+    if (result.empty()) return {};
+  }
+  return union_of(std::move(result));
 }
 
 /// Convex parts whose union is the value, as far as that can be found.
@@ -214,14 +226,14 @@ std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value) {
   return parts;
 }
 
-SolidValue SolidEvaluation::sum(const SolidValue& a, const SolidValue& b) {
-  const std::vector<SolidPart> others = united(b);
+std::vector<SolidPart> SolidEvaluation::sum(const std::vector<SolidPart>& a,
+                                            const std::vector<SolidPart>& b) {
   SolidSums sums;
-  for (const SolidPart& part : united(a)) {
-    for (const SolidPart& other : others) sums.add(part, other);
+  for (const SolidPart& part : a) {
+    for (const SolidPart& other : b) sums.add(part, other);
   }
   if (!sums.failure().empty()) fail(sums.failure());
-  return union_of(sums.take());
+  return sums.take();
 }
 
 SolidValue SolidEvaluation::resized(uint32_t node) {

@@ -48,7 +48,7 @@ class SolidEvaluation {
   SolidValue minkowski(uint32_t node);
   SolidValue resized(uint32_t node);
   std::vector<SolidPart> united(const SolidValue& value);
-  SolidValue sum(const SolidValue& a, const SolidValue& b);
+  std::vector<SolidPart> sum(const std::vector<SolidPart>& a, const std::vector<SolidPart>& b);
   std::vector<SolidValue> operands(uint32_t node);
   void fail(std::string_view why);
 

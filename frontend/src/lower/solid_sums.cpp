@@ -119,6 +119,7 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
   std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
   if (!sum) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;
+  if (sum->is_flat) return;
   sums_.push_back(part_of(
       SupportSet{std::move(sum->generators), sum->is_faceted || a.is_faceted || b.is_faceted},
       box));
@@ -129,6 +130,7 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
 void SolidSums::add_mesh(const Primitive& mesh, const SolidPart& convex, const Box& box) {
   const SupportSet support = support_of(convex);
   if (mesh.mesh->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
+  if (!mesh.mesh->is_closed()) return fail("one of its operands is an open mesh");
   sums_.push_back(moved(mesh, support.generators.front().center, box));
   for (const auto& triangle : mesh.mesh->triangles()) {
     std::array<Vec3, 3> corners;
