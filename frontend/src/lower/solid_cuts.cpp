@@ -120,7 +120,7 @@ SolidCuts::Parts SolidCuts::difference(Parts parts, const SolidPart& cutter) {
     const PointSet own = points_of(part);
     if (!is_affordable(result.size())) return {};
     const std::vector<Corners> pieces = frontend::difference(own.points, faces);
-    if (pieces.size() == 1 && pieces.front().size() == own.points.size()) {
+    if (pieces.size() == 1 && pieces.front() == own.points) {
       result.push_back(std::move(part));
       continue;
     }
