@@ -14,6 +14,8 @@
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
 #include "lower/read_drawing.hpp"
+#include "lower/solid_evaluation.hpp"
+#include "lower/solid_lowering.hpp"
 
 namespace frontend {
 namespace {
@@ -122,9 +124,10 @@ void Collector::take(uint32_t index, uint32_t offset) {
   if (is_disabled || !visit(index, id, offset)) skipped_ = index;
 }
 
-void Collector::finish() {
+void Collector::finish(const std::stop_token& stop) {
   if (plane_) leave_plane();
   if (candidate_) leave_candidate();
+  add_pending(stop);
   std::sort(plane_leaves.begin(), plane_leaves.end(),
             [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
   const auto count = static_cast<uint32_t>(tree_.nodes.size());
@@ -166,6 +169,8 @@ void Collector::select(uint32_t root) {
   problems.clear();
   compound_leaves.clear();
   plane_leaves.clear();
+  pending_.clear();
+  pending_contexts_.clear();
   plane_.reset();
   candidate_.reset();
   top_node_.reset();
@@ -408,6 +413,7 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
                                compound_leaves.size(),
                                maybe_left_out_.size(),
                                solid_fills_.size(),
+                               pending_.size(),
                                false});
 }
 
@@ -463,6 +469,8 @@ void Collector::forget_since(const Candidate& candidate) {
   shorten(compound_leaves, candidate.compound_leaves);
   shorten(maybe_left_out_, candidate.left_out);
   shorten(solid_fills_, candidate.solid_fills);
+  shorten(pending_, candidate.pending);
+  shorten(pending_contexts_, candidate.pending);
   std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
 }
 
@@ -478,12 +486,9 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
   const uint32_t root = subtree.root();
   PlaneEvaluation evaluation(subtree, told,
                              [&](uint32_t left, std::string_view why) { leave_out(left, why); });
-  if (evaluation.is_solid()) {
-    leave_out(root, kBecauseUnsupported, true);
-    return Presence::kLeftOut;
-  }
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
+  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
   const bool is_rendered = options_.picture == PictureKind::kRendered;
   const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
@@ -493,12 +498,75 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
     const std::span<const Figure> figures = evaluation.figures(root);
     leaf.figures.assign(figures.begin(), figures.end());
   }
+  return take_lowered(std::move(lowered), context, leaf);
+}
+
+Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                                    const Context& context, NodeProblems& told) {
+  const uint32_t root = subtree.root();
+  SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files, figure_solids_}, told);
+  std::optional<SolidValue> value = solids.run();
+  if (!value) {
+    leave_out(root, solids.failure());
+    return Presence::kLeftOut;
+  }
+  if (value->is_empty()) return Presence::kEmpty;
+  pending_.push_back({root, context.frame, frames[context.frame].to_world, subtree.first_id(root),
+                      primitives.size(), std::move(*value)});
+  pending_contexts_.push_back(context);
+  return Presence::kSolid;
+}
+
+/// Makes the solids that were put off, and puts their primitives where their nodes stand among the
+/// others.
+void Collector::add_pending(const std::stop_token& stop) {
+  if (pending_.empty()) return;
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
+  std::vector<Primitive> old_primitives = std::exchange(primitives, {});
+  std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
+  std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
+  std::vector<int> old_fragments = std::exchange(fragments, {});
+  std::vector<uint32_t> place(old_primitives.size());  // by primitive, of those that are there
+  const auto add_old = [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      place[i] = static_cast<uint32_t>(primitives.size());
+      primitives.push_back(std::move(old_primitives[i]));
+      boxes.push_back(old_boxes[i]);
+      frame_of.push_back(old_frame_of[i]);
+      fragments.push_back(old_fragments[i]);
+    }
+  };
+  size_t done = 0;
+  std::vector<PlaneLeaf> leaves;
+  for (size_t i = 0; i < pending_.size(); ++i) {
+    add_old(done, pending_[i].primitives_before);
+    done = pending_[i].primitives_before;
+    PlaneLeaf& leaf = leaves.emplace_back(
+        PlaneLeaf{pending_[i].node, pending_[i].frame, Presence::kEmpty, {}, {}, false});
+    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
+  }
+  add_old(done, old_primitives.size());
+  for (uint32_t& primitive : primitive_of) {
+    if (primitive != kNoPrimitive) primitive = place[primitive];
+  }
+  size_t next = 0;
+  for (PlaneLeaf& leaf : plane_leaves) {
+    if (next < leaves.size() && leaf.node == leaves[next].node) {
+      leaf = std::move(leaves[next++]);
+    } else {
+      leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
+    }
+  }
+}
+
+Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {
   leaf.is_plate = lowered.is_plate;
+  leaf.is_faceted = lowered.is_faceted;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
     LoweredSubtree::Part& part = lowered.parts[index];
     const uint32_t primitive =
-        add_primitive(std::move(part.primitive), root, context, part.frame, part.box, 0);
+        add_primitive(std::move(part.primitive), leaf.node, context, part.frame, part.box, 0);
     if (primitive == kNoPrimitive) return to.empty();
     to.primitive(primitive);
   });

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +17,13 @@
 #include "heal/frames.hpp"
 #include "heal/matrix_healing.hpp"
 #include "lower/figure_solids.hpp"
+#include "lower/hull_pool.hpp"
 #include "lower/import_files.hpp"
 #include "lower/import_polyhedra.hpp"
 #include "lower/node_problems.hpp"
+#include "lower/pending_solids.hpp"
+#include "lower/plane_evaluation.hpp"
+#include "lower/plane_lowering.hpp"
 #include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
 
@@ -33,8 +38,8 @@ class Collector final : public NodeSink {
   /// Makes room: growing by doubling would copy, and touch, twice the memory.
   void reserve(size_t nodes, size_t solids, size_t matrices);
   void take(uint32_t node, uint32_t offset) override;
-  /// After the last node.
-  void finish();
+  /// After the last node. Throws if it is stopped (throw_if_stopped).
+  void finish(const std::stop_token& stop);
 
   static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
   std::vector<uint32_t> primitive_of;  // by node: index into `primitives`, or kNoPrimitive
@@ -66,6 +71,7 @@ class Collector final : public NodeSink {
     bool is_plate;
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
+    bool is_faceted = false;                  // facets stand for something round
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
@@ -117,6 +123,10 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
+  Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
+                           const Context& context, NodeProblems& told);
+  void add_pending(const std::stop_token& stop);
+  Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
   const SolidOfFaces* read_file(uint32_t node);
@@ -133,7 +143,7 @@ class Collector final : public NodeSink {
     PlaneSubtree subtree;
     Context context;
     NodeProblems problems;  // those of the nodes are told already
-    size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills;  // before it
+    size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills, pending;  // before it
     bool is_plane;  // its first geometry is a plane figure's
   };
   void forget_since(const Candidate& candidate);
@@ -143,11 +153,15 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
+  HullPool hulls_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
   std::vector<LeftOut> maybe_left_out_;
   std::vector<uint32_t> solid_fills_;  // fill nodes that are not of plane figures, as far as known
+  /// Hulls of solids, in file order, and what their roots are handed down.
+  std::vector<PendingSolid> pending_;
+  std::vector<Context> pending_contexts_;
 };
 
 }  // namespace frontend

@@ -350,7 +350,7 @@ void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& des
 /// large design each part of it has hundreds of MB.
 ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
-  collected.finish();
+  collected.finish(stop);
   ImportedDesign design;
   design.warnings = collected.problems.warnings(tree.file_name);
   design.primitive_nodes = collected.primitive_nodes;

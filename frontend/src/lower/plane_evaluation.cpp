@@ -47,14 +47,7 @@ PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& prob
       needs[c - subtree_.root()] = true;
     }
   }
-  if (!is_solid()) find_figures();
-}
-
-template <typename Visit>
-void PlaneEvaluation::visit_operands(uint32_t node, const Visit& visit) const {
-  for (uint32_t c = node + 1; c < subtree_.end_of(node); c = subtree_.end_of(c)) {
-    if (at(c).presence != Presence::kAbsent) visit(c);
-  }
+  find_figures();
 }
 
 void PlaneEvaluation::find_presence(uint32_t node) {

@@ -26,6 +26,8 @@ class PlaneEvaluation {
   /// What the node is as an operand of the one around it; of the root, on its own. Of an extrusion
   /// that is the root, what its children are together.
   Presence presence(uint32_t node) const { return at(node).presence; }
+  /// 2 or 3; 0: it has none.
+  uint8_t dimension(uint32_t node) const { return at(node).dimension; }
   /// Whether the root makes something of solids.
   bool is_solid() const { return at(subtree_.root()).dimension == 3; }
 
@@ -37,6 +39,15 @@ class PlaneEvaluation {
   const PlaneMap& resize_map(uint32_t node) const { return at(node).map; }
   /// Finds the figures of all nodes.
   void find_all_figures();
+  /// Returns those of the operands, which must have been found.
+  std::vector<Figure> union_of_operands(uint32_t node) const;
+  /// Calls visit(child) for each child that is an operand.
+  template <typename Visit>
+  void visit_operands(uint32_t node, const Visit& visit) const {
+    for (uint32_t c = node + 1; c < subtree_.end_of(node); c = subtree_.end_of(c)) {
+      if (at(c).presence != Presence::kAbsent) visit(c);
+    }
+  }
 
  private:
   struct Node {
@@ -50,16 +61,12 @@ class PlaneEvaluation {
 
   Node& at(uint32_t node) { return nodes_[node - subtree_.root()]; }
   const Node& at(uint32_t node) const { return nodes_[node - subtree_.root()]; }
-  /// Calls visit(child) for each child that is an operand.
-  template <typename Visit>
-  void visit_operands(uint32_t node, const Visit& visit) const;
   void find_presence(uint32_t node);
   void combine(uint32_t node);
   void ignore_other_dimension(uint32_t node, uint8_t dimension);
   Presence combined_presence(uint32_t node) const;
   void find_figures();
   void find_figures(uint32_t node);
-  std::vector<Figure> union_of_operands(uint32_t node) const;
   std::optional<std::vector<Figure>> combined_figures(uint32_t node);
   std::optional<std::vector<Figure>> figures_of_operation(uint32_t node) const;
   std::optional<std::vector<Figure>> figures_of_minkowski(uint32_t node) const;

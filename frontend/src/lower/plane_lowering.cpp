@@ -150,20 +150,13 @@ class FigureTreeWriter {
   void add(const Figure& figure, uint32_t node, int fragments) {
     builder_.primitive(static_cast<uint32_t>(figures_.size()));
     figures_.push_back({std::make_shared<const Figure>(figure), open_.back().map,
-                        open_.back().frame, first_id(node), fragments});
+                        open_.back().frame, subtree_.first_id(node), fragments});
   }
 
   void add(const PlacedGlyph& letter, uint32_t node) {
     builder_.primitive(static_cast<uint32_t>(figures_.size()));
     figures_.push_back({letter.shape.figure, open_.back().map, open_.back().frame,
                         subtree_.id(node), 0, letter.place, letter.shape.profile});
-  }
-
-  uint32_t first_id(uint32_t node) const {
-    while (node + 1 < subtree_.end_of(node) && !has_place(subtree_.tree(), subtree_.syntax(node))) {
-      ++node;
-    }
-    return subtree_.id(node);
   }
 
   const PlaneSubtree& subtree_;

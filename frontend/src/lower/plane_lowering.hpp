@@ -29,6 +29,7 @@ struct LoweredSubtree {
   std::vector<Part> parts;
   csgcore::CsgTree solid;  // over the parts
   bool is_plate = false;
+  bool is_faceted = false;          // facets, finer than a pixel, stand for something round
   std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
 };
 

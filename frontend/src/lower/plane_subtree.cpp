@@ -5,6 +5,7 @@
 
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/node_roles.hpp"
 #include "lower/read_drawing.hpp"
 
 namespace frontend {
@@ -150,7 +151,13 @@ void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options
   nodes_.resize(node - root_ + 1);
   const SyntaxNode& syntax = tree_.nodes[node];
   nodes_.back() = {true, id, data_of(tree_, syntax, options, sources.fonts, problems),
-                   drawing_of(tree_, syntax, options, sources.files, problems)};
+                   drawing_of(tree_, syntax, options, sources.files, problems),
+                   read_solid_node(tree_, syntax, options, problems)};
+}
+
+uint32_t PlaneSubtree::first_id(uint32_t node) const {
+  while (node + 1 < end_of(node) && !has_place(tree_, syntax(node))) ++node;
+  return id(node);
 }
 
 uint32_t PlaneSubtree::end_of(uint32_t node) const {

@@ -13,6 +13,7 @@
 #include "lower/node_problems.hpp"
 #include "lower/read_2d.hpp"
 #include "lower/read_text.hpp"
+#include "lower/solid_node.hpp"
 
 namespace frontend {
 
@@ -75,10 +76,14 @@ class PlaneSubtree {
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
   /// Returns the drawing that the node names; null if it names none.
   const ImportedDrawing* drawing(uint32_t node) const { return nodes_[node - root_].drawing; }
+  /// That of the first primitive node from this one on.
+  uint32_t first_id(uint32_t node) const;
   template <typename Data>
   const Data& data(uint32_t node) const {
     return std::get<Data>(nodes_[node - root_].data);
   }
+  /// What the node of a solid says.
+  const SolidNode& solid(uint32_t node) const { return nodes_[node - root_].solid; }
 
  private:
   struct Node {
@@ -86,6 +91,7 @@ class PlaneSubtree {
     uint32_t id = 0;
     PlaneNodeData data;
     const ImportedDrawing* drawing = nullptr;
+    SolidNode solid;
   };
   const SyntaxTree& tree_;
   uint32_t root_;

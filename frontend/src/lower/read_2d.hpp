@@ -29,10 +29,10 @@ struct OffsetArguments {
 };
 OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node);
 
-/// x and y of a resize node.
+/// The sizes of a resize node: a plane figure has no z.
 struct ResizeArguments {
   std::array<double, 3> size{};
-  std::array<bool, 2> follows{};  // `auto`
+  std::array<bool, 3> follows{};  // `auto`
 };
 ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
 

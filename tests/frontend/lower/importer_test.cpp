@@ -112,14 +112,14 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 // --- What cannot be drawn -------------------------------------------------------------------
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
-  const ImportedDesign design = import_text("sphere();\ntext();\n hull() { sphere(); }\ntext();");
+  const ImportedDesign design = import_text("sphere();\ntext();\n fill() { sphere(); }\ntext();");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(design.warnings[0].text,
             "a.csg:2:1: warning: text is left out; the first of 2 (it cannot be drawn)");
-  EXPECT_EQ(design.warnings[1].text, "a.csg:3:2: warning: hull is left out (it cannot be drawn)");
+  EXPECT_EQ(design.warnings[1].text, "a.csg:3:2: warning: fill is left out (it cannot be drawn)");
   EXPECT_STREQ(Error(design.warnings[1]).what(),
-               "a.csg:3:2: error: hull is left out (it cannot be drawn)");
+               "a.csg:3:2: error: fill is left out (it cannot be drawn)");
 }
 
 TEST(ImporterUnsupported, MayBeAllThereIs) {
@@ -154,8 +154,10 @@ TEST(TextImport, TellsWhatIsWrongWithWhatItSelects) {
   EXPECT_THAT(error_of(wrong + "cube(size = "), HasSubstr("a.csg:1:29: error: expected a value"));
   EXPECT_THAT(warnings_of(wrong + "group() { !sphere(); } " + wrong), IsEmpty());
   EXPECT_THAT(warnings_of("*group() {" + wrong + "}"), IsEmpty());
-  EXPECT_THAT(warnings_of("hull() {" + wrong + "}" + wrong),
-              ElementsAre(HasSubstr(":1:1: warning: hull"), HasSubstr(":1:26: warning: sphere")));
+  EXPECT_THAT(
+      warnings_of("hull() {" + wrong + "}" + wrong),
+      ElementsAre(HasSubstr(":1:9: warning: sphere: r is a string, and counts as missing; the "
+                            "first of 2")));
 }
 
 TEST(TextImport, SelectsWhateverCameBefore) {

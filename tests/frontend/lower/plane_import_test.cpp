@@ -339,10 +339,6 @@ TEST(PlaneHull, IsOneSolid) {
   EXPECT_TRUE(inside(10, 0, 1));
 }
 
-TEST(PlaneHull, OfSolidsIsLeftOut) {
-  EXPECT_THAT(warning_of("hull() { sphere(); cube(); }"), HasSubstr("hull is left out"));
-}
-
 TEST(PlaneOffset, ReadsItsArguments) {
   const auto reach = [](const std::string& arguments) {
     return import_text("offset(" + arguments + ") { square(10); }").view_box.max.x;

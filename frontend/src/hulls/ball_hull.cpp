@@ -1,0 +1,143 @@
+#include "hulls/ball_hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "hulls/orthonormal.hpp"
+#include "hulls/point_solid.hpp"
+#include "hulls/strips.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// Leaves out balls that lie within another one. They are in the order of their radii, the largest
+/// first.
+void leave_out_contained(RoundBodies& balls) {
+  std::vector<RoundBody> kept;
+  const double slack = balls.slack();
+  for (const RoundBody& ball : balls.bodies) {
+    const bool is_contained = std::any_of(kept.begin(), kept.end(), [&](const RoundBody& other) {
+      return other.radius > ball.radius &&
+             glm::length(other.center - ball.center) + ball.radius <= other.radius + slack;
+    });
+    if (!is_contained) kept.push_back(ball);
+  }
+  balls.bodies = std::move(kept);
+}
+
+class BallHull {
+ public:
+  BallHull(RoundBodies balls, double least_strip, std::vector<Primitive>& pieces)
+      : balls_(std::move(balls)),
+        slack_(balls_.slack()),
+        least_strip_(least_strip),
+        pieces_(pieces),
+        tangents_(balls_.bodies.size()),
+        shows_(balls_.bodies.size()) {}
+
+  void add_pieces() {
+    const auto visit = [this](uint32_t i, uint32_t j, const Circle& circle,
+                              const CircleArcs& arcs) { add_strip(i, j, circle, arcs); };
+    if (balls_.hull_of_centers) {
+      visit_strips_of_edges(*this, *balls_.hull_of_centers, visit);
+    } else {
+      visit_strips(*this, visit);
+    }
+    add_polyhedron();
+    for (size_t i = 0; i < size(); ++i) {
+      if (is_round(i) && (shows_[i] || size() == 1)) {
+        pieces_.push_back(
+            csgcore::make_sphere(ball(i).radius, {csgcore::Mat3(1.0), ball(i).center}));
+      }
+    }
+  }
+
+  // What strips.hpp asks for.
+
+  /// The outward normals of the planes that touch two balls: axial · axis + radial · (x, y).
+  struct Circle {
+    Axes axes;
+    double axial, radial, distance;
+  };
+  size_t size() const { return balls_.bodies.size(); }
+  bool is_round(size_t i) const { return ball(i).radius > 0; }
+  std::optional<Circle> circle(size_t i, size_t j) const {
+    const Vec3 gap = ball(j).center - ball(i).center;
+    const double distance = glm::length(gap);
+    const double growth = ball(i).radius - ball(j).radius;
+    if (distance <= std::abs(growth)) return std::nullopt;
+    const double radial = std::sqrt((distance - growth) * (distance + growth)) / distance;
+    return Circle{axes_along(gap / distance), growth / distance, radial, distance};
+  }
+  void cut(const Circle& circle, size_t i, size_t, size_t k, CircleArcs& arcs) const {
+    const Vec3 gap = ball(k).center - ball(i).center;
+    arcs.cut(
+        circle.radial * glm::dot(gap, circle.axes.x), circle.radial * glm::dot(gap, circle.axes.y),
+        ball(i).radius - ball(k).radius - circle.axial * glm::dot(gap, circle.axes.z) + slack_);
+  }
+
+ private:
+  const RoundBody& ball(size_t i) const { return balls_.bodies[i]; }
+
+  void add_strip(uint32_t i, uint32_t j, const Circle& circle, const CircleArcs& arcs) {
+    shows_[i] = shows_[j] = true;
+    for (const CircleArcs::Arc& arc : arcs.arcs()) {
+      add_tangents(i, j, circle, arc.begin);
+      add_tangents(i, j, circle, arc.end);
+    }
+    if (arcs.length() >= least_strip_) add_frustum(i, j, circle);
+  }
+
+  void add_tangents(uint32_t i, uint32_t j, const Circle& circle, double angle) {
+    const Vec3 normal = circle.axial * circle.axes.z +
+                        circle.radial * std::cos(angle) * circle.axes.x +
+                        circle.radial * std::sin(angle) * circle.axes.y;
+    if (is_round(i)) add_direction(normal, tangents_[i]);
+    if (is_round(j)) add_direction(normal, tangents_[j]);
+  }
+
+  void add_frustum(uint32_t i, uint32_t j, const Circle& circle) {
+    const double r = ball(i).radius, s = ball(j).radius;
+    pieces_.push_back(csgcore::make_frustum(r * circle.axial, circle.distance + s * circle.axial,
+                                            r * circle.radial, s * circle.radial,
+                                            {circle.axes.matrix(), ball(i).center}));
+  }
+
+  void add_polyhedron() {
+    std::vector<Vec3> points;
+    for (size_t i = 0; i < size(); ++i) {
+      if (!is_round(i)) points.push_back(ball(i).center);
+      for (const Vec3& normal : tangents_[i]) {
+        points.push_back(ball(i).center + ball(i).radius * normal);
+      }
+    }
+    const bool has_round = std::any_of(balls_.bodies.begin(), balls_.bodies.end(),
+                                       [](const RoundBody& body) { return body.radius > 0; });
+    std::optional<PointSolid> solid = solid_of_points(points);
+    // A sheet within a thick hull adds nothing.
+    if (solid && !(has_round && solid->is_sheet)) pieces_.push_back(std::move(solid->primitive));
+  }
+
+  const RoundBodies balls_;
+  const double slack_, least_strip_;
+  std::vector<Primitive>& pieces_;
+  std::vector<std::vector<Vec3>> tangents_;  // by ball: outward normals of planes that touch three
+  std::vector<bool> shows_;
+};
+
+}  // namespace
+
+void add_ball_hull(std::vector<RoundBody> balls, double least_strip,
+                   std::vector<Primitive>& pieces) {
+  RoundBodies rest = without_inner_bodies(std::move(balls));
+  if (!rest.hull_of_centers) leave_out_contained(rest);
+  BallHull(std::move(rest), least_strip, pieces).add_pieces();
+}
+
+}  // namespace frontend

@@ -1,0 +1,205 @@
+#include "hulls/convex_solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "csgcore/profile.hpp"
+#include "hulls/ball_hull.hpp"
+#include "hulls/disc_hull.hpp"
+#include "hulls/orthonormal.hpp"
+#include "hulls/point_solid.hpp"
+#include "hulls/strips.hpp"
+#include "plane/hull.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// Two normals or centres differ by rounding, as a share of the size.
+constexpr double kSame = 0x1p-44;
+
+/// The solid around the axis x = y = 0 which is the hull of generators on it, whose discs lie
+/// across it.
+std::optional<Primitive> revolved_hull(const std::vector<RoundGenerator>& generators) {
+  std::vector<Disc> discs;
+  for (const RoundGenerator& generator : generators) {
+    for (const double sign : {-1.0, 1.0}) {
+      discs.push_back({{sign * generator.disc_radius, generator.center.z}, generator.ball_radius});
+    }
+  }
+  const Figure figure = convex_hull(discs);
+  if (const Disc* ball = std::get_if<Disc>(&figure)) {
+    if (!(ball->radius > 0)) return std::nullopt;
+    return csgcore::make_sphere(ball->radius,
+                                {csgcore::Mat3(1.0), Vec3(ball->center.x, 0, ball->center.y)});
+  }
+  Outline outline = right_half(figure);
+  const Rectangle bounds = bounds_of(outline);
+  if (bounds.empty() || !(bounds.max.x > 0)) return std::nullopt;
+  return csgcore::make_revolution(
+      std::make_shared<csgcore::Profile>(std::move(outline.loops), outline.fill_rule));
+}
+
+/// Generators that are round.
+class RoundSolid {
+ public:
+  explicit RoundSolid(std::vector<RoundGenerator> generators) : generators_(std::move(generators)) {
+    csgcore::Box box;
+    for (const RoundGenerator& generator : generators_) {
+      const double reach = generator.disc_radius + generator.ball_radius;
+      box.merge(generator.center - reach);
+      box.merge(generator.center + reach);
+    }
+    size_ = box.diagonal();
+  }
+
+  ConvexSolid lower() {
+    ConvexSolid result;
+    const auto with_disc = std::find_if(generators_.begin(), generators_.end(),
+                                        [](const auto& g) { return g.disc_radius > 0; });
+    if (with_disc == generators_.end()) {
+      add_ball_hull(bodies(&RoundGenerator::ball_radius), kLeastStrip, result.pieces);
+      return result;
+    }
+    const Vec3 normal = with_disc->normal;
+    const Affine to_axis{axes_along(normal).matrix(), with_disc->center};
+    if (!has_parallel_discs(normal) || !lower_parallel(to_axis, result)) {
+      lower_facets(result);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<RoundBody> bodies(double RoundGenerator::*radius) const {
+    std::vector<RoundBody> result;
+    result.reserve(generators_.size());
+    for (const RoundGenerator& generator : generators_) {
+      result.push_back({generator.center, generator.*radius});
+    }
+    return result;
+  }
+
+  bool has_parallel_discs(const Vec3& normal) const {
+    return std::all_of(generators_.begin(), generators_.end(), [&](const auto& g) {
+      return g.disc_radius == 0 || glm::length(glm::cross(g.normal, normal)) <= kSame;
+    });
+  }
+
+  bool all_on_axis() const {
+    return std::all_of(generators_.begin(), generators_.end(), [&](const auto& g) {
+      return glm::length(glm::dvec2(g.center)) <= kSame * size_;
+    });
+  }
+
+  bool are_at_one_height() const {
+    const auto [least, most] =
+        std::minmax_element(generators_.begin(), generators_.end(),
+                            [](const auto& a, const auto& b) { return a.center.z < b.center.z; });
+    return most->center.z - least->center.z <= kSame * size_;
+  }
+
+  /// The discs lie across the z axis of that frame. False: there is no exact form.
+  bool lower_parallel(const Affine& from_axis, ConvexSolid& result) {
+    const auto world = generators_;
+    const csgcore::Mat3 turn = glm::transpose(from_axis.linear);
+    for (RoundGenerator& generator : generators_) {
+      generator.center = turn * (generator.center - from_axis.translation);
+      generator.normal = Vec3(0, 0, 1);
+    }
+    const bool is_lowered = lower_upright(result);
+    generators_ = world;
+    for (Primitive& piece : result.pieces) {
+      piece.local_to_world = compose(from_axis, piece.local_to_world);
+    }
+    return is_lowered;
+  }
+
+  bool lower_upright(ConvexSolid& result) const {
+    const double ball = generators_.front().ball_radius;
+    const bool has_same_balls = std::all_of(generators_.begin(), generators_.end(),
+                                            [&](const auto& g) { return g.ball_radius == ball; });
+    if (has_same_balls && ball == 0) {
+      if (are_at_one_height()) return false;
+      add_disc_hull(bodies(&RoundGenerator::disc_radius), result.pieces);
+      return true;
+    }
+    if (all_on_axis()) {
+      if (const auto revolved = revolved_hull(generators_)) result.pieces.push_back(*revolved);
+      return true;
+    }
+    return has_same_balls && !are_at_one_height() && lower_rounded_discs(ball, result);
+  }
+
+  /// The hull of discs, and a ball around each of its points: sums distribute over unions.
+  bool lower_rounded_discs(double ball, ConvexSolid& result) const {
+    const DiscHull hull = disc_hull(bodies(&RoundGenerator::disc_radius));
+    std::vector<RoundBody> balls;
+    for (const Vec3& point : hull.points) balls.push_back({point, ball});
+    add_ball_hull(std::move(balls), kLeastStrip, result.pieces);
+    for (const DiscHull::Pair& pair : hull.frusta) {
+      add_rounded_frustum(hull.discs[pair.lower], hull.discs[pair.upper], ball, result);
+    }
+    return true;
+  }
+
+  void add_rounded_frustum(const RoundBody& lower, const RoundBody& upper, double ball,
+                           ConvexSolid& result) const {
+    const Vec3 across(0, 0, 1);
+    if (glm::length(glm::dvec2(upper.center - lower.center)) <= kSame * size_) {
+      const Vec3 center(lower.center.x, lower.center.y, 0);
+      auto revolved = revolved_hull({{lower.center - center, across, lower.radius, ball},
+                                     {upper.center - center, across, upper.radius, ball}});
+      if (!revolved) return;
+      revolved->local_to_world.translation += center;
+      result.pieces.push_back(std::move(*revolved));
+      return;
+    }
+    result.is_faceted = true;
+    RoundSolid facets(
+        {{lower.center, across, lower.radius, ball}, {upper.center, across, upper.radius, ball}});
+    facets.lower_facets(result);
+  }
+
+  void lower_facets(ConvexSolid& result) const {
+    result.is_faceted = true;
+    std::vector<RoundGenerator> parts;
+    for (const RoundGenerator& generator : generators_) {
+      if (generator.disc_radius > 0) {
+        replace_disc(generator, parts);
+      } else {
+        parts.push_back(generator);
+      }
+    }
+    // A frustum that spans less than two facets is not seen to be missing.
+    constexpr double kFacetStrip = 4 * 3.14 / kChordsOfDisc;
+    std::vector<RoundBody> balls;
+    for (const RoundGenerator& part : parts) balls.push_back({part.center, part.ball_radius});
+    add_ball_hull(std::move(balls), kFacetStrip, result.pieces);
+  }
+
+  std::vector<RoundGenerator> generators_;
+  double size_ = 0;
+};
+
+}  // namespace
+
+ConvexSolid convex_solid(const Generators& generators) {
+  RoundedGenerators round = rounded(generators);
+  ConvexSolid result = RoundSolid(std::move(round.generators)).lower();
+  result.is_faceted = result.is_faceted || round.is_faceted;
+  if (round.frame == csgcore::Mat3(1.0)) return result;
+  for (Primitive& piece : result.pieces) {
+    piece.local_to_world = compose({round.frame, Vec3(0.0)}, piece.local_to_world);
+  }
+  return result;
+}
+
+}  // namespace frontend

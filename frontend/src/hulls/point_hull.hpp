@@ -1,0 +1,31 @@
+// The convex hull of points of space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hulls/grid_points.hpp"
+
+namespace frontend {
+
+/// The hull's boundary, over the indices of the points. It is the exact hull of the points on their
+/// grid, however they lie.
+struct PointHull {
+  using Triangle = std::array<uint32_t, 3>;
+  /// Of the smallest flat that holds all points: −1 for no points, 3 for a solid.
+  int dimension = -1;
+  /// Of a solid: counterclockwise as seen from outside. Neighbours may lie in one plane.
+  std::vector<Triangle> triangles;
+  /// Of a solid, by triangle: those across the edges from corner 0 to 1, 1 to 2 and 2 to 0.
+  std::vector<Triangle> neighbors;
+  /// The points that the boundary has as corners: of a solid in the given order, of a plane polygon
+  /// around it, of a line its two ends.
+  std::vector<uint32_t> corners;
+};
+
+/// Takes O(n log n) but for rare sets. Does not depend on the order of calls or on threads.
+PointHull point_hull(const PointGrid& grid);
+
+}  // namespace frontend

@@ -1,0 +1,198 @@
+#include "hulls/point_solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "csgcore/half_space.hpp"
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
+#include "hulls/point_hull.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::HalfSpace;
+using csgcore::Primitive;
+using csgcore::Vec3;
+using Triangle = PointHull::Triangle;
+
+/// A hull of more faces is a mesh. A sphere of facets takes as long to make and to draw either way
+/// from 2,000 facets on.
+constexpr size_t kMostFaces = 2000;
+/// Corners so near to a triangle's plane count as lying in it, as a share of the hull's size: above
+/// the rounding of tangent points, and far below what shows.
+constexpr double kSamePlane = 0x1p-46;
+/// The thickness of a flat hull, as a share of its size: below a pixel.
+constexpr double kSheet = 0x1p-12;
+
+/// The hull in coordinates of its own, up to 1.
+class LocalHull {
+ public:
+  LocalHull(const PointGrid& grid, const PointHull& hull) : grid_(grid), hull_(hull) {
+    vertex_of_.resize(grid.points.size());
+    for (const uint32_t corner : hull.corners) {
+      vertex_of_[corner] = static_cast<uint32_t>(vertices_.size());
+      const GridPoint& point = grid.points[corner];
+      vertices_.emplace_back(local(point.x), local(point.y), local(point.z));
+    }
+  }
+
+  Primitive solid() const {
+    std::vector<HalfSpace> faces = half_spaces();
+    if (faces.size() > kMostFaces) return mesh();
+    return placed(csgcore::make_polyhedron(
+        std::make_shared<csgcore::Polyhedron>(std::move(faces), vertices_)));
+  }
+
+  /// In the coordinates of the points.
+  std::vector<HalfSpace> placed_half_spaces() const {
+    std::vector<HalfSpace> result = half_spaces();
+    const double size = std::ldexp(1 / kUnit, grid_.exponent);
+    for (HalfSpace& face : result) {
+      face.offset = size * face.offset + glm::dot(face.normal, grid_.origin);
+    }
+    return result;
+  }
+
+  Primitive sheet() const {
+    const std::vector<uint32_t>& around = hull_.corners;
+    const Vec3 normal = glm::normalize(normal_of_polygon());
+    const Vec3 half = 0.5 * kSheet * normal;
+    std::vector<HalfSpace> faces{{normal, glm::dot(normal, vertices_[0] + half)},
+                                 {-normal, glm::dot(-normal, vertices_[0] - half)}};
+    std::vector<Vec3> vertices;
+    for (size_t i = 0; i < around.size(); ++i) {
+      const Vec3& a = vertices_[i];
+      const Vec3& b = vertices_[(i + 1) % around.size()];
+      const Vec3 side = glm::normalize(glm::cross(b - a, normal));
+      faces.push_back({side, std::max(glm::dot(side, a), glm::dot(side, b))});
+      vertices.push_back(a + half);
+      vertices.push_back(a - half);
+    }
+    return placed(csgcore::make_polyhedron(
+        std::make_shared<csgcore::Polyhedron>(std::move(faces), std::move(vertices))));
+  }
+
+ private:
+  static constexpr double kUnit = 0x1p-52;  // GridPoint reaches up to its inverse
+  static double local(int64_t coordinate) { return kUnit * static_cast<double>(coordinate); }
+
+  Primitive placed(Primitive primitive) const {
+    const double size = std::ldexp(1 / kUnit, grid_.exponent);
+    primitive.local_to_world.linear = csgcore::Mat3(size);
+    primitive.local_to_world.translation = grid_.origin;
+    return primitive;
+  }
+
+  const Vec3& vertex(uint32_t point) const { return vertices_[vertex_of_[point]]; }
+
+  Vec3 normal(const Triangle& t) const {
+    return normal_of(grid_.points[t[0]], grid_.points[t[1]], grid_.points[t[2]]);
+  }
+
+  Vec3 normal_of_polygon() const {
+    // The corner that is furthest from the line through the first two.
+    const std::vector<uint32_t>& around = hull_.corners;
+    Vec3 best(0.0);
+    for (size_t i = 2; i < around.size(); ++i) {
+      const Vec3 candidate = normal({around[0], around[1], around[i]});
+      if (glm::length(candidate) > glm::length(best)) best = candidate;
+    }
+    return best;
+  }
+
+  /// One for each face. Triangles in the plane of a larger one that they are joined to have none.
+  std::vector<HalfSpace> half_spaces() const {
+    const size_t count = hull_.triangles.size();
+    std::vector<Vec3> normals(count);
+    std::vector<double> lengths(count);
+    std::vector<uint32_t> order(count);
+    for (uint32_t i = 0; i < count; ++i) {
+      normals[i] = normal(hull_.triangles[i]);
+      lengths[i] = glm::length(normals[i]);
+      normals[i] /= lengths[i];
+      order[i] = i;
+    }
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return std::pair(-lengths[a], a) < std::pair(-lengths[b], b);
+    });
+    std::vector<bool> is_done(count);
+    std::vector<HalfSpace> result;
+    std::vector<uint32_t> face;
+    for (const uint32_t first : order) {
+      if (is_done[first]) continue;
+      result.push_back(half_space(normals[first], first, is_done, face));
+    }
+    return result;
+  }
+
+  HalfSpace half_space(const Vec3& normal, uint32_t first, std::vector<bool>& is_done,
+                       std::vector<uint32_t>& face) const {
+    const auto height = [&](uint32_t point) { return glm::dot(normal, vertex(point)); };
+    double offset = -std::numeric_limits<double>::infinity();
+    const auto reach_over = [&](uint32_t triangle) {
+      for (const uint32_t point : hull_.triangles[triangle]) {
+        offset = std::max(offset, height(point));
+      }
+    };
+    reach_over(first);
+    const double plane = offset;
+    const auto is_in_plane = [&](uint32_t triangle) {
+      const Triangle& t = hull_.triangles[triangle];
+      return std::all_of(t.begin(), t.end(), [&](uint32_t point) {
+        return std::abs(height(point) - plane) <= kSamePlane;
+      });
+    };
+    face = {first};
+    is_done[first] = true;
+    for (size_t next = 0; next < face.size(); ++next) {
+      for (const uint32_t neighbor : hull_.neighbors[face[next]]) {
+        reach_over(neighbor);
+        if (is_done[neighbor] || !is_in_plane(neighbor)) continue;
+        is_done[neighbor] = true;
+        face.push_back(neighbor);
+      }
+    }
+    return {normal, offset};
+  }
+
+  Primitive mesh() const {
+    std::vector<csgcore::TriangleMesh::Triangle> triangles;
+    triangles.reserve(hull_.triangles.size());
+    for (const Triangle& t : hull_.triangles) {
+      triangles.push_back({vertex_of_[t[0]], vertex_of_[t[1]], vertex_of_[t[2]]});
+    }
+    return placed(csgcore::make_mesh(
+        std::make_shared<csgcore::TriangleMesh>(vertices_, std::move(triangles))));
+  }
+
+  const PointGrid& grid_;
+  const PointHull& hull_;
+  std::vector<uint32_t> vertex_of_;  // by point
+  std::vector<Vec3> vertices_;       // of the corners, in their order
+};
+
+}  // namespace
+
+std::vector<HalfSpace> faces_of(std::span<const Vec3> corners) {
+  const PointGrid grid = on_grid(corners);
+  const PointHull hull = point_hull(grid);
+  if (hull.dimension < 3) return {};
+  return LocalHull(grid, hull).placed_half_spaces();
+}
+
+std::optional<PointSolid> solid_of_points(std::span<const Vec3> points) {
+  const PointGrid grid = on_grid(points);
+  const PointHull hull = point_hull(grid);
+  if (hull.dimension < 2) return std::nullopt;
+  const LocalHull local(grid, hull);
+  if (hull.dimension == 2) return PointSolid{local.sheet(), true};
+  return PointSolid{local.solid(), false};
+}
+
+}  // namespace frontend

@@ -1,0 +1,27 @@
+// The convex hull of points as a primitive.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "csgcore/half_space.hpp"
+#include "csgcore/primitive.hpp"
+
+namespace frontend {
+
+struct PointSolid {
+  csgcore::Primitive primitive;
+  bool is_sheet;  // the points lie in one plane
+};
+
+/// Returns the hull: a polyhedron, or a mesh if it has very many faces. Of points in one plane it
+/// is a sheet so thin that it counts as flat. Nothing if the points lie on a line. All coordinates
+/// must be finite. No point of the space within the hull is left out, and what is added is at most
+/// 2^-45 of its size thick.
+std::optional<PointSolid> solid_of_points(std::span<const csgcore::Vec3> points);
+
+/// Returns the half-spaces whose intersection is the hull; none if it has no volume.
+std::vector<csgcore::HalfSpace> faces_of(std::span<const csgcore::Vec3> points);
+
+}  // namespace frontend

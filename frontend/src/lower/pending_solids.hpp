@@ -1,0 +1,29 @@
+// Solids whose hulls are made after the last node of a design, all of them in parallel.
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "csgcore/geometry.hpp"
+#include "lower/hull_pool.hpp"
+#include "lower/plane_lowering.hpp"
+#include "lower/solid_value.hpp"
+
+namespace frontend {
+
+/// The solid of a node, and where its primitives belong.
+struct PendingSolid {
+  uint32_t node;
+  uint32_t frame;
+  csgcore::Affine to_world;  // of the frame
+  uint32_t id;               // of its primitives
+  size_t primitives_before;  // of the design
+  SolidValue value;
+};
+
+/// Returns lower_solid() of each. Throws if it is stopped (throw_if_stopped).
+std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, HullPool& hulls,
+                                      const std::stop_token& stop);
+
+}  // namespace frontend

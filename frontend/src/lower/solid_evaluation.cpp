@@ -1,0 +1,253 @@
+#include "lower/solid_evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/primitive_traits.hpp"
+#include "lower/file_matrix.hpp"
+#include "lower/node_roles.hpp"
+#include "lower/solid_cuts.hpp"
+#include "lower/solid_sums.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::Op;
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
+
+bool is_affine(const FileMatrix& file) {
+  return Affine{file.map.linear / file.divisor, file.map.translation / file.divisor}.finite();
+}
+
+/// The factors by which resize() scales a box.
+Vec3 resize_factors(const ResizeArguments& arguments, const Vec3& size) {
+  Vec3 factors(1.0);
+  int leading = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double wanted = arguments.size[static_cast<size_t>(axis)];
+    if (wanted > 0 && size[axis] > 0) factors[axis] = wanted / size[axis];
+    if (wanted > arguments.size[static_cast<size_t>(leading)]) leading = axis;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    if (arguments.size[i] <= 0 && arguments.follows[i]) factors[axis] = factors[leading];
+  }
+  return factors;
+}
+
+}  // namespace
+
+std::optional<SolidValue> SolidEvaluation::run() {
+  const uint32_t root = subtree_.root();
+  values_.resize(subtree_.end() - root);
+  // Children come after their parents: from the last node on, all that a node holds is known.
+  for (uint32_t i = subtree_.end(); i-- > root && failure_.empty();) {
+    if (!subtree_.is_taken(i) || planes_.presence(i) != Presence::kSolid) continue;
+    if (planes_.dimension(i) == 3) values_[i - root] = evaluate(i);
+  }
+  if (!failure_.empty()) return std::nullopt;
+  return std::move(values_.front());
+}
+
+void SolidEvaluation::fail(std::string_view why) {
+  if (failure_.empty()) failure_ = why;
+}
+
+/// Of the operands that count, in their order; they are gone then.
+std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
+  std::vector<SolidValue> result;
+  planes_.visit_operands(node, [&](uint32_t child) {
+    if (planes_.presence(child) == Presence::kLeftOut) return;
+    result.push_back(std::move(values_[child - subtree_.root()]));
+  });
+  return result;
+}
+
+SolidValue SolidEvaluation::evaluate(uint32_t node) {
+  const NodeKind kind = subtree_.syntax(node).kind;
+  switch (kind) {
+    case NodeKind::kSphere:
+    case NodeKind::kCylinder:
+    case NodeKind::kCube:
+    case NodeKind::kPolyhedron:
+    case NodeKind::kImport:
+    case NodeKind::kSurface:
+      return solid_of_leaf(node);
+    case NodeKind::kLinearExtrude:
+      return extruded(node);
+    case NodeKind::kRotateExtrude:
+      return revolved(node);
+    case NodeKind::kHull:
+      return hull(node);
+    case NodeKind::kMinkowski:
+      return minkowski(node);
+    case NodeKind::kResize:
+      return resized(node);
+    default:
+      break;
+  }
+  SolidValue result = combined(operation_of(kind), operands(node));
+  if (kind == NodeKind::kMultmatrix) {
+    const FileMatrix& file = std::get<FileMatrix>(subtree_.solid(node));
+    if (!is_affine(file)) return {};
+    result.map(heal(file).map);
+  }
+  return result;
+}
+
+SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
+  const SolidNode& data = subtree_.solid(node);
+  if (const auto* round = std::get_if<RoundNode>(&data)) return round_solid(*round);
+  if (const auto* box = std::get_if<Box>(&data)) {
+    Primitive primitive = sources_.polyhedra.box(*box, {});
+    if (!csgcore::has_valid_shape(primitive)) return {};
+    return value_of(part_of(std::move(primitive), {}));
+  }
+  if (const auto* faces = std::get_if<std::shared_ptr<const FaceSet>>(&data)) {
+    uint64_t unfinite_faces = 0;  // none: the points are finite
+    return solid_of_faces(node, &sources_.polyhedra.solid(**faces, unfinite_faces));
+  }
+  return solid_of_faces(node, solid_of_file(node));
+}
+
+SolidValue SolidEvaluation::round_solid(const RoundNode& round) {
+  Primitive primitive = round.primitive;
+  if (!csgcore::has_valid_shape(primitive)) return {};
+  SolidPart part = part_of(primitive, round.facets);
+  if (keeps_facets(options_, round.facets)) {
+    const int fragments = traits_of(primitive.shape).fragments(primitive, round.facets);
+    if (sources_.polyhedra.facet(primitive, fragments)) part.primitive = std::move(primitive);
+  }
+  return value_of(std::move(part));
+}
+
+const SolidOfFaces* SolidEvaluation::solid_of_file(uint32_t node) {
+  const SyntaxNode& syntax = subtree_.syntax(node);
+  const FileArguments& arguments = std::get<FileArguments>(subtree_.solid(node));
+  const ImportedFile& file = syntax.kind == NodeKind::kSurface ? sources_.files.surface(arguments)
+                                                               : sources_.files.import(arguments);
+  if (!file.problem.empty()) {
+    problems_.add(syntax, "a file", [&] {
+      return NodeProblems::Description{": " + file.problem, file.todo};
+    });
+  }
+  return file.solid;
+}
+
+SolidValue SolidEvaluation::solid_of_faces(uint32_t, const SolidOfFaces* solid) {
+  if (solid == nullptr || solid->is_empty()) return {};
+  return value_of(part_of(solid->under({}), {}));
+}
+
+SolidValue SolidEvaluation::extruded(uint32_t node) {
+  const LinearExtrudeArguments& arguments = subtree_.data<LinearExtrudeNode>(node).arguments;
+  const bool has_plain_scale = arguments.top_scale.x == arguments.top_scale.y;
+  if (arguments.twist != 0 || !has_plain_scale || arguments.lean != Vec2(0.0)) {
+    fail(kBecauseExtrusion);
+    return {};
+  }
+  if (!(arguments.height > 0)) return {};
+  const double z_min = arguments.is_centered ? -arguments.height / 2 : 0;
+  const Layers layers{z_min, z_min + arguments.height, arguments.top_scale.x};
+  std::vector<SolidPart> parts;
+  for (const Figure& figure : planes_.union_of_operands(node)) {
+    std::optional<Primitive> primitive = sources_.figures.extruded(figure, layers);
+    if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
+  }
+  return union_of(std::move(parts));
+}
+
+SolidValue SolidEvaluation::revolved(uint32_t node) {
+  const RotateExtrudeArguments& arguments = subtree_.data<RotateExtrudeNode>(node).arguments;
+  const std::vector<Figure> figures = planes_.union_of_operands(node);
+  Rectangle reach;
+  for (const Figure& figure : figures) reach.merge(bounds_of(figure));
+  const bool is_on_both_sides = reach.min.x < 0 && reach.max.x > 0;
+  if (std::abs(arguments.angle) != 360 || is_on_both_sides) {
+    fail(kBecauseExtrusion);
+    return {};
+  }
+  PlaneMap to_right;
+  if (reach.min.x < 0) to_right.linear[0].x = -1;
+  std::vector<SolidPart> parts;
+  for (const Figure& figure : figures) {
+    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
+    if (primitive) parts.push_back(part_of(std::move(*primitive), arguments.facets));
+  }
+  return union_of(std::move(parts));
+}
+
+SolidValue SolidEvaluation::hull(uint32_t node) {
+  SupportSet support;
+  Box box;
+  for (const SolidValue& operand : operands(node)) {
+    for (const SolidPart& part : united(operand)) {
+      part.add_support(support);
+      box.merge(part.box);
+    }
+  }
+  if (support.generators.empty()) return {};
+  return value_of(part_of(std::move(support), box));
+}
+
+SolidValue SolidEvaluation::minkowski(uint32_t node) {
+  std::vector<SolidValue> all = operands(node);
+  std::erase_if(all, [](const SolidValue& value) { return value.is_empty(); });
+  if (all.empty()) return {};
+  if (all.size() == 1) return std::move(all.front());
+  std::vector<SolidPart> result;
+  for (const SolidValue& operand : all) {
+    // OpenSCAD ignores what is empty.
+    std::vector<SolidPart> parts = united(operand);
+    if (!failure_.empty()) return {};
+    if (parts.empty()) continue;
+    if (result.empty()) {
+      result = std::move(parts);
+      continue;
+    }
+    // As in OpenSCAD, nothing is left where a sum is flat, whatever comes after it.
+    result = sum(result, parts);
+    if (result.empty()) return {};
+  }
+  return union_of(std::move(result));
+}
+
+/// Convex parts whose union is the value, as far as that can be found.
+std::vector<SolidPart> SolidEvaluation::united(const SolidValue& value) {
+  SolidCuts cuts;
+  std::vector<SolidPart> parts = cuts.united(value);
+  if (!cuts.failure().empty()) fail(cuts.failure());
+  return parts;
+}
+
+std::vector<SolidPart> SolidEvaluation::sum(const std::vector<SolidPart>& a,
+                                            const std::vector<SolidPart>& b) {
+  SolidSums sums;
+  for (const SolidPart& part : a) {
+    for (const SolidPart& other : b) sums.add(part, other);
+  }
+  if (!sums.failure().empty()) fail(sums.failure());
+  return sums.take();
+}
+
+SolidValue SolidEvaluation::resized(uint32_t node) {
+  SolidValue result = combined(Op::kUnion, operands(node));
+  if (result.is_empty()) return {};
+  Box box;
+  for (const SolidPart& part : united(result)) box.merge(part.box);
+  if (box.empty()) return {};
+  const Vec3 factors = resize_factors(subtree_.data<ResizeArguments>(node), box.size());
+  Affine map;
+  for (int axis = 0; axis < 3; ++axis) map.linear[axis][axis] = factors[axis];
+  result.map(map);
+  return result;
+}
+
+}  // namespace frontend

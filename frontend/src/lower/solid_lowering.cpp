@@ -1,0 +1,51 @@
+#include "lower/solid_lowering.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "lower/faceted_box.hpp"
+#include "lower/leaves.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::CsgTreeBuilder;
+using csgcore::Op;
+using csgcore::Primitive;
+
+/// What cannot be drawn at any scale is beyond double's numbers in places.
+std::vector<Primitive> pieces_of(const SolidPart& part, HullPool& hulls, bool& is_faceted) {
+  if (part.primitive) return {*part.primitive};
+  const Generators& generators = part.body.generators;
+  if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
+  ConvexSolid solid = hulls.solid(generators);
+  is_faceted = is_faceted || solid.is_faceted || part.body.is_faceted;
+  return std::move(solid.pieces);
+}
+
+}  // namespace
+
+LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_world, uint32_t frame,
+                           uint32_t id, HullPool& hulls) {
+  LoweredSubtree result;
+  const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
+    const SolidPart& part = value.parts[index];
+    const csgcore::Box box = mapped(to_world, part.box);
+    builder.open(Op::kUnion);
+    for (Primitive& piece : pieces_of(part, hulls, result.is_faceted)) {
+      piece.local_to_world = compose(to_world, piece.local_to_world);
+      piece.id = id;
+      builder.primitive(static_cast<uint32_t>(result.parts.size()));
+      result.parts.push_back({std::move(piece), frame, box});
+    }
+    builder.close();
+  };
+  CsgTreeBuilder builder;
+  rebuild(value.tree.tokens(), builder, add_part);
+  result.solid = builder.finish();
+  if (value.is_union()) result.box = mapped(to_world, value.box());
+  return result;
+}
+
+}  // namespace frontend

@@ -1,0 +1,32 @@
+// What the nodes of solids say within a subtree that OpenSCAD evaluates as a whole.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "csgcore/facets.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "frontend/import_options.hpp"
+#include "frontend/syntax_tree.hpp"
+#include "lower/import_arguments.hpp"
+#include "lower/node_problems.hpp"
+#include "meshes/face_set.hpp"
+
+namespace frontend {
+
+/// A sphere or a cylinder. Its shape may be invalid: it is empty.
+struct RoundNode {
+  csgcore::Primitive primitive;
+  csgcore::FacetSettings facets;
+};
+
+/// A cube's box, a polyhedron's faces, a file's name, or a multmatrix. Nothing for other nodes.
+using SolidNode = std::variant<std::monostate, RoundNode, csgcore::Box,
+                               std::shared_ptr<const FaceSet>, FileArguments, FileMatrix>;
+
+/// Reads the node's arguments.
+SolidNode read_solid_node(const SyntaxTree& tree, const SyntaxNode& node,
+                          const ImportOptions& options, NodeProblems& problems);
+
+}  // namespace frontend

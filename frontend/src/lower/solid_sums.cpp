@@ -1,0 +1,179 @@
+#include "lower/solid_sums.hpp"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "csgcore/profile.hpp"
+#include "csgcore/triangle_mesh.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::Primitive;
+using csgcore::Shape;
+using csgcore::Vec3;
+
+constexpr std::string_view kBecauseManyFaces =
+    "its operands have more than 20000 faces or parts to be added one by one";
+constexpr std::string_view kBecauseNotConvex = "two of its operands are not convex";
+constexpr std::string_view kBecauseManyCorners = "its operands have too many corners";
+/// More parts take seconds to make and to draw.
+constexpr size_t kMostSums = 20000;
+
+Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
+
+SupportSet support_of(const SolidPart& part) {
+  SupportSet support;
+  part.add_support(support);
+  return support;
+}
+
+/// The hull of points of a face.
+SupportSet face_support(std::span<const Vec3> points) {
+  SupportSet support;
+  for (const Vec3& point : points) {
+    Generator& generator = support.generators.emplace_back();
+    generator.center = point;
+  }
+  return support;
+}
+
+SolidPart moved(const Primitive& primitive, const Vec3& offset, const Box& box) {
+  SolidPart part;
+  part.primitive = primitive;
+  part.primitive->local_to_world.translation += offset;
+  part.box = box;
+  return part;
+}
+
+/// The lowest and the highest point of a body, if one is above the other; `up` is +z there.
+std::optional<std::array<Vec3, 2>> upright_line(const Generators& generators) {
+  std::array<double, 2> heights{};
+  std::array<std::vector<Generator>, 2> extreme;
+  for (const size_t end : {0, 1}) {
+    const double sign = end == 0 ? -1 : 1;
+    double most = 0;
+    const auto height = [&](const Generator& g) {
+      const Vec3 along(g.ball[0].z, g.ball[1].z, g.ball[2].z);
+      return sign * g.center.z + std::hypot(g.disc_a.z, g.disc_b.z) + glm::length(along);
+    };
+    for (size_t i = 0; i < generators.size(); ++i) {
+      if (i == 0 || height(generators[i]) > most) most = height(generators[i]);
+    }
+    constexpr double kRounding = 0x1p-44;
+    for (const Generator& g : generators) {
+      if (height(g) >= most - kRounding * std::abs(most)) extreme[end].push_back(g);
+    }
+    heights[end] = sign * most;
+  }
+  // A point of one end that the other end has, too: a common place of a disc, ball or corner.
+  const auto place = [](const Generator& g, double sign) {
+    const Vec3 along(g.ball[0].z, g.ball[1].z, g.ball[2].z);
+    const double length = glm::length(along);
+    return length > 0 ? g.center + g.ball * (sign / length * along) : g.center;
+  };
+  for (const Generator& low : extreme[0]) {
+    for (const Generator& high : extreme[1]) {
+      const Vec3 from = place(low, -1), to = place(high, 1);
+      if (from.x == to.x && from.y == to.y) return std::array{from, to};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SolidSums::fail(std::string_view why) {
+  if (failure_.empty()) failure_ = why;
+}
+
+void SolidSums::add(const SolidPart& a, const SolidPart& b) {
+  if (!failure_.empty()) return;
+  const Box box = sum(a.box, b.box);
+  if (a.is_convex() && b.is_convex()) {
+    add_convex(support_of(a), support_of(b), box);
+    return;
+  }
+  const SolidPart& convex = a.is_convex() ? a : b;
+  const SolidPart& other = a.is_convex() ? b : a;
+  if (!convex.is_convex()) {
+    fail(kBecauseNotConvex);
+  } else if (other.primitive->shape == Shape::kMesh) {
+    add_mesh(*other.primitive, convex, box);
+  } else if (other.primitive->shape == Shape::kExtrusion) {
+    add_extrusion(*other.primitive, convex, box);
+  } else {
+    fail("one of its operands is round and not convex");
+  }
+}
+
+void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& box) {
+  if (sums_.size() >= kMostSums) fail(kBecauseManyFaces);
+  std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
+  if (!sum) fail(kBecauseManyCorners);
+  if (!failure_.empty()) return;
+  if (sum->is_flat) return;
+  sums_.push_back(part_of(
+      SupportSet{std::move(sum->generators), sum->is_faceted || a.is_faceted || b.is_faceted},
+      box));
+}
+
+/// The mesh, moved to a point of the convex body, and the sum of the body and each face: whatever
+/// of the sum meets no face lies within the mesh as a whole.
+void SolidSums::add_mesh(const Primitive& mesh, const SolidPart& convex, const Box& box) {
+  const SupportSet support = support_of(convex);
+  if (mesh.mesh->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
+  if (!mesh.mesh->is_closed()) return fail("one of its operands is an open mesh");
+  sums_.push_back(moved(mesh, support.generators.front().center, box));
+  for (const auto& triangle : mesh.mesh->triangles()) {
+    std::array<Vec3, 3> corners;
+    for (size_t i = 0; i < 3; ++i) {
+      corners[i] = mesh.local_to_world.point(mesh.mesh->vertices()[triangle[i]]);
+    }
+    add_convex(face_support(corners), support, box);
+  }
+}
+
+/// The extrusion, with the upright line between the ends of the convex body added to it, and the
+/// sum of the body and each wall: whatever of the sum meets no wall has all of its sections within
+/// the profile, and that line meets the extrusion.
+void SolidSums::add_extrusion(const Primitive& extrusion, const SolidPart& convex, const Box& box) {
+  const Affine& map = extrusion.local_to_world;
+  SupportSet local = support_of(convex);
+  if (map.determinant() == 0 || extrusion.r_bottom != extrusion.r_top) {
+    return fail("one of its operands is a tapered or flat extrusion");
+  }
+  Affine to_local{csgcore::inverse(map.linear), Vec3(0.0)};
+  map_all(to_local, local.generators);
+  const auto line = upright_line(local.generators);
+  if (!line) return fail("the convex one of its operands leans");
+  Primitive core = extrusion;
+  core.z_min += (*line)[0].z;
+  core.z_max += (*line)[1].z;
+  const Vec3 aside((*line)[0].x, (*line)[0].y, 0);
+  sums_.push_back(moved(core, map.direction(aside), box));
+  const SupportSet support = support_of(convex);
+  const double scale = extrusion.r_bottom;
+  const auto add_wall = [&](const Vec2& a, const Vec2& b) {
+    const std::array<Vec3, 4> corners{
+        map.point(Vec3(scale * a, extrusion.z_min)), map.point(Vec3(scale * b, extrusion.z_min)),
+        map.point(Vec3(scale * b, extrusion.z_max)), map.point(Vec3(scale * a, extrusion.z_max))};
+    add_convex(face_support(corners), support, box);
+  };
+  for (const Polygon& polygon :
+       chords_of(Outline{{extrusion.profile->loops().begin(), extrusion.profile->loops().end()},
+                         extrusion.profile->fill_rule()})) {
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      add_wall(polygon[i], polygon[(i + 1) % polygon.size()]);
+    }
+  }
+}
+
+}  // namespace frontend

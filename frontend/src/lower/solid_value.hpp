@@ -1,0 +1,56 @@
+// Solids within a subtree that OpenSCAD evaluates as a whole: primitives and convex bodies, and the
+// operations on them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/facets.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+#include "hulls/generator.hpp"
+#include "hulls/support_set.hpp"
+
+namespace frontend {
+
+/// A part of a solid: a primitive, or the hull of generators.
+struct SolidPart {
+  std::optional<csgcore::Primitive> primitive{};
+  csgcore::FacetSettings facets{};  // of a primitive: OpenSCAD's
+  SupportSet body{};                // if there is no primitive
+  /// The box of the corners that OpenSCAD has of it, in the coordinates around it.
+  csgcore::Box box{};
+
+  /// Whether it is known to be convex.
+  bool is_convex() const;
+  /// Adds generators of its hull.
+  void add_support(SupportSet& support) const;
+  void map(const csgcore::Affine& map);
+};
+
+/// Returns the part that is a primitive, in the coordinates of its matrix.
+SolidPart part_of(csgcore::Primitive primitive, const csgcore::FacetSettings& facets);
+/// Returns the part that is the hull of the generators. Without a box it is theirs.
+SolidPart part_of(SupportSet body, const csgcore::Box& box = {});
+
+/// A CSG tree over parts, whose primitives' numbers are the parts'.
+struct SolidValue {
+  std::vector<SolidPart> parts;
+  csgcore::CsgTree tree;
+
+  bool is_empty() const { return tree.empty(); }
+  /// Whether it is the union of its parts.
+  bool is_union() const;
+  /// The union of the parts' boxes.
+  csgcore::Box box() const;
+  void map(const csgcore::Affine& map);
+};
+
+SolidValue value_of(SolidPart part);
+/// Returns the union of the parts.
+SolidValue union_of(std::vector<SolidPart> parts);
+/// Returns what the operation makes of the operands, of which some may be empty.
+SolidValue combined(csgcore::Op op, std::vector<SolidValue> operands);
+
+}  // namespace frontend

@@ -1,0 +1,146 @@
+// The exact hull of points: its boundary is closed and convex, and holds all points, however
+// degenerate they are.
+#include "hulls/point_hull.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "csgcore/polyhedron.hpp"
+#include "csgcore/triangle_mesh.hpp"
+#include "hulls/point_solid.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Vec3;
+
+std::vector<Vec3> cube_points(double size) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(size * Vec3(i & 1, (i >> 1) & 1, i >> 2));
+  return points;
+}
+
+/// Of a solid: every edge is passed once in each direction, neighbours are each other's, and no
+/// point lies outside of a face.
+void expect_hull(const std::vector<Vec3>& points) {
+  const PointGrid grid = on_grid(points);
+  const PointHull hull = point_hull(grid);
+  ASSERT_EQ(hull.dimension, 3);
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_edge;
+  std::set<uint32_t> corners;
+  for (uint32_t t = 0; t < hull.triangles.size(); ++t) {
+    const PointHull::Triangle& triangle = hull.triangles[t];
+    for (size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(face_of_edge.try_emplace({triangle[k], triangle[(k + 1) % 3]}, t).second);
+      corners.insert(triangle[k]);
+    }
+    for (const GridPoint& point : grid.points) {
+      ASSERT_LE(orientation(grid.points[triangle[0]], grid.points[triangle[1]],
+                            grid.points[triangle[2]], point),
+                0);
+    }
+  }
+  for (uint32_t t = 0; t < hull.triangles.size(); ++t) {
+    for (size_t k = 0; k < 3; ++k) {
+      const auto other = face_of_edge.find({hull.triangles[t][(k + 1) % 3], hull.triangles[t][k]});
+      ASSERT_NE(other, face_of_edge.end());
+      EXPECT_EQ(other->second, hull.neighbors[t][k]);
+    }
+  }
+  EXPECT_EQ(std::vector<uint32_t>(corners.begin(), corners.end()), hull.corners);
+  EXPECT_EQ(hull.triangles.size(), 2 * corners.size() - 4) << "by Euler";
+}
+
+TEST(PointHull, OfRandomAndOfGridPointsIsClosedAndConvex) {
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    std::mt19937 engine(seed);
+    std::vector<Vec3> points;
+    const bool is_grid = seed % 2 == 0;
+    for (int i = 0; i < 100; ++i) {
+      Vec3 point;
+      for (int axis = 0; axis < 3; ++axis) {
+        point[axis] = is_grid ? std::uniform_int_distribution<int>(0, 3)(engine)
+                              : std::uniform_real_distribution<double>(-1, 1)(engine);
+      }
+      points.push_back(point);
+    }
+    expect_hull(points);
+  }
+}
+
+TEST(PointHull, OfNearlyFlatPointsIsExact) {
+  // Heights of some units of the grid: the sign of a double's determinant would be a guess.
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    std::mt19937 engine(seed);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 60; ++i) {
+      const double x = std::uniform_real_distribution<double>(0, 1)(engine);
+      const double y = std::uniform_real_distribution<double>(0, 1)(engine);
+      points.emplace_back(x, y,
+                          x + y + 0x1p-50 * std::uniform_int_distribution<int>(-4, 4)(engine));
+    }
+    expect_hull(points);
+  }
+}
+
+TEST(PointHull, TellsTheDimension) {
+  const auto dimension = [](const std::vector<Vec3>& points) {
+    return point_hull(on_grid(points)).dimension;
+  };
+  EXPECT_EQ(dimension({}), -1);
+  EXPECT_EQ(dimension({Vec3(1, 2, 3), Vec3(1, 2, 3)}), 0);
+  EXPECT_EQ(dimension({Vec3(0.0), Vec3(1), Vec3(2), Vec3(3)}), 1);
+  EXPECT_EQ(dimension({Vec3(0.0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}), 2);
+  EXPECT_EQ(dimension(cube_points(1)), 3);
+}
+
+TEST(PointHull, OfAPlaneIsItsPolygon) {
+  std::vector<Vec3> points;
+  for (int x = 0; x < 4; ++x) {
+    for (int y = 0; y < 3; ++y) points.emplace_back(x, y, x + 2 * y);
+  }
+  const PointHull hull = point_hull(on_grid(points));
+  EXPECT_EQ(hull.dimension, 2);
+  EXPECT_EQ(hull.corners.size(), 4u);
+}
+
+TEST(PointSolid, HasAFaceForEachPlane) {
+  for (const double size : {1e-9, 0.3, 1.0, 7e5, 1e9}) {
+    const auto cube = solid_of_points(cube_points(size));
+    ASSERT_TRUE(cube);
+    EXPECT_EQ(cube->primitive.polyhedron->half_spaces().size(), 6u) << size;
+    EXPECT_TRUE(csgcore::is_valid(cube->primitive));
+  }
+}
+
+TEST(PointSolid, IsASheetOrNothingWithoutVolume) {
+  const auto sheet =
+      solid_of_points(std::vector<Vec3>{Vec3(0.0), Vec3(1, 0, 1), Vec3(0, 1, 1), Vec3(1, 1, 2)});
+  ASSERT_TRUE(sheet);
+  EXPECT_TRUE(sheet->is_sheet);
+  EXPECT_TRUE(csgcore::is_valid(sheet->primitive));
+  EXPECT_FALSE(solid_of_points(std::vector<Vec3>{Vec3(0.0), Vec3(1, 2, 3), Vec3(2, 4, 6)}));
+  EXPECT_FALSE(solid_of_points(std::vector<Vec3>(9, Vec3(5, 6, 7))));
+}
+
+TEST(PointSolid, OfVeryManyPointsIsAMesh) {
+  std::mt19937 engine(1);
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 point(normal(engine), normal(engine), normal(engine));
+    points.push_back(point / std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z));
+  }
+  const auto ball = solid_of_points(points);
+  ASSERT_TRUE(ball);
+  ASSERT_TRUE(ball->primitive.mesh);
+  EXPECT_TRUE(ball->primitive.mesh->is_closed());
+}
+
+}  // namespace
+}  // namespace frontend

@@ -1,0 +1,273 @@
+// Tests hull, minkowski and resize of solids: what is inside of them, and what they tell.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "csgcore/solid.hpp"
+#include "lower/imported_text.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Shape;
+using csgcore::Vec3;
+using ::testing::Each;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Optional;
+using ::testing::SizeIs;
+
+std::string at(double x, double y, double z, const std::string& children) {
+  return "multmatrix([[1,0,0," + std::to_string(x) + "],[0,1,0," + std::to_string(y) + "],[0,0,1," +
+         std::to_string(z) + "],[0,0,0,1]]) {" + children + "}";
+}
+
+std::string scaled(double x, double y, double z, const std::string& children) {
+  return "multmatrix([[" + std::to_string(x) + ",0,0,0],[0," + std::to_string(y) + ",0,0],[0,0," +
+         std::to_string(z) + ",0],[0,0,0,1]]) {" + children + "}";
+}
+
+/// Tells what is inside of a design.
+class Inside {
+ public:
+  explicit Inside(const std::string& text, ImportOptions options = {})
+      : design_(import_text(text, options)),
+        solid_(csgcore::canonical_primitives(design_.scene), design_.scene.model) {}
+
+  bool operator()(double x, double y, double z) const { return solid_.contains(Vec3(x, y, z)); }
+  const ImportedDesign& design() const { return design_; }
+
+ private:
+  ImportedDesign design_;
+  csgcore::Solid solid_;
+};
+
+size_t count_of(const ImportedDesign& design, Shape shape) {
+  return static_cast<size_t>(
+      std::count_if(design.scene.primitives.begin(), design.scene.primitives.end(),
+                    [shape](const csgcore::Primitive& p) { return p.shape == shape; }));
+}
+
+// --- hull -----------------------------------------------------------------------------------
+
+TEST(SolidHull, OfTwoBallsIsAFrustumBetweenThem) {
+  const Inside inside("hull() { sphere(2); " + at(10, 0, 0, "sphere(1);") + "}");
+  EXPECT_EQ(count_of(inside.design(), Shape::kSphere), 2u);
+  EXPECT_EQ(count_of(inside.design(), Shape::kFrustum), 1u);
+  const double slope = 0.1;  // the sine of the side's angle
+  const double side = (2 - slope * 5) / std::sqrt(1 - slope * slope);  // at x = 5
+  EXPECT_TRUE(inside(5, side - 1e-9, 0));
+  EXPECT_FALSE(inside(5, side + 1e-9, 0));
+  EXPECT_TRUE(inside(10.99, 0, 0));
+}
+
+TEST(SolidHull, IsOneLeafWithoutTheColorsInside) {
+  const ImportedDesign design = import_text(
+      "color([0,0,1]) { hull() { color([1,0,0]) { sphere(2); } " + at(5, 0, 0, "cube(1);") + "} }");
+  EXPECT_EQ(design.leaves, 1u);
+  EXPECT_EQ(design.compound_leaves, 1u);
+  for (const csgcore::Primitive& primitive : design.scene.primitives) {
+    EXPECT_EQ(primitive.color, (csgcore::Color{0, 0, 1, 1}));
+    EXPECT_EQ(primitive.id, 0u);
+  }
+}
+
+TEST(SolidHull, TakesMatricesBothInsideAndAround) {
+  const Inside inside(
+      scaled(1, 1, 2, "hull() {" + scaled(2, 1, 1, "sphere(1);") + at(0, 0, 4, "cube(1);") + "}"));
+  EXPECT_TRUE(inside(1.99, 0, 0));
+  EXPECT_FALSE(inside(2.01, 0, 0));
+  EXPECT_TRUE(inside(0.5, 0.5, 9.9));
+  EXPECT_FALSE(inside(0.5, 0.5, 10.1));
+}
+
+TEST(SolidHull, OfAnEllipsoidIsThatEllipsoid) {
+  const ImportedDesign design = import_text("hull() {" + scaled(3, 2, 1, "sphere(1);") + "}");
+  EXPECT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_EQ(count_of(design, Shape::kSphere), 1u);
+}
+
+TEST(SolidHull, NestsAndIgnoresWhatIsEmpty) {
+  const std::string inner = "hull() { sphere(1); " + at(4, 0, 0, "sphere(1);") + "}";
+  const Inside inside("hull() {" + inner + at(0, 4, 0, "sphere(1);") + "sphere(0); cube(0); }");
+  EXPECT_TRUE(inside(1.5, 1.5, 0.99));
+  EXPECT_EQ(model_of("hull() { sphere(0); cube(0); }"), "-");
+  EXPECT_EQ(model_of("hull(); cube(1);"), "0");
+}
+
+TEST(SolidHull, OfExtrusionsTakesTheirArcs) {
+  const Inside inside("hull() { linear_extrude(height = 2) { circle(r = 3); }" +
+                      at(0, 0, 6, "linear_extrude(height = 1) { circle(r = 3); }") + "}");
+  EXPECT_TRUE(inside(2.12, 2.12, 4));
+  EXPECT_FALSE(inside(2.13, 2.13, 4));
+  EXPECT_EQ(inside.design().scene.primitives.size(), count_of(inside.design(), Shape::kFrustum));
+  const Inside torus("hull() { rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "} }");
+  EXPECT_TRUE(torus(0, 0, 0.99));
+  EXPECT_TRUE(torus(0, 5.99, 0));
+  EXPECT_FALSE(torus(0, 5.9, 0.9));
+}
+
+TEST(SolidHull, WithFacetsIsThePolyhedronOfOpenScadsCorners) {
+  ImportOptions options;
+  options.facets = Facets::kAll;
+  const ImportedDesign design = import_text(
+      "hull() { cylinder($fn = 5, h = 1, r1 = 2, r2 = 2); " + at(0, 0, 3, "cube(1);") + "}",
+      options);
+  EXPECT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_EQ(count_of(design, Shape::kPolyhedron), 1u);
+  EXPECT_EQ(import_text("hull() { sphere($fn = 6, r = 1); cube(3); }").scene.primitives.size(), 1u)
+      << "few facets are kept by default";
+}
+
+TEST(SolidHull, OfPointsInAPlaneIsASheet) {
+  const ImportedDesign design = import_text("hull() {" + scaled(1, 1, 0, "cube(4);") + "}");
+  ASSERT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_TRUE(csgcore::is_valid(design.scene.primitives.front()));
+  expect_box(design.view_box, Vec3(0, 0, 0), Vec3(4, 4, 0), 0);
+  EXPECT_EQ(model_of("hull() {" + scaled(1, 0, 0, "cube(4);") + "}"), "-");
+}
+
+TEST(SolidHull, HasTheBoxOfOpenScadsCorners) {
+  // Five corners of a circle: the outermost one to the left is at cos(144°).
+  const ImportedDesign design =
+      import_text("hull() { cylinder(h = 2, r = 1, $fn = 5); }", ImportOptions{});
+  expect_box(design.view_box, Vec3(std::cos(std::acos(-1) * 0.8), -0.9510565162951535, 0),
+             Vec3(1, 0.9510565162951535, 2), 1e-15);
+}
+
+TEST(SolidHull, OfExtremeSizesDoesNoHarm) {
+  EXPECT_THAT(
+      import_text("hull() { sphere(1e-9); " + at(1e9, 0, 0, "sphere(1e9);") + "}").scene.primitives,
+      Not(IsEmpty()));
+  EXPECT_THAT(import_text("hull() { sphere(1e200); cube(1e-200); } cube(1);").scene.primitives,
+              Not(IsEmpty()));
+  EXPECT_THAT(import_text("hull() { multmatrix([[1e300,0,0,1e300],[0,1e300,0,0],[0,0,1e300,0]]) {"
+                          "sphere(1e300); } cube(1); } cube(1);")
+                  .scene.primitives,
+              SizeIs(1));
+}
+
+TEST(SolidHull, CutsConvexSolidsInside) {
+  // The hull of a cube without one half of it.
+  const Inside inside("hull() { difference() { cube(4); " + at(2, -1, -1, "cube(9);") + "} }");
+  EXPECT_TRUE(inside(1.9, 3.9, 3.9));
+  EXPECT_FALSE(inside(2.1, 2, 2));
+  EXPECT_EQ(model_of("hull() { intersection() { cube(1); " + at(5, 0, 0, "cube(1);") + "} }"), "-");
+}
+
+TEST(SolidHull, IsLeftOutWhereItWouldNeedOtherOperations) {
+  EXPECT_THAT(warnings_of("hull() { difference() { cube(4); sphere(3); } }"),
+              testing::ElementsAre(
+                  HasSubstr("a.csg:1:1: warning: hull is left out (it needs the outcome of "
+                            "a difference or an intersection with a ball)")));
+}
+
+TEST(SolidHull, MayStandInOperationsAndModifiers) {
+  const Inside inside("difference() { cube(10); hull() { sphere(2); " + at(4, 0, 0, "sphere(2);") +
+                      "} } *hull() { cube(99); }");
+  EXPECT_FALSE(inside(3, 1, 1));
+  EXPECT_TRUE(inside(3, 3, 3));
+  EXPECT_EQ(layers_of(import_text("cube(1); %hull() { cube(2); sphere(1); }").scene,
+                      csgcore::Layer::Kind::kBackground)
+                .empty(),
+            false);
+}
+
+TEST(SolidHull, KeepsTheOrderOfTheFile) {
+  const ImportedDesign design =
+      import_text("cube(1); hull() { cube(2); } cube(3); hull() { cube(4); cube(5); } cube(6);");
+  std::vector<uint32_t> ids;
+  for (const csgcore::Primitive& primitive : design.scene.primitives) ids.push_back(primitive.id);
+  EXPECT_THAT(ids, testing::ElementsAre(0, 1, 2, 3, 5));
+}
+
+// --- minkowski ------------------------------------------------------------------------------
+
+TEST(SolidMinkowski, RoundsABox) {
+  const Inside inside("minkowski() { cube(4); sphere(1); }");
+  EXPECT_TRUE(inside(-0.99, 2, 2));
+  EXPECT_FALSE(inside(-1.01, 2, 2));
+  const double corner = 1 / std::sqrt(3.0);
+  EXPECT_TRUE(inside(4 + corner - 1e-9, 4 + corner - 1e-9, 4 + corner - 1e-9));
+  EXPECT_FALSE(inside(4 + corner + 1e-9, 4 + corner + 1e-9, 4 + corner + 1e-9));
+}
+
+TEST(SolidMinkowski, OfACylinderAndABallIsRevolved) {
+  const ImportedDesign design = import_text("minkowski() { cylinder(h = 4, r = 3); sphere(1); }");
+  EXPECT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_EQ(count_of(design, Shape::kRevolution), 1u);
+}
+
+TEST(SolidMinkowski, DistributesOverUnions) {
+  const Inside inside("minkowski() { union() { cube(1); " + at(9, 0, 0, "cube(1);") +
+                      "} cylinder(h = 1, r = 1); }");
+  EXPECT_TRUE(inside(-0.5, 0.5, 0.5));
+  EXPECT_TRUE(inside(9.5, 1.9, 1.9));
+  EXPECT_FALSE(inside(5, 0.5, 0.5));
+}
+
+TEST(SolidMinkowski, FoldsAndIgnoresWhatIsEmpty) {
+  const Inside inside("minkowski() { sphere(0); cube(1); cube(2); cube(3); }");
+  EXPECT_TRUE(inside(5.9, 5.9, 5.9));
+  EXPECT_FALSE(inside(6.1, 1, 1));
+  EXPECT_EQ(count_of(inside.design(), Shape::kPolyhedron), 1u);
+  EXPECT_EQ(model_of("minkowski() { cube(3); }"), "0") << "one child stays as it is";
+  EXPECT_EQ(model_of("minkowski() {" + scaled(0, 0, 1, "cube(1);") + scaled(0, 1, 0, "cube(1);") +
+                     "cube(1); }"),
+            "-")
+      << "a flat sum is empty";
+}
+
+TEST(SolidMinkowski, OfAProfileThatIsNotConvexGoesAlongItsWalls) {
+  const Inside inside("minkowski() { linear_extrude(height = 2) { difference() { square(10); " +
+                      at(3, 3, 0, "square(4);") + "} } sphere(1); }");
+  EXPECT_TRUE(inside(1, 1, 2.99));
+  EXPECT_TRUE(inside(3.9, 5, 1));
+  EXPECT_FALSE(inside(4.1, 5, 1)) << "in the hole";
+  EXPECT_FALSE(inside(-0.8, 5, 2.8)) << "beyond the rounded edge";
+  EXPECT_TRUE(inside(-0.6, 5, 2.6));
+}
+
+TEST(SolidMinkowski, OfAMeshGoesAlongItsFaces) {
+  // Two tetrahedra in one mesh, far from each other.
+  const Inside inside(
+      "minkowski() { polyhedron(points = [[0,0,0],[4,0,0],[0,4,0],[0,0,4],"
+      "[20,0,0],[24,0,0],[20,4,0],[20,0,4]], faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2],"
+      "[4,5,6],[4,7,5],[4,6,7],[5,7,6]]); cube(1, center = true); }");
+  EXPECT_TRUE(inside(1, 1, 1));
+  EXPECT_TRUE(inside(-0.4, 1, 1));
+  EXPECT_TRUE(inside(21, 1, 1));
+  EXPECT_FALSE(inside(12, 0, 0));
+  EXPECT_FALSE(inside(-0.6, 1, 1));
+}
+
+TEST(SolidMinkowski, IsLeftOutOfTwoThatAreNotConvex) {
+  const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
+  EXPECT_THAT(warning_of("minkowski() {" + ring + ring + "}"), HasSubstr("minkowski is left out"));
+}
+
+// --- resize ---------------------------------------------------------------------------------
+
+TEST(SolidResize, ScalesAboutTheOriginToTheBoxOfTheUnion) {
+  const ImportedDesign design =
+      import_text("resize(newsize = [20, 0, 6], auto = [false, true, false]) {" +
+                  at(1, 1, 1, "cube(4);") + at(5, 1, 1, "cube(4);") + "}");
+  expect_box(design.view_box, Vec3(2.5, 2.5, 1.5), Vec3(22.5, 12.5, 7.5), 1e-14);
+  const ImportedDesign ball = import_text("resize([0, 0, 8]) { sphere(r = 2, $fn = 4); }");
+  EXPECT_NEAR(ball.view_box.max.z, 4, 1e-15);
+}
+
+TEST(SolidResize, KeepsOperationsWhoseBoxItCanFind) {
+  const Inside inside("resize([20, 20, 20]) { difference() { cube(10); " +
+                      at(2, 2, -1, "cube([2, 2, 20]);") + "} }");
+  EXPECT_FALSE(inside(6, 6, 10));
+  EXPECT_TRUE(inside(2, 2, 19.9));
+  EXPECT_THAT(inside.design().scene.primitives, SizeIs(2));
+}
+
+}  // namespace
+}  // namespace frontend
