@@ -67,9 +67,11 @@ Polygons openscad_outlines(const TemporaryFolder& folder, const std::string& csg
 Polygons own_outlines(const std::string& csg) {
   const SyntaxTree tree = parse(csg, "text.csg");
   DesignFonts fonts({});
+  PolyhedronPool polyhedra(false);
+  FileImports files({}, polyhedra);
   NodeProblems problems;
   PlaneSubtree subtree(tree, 0);
-  subtree.take(0, 0, {.facets = Facets::kAll}, fonts, problems);
+  subtree.take(0, 0, {.facets = Facets::kAll}, {fonts, files}, problems);
   std::vector<Figure> letters;
   for (const PlacedGlyph& letter : subtree.data<TextNode>(0).letters) {
     letters.push_back(mapped(letter.place, *letter.shape.figure));

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/canonical_primitive.hpp"
 #include "csgcore/csg_tree.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
+#include "csgcore/solid.hpp"
 #include "frontend/importer.hpp"
 
 namespace frontend {
@@ -38,6 +40,23 @@ csgcore::Primitive only_primitive(const std::string& text);
 
 /// Returns the box in the world of a primitive, which must be a polyhedron.
 csgcore::Box box_of(const csgcore::Primitive& primitive);
+
+/// Tells what is inside of a design.
+class Inside {
+ public:
+  explicit Inside(const std::string& text, ImportOptions options = {})
+      : design_(import_text(text, options)),
+        solid_(csgcore::canonical_primitives(design_.scene), design_.scene.model) {}
+
+  bool operator()(double x, double y, double z) const {
+    return solid_.contains(csgcore::Vec3(x, y, z));
+  }
+  const ImportedDesign& design() const { return design_; }
+
+ private:
+  ImportedDesign design_;
+  csgcore::Solid solid_;
+};
 
 void expect_box(const csgcore::Box& box, const csgcore::Vec3& min, const csgcore::Vec3& max,
                 double tolerance);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "csgcore/canonical_primitive.hpp"
-#include "csgcore/solid.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -31,20 +29,6 @@ std::string extruded(const std::string& children, const std::string& arguments =
 std::string revolved(const std::string& children, const std::string& arguments = "angle = 360") {
   return "rotate_extrude(" + arguments + ") {" + children + "}";
 }
-
-/// Tells what is inside of a design.
-class Inside {
- public:
-  explicit Inside(const std::string& text, ImportOptions options = {})
-      : design_(import_text(text, options)),
-        solid_(csgcore::canonical_primitives(design_.scene), design_.scene.model) {}
-
-  bool operator()(double x, double y, double z) const { return solid_.contains(Vec3(x, y, z)); }
-
- private:
-  ImportedDesign design_;
-  csgcore::Solid solid_;
-};
 
 Shape shape_of_only(const std::string& text) { return only_primitive(text).shape; }
 
@@ -100,11 +84,6 @@ TEST(LinearExtrude, ScalesAboutItsOrigin) {
   EXPECT_TRUE(point(0.25, 0, 1.9));
   EXPECT_FALSE(point(0.3, 0, 1.9));
   EXPECT_TRUE(point(9.9, 0.9, -1.95));
-}
-
-TEST(LinearExtrude, IsLeftOutWithAFile) {
-  EXPECT_THAT(warning_of("linear_extrude(file = \"a.dxf\", height = 1);"),
-              HasSubstr("linear_extrude is left out"));
 }
 
 TEST(LinearExtrude, TurnsClockwise) {
@@ -459,9 +438,9 @@ TEST(RotateExtrude, HasOpenScadsRings) {
 }
 
 TEST(PlaneImport, LeavesOutWhatItCannotDraw) {
-  EXPECT_THAT(warning_of(extruded("square(2); text(\"a\");")), HasSubstr("text is left out"));
-  EXPECT_EQ(model_of(extruded("square(2); text(\"a\");")), "0");
-  EXPECT_EQ(model_of("difference() {" + extruded("text(\"a\");") + "cube(1); } sphere();"), "2")
+  EXPECT_THAT(warning_of(extruded("square(2); roof() { square(1); }")), HasSubstr("roof is left out"));
+  EXPECT_EQ(model_of(extruded("square(2); roof() { square(1); }")), "0");
+  EXPECT_EQ(model_of("difference() {" + extruded("roof() { square(1); }") + "cube(1); } sphere();"), "2")
       << "no hole becomes a body";
 }
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "csgcore/canonical_primitive.hpp"
-#include "csgcore/solid.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -30,21 +28,6 @@ std::string scaled(double x, double y, double z, const std::string& children) {
   return "multmatrix([[" + std::to_string(x) + ",0,0,0],[0," + std::to_string(y) + ",0,0],[0,0," +
          std::to_string(z) + ",0],[0,0,0,1]]) {" + children + "}";
 }
-
-/// Tells what is inside of a design.
-class Inside {
- public:
-  explicit Inside(const std::string& text, ImportOptions options = {})
-      : design_(import_text(text, options)),
-        solid_(csgcore::canonical_primitives(design_.scene), design_.scene.model) {}
-
-  bool operator()(double x, double y, double z) const { return solid_.contains(Vec3(x, y, z)); }
-  const ImportedDesign& design() const { return design_; }
-
- private:
-  ImportedDesign design_;
-  csgcore::Solid solid_;
-};
 
 size_t count_of(const ImportedDesign& design, Shape shape) {
   return static_cast<size_t>(
