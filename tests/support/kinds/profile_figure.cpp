@@ -106,25 +106,14 @@ LongVec2 FigureEdge::nearest(const LongVec2& point) const {
     const bool is_on = (cross(chord, on - start) < 0) == is_counterclockwise;
     return is_on ? on : nearest_end;
   }
-  // The best of some parameters, refined by ternary search.
-  constexpr int kParts = 64, kSteps = 70;
-  Real best = 0, least = kInfinity;
-  for (int i = 0; i <= kParts; ++i) {
-    const Real distance = glm::length(at(Real(i) / kParts) - point);
-    if (distance < least) least = distance, best = Real(i) / kParts;
-  }
-  // Where the derivative of the squared distance changes its sign.
-  const auto slope = [&](Real s) {
-    const LongVec2 along = glm::mix(control - start, end - control, s);
-    return glm::dot(at(s) - point, along);
-  };
-  Real low = std::max<Real>(0, best - Real(1) / kParts);
-  Real high = std::min<Real>(1, best + Real(1) / kParts);
-  for (int i = 0; i < kSteps; ++i) {
-    const Real middle = (low + high) / 2;
-    (slope(middle) < 0 ? low : high) = middle;
-  }
-  return at((low + high) / 2);
+  // Where the derivative of the squared distance is 0, or at an end.
+  const LongVec2 away = start - point, first = control - start, bend = end - control - first;
+  const Polynomial slope{glm::dot(away, first), glm::dot(away, bend) + 2 * glm::dot(first, first),
+                         3 * glm::dot(first, bend), glm::dot(bend, bend), 0};
+  std::vector<Real> parameters{0, 1};
+  append_splits(slope, 3, 0, 1, parameters);
+  const auto distance = [&](Real s) { return glm::length(at(s) - point); };
+  return at(*std::ranges::min_element(parameters, {}, distance));
 }
 
 Real FigureEdge::furthest(const LongVec2& direction) const {
