@@ -42,7 +42,8 @@ std::shared_ptr<FontFace> FontFace::open(const FontLibraries& libraries, FT_Libr
                        kResolution_dpi) != 0) {
     return nullptr;
   }
-  // Without a table of Unicode FreeType chooses none. HarfBuzz knows where symbols have their letters.
+  // Without a table of Unicode FreeType chooses none. HarfBuzz knows where symbols have their
+  // letters.
   if (result->face_->charmap == nullptr) {
     ft.select_charmap(result->face_, FT_ENCODING_MS_SYMBOL);
   }
