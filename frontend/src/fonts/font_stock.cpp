@@ -140,6 +140,14 @@ const FoundFont& FontStock::find(std::string_view pattern) {
   return found->second;
 }
 
+TextLetters FontStock::within_limits(TextLetters letters) {
+  constexpr size_t kMost = 1000;  // far more than there are in any design
+  const std::string key = letters.script + '\n' + letters.language;
+  if (scripts_and_languages_.size() < kMost) scripts_and_languages_.insert(key);
+  if (!scripts_and_languages_.contains(key)) letters.script = letters.language = "";
+  return letters;
+}
+
 FoundFont FontStock::match(const std::string& pattern) {
   const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
   FoundFont result;

@@ -248,6 +248,41 @@ TEST_F(Text, TakesAnyBytes) {
   EXPECT_THAT(import_with_fonts(extruded(text(many))).scene.primitives, SizeIs(many.size()));
 }
 
+TEST_F(Text, TakesItsTimeInProportion) {
+  // HarfBuzz alone would take seconds for either.
+  std::string accents = "e";
+  for (int i = 0; i < 20000; ++i) accents += "\u0301";
+  EXPECT_THAT(import_with_fonts(extruded(text(accents))).warnings, IsEmpty());
+  std::string languages;
+  for (int i = 0; i < 5000; ++i) {
+    languages += "text(\"a\", language = \"x" + std::to_string(i) + "\");\n";
+  }
+  EXPECT_THAT(import_with_fonts(languages).scene.primitives, SizeIs(5000));
+}
+
+TEST_F(Text, IsInPartsWhatIsInOne) {
+  // Longer than what is shaped at once, and from the right to the left.
+  std::string words;
+  for (int i = 0; i < 1000; ++i) words += "abcde fghi ";
+  for (const char* direction : {"ltr", "rtl"}) {
+    const auto primitives_of = [&](const std::string& letters) {
+      return import_with_fonts(extruded(text(letters, "size = 10, direction = \"" +
+                                                          std::string(direction) + "\"")))
+          .scene.primitives;
+    };
+    const auto few = primitives_of("abcde fghi "), many = primitives_of(words);
+    ASSERT_THAT(few, SizeIs(9));
+    ASSERT_THAT(many, SizeIs(9000));
+    const double step = many[9].local_to_world.translation.x - many[0].local_to_world.translation.x;
+    for (size_t i = 0; i < many.size(); ++i) {
+      ASSERT_EQ(many[i].profile, few[i % 9].profile) << i;
+      ASSERT_NEAR(many[i].local_to_world.translation.x,
+                  few[i % 9].local_to_world.translation.x + step * static_cast<double>(i / 9), 1e-6)
+          << i;
+    }
+  }
+}
+
 TEST_F(Text, IsAPlaneFigureLikeOthers) {
   const std::string one = text("I");
   for (const std::string& csg :
