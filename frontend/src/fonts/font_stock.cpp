@@ -94,13 +94,21 @@ class Pattern {
 }  // namespace
 
 FontStock* FontStock::instance() {
-  static FontStock* const stock =
-      font_libraries() == nullptr ? nullptr : new FontStock(*font_libraries());
-  return stock;
+  const FontLibraries* const libraries = font_libraries();
+  if (libraries == nullptr) return nullptr;
+  static FontStock stock(*libraries);
+  return &stock;
 }
 
 FontStock::FontStock(const FontLibraries& libraries) : libraries_(libraries) {
   if (libraries.freetype.init(&freetype_) != 0) freetype_ = nullptr;
+}
+
+FontStock::~FontStock() {
+  found_.clear();
+  faces_.clear();
+  if (config_ != nullptr) libraries_.fontconfig.config_destroy(config_);
+  if (freetype_ != nullptr) libraries_.freetype.done(freetype_);
 }
 
 void FontStock::use_files(const std::vector<std::string>& files) {

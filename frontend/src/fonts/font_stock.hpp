@@ -26,6 +26,9 @@ struct FoundFont {
 /// All but lock() and instance() are to be called while the lock is held.
 class FontStock {
  public:
+  FontStock(const FontStock&) = delete;
+  FontStock& operator=(const FontStock&) = delete;
+
   /// The only one of the process, whose fonts stay open for the next import; null if the libraries
   /// are not installed.
   static FontStock* instance();
@@ -61,7 +64,7 @@ class FontStock {
   };
 
   explicit FontStock(const FontLibraries& libraries);
-  ~FontStock() = delete;  // it lives as long as the process
+  ~FontStock();
 
   void load_list();
   FoundFont match(const std::string& pattern);
