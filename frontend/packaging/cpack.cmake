@@ -39,12 +39,14 @@ function(deb_package name section description)
 endfunction()
 
 # libepoxy opens EGL and GL by name when OpenGL is first asked for, which shlibdeps cannot see; the
-# CPU draws if they are missing.
+# CPU draws if they are missing. A design with text opens FreeType, HarfBuzz and fontconfig by name, too;
+# text is left out if they are missing.
 deb_package(scadray graphics "exact ray-traced pictures of OpenSCAD designs
 Draws OpenSCAD's .csg and .scad files by ray tracing the solid itself: round
 primitives are exact surfaces, not meshes. Takes the command lines of openscad
 that write a picture, and needs neither a display nor a GPU."
-  RECOMMENDS openscad libegl1 libgl1-mesa-dri libopengl0)
+  RECOMMENDS openscad libegl1 libfontconfig1 libfreetype6 libgl1-mesa-dri libharfbuzz0b
+             libopengl0)
 deb_package(scadray-validate graphics "compares what scadray draws with exact arithmetic
 Holds what scadray makes of a design against CGAL's Nef polyhedra and against
 rays in exact arithmetic. `scadray validate` runs it."

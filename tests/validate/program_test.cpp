@@ -286,11 +286,11 @@ TEST_F(Validate, Failures) {
 }
 
 TEST_F(Validate, WhatCannotBeDrawnIsLeftOut) {
-  const std::string flat = folder_.write("flat.csg", "text(size = 1);");
+  const std::string flat = folder_.write("flat.csg", "import(\"a.nef3\");");
   for (const char* option : {"--skip-unsupported", "--seed=1"}) {
     const Outcome outcome = run({option, "--renderer=cpu", "--time-limit=0", flat});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: text is left out"));
+    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: import is left out"));
   }
 }
 

@@ -17,6 +17,8 @@ struct Location {
 struct Warning {
   std::string text;        // like an Error's what(), with "warning" in place of "error"
   std::string error_text;  // what() of the Error that it becomes where warnings are errors
+  /// OpenSCAD says nothing of it: it never becomes an error.
+  bool is_note = false;
 };
 
 /// what() is "file:line:column: error: what (what to do)", without those places that are not known.
@@ -30,5 +32,8 @@ class Error : public std::runtime_error {
 /// Any of `file`, `location` and `todo` may be empty, and is then left out of the text.
 Warning make_warning(const std::string& file, Location location, const std::string& what,
                      const std::string& todo);
+/// Returns a warning that is a note, with that word in its text.
+Warning make_note(const std::string& file, Location location, const std::string& what,
+                  const std::string& todo);
 
 }  // namespace frontend

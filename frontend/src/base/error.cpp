@@ -31,4 +31,9 @@ Warning make_warning(const std::string& file, Location location, const std::stri
           message(file, location, "error", what, todo)};
 }
 
+Warning make_note(const std::string& file, Location location, const std::string& what,
+                  const std::string& todo) {
+  return {message(file, location, "note", what, todo), {}, true};
+}
+
 }  // namespace frontend

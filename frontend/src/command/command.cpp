@@ -210,8 +210,10 @@ class Run {
     stats_.leaves = design.leaves;
     stats_.compound_leaves = design.compound_leaves;
     stats_.layers = design.scene.layers.size();
-    if (options_.has_hard_warnings && !design.warnings.empty()) throw Error(design.warnings[0]);
-    for (const Warning& warning : design.warnings) say(warning.text);
+    for (const Warning& warning : design.warnings) {
+      if (options_.has_hard_warnings && !warning.is_note) throw Error(warning);
+      say(warning.text);
+    }
     return design;
   }
 

@@ -23,7 +23,8 @@ DrawnText DesignFonts::letters(const TextSettings& text, int pieces) {
     result.problem = DrawnText::Problem::kNoFont;
     return result;
   }
-  result.glyphs = lay_out(stock->libraries(), text, *font.face, pieces);
+  const TextRun run = run_of(stock->libraries(), stock->within_limits(text.letters));
+  result.glyphs = lay_out(text, run, *font.face, pieces);
   return result;
 }
 

@@ -16,6 +16,25 @@ struct BufferDeleter {
   void operator()(hb_buffer_t* buffer) const { destroy(buffer); }
 };
 
+/// A longer text is shaped in parts: the time that HarfBuzz takes for accents upon one letter grows
+/// with the square of their number.
+constexpr size_t kMostLettersOfPart = 2048;
+
+/// Returns where the parts of a text end, at spaces where there are any.
+std::vector<size_t> part_ends(const std::vector<uint32_t>& letters) {
+  std::vector<size_t> ends;
+  size_t begin = 0;
+  while (letters.size() - begin > kMostLettersOfPart) {
+    size_t end = begin + kMostLettersOfPart;
+    while (end > begin && letters[end - 1] != ' ') --end;
+    if (end == begin) end = begin + kMostLettersOfPart;
+    ends.push_back(end);
+    begin = end;
+  }
+  if (begin < letters.size()) ends.push_back(letters.size());
+  return ends;
+}
+
 Rectangle rounded_outwards(const FT_BBox& box) {
   const auto down = [](FT_Pos x) {
     return kUnitsOfPixel * std::floor(static_cast<double>(x) / kUnitsOfPixel);
@@ -42,7 +61,8 @@ std::shared_ptr<FontFace> FontFace::open(const FontLibraries& libraries, FT_Libr
                        kResolution_dpi) != 0) {
     return nullptr;
   }
-  // Without a table of Unicode FreeType chooses none. HarfBuzz knows where symbols have their letters.
+  // Without a table of Unicode FreeType chooses none. HarfBuzz knows where symbols have their
+  // letters.
   if (result->face_->charmap == nullptr) {
     ft.select_charmap(result->face_, FT_ENCODING_MS_SYMBOL);
   }
@@ -56,25 +76,36 @@ FontFace::~FontFace() {
 }
 
 std::vector<ShapedGlyph> FontFace::shape(const TextRun& run) const {
+  const std::vector<size_t> ends = part_ends(run.letters);
+  const size_t count = ends.size();
+  std::vector<ShapedGlyph> glyphs;
+  glyphs.reserve(run.letters.size());
+  for (size_t i = 0; i < count; ++i) {
+    // What runs backwards has its last part first.
+    const size_t part = HB_DIRECTION_IS_BACKWARD(run.direction) ? count - 1 - i : i;
+    shape_part(run, part == 0 ? 0 : ends[part - 1], ends[part], glyphs);
+  }
+  return glyphs;
+}
+
+void FontFace::shape_part(const TextRun& run, size_t begin, size_t end,
+                          std::vector<ShapedGlyph>& glyphs) const {
   const FontLibraries::HarfBuzz& hb = libraries_.harfbuzz;
   const std::unique_ptr<hb_buffer_t, BufferDeleter> buffer(hb.buffer_create(),
                                                            BufferDeleter{hb.buffer_destroy});
-  const auto count = static_cast<int>(run.letters.size());
-  hb.buffer_add_utf32(buffer.get(), run.letters.data(), count, 0, count);
+  hb.buffer_add_utf32(buffer.get(), run.letters.data(), static_cast<int>(run.letters.size()),
+                      static_cast<unsigned>(begin), static_cast<int>(end - begin));
   hb.buffer_set_direction(buffer.get(), run.direction);
   hb.buffer_set_script(buffer.get(), run.script);
   hb.buffer_set_language(buffer.get(), run.language);
   hb.shape(font_, buffer.get(), nullptr, 0);
-  unsigned glyphs = 0;
-  const hb_glyph_info_t* infos = hb.buffer_get_glyph_infos(buffer.get(), &glyphs);
-  const hb_glyph_position_t* positions = hb.buffer_get_glyph_positions(buffer.get(), &glyphs);
-  std::vector<ShapedGlyph> result;
-  result.reserve(glyphs);
-  for (unsigned i = 0; i < glyphs; ++i) {
-    result.push_back({infos[i].codepoint, Vec2(positions[i].x_offset, positions[i].y_offset),
+  unsigned count = 0;
+  const hb_glyph_info_t* infos = hb.buffer_get_glyph_infos(buffer.get(), &count);
+  const hb_glyph_position_t* positions = hb.buffer_get_glyph_positions(buffer.get(), &count);
+  for (unsigned i = 0; i < count; ++i) {
+    glyphs.push_back({infos[i].codepoint, Vec2(positions[i].x_offset, positions[i].y_offset),
                       Vec2(positions[i].x_advance, positions[i].y_advance)});
   }
-  return result;
 }
 
 const Rectangle& FontFace::pixel_box(uint32_t glyph) {

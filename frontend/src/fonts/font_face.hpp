@@ -1,6 +1,7 @@
 // A font, opened: the shaping of text by HarfBuzz, and the glyphs by FreeType.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -43,6 +44,8 @@ class FontFace {
  private:
   FontFace(const FontLibraries& libraries, FileText file)
       : libraries_(libraries), file_(std::move(file)) {}
+  void shape_part(const TextRun& run, size_t begin, size_t end,
+                  std::vector<ShapedGlyph>& glyphs) const;
   /// Returns null if the glyph has no outline.
   FT_Outline* load(uint32_t glyph);
 

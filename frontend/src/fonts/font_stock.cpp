@@ -1,6 +1,7 @@
 #include "fonts/font_stock.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
@@ -24,9 +25,18 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kSpace) + 1 - first));
 }
 
+/// Names that fontconfig takes for any font of a kind.
+constexpr std::array<std::string_view, 8> kGenericFamilies = {
+    "sans", "sans-serif", "serif", "mono", "monospace", "cursive", "fantasy", "system-ui"};
+
 bool same_name(std::string_view a, std::string_view b) {
   return std::ranges::equal(
       a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+bool is_generic(std::string_view family) {
+  return std::ranges::any_of(kGenericFamilies,
+                             [&](std::string_view name) { return same_name(name, family); });
 }
 
 /// Returns the folders whose fonts count besides those of fontconfig's settings.
@@ -84,13 +94,21 @@ class Pattern {
 }  // namespace
 
 FontStock* FontStock::instance() {
-  static FontStock* const stock =
-      font_libraries() == nullptr ? nullptr : new FontStock(*font_libraries());
-  return stock;
+  const FontLibraries* const libraries = font_libraries();
+  if (libraries == nullptr) return nullptr;
+  static FontStock stock(*libraries);
+  return &stock;
 }
 
 FontStock::FontStock(const FontLibraries& libraries) : libraries_(libraries) {
   if (libraries.freetype.init(&freetype_) != 0) freetype_ = nullptr;
+}
+
+FontStock::~FontStock() {
+  found_.clear();
+  faces_.clear();
+  if (config_ != nullptr) libraries_.fontconfig.config_destroy(config_);
+  if (freetype_ != nullptr) libraries_.freetype.done(freetype_);
 }
 
 void FontStock::use_files(const std::vector<std::string>& files) {
@@ -130,6 +148,14 @@ const FoundFont& FontStock::find(std::string_view pattern) {
   return found->second;
 }
 
+TextLetters FontStock::within_limits(TextLetters letters) {
+  constexpr size_t kMost = 1000;  // far more than there are in any design
+  const std::string key = letters.script + '\n' + letters.language;
+  if (scripts_and_languages_.size() < kMost) scripts_and_languages_.insert(key);
+  if (!scripts_and_languages_.contains(key)) letters.script = letters.language = "";
+  return letters;
+}
+
 FoundFont FontStock::match(const std::string& pattern) {
   const FontLibraries::Fontconfig& fc = libraries_.fontconfig;
   FoundFont result;
@@ -149,7 +175,9 @@ FoundFont FontStock::match(const std::string& pattern) {
   const char* const path = best.string(FC_FILE);
   if (path == nullptr) return result;
   if (const char* name = best.string(FC_FAMILY)) result.family = name;
-  if (!asked_family.empty() && !best.has_family(asked_family)) result.missing_family = asked_family;
+  const bool is_missing =
+      !asked_family.empty() && !is_generic(asked_family) && !best.has_family(asked_family);
+  if (is_missing) result.missing_family = asked_family;
   result.face = open(path, best.integer(FC_INDEX));
   return result;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,9 @@ struct FoundFont {
 /// All but lock() and instance() are to be called while the lock is held.
 class FontStock {
  public:
+  FontStock(const FontStock&) = delete;
+  FontStock& operator=(const FontStock&) = delete;
+
   /// The only one of the process, whose fonts stay open for the next import; null if the libraries
   /// are not installed.
   static FontStock* instance();
@@ -42,6 +46,10 @@ class FontStock {
   /// outlines; for an empty one, that for OpenSCAD's default. It lives until use_files().
   const FoundFont& find(std::string_view pattern);
 
+  /// Returns the letters without their script and language if too many others were met before:
+  /// HarfBuzz keeps what it prepares for each in lists, which it searches, and never frees it.
+  TextLetters within_limits(TextLetters letters);
+
  private:
   /// What the list of fonts was made from.
   struct Sources {
@@ -56,7 +64,7 @@ class FontStock {
   };
 
   explicit FontStock(const FontLibraries& libraries);
-  ~FontStock() = delete;  // it lives as long as the process
+  ~FontStock();
 
   void load_list();
   FoundFont match(const std::string& pattern);
@@ -67,6 +75,7 @@ class FontStock {
   FT_Library freetype_ = nullptr;
   FcConfig* config_ = nullptr;
   Sources sources_;
+  std::set<std::string> scripts_and_languages_;
   std::map<std::string, FoundFont, std::less<>> found_;    // by pattern
   std::map<std::pair<std::string, int>, OpenFace> faces_;  // by file and the index in it
 };

@@ -66,11 +66,10 @@ bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y);
 
 }  // namespace
 
-std::vector<PlacedGlyph> lay_out(const FontLibraries& libraries, const TextSettings& text,
-                                 FontFace& font, int pieces) {
+std::vector<PlacedGlyph> lay_out(const TextSettings& text, const TextRun& run, FontFace& font,
+                                 int pieces) {
   std::vector<PlacedGlyph> result;
   if (!std::isfinite(text.size) || text.size == 0) return result;
-  const TextRun run = run_of(libraries, text.letters);
   const std::vector<ShapedGlyph> glyphs = font.shape(run);
   Vec2 at(0.0);
   if (text.halign != HorizontalAlign::kLeft || text.valign != VerticalAlign::kBaseline) {

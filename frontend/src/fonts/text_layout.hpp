@@ -32,9 +32,9 @@ struct PlacedGlyph {
   PlaneMap place;  // from the shape's units
 };
 
-/// Returns the letters of the text in the font. `pieces` is that of shape_of(). What stands at no
-/// finite place is left out.
-std::vector<PlacedGlyph> lay_out(const FontLibraries& libraries, const TextSettings& text,
-                                 FontFace& font, int pieces);
+/// Returns the letters of the text, as the run has them, in the font. `pieces` is that of
+/// shape_of(). What stands at no finite place is left out.
+std::vector<PlacedGlyph> lay_out(const TextSettings& text, const TextRun& run, FontFace& font,
+                                 int pieces);
 
 }  // namespace frontend

@@ -15,7 +15,8 @@ std::vector<Warning> NodeProblems::warnings(const std::string& file_name) const 
   for (const Problem* problem : sorted) {
     std::string what = std::string(name_of(problem->kind)) + problem->description.what;
     if (problem->count > 1) what += "; the first of " + std::to_string(problem->count);
-    result.push_back(make_warning(file_name, problem->first, what, problem->description.todo));
+    const auto make = problem->description.is_note ? make_note : make_warning;
+    result.push_back(make(file_name, problem->first, what, problem->description.todo));
   }
   return result;
 }

@@ -17,6 +17,7 @@ class NodeProblems {
   struct Description {
     std::string what;  // follows the node's name
     std::string todo;
+    bool is_note = false;  // make_note()
   };
 
   /// Counts a problem. `topic`, which must outlive this, tells it from others of such nodes;

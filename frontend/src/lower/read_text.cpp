@@ -108,7 +108,7 @@ std::vector<PlacedGlyph> letters_of(const SyntaxNode& node, const TextSettings& 
       problems.add(node, "a missing font", [&] {
         return Description{": the font '" + drawn.missing_family + "' is not installed: '" +
                                drawn.font_family + "' stands in for it",
-                           "install it, or name its file in use <…>"};
+                           "install it, or name its file in use <…>", true};
       });
       break;
   }

@@ -245,12 +245,12 @@ TEST(DesignFollower, ReadsAgainOnDemand) {
 
 TEST(DesignFollower, ListsWhatIsLeftOut) {
   const TemporaryFolder folder;
-  const std::string path = folder.write("a.csg", "sphere(r = 1); text(\"x\");");
+  const std::string path = folder.write("a.csg", "sphere(r = 1); roof() { square(1); }");
   Followed design(path);
   const DesignVersion version = design.next_of(2);
-  EXPECT_THAT(version.messages, ElementsAre(HasSubstr("text is left out")));
+  EXPECT_THAT(version.messages, ElementsAre(HasSubstr("roof is left out")));
   design->reload();
-  EXPECT_THAT(design.next_of(2).messages, ElementsAre(HasSubstr("text is left out")));
+  EXPECT_THAT(design.next_of(2).messages, ElementsAre(HasSubstr("roof is left out")));
 }
 
 TEST(DesignFollower, FollowsARelativePath) {

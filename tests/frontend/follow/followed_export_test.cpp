@@ -291,6 +291,23 @@ TEST_F(FollowedScad, AnImportStaysWatchedAfterAnError) {
   design.next_error();
 }
 
+TEST_F(FollowedScad, AFontIsFollowed) {
+  const fs::path symbols = "/usr/share/openscad/testdata/ttf/marvosym-3.10/marvosym.ttf";
+  if (!fs::exists(symbols)) GTEST_SKIP() << "no " << symbols;
+  const std::string path =
+      folder_.write("a.scad", "use <font.ttf>\ntext(\"a\", font = \"MarVoSym\");");
+  Followed design(path, options());
+  const DesignVersion missing = design.next_of(1);
+  EXPECT_THAT(missing.messages, Contains(HasSubstr("Can't read font")));
+  EXPECT_THAT(missing.messages, Contains(HasSubstr("'MarVoSym' is not installed")));
+  fs::copy_file(symbols, folder_ / "new.ttf");
+  fs::rename(folder_ / "new.ttf", folder_ / "font.ttf");
+  const DesignVersion found = design.next_of(1);
+  EXPECT_THAT(found.messages, IsEmpty());
+  EXPECT_THAT(found.files, Contains(folder_ / "font.ttf"));
+  EXPECT_FALSE(found.unchanged);
+}
+
 TEST_F(FollowedScad, AnEditThatChangesOnlyTextIsUnchanged) {
   const std::string path = folder_.write("a.scad", "sphere(1);");
   Followed design(path, options());

@@ -69,6 +69,20 @@ TEST(IncludedFiles, AreLookedForWhereOpenScadDoes) {
   EXPECT_THAT(files.of(a), ElementsAre(a, folder / "b.scad"));
 }
 
+TEST(IncludedFiles, MayBeFonts) {
+  const TemporaryFolder folder;
+  const std::string a = folder.write("a.scad", "use <b.scad>\nuse <missing.ttf>");
+  const std::string b = folder.write("b.scad", "use <c.TTF>\nuse <d.otf>\nuse <c.scad>");
+  const std::string c = folder.write("c.TTF", "use <e.scad>");
+  const std::string d = folder.write("d.otf", "");
+  folder.write("c.scad", "");
+  folder.write("e.scad", "");
+  IncludedFiles files;
+  EXPECT_THAT(files.fonts_of(a), ElementsAre(c, d));
+  EXPECT_THAT(files.of(a), Not(Contains(folder / "e.scad"))) << "a font includes nothing";
+  EXPECT_THAT(files.of(a), Contains(folder / "missing.ttf"));
+}
+
 TEST(IncludedFiles, ThatCannotBeReadIncludeNothing) {
   const TemporaryFolder folder;
   const std::string a = folder.write("a.scad", "use <b.scad>");

@@ -119,6 +119,14 @@ TEST_F(FakeOpenScad, AnErrorCountsAlthoughItExits0) {
               StartsWith("lib/b.scad:3: error: bad ("));
 }
 
+TEST_F(FakeOpenScad, AMissingFontIsNoError) {
+  const Result result =
+      run("echo 'sphere(r = 1);'; echo \"ERROR: Can't read font with path 'a.ttf'\" >&2");
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.csg, "sphere(r = 1);\n");
+  EXPECT_THAT(result.messages, ElementsAre("ERROR: Can't read font with path 'a.ttf'"));
+}
+
 TEST_F(FakeOpenScad, Failures) {
   EXPECT_THAT(run("echo x; exit 3").error, HasSubstr("exit code 3"));
   EXPECT_THAT(run("echo x; kill -9 $$").error, HasSubstr("exit code 137"));

@@ -211,5 +211,83 @@ TEST(Letters, StandWhereOpenScadHasThem) {
   for (int i = 0; i < count; ++i) expect_as_openscad(folder, random_text(random));
 }
 
+// --- All digits -----------------------------------------------------------------------------
+
+/// The corners of OpenSCAD's outlines of a .csg, exactly.
+Polygon openscad_corners(const TemporaryFolder& folder, const std::string& csg) {
+  // An operation makes it a Nef polyhedron; what is subtracted is far from it.
+  const std::string in =
+      folder.write("text.scad", "difference() { linear_extrude(1) " + as_scad(csg) +
+                                    " translate([0, 0, -9]) cube(1); }\n");
+  const std::string out = folder / "text.nef3";
+  std::filesystem::remove(out);
+  const std::string command = "openscad -o '" + out + "' '" + in + "' >/dev/null 2>&1";
+  static_cast<void>(std::system(command.c_str()));
+  std::ifstream file(out);
+  Polygon corners;
+  // A vertex: "number { … | x y z w } 1", of homogeneous coordinates.
+  for (std::string line; std::getline(file, line);) {
+    const size_t bar = line.find('|');
+    if (bar == std::string::npos || line.find(", -2 |") == std::string::npos) continue;
+    std::istringstream numbers(line.substr(bar + 1));
+    double x = 0, y = 0, z = 0, w = 0;
+    if (numbers >> x >> y >> z >> w && z == 0) corners.emplace_back(x / w, y / w);
+  }
+  return corners;
+}
+
+/// The greatest distance of OpenSCAD's corners from the outlines, and of the outlines' corners from
+/// OpenSCAD's, of which it leaves out those where an edge is straight.
+double greatest_difference(const Polygon& corners, const Polygons& outlines) {
+  double greatest = 0;
+  for (const Vec2& corner : corners) greatest = std::max(greatest, distance_to(corner, outlines));
+  for (const Polygon& polygon : outlines) {
+    const size_t count = polygon.size();
+    for (size_t i = 0; i < count; ++i) {
+      double least =
+          distance_to_edge(polygon[i], polygon[(i + count - 1) % count], polygon[(i + 1) % count]);
+      for (const Vec2& corner : corners) least = std::min(least, glm::length(corner - polygon[i]));
+      greatest = std::max(greatest, least);
+    }
+  }
+  return greatest;
+}
+
+std::string large_text(std::mt19937& random) {
+  constexpr double kWide[] = {1, 1, 1.05, 1.5};
+  constexpr double kFewFragments[] = {2, 8, 16};
+  std::ostringstream csg;
+  csg << "text(text = \"" << one_of(kStrings, random)
+      << "\", size = 100000, spacing = " << one_of(kWide, random) << ", font = \""
+      << one_of(kFonts, random) << '"';
+  const std::string direction = one_of(kDirections, random);
+  if (!direction.empty()) csg << ", direction = \"" << direction << '"';
+  csg << ", halign = \"" << one_of(kHaligns, random) << "\", valign = \""
+      << one_of(kValigns, random) << "\", $fn = " << one_of(kFewFragments, random)
+      << ", $fa = 12, $fs = 2);\n";
+  return csg.str();
+}
+
+TEST(Letters, AreWithinABillionthOfOpenScads) {
+  if (!openscad_installed()) GTEST_SKIP() << "openscad is not installed";
+  const int count = test_support::full_run() ? 200 : 3;
+  std::cout << count << " texts\n";
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  double greatest = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::string csg = large_text(random);
+    const Polygon corners = openscad_corners(folder, csg);
+    const Polygons outlines = own_outlines(csg);
+    EXPECT_EQ(corners.empty(), outlines.empty()) << csg;
+    const Rectangle box = bounds_of(outlines);
+    const double difference =
+        greatest_difference(corners, outlines) / glm::length(box.max - box.min);
+    EXPECT_LE(difference, 1e-9) << csg;
+    greatest = std::max(greatest, difference);
+  }
+  std::cout << "at most " << greatest << " of the size\n";
+}
+
 }  // namespace
 }  // namespace frontend

@@ -112,35 +112,41 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 // --- What cannot be drawn -------------------------------------------------------------------
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
-  const ImportedDesign design = import_text("sphere();\ntext();\n fill() { sphere(); }\ntext();");
+  const ImportedDesign design = import_text(
+      "sphere();\nroof() { square(1); }\n projection() { sphere(); }\nroof() { square(1); }");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(design.warnings[0].text,
-            "a.csg:2:1: warning: text is left out; the first of 2 (it cannot be drawn)");
-  EXPECT_EQ(design.warnings[1].text, "a.csg:3:2: warning: fill is left out (it cannot be drawn)");
+            "a.csg:2:1: warning: roof is left out; the first of 2 (it cannot be drawn)");
+  EXPECT_EQ(design.warnings[1].text,
+            "a.csg:3:2: warning: projection is left out (it cannot be drawn)");
   EXPECT_STREQ(Error(design.warnings[1]).what(),
-               "a.csg:3:2: error: fill is left out (it cannot be drawn)");
+               "a.csg:3:2: error: projection is left out (it cannot be drawn)");
 }
 
 TEST(ImporterUnsupported, MayBeAllThereIs) {
-  const ImportedDesign design = import_text("text();");
+  const ImportedDesign design = import_text("import(\"a.nef3\");");
   EXPECT_TRUE(design.scene.primitives.empty());
   EXPECT_TRUE(design.view_box.empty());
   EXPECT_THAT(design.warnings, SizeIs(1));
 }
 
 TEST(ImporterUnsupported, LeavesTheRestAsItWouldBeWithout) {
-  EXPECT_EQ(model_of("difference() { sphere(); text(); sphere(); }"), "(0-2)");
-  EXPECT_EQ(model_of("intersection() { sphere(); group() { text(); } }"), "0");
-  EXPECT_EQ(model_of("union() { text(); sphere(); }"), "1");
+  EXPECT_EQ(model_of("difference() { sphere(); import(\"a.nef3\"); sphere(); }"), "(0-2)");
+  EXPECT_EQ(model_of("intersection() { sphere(); group() { import(\"a.nef3\"); } }"), "0");
+  EXPECT_EQ(model_of("union() { import(\"a.nef3\"); sphere(); }"), "1");
 }
 
 TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
   // The holes of a plate that is not drawn must not appear as bodies.
-  EXPECT_EQ(model_of("difference() { text(); sphere(); } sphere();"), "2");
-  EXPECT_EQ(model_of("difference() { group() { text(); group(); } sphere(); } sphere();"), "2");
-  EXPECT_EQ(model_of("difference() { group() { text(); sphere(); } sphere(); }"), "(1-2)");
-  EXPECT_EQ(model_of("intersection() { difference() { text(); sphere(); } sphere(); }"), "2");
+  EXPECT_EQ(model_of("difference() { import(\"a.nef3\"); sphere(); } sphere();"), "2");
+  EXPECT_EQ(
+      model_of("difference() { group() { import(\"a.nef3\"); group(); } sphere(); } sphere();"),
+      "2");
+  EXPECT_EQ(model_of("difference() { group() { import(\"a.nef3\"); sphere(); } sphere(); }"),
+            "(1-2)");
+  EXPECT_EQ(model_of("intersection() { difference() { import(\"a.nef3\"); sphere(); } sphere(); }"),
+            "2");
 }
 
 // --- A text, while it is parsed -------------------------------------------------------------

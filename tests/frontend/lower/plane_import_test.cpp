@@ -438,9 +438,11 @@ TEST(RotateExtrude, HasOpenScadsRings) {
 }
 
 TEST(PlaneImport, LeavesOutWhatItCannotDraw) {
-  EXPECT_THAT(warning_of(extruded("square(2); roof() { square(1); }")), HasSubstr("roof is left out"));
+  EXPECT_THAT(warning_of(extruded("square(2); roof() { square(1); }")),
+              HasSubstr("roof is left out"));
   EXPECT_EQ(model_of(extruded("square(2); roof() { square(1); }")), "0");
-  EXPECT_EQ(model_of("difference() {" + extruded("roof() { square(1); }") + "cube(1); } sphere();"), "2")
+  EXPECT_EQ(model_of("difference() {" + extruded("roof() { square(1); }") + "cube(1); } sphere();"),
+            "2")
       << "no hole becomes a body";
 }
 

@@ -16,6 +16,56 @@ std::optional<Polygon> corners_of(const Polygon& polygon) {
   return convex_corners(outline_of(Polygons{polygon}));
 }
 
+/// A curve from (0, 0) to (4, 0) whose top is at (2, 3), and a line back.
+Outline arch() {
+  csgcore::ProfileEdge curve;
+  curve.kind = csgcore::ProfileEdge::Kind::kBezier;
+  curve.control = {2, 6};
+  curve.end = {4, 0};
+  return {{{curve, csgcore::ProfileEdge{}}}, csgcore::FillRule::kNonZero};
+}
+
+TEST(BezierCurves, HaveTheirBox) {
+  EXPECT_EQ(bounds_of(arch()).min, Vec2(0, 0));
+  EXPECT_EQ(bounds_of(arch()).max, Vec2(4, 3));
+  PlaneMap turn;
+  turn.linear = glm::dmat2(0.6, 0.8, -0.8, 0.6);
+  turn.translation = {7, 5};
+  const Rectangle box = bounds_of(turn, arch());
+  const Rectangle expected = bounds_of(mapped(turn, arch()));
+  EXPECT_EQ(box.min, expected.min);
+  EXPECT_EQ(box.max, expected.max);
+  Rectangle near;
+  for (int i = 0; i <= 1000; ++i) {
+    const double t = i / 1000.0;
+    near.merge(turn.point({4 * t, 12 * t * (1 - t)}));
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(box.min[axis], near.min[axis], 1e-5);
+    EXPECT_NEAR(box.max[axis], near.max[axis], 1e-5);
+  }
+}
+
+TEST(BezierCurves, HaveAsManyChordsAsTheirFigureNeeds) {
+  const Polygons alone = chords_of(arch());
+  EXPECT_GT(alone[0].size(), 100u);
+  EXPECT_LT(alone[0].size(), 200u);
+  Outline beside = arch();
+  for (csgcore::ProfileEdge& edge : beside.loops[0]) {
+    edge.end *= 0.01;
+    edge.control *= 0.01;
+  }
+  beside.loops.push_back(arch().loops[0]);
+  const Polygons both = chords_of(beside);
+  EXPECT_LT(both[0].size(), 30u);
+  EXPECT_EQ(both[1].size(), alone[0].size());
+  // The chords' middles are as near as those of a circle's.
+  for (size_t i = 1; i + 2 < alone[0].size(); ++i) {
+    const Vec2 middle = (alone[0][i] + alone[0][i + 1]) / 2.0;
+    EXPECT_NEAR(middle.y, 3 * middle.x * (4 - middle.x) / 4, 1e-4 * 2);
+  }
+}
+
 TEST(ConvexCorners, LeaveOutWhatIsNoCorner) {
   EXPECT_THAT(corners_of({{0, 0}, {1, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}}).value(),
               ElementsAre(Vec2(0, 0), Vec2(2, 0), Vec2(2, 2), Vec2(0, 2)));
