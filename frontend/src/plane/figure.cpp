@@ -14,9 +14,6 @@ using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// A quadratic Bézier curve, which turns by less than half a turn, has as many chords as an arc of
-/// half a turn.
-constexpr int kChordsOfBezier = kChordsOfCircle / 2;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -42,6 +39,22 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+/// Returns how many chords a quadratic Bézier curve has, at equal steps of its parameter. Each is
+/// as far from the curve as those of a circle's arc are that is as long and turns as much.
+int chords_of_bezier(const Vec2& start, const ProfileEdge& curve) {
+  const Vec2 before = curve.control - start;
+  const Vec2 after = curve.end - curve.control;
+  const double length = glm::length(before) + glm::length(after);
+  if (!(length > 0)) return 1;
+  const double turn = std::abs(std::atan2(cross(before, after), glm::dot(before, after)));
+  // A chord of an arc that turns by a is a²/8 of the radius away from it. One of n chords of the
+  // curve is a quarter of its second difference, divided by n², away.
+  constexpr double kTurnOfChord = kTurn / kChordsOfCircle;
+  const double share = glm::length(after - before) / length;
+  const double chords = std::sqrt(2 * share * turn) / kTurnOfChord;
+  return std::clamp(static_cast<int>(std::ceil(chords)), 1, kChordsOfCircle / 2);
+}
+
 /// Calls visit(point) for the points on the edge after its start, among them its end.
 template <typename Visit>
 void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit) {
@@ -53,8 +66,9 @@ void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit
     }
   }
   if (edge.kind == ProfileEdge::Kind::kBezier) {
-    for (int i = 1; i < kChordsOfBezier; ++i) {
-      const double t = static_cast<double>(i) / kChordsOfBezier;
+    const int count = chords_of_bezier(start, edge);
+    for (int i = 1; i < count; ++i) {
+      const double t = static_cast<double>(i) / count;
       visit((1 - t) * (1 - t) * start + 2 * t * (1 - t) * edge.control + t * t * edge.end);
     }
   }

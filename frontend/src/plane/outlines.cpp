@@ -163,16 +163,6 @@ ClipperLib::JoinType join_type(Corners corners) {
   return ClipperLib::jtRound;
 }
 
-double signed_area(const Polygon& polygon) {
-  double twice = 0;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i] - polygon.front();
-    const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon.front();
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return twice / 2;
-}
-
 ClipperLib::EndType end_type(LineEnds ends) {
   switch (ends) {
     case LineEnds::kButt:
@@ -186,6 +176,16 @@ ClipperLib::EndType end_type(LineEnds ends) {
 }
 
 }  // namespace
+
+double signed_area(const Polygon& polygon) {
+  double twice = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i] - polygon.front();
+    const Vec2 b = polygon[(i + 1) % polygon.size()] - polygon.front();
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice / 2;
+}
 
 std::optional<SimplePolygons> united(std::span<const Figure> figures) {
   std::vector<Polygons> parts;

@@ -32,6 +32,9 @@ std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePol
 /// there as far as that can be afforded; nothing if all is empty.
 std::optional<Figure> cleaned(Outline outline);
 
+/// Returns the area, negative if the polygon runs clockwise.
+double signed_area(const Polygon& polygon);
+
 /// Returns figures whose union is that of `figures` with its holes filled; nothing if their edges
 /// cross too often. Curves that bound it on the outside stay what they are.
 std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures);
