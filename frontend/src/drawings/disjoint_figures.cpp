@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/common.hpp>
 #include <iterator>
 #include <limits>
@@ -163,54 +162,36 @@ std::vector<Figure> joined(std::vector<Figure> figures) {
   return wound;
 }
 
-/// Boxes of edges, counted by the cells of a grid.
+/// How long edges are, for their number: the cells that their boxes reach, of a grid with as many
+/// cells as there are edges. Outlines that do not cross themselves have short edges, or few.
 class EdgeGrid {
  public:
   explicit EdgeGrid(const Outline& outline) : box_(bounds_of(Figure(outline))) {
     const auto edges = static_cast<double>(edge_count(outline));
     side_ = std::max(1.0, std::floor(std::sqrt(edges)));
-    size_ = glm::max(box_.max - box_.min, Vec2(std::numeric_limits<double>::min()));
-    most_ = kMostCellsOfEdge * static_cast<size_t>(edges);
-    counts_.resize(static_cast<size_t>(side_ * side_));
+    most_ = kMostCellsOfEdge * edges;
     for (const csgcore::ProfileLoop& loop : outline.loops) {
       Vec2 start = loop.empty() ? Vec2(0.0) : loop.back().end;
       for (const csgcore::ProfileEdge& edge : loop) {
-        add(start, edge);
+        const Vec2 cells = reach(glm::abs(edge.end - start), box_.max - box_.min);
+        cells_ += cells.x * cells.y;
         start = edge.end;
       }
     }
   }
 
-  bool is_crowded() const { return cells_ > most_ || pairs_ > most_; }
+  bool is_crowded() const { return cells_ > most_; }
 
  private:
-  static constexpr size_t kMostCellsOfEdge = 64;
+  static constexpr double kMostCellsOfEdge = 64;
 
-  size_t cell(double coordinate, double min, double size) const {
-    const double share = std::clamp((coordinate - min) / size, 0.0, 1.0);
-    return static_cast<size_t>(std::min(share * side_, side_ - 1));
-  }
-
-  void add(const Vec2& start, const csgcore::ProfileEdge& edge) {
-    if (is_crowded()) return;
-    const Vec2 min = glm::min(start, edge.end);
-    const Vec2 max = glm::max(start, edge.end);
-    const size_t last_x = cell(max.x, box_.min.x, size_.x);
-    const size_t last_y = cell(max.y, box_.min.y, size_.y);
-    for (size_t y = cell(min.y, box_.min.y, size_.y); y <= last_y; ++y) {
-      for (size_t x = cell(min.x, box_.min.x, size_.x); x <= last_x; ++x) {
-        ++cells_;
-        pairs_ += counts_[y * static_cast<size_t>(side_) + x]++;
-        if (is_crowded()) return;
-      }
-    }
+  Vec2 reach(const Vec2& size, const Vec2& whole) const {
+    const Vec2 least(std::numeric_limits<double>::min());
+    return 1.0 + side_ * size / glm::max(whole, least);
   }
 
   Rectangle box_;
-  Vec2 size_{1.0};
-  double side_ = 1;
-  size_t most_ = 0, cells_ = 0, pairs_ = 0;
-  std::vector<uint32_t> counts_;
+  double side_ = 1, most_ = 0, cells_ = 0;
 };
 
 bool is_disc(const Figure& figure) { return std::holds_alternative<Disc>(figure); }
@@ -242,7 +223,7 @@ std::vector<Figure> disjoint_figures(std::vector<Figure> figures) {
 }
 
 bool is_tangle(const Figure& figure) {
-  constexpr size_t kFewEdges = 1 << 16;
+  constexpr size_t kFewEdges = 1 << 18;
   if (edge_count(figure) <= kFewEdges) return false;
   return EdgeGrid(std::get<Outline>(figure)).is_crowded();
 }

@@ -12,8 +12,8 @@ namespace frontend {
 /// they stay discs.
 std::vector<Figure> disjoint_figures(std::vector<Figure> figures);
 
-/// Returns whether so many edges overlap, for their number, that it would take too long to draw
-/// them. To tell takes time in proportion to the edges.
+/// Returns whether the figure has very many edges, most of which cross so many others that it would
+/// take too long to draw. To tell takes time in proportion to the edges.
 bool is_tangle(const Figure& figure);
 
 }  // namespace frontend

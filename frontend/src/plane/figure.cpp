@@ -39,6 +39,10 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+Vec2 bezier_point(const Vec2& start, const ProfileEdge& curve, double t) {
+  return (1 - t) * (1 - t) * start + 2 * t * (1 - t) * curve.control + t * t * curve.end;
+}
+
 /// Returns how many chords a quadratic Bézier curve has, at equal steps of its parameter. Each is
 /// as far from the curve as those of a circle's arc are that is as long and turns as much.
 int chords_of_bezier(const Vec2& start, const ProfileEdge& curve) {
@@ -69,10 +73,20 @@ void visit_chords(const Vec2& start, const ProfileEdge& edge, const Visit& visit
     const int count = chords_of_bezier(start, edge);
     for (int i = 1; i < count; ++i) {
       const double t = static_cast<double>(i) / count;
-      visit((1 - t) * (1 - t) * start + 2 * t * (1 - t) * edge.control + t * t * edge.end);
+      visit(bezier_point(start, edge, t));
     }
   }
   visit(edge.end);
+}
+
+/// Merges the points where the curve turns back in x or in y.
+void merge_turns(const Vec2& start, const ProfileEdge& curve, Rectangle& box) {
+  const Vec2 before = start - curve.control;
+  const Vec2 bend = before + (curve.end - curve.control);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double t = before[axis] / bend[axis];
+    if (t > 0 && t < 1) box.merge(bezier_point(start, curve, t));
+  }
 }
 
 /// Calls visit(start, edge) for each edge.
@@ -302,9 +316,7 @@ Rectangle bounds_of(const Figure& figure) {
   for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
     visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
       result.merge(edge.end);
-      if (edge.kind == ProfileEdge::Kind::kBezier) {
-        visit_chords(start, edge, [&](const Vec2& point) { result.merge(point); });
-      }
+      if (edge.kind == ProfileEdge::Kind::kBezier) merge_turns(start, edge, result);
       if (edge.kind != ProfileEdge::Kind::kArc) return;
       const double radius = glm::length(start - edge.control);
       const double first = std::atan2(start.y - edge.control.y, start.x - edge.control.x);

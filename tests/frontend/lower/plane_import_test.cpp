@@ -107,10 +107,26 @@ TEST(LinearExtrude, IsLeftOutWithATwistOrAnUnevenScale) {
               HasSubstr("linear_extrude is left out (it cannot be drawn)"));
   EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, scale = [1, 2]")),
               HasSubstr("linear_extrude is left out"));
-  EXPECT_THAT(warning_of("linear_extrude(file = \"a.dxf\", height = 1);"),
-              HasSubstr("linear_extrude is left out"));
   EXPECT_THAT(warnings_of(extruded("square(1);", "height = 4, twist = 0, scale = [2, 2]")),
               IsEmpty());
+}
+
+TEST(Fill, FillsHoles) {
+  const std::string ring = "fill() { difference() { circle(r = 3); circle(r = 2); } }";
+  const Inside plate(extruded(ring));
+  EXPECT_TRUE(plate(0, 0, 1));
+  EXPECT_TRUE(plate(2.9, 0, 1));
+  EXPECT_FALSE(plate(3.1, 0, 1));
+  EXPECT_TRUE(Inside(ring)(0, 0, 0.4));
+  EXPECT_THAT(warnings_of(ring), IsEmpty());
+  EXPECT_THAT(warnings_of("fill();"), IsEmpty());
+}
+
+TEST(Fill, OfSolidsIsTheirUnion) {
+  const std::string solids = "fill() { difference() { cube(9); cube(8); } }";
+  EXPECT_THAT(warning_of(solids), HasSubstr("fill: fill() not yet implemented for 3D"));
+  EXPECT_FALSE(Inside(solids)(4, 4, 4));
+  EXPECT_TRUE(Inside(solids)(8.5, 4, 4));
 }
 
 TEST(LinearExtrude, KeepsFacetsThatAreMeant) {
