@@ -188,9 +188,11 @@ Rectangle CurvePath::bounds() const {
   return box;
 }
 
-bool CurvePath::is_finite() const {
-  const auto is_finite = [](const Vec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
-  return is_finite(first_) && std::all_of(points_.begin(), points_.end(), is_finite);
+bool CurvePath::is_in_range() const {
+  const auto is_near = [](const Vec2& p) {
+    return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest;
+  };
+  return is_near(first_) && std::all_of(points_.begin(), points_.end(), is_near);
 }
 
 CurvePath CurvePath::mapped(const PlaneMap& map) const {

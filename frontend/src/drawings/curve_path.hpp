@@ -27,6 +27,10 @@ EllipseArc mapped(const PlaneMap& map, const EllipseArc& arc);
 /// Returns the arc in the other direction.
 EllipseArc reversed(const EllipseArc& arc);
 
+/// OpenSCAD draws nothing that has a larger coordinate: in units of 2^-16 it would not fit into 62
+/// bits.
+constexpr double kFarthest = 0x1p46;
+
 /// How finely curves that a profile cannot hold (ellipses, cubics) are cut into quadratics.
 struct CurveFineness {
   double tolerance = 0;       // the largest distance from the curve
@@ -53,7 +57,8 @@ class CurvePath {
   const Vec2& last() const { return last_; }
   /// Returns a box that holds the path: that of its control points.
   Rectangle bounds() const;
-  bool is_finite() const;
+  /// Returns whether all of it is finite, and no farther than kFarthest.
+  bool is_in_range() const;
   /// Returns how many curves it has.
   size_t curves() const { return curves_; }
 

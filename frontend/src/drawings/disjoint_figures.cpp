@@ -1,7 +1,10 @@
 #include "drawings/disjoint_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -76,6 +79,52 @@ std::optional<Outline> united_outline(const std::vector<Figure>& figures) {
   return outline_of(std::move(*polygons));
 }
 
+size_t edge_count(const Figure& figure) {
+  const Outline* outline = std::get_if<Outline>(&figure);
+  size_t count = 0;
+  if (outline == nullptr) return count;
+  for (const csgcore::ProfileLoop& loop : outline->loops) count += loop.size();
+  return count;
+}
+
+csgcore::ProfileLoop reversed(const csgcore::ProfileLoop& loop) {
+  csgcore::ProfileLoop result(loop.rbegin(), loop.rend());
+  for (size_t i = 0; i < result.size(); ++i) {
+    // An edge ended where the one after it began, and that comes first now.
+    result[i].end = loop[(2 * loop.size() - i - 2) % loop.size()].end;
+    result[i].is_counterclockwise = !result[i].is_counterclockwise;
+  }
+  return result;
+}
+
+/// Adds the figure's loops, so that its winding number is 1 inside, and 0 outside. A loop that
+/// crosses nothing keeps its curves. False: edges cross too often.
+bool add_wound(const Figure& figure, Outline& outline) {
+  std::optional<SimplePolygons> polygons = united({&figure, 1});
+  if (!polygons) return false;
+  const Outline loops = outline_of(figure);
+  if (loops.loops.size() == 1 && polygons->size() == 1) {
+    constexpr double kRounding = 1e-6;  // of the polygons' grid
+    const double area = signed_area(chords_of(figure).front());
+    if (std::abs(std::abs(area) - signed_area(polygons->front())) <= kRounding * std::abs(area)) {
+      const csgcore::ProfileLoop& loop = loops.loops.front();
+      outline.loops.push_back(area > 0 ? loop : reversed(loop));
+      return true;
+    }
+  }
+  append(outline_of(std::move(*polygons)), outline);
+  return true;
+}
+
+std::optional<Outline> wound_outline(const std::vector<Figure>& figures) {
+  Outline outline;
+  outline.fill_rule = csgcore::FillRule::kNonZero;
+  for (const Figure& figure : figures) {
+    if (!add_wound(figure, outline)) return std::nullopt;
+  }
+  return outline;
+}
+
 /// Replaces sets of many figures by their unions.
 std::vector<Figure> without_large_sets(std::vector<Figure> figures) {
   std::vector<Figure> result;
@@ -83,7 +132,7 @@ std::vector<Figure> without_large_sets(std::vector<Figure> figures) {
     std::vector<Figure> members;
     for (const size_t i : set) members.push_back(std::move(figures[i]));
     std::optional<Outline> whole;
-    if (members.size() > kFewFigures) whole = united_outline(members);
+    if (members.size() > kFewFigures) whole = wound_outline(members);
     if (whole) {
       result.push_back(std::move(*whole));
     } else {
@@ -93,15 +142,57 @@ std::vector<Figure> without_large_sets(std::vector<Figure> figures) {
   return result;
 }
 
-/// One figure of each set becomes a part of the first outline, another one of the second.
-std::vector<Figure> joined(const std::vector<Figure>& figures) {
+/// One figure of each set becomes a part of the first outline, another one of the second. What is
+/// filled by another rule stays alone.
+std::vector<Figure> joined(std::vector<Figure> figures) {
   std::vector<Outline> outlines;
+  const auto first_wound =
+      std::stable_partition(figures.begin(), figures.end(), [](const Figure& figure) {
+        const Outline* outline = std::get_if<Outline>(&figure);
+        return outline == nullptr || outline->fill_rule == csgcore::FillRule::kEvenOdd;
+      });
+  std::vector<Figure> wound(std::make_move_iterator(first_wound),
+                            std::make_move_iterator(figures.end()));
+  figures.erase(first_wound, figures.end());
   for (const std::vector<size_t>& set : MeetingFigures(figures).sets()) {
     if (outlines.size() < set.size()) outlines.resize(set.size());
     for (size_t i = 0; i < set.size(); ++i) append(figures[set[i]], outlines[i]);
   }
-  return {std::make_move_iterator(outlines.begin()), std::make_move_iterator(outlines.end())};
+  std::move(outlines.begin(), outlines.end(), std::back_inserter(wound));
+  return wound;
 }
+
+/// How long edges are, for their number: the cells that their boxes reach, of a grid with as many
+/// cells as there are edges. Outlines that do not cross themselves have short edges, or few.
+class EdgeGrid {
+ public:
+  explicit EdgeGrid(const Outline& outline) : box_(bounds_of(Figure(outline))) {
+    const auto edges = static_cast<double>(edge_count(outline));
+    side_ = std::max(1.0, std::floor(std::sqrt(edges)));
+    most_ = kMostCellsOfEdge * edges;
+    for (const csgcore::ProfileLoop& loop : outline.loops) {
+      Vec2 start = loop.empty() ? Vec2(0.0) : loop.back().end;
+      for (const csgcore::ProfileEdge& edge : loop) {
+        const Vec2 cells = reach(glm::abs(edge.end - start), box_.max - box_.min);
+        cells_ += cells.x * cells.y;
+        start = edge.end;
+      }
+    }
+  }
+
+  bool is_crowded() const { return cells_ > most_; }
+
+ private:
+  static constexpr double kMostCellsOfEdge = 64;
+
+  Vec2 reach(const Vec2& size, const Vec2& whole) const {
+    const Vec2 least(std::numeric_limits<double>::min());
+    return 1.0 + side_ * size / glm::max(whole, least);
+  }
+
+  Rectangle box_;
+  double side_ = 1, most_ = 0, cells_ = 0;
+};
 
 bool is_disc(const Figure& figure) { return std::holds_alternative<Disc>(figure); }
 
@@ -109,7 +200,10 @@ bool is_disc(const Figure& figure) { return std::holds_alternative<Disc>(figure)
 
 std::vector<Figure> disjoint_figures(std::vector<Figure> figures) {
   if (figures.empty()) return figures;
-  if (std::all_of(figures.begin(), figures.end(), is_polygonal)) {
+  constexpr size_t kManyEdges = 1 << 18;  // to unite so many polygons takes about a second
+  size_t edges = 0;
+  for (const Figure& figure : figures) edges += edge_count(figure);
+  if (edges <= kManyEdges && std::all_of(figures.begin(), figures.end(), is_polygonal)) {
     if (std::optional<Outline> whole = united_outline(figures)) {
       figures.clear();
       if (std::optional<Figure> kept = cleaned(std::move(*whole))) figures.push_back(*kept);
@@ -123,9 +217,15 @@ std::vector<Figure> disjoint_figures(std::vector<Figure> figures) {
     discs.assign(std::make_move_iterator(first_disc), std::make_move_iterator(figures.end()));
     figures.erase(first_disc, figures.end());
   }
-  figures = joined(without_large_sets(std::move(figures)));
+  if (figures.size() > 1) figures = joined(without_large_sets(std::move(figures)));
   std::move(discs.begin(), discs.end(), std::back_inserter(figures));
   return figures;
+}
+
+bool is_tangle(const Figure& figure) {
+  constexpr size_t kFewEdges = 1 << 18;
+  if (edge_count(figure) <= kFewEdges) return false;
+  return EdgeGrid(std::get<Outline>(figure)).is_crowded();
 }
 
 }  // namespace frontend

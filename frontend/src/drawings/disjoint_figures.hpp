@@ -8,8 +8,12 @@
 namespace frontend {
 
 /// Returns figures with the union of these: those whose boxes are disjoint become one outline, and
-/// polygons that meet are united, as far as that can be afforded. Circles by themselves stay discs
-/// if there are few.
+/// so do polygons that meet, and any figures that meet if there are many. If there are few discs,
+/// they stay discs.
 std::vector<Figure> disjoint_figures(std::vector<Figure> figures);
+
+/// Returns whether the figure has very many edges, most of which cross so many others that it would
+/// take too long to draw. To tell takes time in proportion to the edges.
+bool is_tangle(const Figure& figure);
 
 }  // namespace frontend

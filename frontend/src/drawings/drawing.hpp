@@ -37,6 +37,9 @@ struct SvgSettings {
   bool is_faceted = false;
 };
 
+/// Leaves out the figures that would take too long to draw, and tells of it.
+void leave_out_tangles(const std::string& name, Drawing& drawing);
+
 /// These read the bytes of a file, whose name is for messages. No file makes them take memory or
 /// time out of proportion to its size.
 

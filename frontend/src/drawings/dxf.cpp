@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "drawings/curve_path.hpp"
+#include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
 #include "drawings/dxf_chains.hpp"
 #include "meshes/number_text.hpp"
@@ -301,19 +302,29 @@ class DxfReader {
 
   Drawing finish() {
     const auto is_near = [](const Vec2& p) {
-      return std::abs(p.x) < DxfChains::kFarthest && std::abs(p.y) < DxfChains::kFarthest;
+      return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest;
     };
     const bool is_in_range = std::all_of(drawn_.begin(), drawn_.end(), [&](const DxfPart& part) {
       return is_near(part.start) && is_near(part.end) && is_near(part.arc.center) &&
              is_near(part.arc.u) && is_near(part.arc.v);
     });
     if (!is_in_range) {
-      tell("Range check failed for '" + name_ + "'", "it has coordinates that are not finite");
+      tell("Range check failed for '" + name_ + "'",
+           "it has coordinates that are too large, or not finite");
       return std::move(drawing_);
     }
     Outline outline = settings_.is_faceted ? chords() : curves();
-    if (!outline.loops.empty()) drawing_.figures.push_back(std::move(outline));
+    std::erase_if(outline.loops, is_line_and_back);
+    if (outline.loops.empty()) return std::move(drawing_);
+    drawing_.figures = disjoint_figures({std::move(outline)});
+    leave_out_tangles(name_, drawing_);
     return std::move(drawing_);
+  }
+
+  static bool is_line_and_back(const csgcore::ProfileLoop& loop) {
+    return loop.size() <= 2 && std::all_of(loop.begin(), loop.end(), [](const auto& edge) {
+             return edge.kind == csgcore::ProfileEdge::Kind::kLine;
+           });
   }
 
   Outline chords() {

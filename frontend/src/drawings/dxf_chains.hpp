@@ -26,14 +26,11 @@ struct DxfStroke {
 class DxfChains {
  public:
   /// A stroke between two equal points is left out. An arc is moved so that it ends on the grid.
-  /// All coordinates must be finite, and less than kFarthest.
+  /// All coordinates must be at most kFarthest.
   void add(const DxfStroke& stroke);
 
   /// Returns the chains, each a path to be closed by a line. Their arcs are what they were.
   std::vector<CurvePath> join();
-
-  /// Beyond it the grid's cells have no whole numbers.
-  static constexpr double kFarthest = 0x1p50;
 
  private:
   using Cell = std::pair<int64_t, int64_t>;

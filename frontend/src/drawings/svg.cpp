@@ -167,6 +167,7 @@ class SvgReader {
     }
     if (settings_.is_centered) move_to_middle(figures_);
     drawing_.figures = disjoint_figures(std::move(figures_));
+    leave_out_tangles(name_, drawing_);
     return std::move(drawing_);
   }
 
@@ -219,20 +220,32 @@ class SvgReader {
     shapes_.push_back(std::move(*shape));
   }
 
+  /// Returns whether nothing is left of an area, up to rounding.
+  static bool is_flat(const PlaneMap& map) {
+    constexpr double kRounding = 1e-12;
+    return std::abs(map.determinant()) <=
+           kRounding * glm::length(map.linear[0]) * glm::length(map.linear[1]);
+  }
+
   /// Pens draw before anything is moved.
   void place(const PlaneMap& page) {
     for (SvgShape& shape : shapes_) {
       shape.map = compose(page, shape.map);
+      if (is_flat(shape.map)) shape.path = {};
       for (CurvePath& path : shape.path.filled) path = path.mapped(shape.map);
-      std::erase_if(shape.path.open, [](const CurvePath& path) { return !path.is_finite(); });
-      if (std::all_of(shape.path.filled.begin(), shape.path.filled.end(),
-                      [](const CurvePath& path) { return path.is_finite(); })) {
-        continue;
-      }
+      if (is_in_range(shape)) continue;
       shape.path = {};
       drawing_.problems.assign(1, {"Range check failed for a shape of '" + name_ + "'",
-                                   "it has coordinates that are not finite"});
+                                   "it has coordinates that are too large, or not finite"});
     }
+  }
+
+  static bool is_in_range(const SvgShape& shape) {
+    const auto is_near = [](const CurvePath& path) { return path.is_in_range(); };
+    return std::all_of(shape.path.filled.begin(), shape.path.filled.end(), is_near) &&
+           std::all_of(shape.path.open.begin(), shape.path.open.end(), [&](const CurvePath& path) {
+             return path.is_in_range() && path.mapped(shape.map).is_in_range();
+           });
   }
 
   /// Adds what pens draw to the outline.

@@ -399,7 +399,8 @@ Rectangle bounds_of(std::span<const Polygon> polygons) {
 double signed_area(const Polygon& polygon) {
   double twice = 0;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    twice +=
+        cross(polygon[i] - polygon.front(), polygon[(i + 1) % polygon.size()] - polygon.front());
   }
   return twice / 2;
 }

@@ -105,14 +105,50 @@ TEST_F(ImporterFiles, ThatAreNoFilesAreNotWaitedFor) {
 }
 
 TEST_F(ImporterFiles, OfOtherKindsAreNotDrawn) {
-  EXPECT_THAT(warnings("import(\"a.obj\"); import();"),
-              ElementsAre("a.csg:1:1: warning: import: Unsupported file format while trying to "
-                          "import file '\"a.obj\"'; the first of 2 (convert it to .stl, .off, .amf "
-                          "or .3mf)"));
-  EXPECT_THAT(warnings("import(\"a.DXF\");"),
+  EXPECT_THAT(
+      warnings("import(\"a.obj\"); import();"),
+      ElementsAre("a.csg:1:1: warning: import: Unsupported file format while trying to "
+                  "import file '\"a.obj\"'; the first of 2 (convert it to .stl, .off, .amf, "
+                  ".3mf, .svg or .dxf)"));
+  EXPECT_THAT(warnings("import(\"a.NEF3\");"),
               ElementsAre("a.csg:1:1: warning: import is left out (it cannot be drawn)"));
   EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.obj\"); }"), "-");
-  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.svg\"); }"), "0");
+  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.nef3\"); }"), "0");
+}
+
+TEST_F(ImporterFiles, MayBeDrawings) {
+  folder.write("a.svg", "<svg><rect width=\"4\" height=\"2\"/></svg>");
+  folder.write("b.dxf",
+               "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nL\n10\n5\n20\n0\n40\n2\n0\nENDSEC\n");
+  const ImportedDesign plate = import("import(\"a.svg\", center = true);");
+  EXPECT_THAT(plate.warnings, IsEmpty());
+  EXPECT_EQ(plate.primitive_nodes, 1u);
+  ASSERT_THAT(plate.scene.primitives, SizeIs(1));
+  expect_box(csgcore::canonicalize(plate.scene.primitives[0]).bounds, Vec3(-2, -1, -0.5),
+             Vec3(2, 1, 0.5), 1e-12);
+  const ImportedDesign design = import(
+      "import(\"a.svg\"); linear_extrude(height = 3) import(\"a.svg\"); "
+      "linear_extrude(file = \"b.dxf\", layer = \"L\", height = 3, scale = [2, 2]); "
+      "rotate_extrude(file = \"b.dxf\", layer = \"L\", origin = [0, 0], scale = 1); "
+      "difference() { cube(1); import(\"b.dxf\", layer = \"M\"); }");
+  EXPECT_THAT(design.warnings, IsEmpty());
+  EXPECT_EQ(design.primitive_nodes, 6u);
+  ASSERT_THAT(design.scene.primitives, SizeIs(5));
+  EXPECT_THAT(design.files, ElementsAre(folder / "a.svg", folder / "b.dxf"));
+  // The scale acts on the drawing, and on the top.
+  const csgcore::Box cone = csgcore::canonicalize(design.scene.primitives[2]).bounds;
+  EXPECT_NEAR(cone.max.x, 28, 1e-6);
+  EXPECT_NEAR(cone.min.x, 6, 1e-6);
+}
+
+TEST_F(ImporterFiles, ThatAreMissingDrawingsAreTold) {
+  EXPECT_THAT(warnings("import(\"a.dxf\");"),
+              ElementsAre(HasSubstr("Can't open DXF file '" + folder / "a.dxf")));
+  EXPECT_THAT(warnings("import(\"a.svg\"); import(\"a.svg\");"),
+              ElementsAre(HasSubstr("Can't open file '")));
+  EXPECT_THAT(warnings("linear_extrude(file = \"a.svg\");"),
+              ElementsAre(HasSubstr("Can't open DXF file '")));
+  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.svg\"); }"), "-");
 }
 
 TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {

@@ -155,6 +155,24 @@ TEST(LinearExtrude, MayLean) {
   EXPECT_EQ(model_of(extruded("square(1);", "v = [0, 0, -1]") + "cube(1);"), "1");
 }
 
+TEST(Fill, FillsHoles) {
+  const std::string ring = "fill() { difference() { circle(r = 3); circle(r = 2); } }";
+  const Inside plate(extruded(ring));
+  EXPECT_TRUE(plate(0, 0, 1));
+  EXPECT_TRUE(plate(2.9, 0, 1));
+  EXPECT_FALSE(plate(3.1, 0, 1));
+  EXPECT_TRUE(Inside(ring)(0, 0, 0.4));
+  EXPECT_THAT(warnings_of(ring), IsEmpty());
+  EXPECT_THAT(warnings_of("fill();"), IsEmpty());
+}
+
+TEST(Fill, OfSolidsIsTheirUnion) {
+  const std::string solids = "fill() { difference() { cube(9); cube(8); } }";
+  EXPECT_THAT(warning_of(solids), HasSubstr("fill: fill() not yet implemented for 3D"));
+  EXPECT_FALSE(Inside(solids)(4, 4, 4));
+  EXPECT_TRUE(Inside(solids)(8.5, 4, 4));
+}
+
 TEST(LinearExtrude, KeepsFacetsThatAreMeant) {
   EXPECT_EQ(shape_of_only(extruded("circle(r = 2, $fn = 6);")), Shape::kPolyhedron);
   EXPECT_EQ(shape_of_only(extruded("circle(r = 2, $fn = 30);")), Shape::kFrustum);

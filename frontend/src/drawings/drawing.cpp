@@ -1,0 +1,14 @@
+#include "drawings/drawing.hpp"
+
+#include "drawings/disjoint_figures.hpp"
+
+namespace frontend {
+
+void leave_out_tangles(const std::string& name, Drawing& drawing) {
+  if (std::erase_if(drawing.figures, is_tangle) == 0) return;
+  drawing.problems.push_back(
+      {"Outlines of '" + name + "' are left out: their edges cross too often",
+       "draw outlines that do not cross"});
+}
+
+}  // namespace frontend

@@ -1,0 +1,227 @@
+// Tests the reader of SVG drawings. What OpenSCAD 2021.01 makes of the same files was looked at.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drawings/disjoint_figures.hpp"
+#include "drawings/drawing.hpp"
+#include "plane/figure_area.hpp"
+
+namespace frontend {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::string svg(const std::string& content, const std::string& attributes = "") {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + attributes + ">" + content + "</svg>";
+}
+std::string svg_path(const std::string& data) { return svg("<path d=\"" + data + "\"/>"); }
+
+Drawing read_one(const std::string& text, const SvgSettings& settings = {}) {
+  return read_svg(text, "a.svg", settings);
+}
+double filled_area(const std::string& text, const SvgSettings& settings = {}) {
+  return area_of_union(read_one(text, settings).figures);
+}
+
+testing::AssertionResult has_box(const std::string& text, const Vec2& min, const Vec2& max,
+                                 const SvgSettings& settings = {}) {
+  Rectangle box;
+  for (const Figure& figure : read_one(text, settings).figures) box.merge(bounds_of(figure));
+  constexpr double kRounding = 1e-4;  // OpenSCAD's boxes, as they are given here
+  const bool is_same =
+      glm::length(box.min - min) < kRounding && glm::length(box.max - max) < kRounding;
+  return is_same ? testing::AssertionSuccess()
+                 : testing::AssertionFailure() << box.min.x << ", " << box.min.y << " to "
+                                               << box.max.x << ", " << box.max.y;
+}
+
+const std::string kBar = "<rect x=\"1\" y=\"2\" width=\"10\" height=\"5\"/>";
+constexpr SvgSettings kFaceted{.is_faceted = true};
+
+TEST(SvgPage, PlacesDrawingsByTheirSize) {
+  EXPECT_TRUE(has_box(svg(kBar), {1, -7}, {11, -2}));
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"100\" height=\"50\""), {1, 10.6389}, {11, 15.6389}));
+  EXPECT_TRUE(has_box(svg(kBar, "height=\"50\""), {1, 6.22917}, {11, 11.22917}, {.dpi = 96}));
+  EXPECT_TRUE(has_box(svg(kBar, "height=\"50mm\""), {1, 43}, {11, 48}));
+  EXPECT_TRUE(has_box(svg(kBar, "height=\"50 mm\""), {1, -7}, {11, -2}));
+}
+
+TEST(SvgPage, ScalesByTheViewBox) {
+  EXPECT_TRUE(
+      has_box(svg(kBar, "viewBox=\"0 0 20 10\""), {0.352778, 1.058333}, {3.880556, 2.822222}));
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"40mm\" viewBox=\"0,0,20,10\""), {16.825, 1.058333},
+                      {20.352778, 2.822222}));
+  EXPECT_TRUE(
+      has_box(svg(kBar, "width=\"100%\" viewBox=\"5 0 20 10\" height=\"50%\""), {-4, 3}, {6, 8}));
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"4pc\" height=\"2.5cm\" viewBox=\"0 0 20 10\""),
+                      {0.846667, 10.806667}, {9.313333, 15.04}));
+  const std::string wide =
+      "width=\"40mm\" height=\"10mm\" viewBox=\"0 0 20 10\" preserveAspectRatio=";
+  EXPECT_TRUE(has_box(svg(kBar, wide + "\"none\""), {2, 3}, {22, 8}));
+  EXPECT_TRUE(has_box(svg(kBar, wide + "\"xMaxYMin meet\""), {21, 3}, {31, 8}));
+  EXPECT_TRUE(has_box(svg(kBar, wide + "\"xMinYMin slice\""), {2, -4}, {22, 6}));
+  EXPECT_TRUE(has_box(svg(kBar, "viewBox=\"0 0 20\""), {1, -7}, {11, -2}));
+}
+
+TEST(SvgPage, CentresDrawings) {
+  EXPECT_TRUE(has_box(svg(kBar), {-5, -2.5}, {5, 2.5}, {.is_centered = true}));
+  // OpenSCAD's middle is the view box's corner, mirrored.
+  EXPECT_TRUE(has_box(svg(kBar, "width=\"40mm\" height=\"20mm\" viewBox=\"5 1 20 10\""), {-20, -7},
+                      {0, 3}, {.is_centered = true}));
+}
+
+TEST(SvgShapes, AreUnited) {
+  EXPECT_NEAR(filled_area(svg(
+                  "<rect width=\"10\" height=\"10\"/><rect x=\"5\" width=\"10\" height=\"10\"/>")),
+              150, 1e-6);
+  EXPECT_NEAR(filled_area(svg("<circle cx=\"1\" cy=\"2\" r=\"3\"/>")), 9 * kPi,
+              9 * kPi * kChordsShare);
+  EXPECT_TRUE(std::holds_alternative<Disc>(read_one(svg("<circle r=\"3\"/>")).figures.front()));
+  EXPECT_THAT(chords_of(read_one(svg("<circle r=\"3\"/>"), kFaceted).figures.front()),
+              ElementsAre(SizeIs(40)));
+  EXPECT_NEAR(filled_area(svg("<ellipse rx=\"3\" ry=\"2\"/>")), 6 * kPi, 6 * kPi * kChordsShare);
+  EXPECT_NEAR(filled_area(svg("<polygon points=\"0,0 10 0 10,10 5\"/>")), 50, 1e-6);
+  const double round_corners = (4 - kPi) * 4;
+  EXPECT_NEAR(filled_area(svg("<rect width=\"10\" height=\"5\" rx=\"2\"/>")), 50 - round_corners,
+              1e-2);
+  EXPECT_THAT(read_one(svg("<rect width=\"10mm\" height=\"5\"/><circle/><use href=\"#a\"/><text/>"))
+                  .figures,
+              IsEmpty());
+}
+
+TEST(SvgShapes, OfDefinitionsAreHidden) {
+  EXPECT_THAT(read_one(svg("<defs><g>" + kBar + "</g></defs>")).figures, IsEmpty());
+  EXPECT_NEAR(filled_area(svg("<defs/><symbol>" + kBar + "</symbol>")), 50, 1e-6);
+}
+
+TEST(SvgShapes, AreMovedByGroups) {
+  EXPECT_TRUE(has_box(svg("<g transform=\"translate(5,6) scale(2)\">" + kBar + "</g>"), {7, -20},
+                      {27, -10}));
+  EXPECT_TRUE(has_box(svg("<g transform=\"rotate(90,1,2)\">" + kBar + "</g>"), {-4, -12}, {1, -2}));
+  EXPECT_TRUE(has_box(svg("<g transform=\"skewX(45)\">" + kBar + "</g>"), {3, -7}, {18, -2}));
+  EXPECT_TRUE(
+      has_box(svg("<g transform=\"matrix(1 2 3 4 5 6)\">" + kBar + "</g>"), {12, -56}, {37, -16}));
+  EXPECT_TRUE(has_box(svg("<g transform=\"matrix(1 2 3) foo(1) rotate(90 5)\">" + kBar + "</g>"),
+                      {1, -7}, {11, -2}));
+  EXPECT_TRUE(has_box(svg("<a transform=\"scale(9)\">" + kBar + "</a>", "transform=\"scale(9)\""),
+                      {1, -7}, {11, -2}));
+  EXPECT_THAT(
+      read_one(svg("<g transform=\"rotate(30) scale(1, 0) rotate(20)\">" + kBar + "</g>")).figures,
+      IsEmpty());
+  const Drawing ellipse = read_one(svg("<circle r=\"1\" transform=\"scale(3, 2)\"/>"));
+  EXPECT_NEAR(area_of_union(ellipse.figures), 6 * kPi, 6 * kPi * kChordsShare);
+}
+
+TEST(SvgPath, HasLines) {
+  EXPECT_NEAR(filled_area(svg_path("M0 0 H10 V10 z")), 50, 1e-6);
+  EXPECT_NEAR(filled_area(svg_path("m0 0 10 0 0 10z m20 0 h5 v5z")), 62.5, 1e-6);
+  EXPECT_NEAR(filled_area(svg_path("M0,0L10,0L1e1-5.5.5z")), 27.5, 1e-6);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 L10 10 L0 10z M2 2 L2 8 L8 8 L8 2z")), 64, 1e-6);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 10 10 X 5 5 L0 10 z")), 75, 1e-6);  // X counts as 0
+  EXPECT_THAT(read_one(svg_path("M0 0")).figures, IsEmpty());
+}
+
+TEST(SvgPath, HasCurves) {
+  EXPECT_NEAR(filled_area(svg_path("M0 0 Q5 10 10 0z")), 100.0 / 3, 1e-2);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 C0 10 10 10 10 0z")), 60, 1e-2);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 C0 10 10 10 10 0 S20 -10 20 0z")), 120, 1e-2);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 Q5 10 10 0 T20 0z")), 200.0 / 3, 1e-2);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 A5 5 0 0 0 10 0z")), 12.5 * kPi, 1e-2);
+  EXPECT_TRUE(has_box(svg_path("M0 0 A5 5 0 0 0 10 0z"), {0, -5}, {10, 0}));
+  EXPECT_TRUE(has_box(svg_path("M0 0 A1 1 0 0 1 10 0z"), {0, 0}, {10, 5}));
+  EXPECT_NEAR(filled_area(svg_path("M0 0 A5 5 0 1 1 5 5z")), 25 * (0.75 * kPi + 0.5), 1e-2);
+  const Figure faceted = read_one(svg_path("M0 0 A5 5 0 0 0 10 0z"), kFaceted).figures.front();
+  EXPECT_THAT(chords_of(faceted), ElementsAre(SizeIs(15)));
+}
+
+TEST(SvgPath, IsStrokedWhereItIsOpen) {
+  EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0")), 11, 1e-4);
+  EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 L10 10 L0 0.05")), 50.25, 1e-6);
+  // The last part is filled once another one was closed.
+  EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 L10 10z M20 0 L30 0 L30 10")), 100, 1e-6);
+}
+
+TEST(SvgStroke, HasWidthEndsAndCorners) {
+  const auto line = [](const std::string& attributes) {
+    return svg("<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"0\" " + attributes + "/>");
+  };
+  EXPECT_NEAR(filled_area(line("")), 11, 1e-4);
+  EXPECT_NEAR(filled_area(line("stroke-width=\"3\" stroke-linecap=\"butt\"")), 30, 1e-4);
+  EXPECT_NEAR(filled_area(line("style=\"fill:none;stroke-width:3;stroke-linecap:round\"")),
+              30 + 2.25 * kPi, 1e-2);
+  EXPECT_NEAR(filled_area(line("stroke-width=\"4\" style=\"stroke-width:3\"")), 56, 1e-4);
+  EXPECT_NEAR(filled_area(line("stroke-width=\"3mm\"")), 11, 1e-4);
+  const std::string bend = "<polyline points=\"0,0 10,0 10,10\" stroke-width=\"2\"";
+  EXPECT_NEAR(filled_area(svg(bend + "/>")), 44, 1e-4);
+  EXPECT_NEAR(filled_area(svg(bend + " stroke-linejoin=\"round\"/>")), 43 + kPi / 4, 1e-3);
+  EXPECT_LT(filled_area(svg(bend + " stroke-linejoin=\"bevel\"/>")), 43.9);
+  // It is drawn before it is scaled.
+  EXPECT_NEAR(filled_area(svg("<line x2=\"10\" transform=\"scale(2, 1)\"/>")), 22, 1e-4);
+}
+
+TEST(Svg, SaysWhatItCannotRead) {
+  const Drawing broken = read_one("<svg>" + kBar);
+  EXPECT_THAT(broken.figures, IsEmpty());
+  ASSERT_THAT(broken.problems, SizeIs(1));
+  EXPECT_EQ(broken.problems.front().what, "Error parsing file 'a.svg'");
+  EXPECT_THAT(read_one("").problems, IsEmpty());
+  const Drawing part = read_one(svg("<circle cx=\"nan\" r=\"3\"/><line x2=\"1e300\"/>" + kBar));
+  EXPECT_NEAR(area_of_union(part.figures), 50, 1e-6);
+  ASSERT_THAT(part.problems, SizeIs(1));
+  EXPECT_THAT(part.problems.front().what, HasSubstr("Range check failed"));
+}
+
+TEST(Svg, IsReadWithoutRecursion) {
+  std::string text;
+  constexpr int kDepth = 50000;
+  for (int i = 0; i < kDepth; ++i) text += "<g>";
+  text += kBar;
+  for (int i = 0; i < kDepth; ++i) text += "</g>";
+  EXPECT_NEAR(filled_area(svg(text)), 50, 1e-6);
+}
+
+TEST(DisjointFigures, AreOneOutlineWhereTheyDoNotMeet) {
+  std::vector<Figure> figures;
+  for (int i = 0; i < 50; ++i) figures.push_back(Disc{Vec2(3.0 * i, 0), 1});
+  std::vector<Figure> result = disjoint_figures(figures);
+  EXPECT_THAT(result, SizeIs(1));
+  EXPECT_NEAR(area_of_union(result), 50 * kPi, 50 * kPi * kChordsShare);
+  figures.push_back(outline_of(Disc{Vec2(0.5, 0), 1}));
+  result = disjoint_figures(figures);
+  EXPECT_THAT(result, SizeIs(2));
+  EXPECT_NEAR(area_of_union(result), area_of_union(figures), 1e-6);
+}
+
+TEST(DisjointFigures, AreOneOutlineWhereManyMeet) {
+  std::vector<Figure> figures;
+  for (int i = 0; i < 50; ++i) {
+    Outline ring = outline_of(Disc{Vec2(i, 0), 2});
+    // Its hole runs the same way; every other one has none.
+    if (i % 2 == 0) ring.loops.push_back(outline_of(Disc{Vec2(i, 0), 1.9}).loops.front());
+    figures.push_back(ring);
+  }
+  const std::vector<Figure> result = disjoint_figures(figures);
+  EXPECT_THAT(result, SizeIs(1));
+  EXPECT_NEAR(area_of_union(result), area_of_union(figures), 1e-4);
+}
+
+TEST(Tangle, IsWhatHasTooManyCrossings) {
+  constexpr int kCorners = 300000;
+  Polygon circle, scribble;
+  for (int i = 0; i < kCorners; ++i) {
+    circle.emplace_back(std::cos(2 * kPi * i / kCorners), std::sin(2 * kPi * i / kCorners));
+    scribble.emplace_back((i * 7919LL) % kCorners, (i * 104729LL) % kCorners);
+  }
+  EXPECT_FALSE(is_tangle(outline_of(Polygons{circle})));
+  EXPECT_TRUE(is_tangle(outline_of(Polygons{scribble})));
+}
+
+}  // namespace
+}  // namespace frontend
