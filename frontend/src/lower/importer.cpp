@@ -370,6 +370,9 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
   Design trees = Emitter(tree, collected, modifiers, leaves).design();
   count_leaves(trees, leaves, design);
+  design.faceted_leaves = static_cast<uint32_t>(
+      std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
+                    [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
   std::vector<Box> boxes = std::move(collected.boxes);
   const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
   add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
