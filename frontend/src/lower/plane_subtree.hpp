@@ -49,6 +49,9 @@ class PlaneSubtree {
   /// Reads the arguments of a node of the subtree. `id` is its place among the primitive nodes.
   void take(uint32_t node, uint32_t id, const ImportOptions& options, NodeProblems& problems);
 
+  /// Returns the node's own subtree.
+  PlaneSubtree part(uint32_t node) const;
+
   const SyntaxTree& tree() const { return tree_; }
   uint32_t root() const { return root_; }
   /// Of the last descendant, one more.
