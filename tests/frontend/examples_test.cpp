@@ -46,10 +46,11 @@ const std::map<std::string, uint32_t> kPrimitives = {
     {"three_spheres", 3}, {"nut_trap", 7},  {"bracket", 11},    {"dodecahedron", 2},
     {"vase", 1},          {"gear", 93},     {"box", 31},        {"belt_pulley", 13},
     {"bolt", 5},          {"shell", 1},     {"mould", 7},       {"cap", 39},
-    {"sign", 9},          {"stamp", 6}};
+    {"sign", 9},          {"stamp", 6},     {"enclosure", 35},  {"handle", 56}};
 
-/// Designs whose 2D nodes make other numbers of primitives: a hull of several is one.
-const std::set<std::string> kWithFigures = {"gear", "box", "belt_pulley", "cap", "sign", "stamp"};
+/// Designs whose 2D nodes and hulls make other numbers of primitives.
+const std::set<std::string> kWithFigures = {"gear", "box",   "belt_pulley", "cap",
+                                            "sign", "stamp", "enclosure",   "handle"};
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

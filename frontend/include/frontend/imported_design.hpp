@@ -33,6 +33,9 @@ struct ImportedDesign {
   /// them that hold several primitives.
   uint32_t leaves = 0;
   uint32_t compound_leaves = 0;
+  /// The hulls and Minkowski sums in which facets, finer than a pixel, stand for what is round and
+  /// has no exact form.
+  uint32_t faceted_leaves = 0;
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;

@@ -16,6 +16,7 @@ struct RunStats {
   uint64_t primitive_nodes = 0;  // in the file, empty and invalid ones included
   uint64_t leaves = 0;           // of OpenSCAD's preview
   uint64_t compound_leaves = 0;  // those of them that hold several primitives
+  uint64_t faceted_leaves = 0;   // those in which facets stand for what is round
   uint64_t layers = 0;           // that are drawn one over another; 0: the model alone
   uint32_t width_px = 0;
   uint32_t height_px = 0;

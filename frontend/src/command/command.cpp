@@ -209,6 +209,7 @@ class Run {
     stats_.primitive_nodes = design.primitive_nodes;
     stats_.leaves = design.leaves;
     stats_.compound_leaves = design.compound_leaves;
+    stats_.faceted_leaves = design.faceted_leaves;
     stats_.layers = design.scene.layers.size();
     for (const Warning& warning : design.warnings) {
       if (options_.has_hard_warnings && !warning.is_note) throw Error(warning);

@@ -9,6 +9,7 @@
 #include "lower/faceted_box.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
+#include "lower/inner_parts.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
 #include "lower/plane_evaluation.hpp"
@@ -223,8 +224,7 @@ void Collector::enter_matrix(uint32_t node) {
   if (is_identity(file)) return;
   Context context = contexts_.back();
   context.node = node;
-  const Affine divided{file.map.linear / file.divisor, file.map.translation / file.divisor};
-  if (context.flattened || !divided.finite()) {
+  if (context.flattened || !is_affine(file)) {
     context.flattened = true;
   } else {
     context.frame = frames.add(context.frame, heal(file));
@@ -385,6 +385,7 @@ void Collector::leave_plane() {
     leaf.solid = {};
     leaf.figures.clear();
   }
+  if (any_modifiers) add_inner_parts(*plane_, plane_context_);
   plane_.reset();
 }
 
@@ -481,6 +482,22 @@ void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& conte
   plane_leaves.push_back(std::move(leaf));
 }
 
+/// Gives each part inside that is drawn by itself a leaf of its own.
+void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& context) {
+  if (context.in_leaf || options_.picture == PictureKind::kRendered) return;
+  NodeProblems told;  // already
+  for (const InnerPart& part : inner_parts(subtree)) {
+    Context inner = context;
+    for (const uint32_t matrix : part.matrices) {
+      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(matrix));
+      inner.flattened = inner.flattened || !is_affine(file);
+      if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
+    }
+    add_plane_leaf(subtree.part(part.node), inner, told);
+    plane_leaves.back().is_inner = true;
+  }
+}
+
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
                                 NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
@@ -552,6 +569,7 @@ void Collector::add_pending(const std::stop_token& stop) {
   size_t next = 0;
   for (PlaneLeaf& leaf : plane_leaves) {
     if (next < leaves.size() && leaf.node == leaves[next].node) {
+      leaves[next].is_inner = leaf.is_inner;
       leaf = std::move(leaves[next++]);
     } else {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });

@@ -72,6 +72,7 @@ class Collector final : public NodeSink {
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
+    bool is_inner = false;                    // a `%` or `#` part inside of another one
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
@@ -123,6 +124,7 @@ class Collector final : public NodeSink {
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);
+  void add_inner_parts(const PlaneSubtree& subtree, const Context& context);
   Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
                            const Context& context, NodeProblems& told);
   void add_pending(const std::stop_token& stop);

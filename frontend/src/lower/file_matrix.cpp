@@ -4,6 +4,11 @@
 
 namespace frontend {
 
+bool is_affine(const FileMatrix& file) {
+  return csgcore::Affine{file.map.linear / file.divisor, file.map.translation / file.divisor}
+      .finite();
+}
+
 HealedMatrix heal(const FileMatrix& file) {
   HealedMatrix matrix = heal_matrix(file.map);
   if (file.divisor != 1) {

@@ -222,6 +222,19 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
                    "give a smaller $fn"));
 }
 
+/// Parts of a hull are drawn beside it, or over it, as those of a group are.
+void add_inner_parts(const SyntaxTree& tree, const Collector& collected,
+                     ResolvedModifiers& modifiers) {
+  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+    if (!leaf.is_inner || leaf.presence != Presence::kSolid) continue;
+    const uint8_t own = tree.nodes[leaf.node].modifiers;
+    if ((own & kBackground) != 0) modifiers.background.push_back(leaf.node);
+    if ((own & kHighlight) != 0) modifiers.highlight.push_back(leaf.node);
+  }
+  std::sort(modifiers.background.begin(), modifiers.background.end());
+  std::sort(modifiers.highlight.begin(), modifiers.highlight.end());
+}
+
 ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collected,
                                PictureKind picture) {
   if (!collected.any_modifiers && collected.left_out.empty()) return {};
@@ -232,10 +245,13 @@ ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collecte
   }
   for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    leaves[leaf.node] = {leaf.presence, leaf.box, true};
+    if (!leaf.is_inner) leaves[leaf.node] = {leaf.presence, leaf.box, true};
   }
   ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
-  if (picture != PictureKind::kRendered) return modifiers;
+  if (picture != PictureKind::kRendered) {
+    add_inner_parts(tree, collected, modifiers);
+    return modifiers;
+  }
   // Nothing is overlaid: `#` parts are operands like others.
   for (ResolvedNode& node : modifiers.nodes) node.highlighted = false;
   modifiers.background.clear();
@@ -373,6 +389,9 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   const ResolvedModifiers modifiers = modifiers_of(tree, collected, options.picture);
   Design trees = Emitter(tree, collected, modifiers, leaves).design();
   count_leaves(trees, leaves, design);
+  design.faceted_leaves = static_cast<uint32_t>(
+      std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
+                    [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
   std::vector<Box> boxes = std::move(collected.boxes);
   const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
   add_boxes_of_compound(collected, leaves, measures_leaves, boxes);

@@ -155,6 +155,13 @@ void PlaneSubtree::take(uint32_t node, uint32_t id, const ImportOptions& options
                    read_solid_node(tree_, syntax, options, problems)};
 }
 
+PlaneSubtree PlaneSubtree::part(uint32_t node) const {
+  PlaneSubtree result(tree_, node);
+  const auto first = nodes_.begin() + (node - root_);
+  result.nodes_.assign(first, first + (end_of(node) - node));
+  return result;
+}
+
 uint32_t PlaneSubtree::first_id(uint32_t node) const {
   while (node + 1 < end_of(node) && !has_place(tree_, syntax(node))) ++node;
   return id(node);

@@ -64,6 +64,9 @@ class PlaneSubtree {
   void take(uint32_t node, uint32_t id, const ImportOptions& options, const PlaneSources& sources,
             NodeProblems& problems);
 
+  /// Returns the node's own subtree.
+  PlaneSubtree part(uint32_t node) const;
+
   const SyntaxTree& tree() const { return tree_; }
   uint32_t root() const { return root_; }
   /// Of the last descendant, one more.

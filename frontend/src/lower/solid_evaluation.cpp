@@ -22,10 +22,6 @@ using csgcore::Vec3;
 
 constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
 
-bool is_affine(const FileMatrix& file) {
-  return Affine{file.map.linear / file.divisor, file.map.translation / file.divisor}.finite();
-}
-
 /// The factors by which resize() scales a box.
 Vec3 resize_factors(const ResizeArguments& arguments, const Vec3& size) {
   Vec3 factors(1.0);

@@ -160,6 +160,19 @@ TEST(SolidHull, MayStandInOperationsAndModifiers) {
             false);
 }
 
+TEST(SolidHull, ShowsThePartsInsideThatHaveModifiers) {
+  const ImportedDesign design =
+      import_text("hull() { cube(1); group() {" + at(5, 0, 0, "%sphere(1); #cube(2);") +
+                  "} *cube(9); }"
+                  "linear_extrude(height = 1) { square(1); %square(2); }");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "1");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kHighlight), "2");
+  EXPECT_EQ(design.scene.primitives[1].local_to_world.translation, Vec3(5, 0, 0));
+  EXPECT_THAT(design.scene.primitives, SizeIs(4)) << "the hull, its parts, and the extrusion";
+  EXPECT_THAT(import_text("render() { hull() { cube(1); %sphere(1); } }").scene.primitives,
+              SizeIs(1));
+}
+
 TEST(SolidHull, KeepsTheOrderOfTheFile) {
   const ImportedDesign design =
       import_text("cube(1); hull() { cube(2); } cube(3); hull() { cube(4); cube(5); } cube(6);");
