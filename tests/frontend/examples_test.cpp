@@ -45,8 +45,7 @@ const std::map<std::string, uint32_t> kPrimitives = {
     {"t1022", 1022},      {"knob", 44},     {"flange", 29},     {"pulley", 25},
     {"three_spheres", 3}, {"nut_trap", 7},  {"bracket", 11},    {"dodecahedron", 2},
     {"vase", 1},          {"gear", 93},     {"box", 31},        {"belt_pulley", 13},
-    {"bolt", 5},          {"shell", 1},     {"mould", 7},
-    {"sign", 9}};
+    {"bolt", 5},          {"shell", 1},     {"mould", 7},       {"sign", 9}};
 
 /// Designs whose 2D nodes make other numbers of primitives: a hull of several is one.
 const std::set<std::string> kWithFigures = {"gear", "box", "belt_pulley", "sign"};
