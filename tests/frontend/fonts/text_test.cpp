@@ -178,7 +178,7 @@ TEST_F(Text, SaysWhichFontStandsInForAMissingOne) {
                                     "installed: '")));
   EXPECT_TRUE(warnings.at(0).is_note);
   for (const char* font : {"", "serif", "Sans:bold", " Liberation Sans ", "liberation sans",
-                           "Liberation Sans:style=Regular", ":bold"}) {
+                           "Liberation Sans:style=Regular", ":bold", "Nope,Liberation Sans"}) {
     EXPECT_THAT(import_with_fonts("text(\"a\", font = \"" + std::string(font) + "\");").warnings,
                 IsEmpty())
         << font;
