@@ -79,17 +79,25 @@ class Pattern {
     fontconfig_.pattern_get_integer(pattern_, property, 0, &value);
     return value;
   }
-  bool has_family(std::string_view family) const {
-    for (int i = 0; const char* name = string(FC_FAMILY, i); ++i) {
-      if (same_name(name, family)) return true;
-    }
-    return false;
+  std::vector<std::string> families() const {
+    std::vector<std::string> names;
+    for (int i = 0; const char* name = string(FC_FAMILY, i); ++i) names.emplace_back(name);
+    return names;
   }
 
  private:
   const FontLibraries::Fontconfig& fontconfig_;
   FcPattern* pattern_;
 };
+
+/// Returns whether families were asked for, and the font is of none of them.
+bool are_missing(const std::vector<std::string>& asked, const std::vector<std::string>& found) {
+  return !asked.empty() && std::ranges::none_of(asked, [&](const std::string& family) {
+    return is_generic(family) || std::ranges::any_of(found, [&](const std::string& name) {
+             return same_name(name, family);
+           });
+  });
+}
 
 }  // namespace
 
@@ -163,8 +171,8 @@ FoundFont FontStock::match(const std::string& pattern) {
   const std::string wanted = pattern.empty() ? std::string(kDefaultFont) : pattern;
   const Pattern asked(fc, fc.name_parse(fc_string(wanted)));
   if (asked.get() == nullptr) return result;
-  const char* const family = asked.string(FC_FAMILY);
-  const std::string asked_family = family == nullptr || pattern.empty() ? "" : family;
+  const std::vector<std::string> families =
+      pattern.empty() ? std::vector<std::string>{} : asked.families();
   fc.pattern_add_bool(asked.get(), FC_OUTLINE, FcTrue);
   fc.pattern_add_bool(asked.get(), FC_SCALABLE, FcTrue);
   fc.config_substitute(config_, asked.get(), FcMatchPattern);
@@ -175,9 +183,7 @@ FoundFont FontStock::match(const std::string& pattern) {
   const char* const path = best.string(FC_FILE);
   if (path == nullptr) return result;
   if (const char* name = best.string(FC_FAMILY)) result.family = name;
-  const bool is_missing =
-      !asked_family.empty() && !is_generic(asked_family) && !best.has_family(asked_family);
-  if (is_missing) result.missing_family = asked_family;
+  if (are_missing(families, best.families())) result.missing_family = families.front();
   result.face = open(path, best.integer(FC_INDEX));
   return result;
 }

@@ -591,7 +591,9 @@ Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context,
   leaf.solid = builder.finish();
   if (leaf.solid.empty()) return Presence::kEmpty;
   leaf.box = box_of_positive_leaves(leaf.solid, boxes);
-  if (lowered.box) leaf.box = csgcore::intersection(leaf.box, *lowered.box);
+  if (lowered.box) {
+    leaf.box = lowered.is_union ? *lowered.box : csgcore::intersection(leaf.box, *lowered.box);
+  }
   if (lowered.box || lowered.is_plate) leaf.known_box = leaf.box;
   return Presence::kSolid;
 }

@@ -209,10 +209,18 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
   return place;
 }
 
+bool has_operation_but_union(const CsgTree& tree) {
+  const auto tokens = tree.tokens();
+  return std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
+    return !token.is_primitive && token.op != Op::kUnion;
+  });
+}
+
 LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_plate,
                        const Affine& root_to_world, const FrameTree& frames, FigureSolids& solids) {
   LoweredSubtree result;
   result.is_plate = is_plate;
+  Box whole;  // in the root's coordinates
   result.solid = tree_of_parts(
       figures, result.parts,
       [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
@@ -231,9 +239,12 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
           box.merge(Vec3(layers.top_scale * corner + layers.z_max * layers.lean,
                          is_plate ? 0 : layers.z_max));
         }
+        whole.merge(box);
         return LoweredSubtree::Part{std::move(*primitive), placed.frame,
                                     mapped(root_to_world, box)};
       });
+  result.is_union = !has_operation_but_union(figures.tree) && !whole.empty();
+  if (result.is_union) result.box = mapped(root_to_world, whole);
   return result;
 }
 
@@ -256,15 +267,8 @@ Box positive_box(const LoweredSubtree& solid) {
   return box_of_positive_leaves(solid.solid, boxes);
 }
 
-/// OpenSCAD's box of a plane figure is that of what the operations leave. Nothing if they leave
-/// all.
-std::optional<Box> box_of_rest(const FigureTree& figures, PlaneEvaluation& evaluation,
-                               uint32_t root, const Affine& root_to_world) {
-  const auto tokens = figures.tree.tokens();
-  const bool has_operation = std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
-    return !token.is_primitive && token.op != Op::kUnion;
-  });
-  if (!has_operation) return std::nullopt;
+/// OpenSCAD's box of a plane figure is that of what the operations leave.
+Box box_of_rest(PlaneEvaluation& evaluation, uint32_t root, const Affine& root_to_world) {
   evaluation.find_all_figures();
   Box box;
   for (const Figure& figure : evaluation.figures(root)) {
@@ -337,7 +341,8 @@ class Extruding {
     const Layers layers{layers_.z_min, layers_.z_max, layers_.top_scale.x, lean()};
     LoweredSubtree solid =
         extrude(figures, layers, false, frames_[frame_].to_world, frames_, solids_);
-    if (edge_count(figures) > kMostLookedAtEdges) solid.box = positive_box(solid);
+    if (!solid.is_union && edge_count(figures) > kMostLookedAtEdges)
+      solid.box = positive_box(solid);
     return solid;
   }
 
@@ -613,7 +618,9 @@ LoweredSubtree lower_subtree(const PlaneSubtree& subtree, PlaneEvaluation& evalu
   }
   LoweredSubtree result = extrude(figures, {-kPlateThickness / 2, kPlateThickness / 2, 1}, true,
                                   root_to_world, frames, solids);
-  result.box = box_of_rest(figures, evaluation, subtree.root(), root_to_world);
+  if (!result.is_union) {
+    result.box = box_of_rest(evaluation, subtree.root(), root_to_world);
+  }
   return result;
 }
 

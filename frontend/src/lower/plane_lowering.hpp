@@ -31,6 +31,9 @@ struct LoweredSubtree {
   bool is_plate = false;
   bool is_faceted = false;          // facets, finer than a pixel, stand for something round
   std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
+  /// It is a union, of which OpenSCAD takes the corners of the box in the root's coordinates: `box`
+  /// is theirs, and may be larger than the boxes of the parts together.
+  bool is_union = false;
 };
 
 /// What stands for a plane figure that is not extruded.

@@ -178,7 +178,7 @@ TEST_F(Text, SaysWhichFontStandsInForAMissingOne) {
                                     "installed: '")));
   EXPECT_TRUE(warnings.at(0).is_note);
   for (const char* font : {"", "serif", "Sans:bold", " Liberation Sans ", "liberation sans",
-                           "Liberation Sans:style=Regular", ":bold"}) {
+                           "Liberation Sans:style=Regular", ":bold", "Nope,Liberation Sans"}) {
     EXPECT_THAT(import_with_fonts("text(\"a\", font = \"" + std::string(font) + "\");").warnings,
                 IsEmpty())
         << font;
@@ -246,6 +246,19 @@ TEST_F(Text, TakesAnyBytes) {
               SizeIs(1));
   const std::string many(20000, 'x');
   EXPECT_THAT(import_with_fonts(extruded(text(many))).scene.primitives, SizeIs(many.size()));
+}
+
+TEST_F(Text, HasTheBoxOfAllItsLettersWhereItIsTurned) {
+  // OpenSCAD turns the corners of the text's own box.
+  const std::string turn = "multmatrix([[0.6,-0.8,0,0],[0.8,0.6,0,0],[0,0,1,0],[0,0,0,1]]) {";
+  for (const std::string& letters : {text("IoI"), extruded(text("IoI"))}) {
+    const csgcore::Box box = import_with_fonts(letters).view_box;
+    const csgcore::Box turned = import_with_fonts(turn + letters + "}").view_box;
+    EXPECT_NEAR(turned.min.x, 0.6 * box.min.x - 0.8 * box.max.y, 1e-9);
+    EXPECT_NEAR(turned.max.x, 0.6 * box.max.x - 0.8 * box.min.y, 1e-9);
+    EXPECT_NEAR(turned.min.y, 0.8 * box.min.x + 0.6 * box.min.y, 1e-9);
+    EXPECT_NEAR(turned.max.y, 0.8 * box.max.x + 0.6 * box.max.y, 1e-9);
+  }
 }
 
 TEST_F(Text, TakesItsTimeInProportion) {
