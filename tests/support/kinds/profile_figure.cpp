@@ -106,25 +106,30 @@ LongVec2 FigureEdge::nearest(const LongVec2& point) const {
     const bool is_on = (cross(chord, on - start) < 0) == is_counterclockwise;
     return is_on ? on : nearest_end;
   }
-  // The best of some parameters, refined by ternary search.
+  // Next to each of some parameters where the distance is least among its neighbours, the
+  // derivative of the squared distance changes its sign. A curve that folds back has several.
   constexpr int kParts = 64, kSteps = 70;
-  Real best = 0, least = kInfinity;
-  for (int i = 0; i <= kParts; ++i) {
-    const Real distance = glm::length(at(Real(i) / kParts) - point);
-    if (distance < least) least = distance, best = Real(i) / kParts;
-  }
-  // Where the derivative of the squared distance changes its sign.
+  const auto distance = [&](Real s) { return glm::length(at(s) - point); };
   const auto slope = [&](Real s) {
     const LongVec2 along = glm::mix(control - start, end - control, s);
     return glm::dot(at(s) - point, along);
   };
-  Real low = std::max<Real>(0, best - Real(1) / kParts);
-  Real high = std::min<Real>(1, best + Real(1) / kParts);
-  for (int i = 0; i < kSteps; ++i) {
-    const Real middle = (low + high) / 2;
-    (slope(middle) < 0 ? low : high) = middle;
+  std::array<Real, kParts + 1> distances;
+  for (int i = 0; i <= kParts; ++i) distances[size_t(i)] = distance(Real(i) / kParts);
+  Real best = 0, least = kInfinity;
+  for (int i = 0; i <= kParts; ++i) {
+    const int before = std::max(0, i - 1), after = std::min(kParts, i + 1);
+    const Real own = distances[size_t(i)];
+    if (own > distances[size_t(before)] || own > distances[size_t(after)]) continue;
+    Real low = Real(before) / kParts, high = Real(after) / kParts;
+    for (int step = 0; step < kSteps; ++step) {
+      const Real middle = (low + high) / 2;
+      (slope(middle) < 0 ? low : high) = middle;
+    }
+    const Real refined = distance((low + high) / 2);
+    if (refined < least) least = refined, best = (low + high) / 2;
   }
-  return at((low + high) / 2);
+  return at(best);
 }
 
 Real FigureEdge::furthest(const LongVec2& direction) const {
