@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 namespace csgcore {
@@ -38,14 +39,34 @@ class PieceCrosser {
     if (piece.is_line()) {
       cross_line(start, end, from_within, to_within);
     } else {
-      cross_curve({start, seen(piece.control), end, piece.weight}, from_within, to_within);
+      cross_curve(
+          {curve_point(start), curve_point(seen(piece.control)), curve_point(end), piece.weight},
+          from_within, to_within);
     }
   }
 
  private:
+  /// A point of a curve as the path sees it: how far r is beyond the path's offset, in place of r.
+  /// On a curve that the path touches these differences are small, and rounding is as small as
+  /// they are.
+  struct CurvePoint {
+    double beyond, height, run;
+  };
+  CurvePoint curve_point(const PathPoint& point) const {
+    return {point.r - path_.offset, point.height, point.run};
+  }
+  /// The polar form of `within`.
+  double within_curve(const CurvePoint& a, const CurvePoint& b) const {
+    const double beside = a.beyond * b.beyond + path_.offset * (a.beyond + b.beyond);
+    return path_.rise * path_.rise * beside - a.run * b.run;
+  }
+  double across2(const CurvePoint& p) const {
+    return p.beyond * (p.beyond + 2 * path_.offset);  // r² − offset²
+  }
+
   /// A curve, or a part of one, whose control points have weights of their own.
   struct Curve {
-    PathPoint start, control, end;
+    CurvePoint start, control, end;
     double weight, start_weight = 1, end_weight = 1;
   };
 
@@ -109,7 +130,7 @@ class PieceCrosser {
     if (path_.starts_nearest && (curve.start.height < 0) != (curve.end.height < 0)) {
       // The path's two halves, of which one comes and one goes, are below and above its middle.
       const Curve halves[] = {below_or_above(curve, true), below_or_above(curve, false)};
-      const bool is_middle_within = halves[0].end.r > std::hypot(path_.offset, path_.start);
+      const bool is_middle_within = across2(halves[0].end) > path_.start * path_.start;
       cross_half(halves[0], from_within, is_middle_within, curve.start.height < 0);
       cross_half(halves[1], is_middle_within, to_within, curve.end.height < 0);
     } else {
@@ -131,7 +152,7 @@ class PieceCrosser {
     const double b = is_steeper_at_start ? std::abs(start) : larger;
     const double share = b / (a + b);
     const auto [left, right, at, left_weight, right_weight, weight] = divided(curve, share);
-    PathPoint cut = at;
+    CurvePoint cut = at;
     cut.height = 0;
     cut.run = path_.rise * path_.start;
     return before ? Curve{curve.start, left, cut, left_weight, curve.start_weight, weight}
@@ -139,13 +160,14 @@ class PieceCrosser {
   }
 
   struct Division {
-    PathPoint left, right, at;
+    CurvePoint left, right, at;
     double left_weight, right_weight, weight;
   };
-  static PathPoint mix(const PathPoint& a, double a_weight, const PathPoint& b, double b_weight) {
+  static CurvePoint mix(const CurvePoint& a, double a_weight, const CurvePoint& b,
+                        double b_weight) {
     const double sum = a_weight + b_weight;
     const double first = a_weight / sum, second = b_weight / sum;
-    return {first * a.r + second * b.r, first * a.height + second * b.height,
+    return {first * a.beyond + second * b.beyond, first * a.height + second * b.height,
             first * a.run + second * b.run};
   }
   /// De Casteljau's division of a rational curve.
@@ -162,89 +184,95 @@ class PieceCrosser {
     return result;
   }
 
-  /// The coefficients of a quartic in Bernstein form over a range of parameters.
-  struct Quartic {
-    std::array<double, 5> values;
+  /// The curve's polar form at two parameters: at equal ones it is the curve's point, and those of
+  /// a range's ends are the control points of the curve's part there.
+  struct Polar {
+    CurvePoint point;
+    double weight;
+  };
+  static Polar polar(const Curve& curve, double s, double t) {
+    const double a = (1 - s) * (1 - t) * curve.start_weight;
+    const double b = ((1 - s) * t + s * (1 - t)) * curve.weight;
+    const double c = s * t * curve.end_weight;
+    const double weight = a + b + c, inverse = 1 / weight;
+    const auto value = [&](double start, double control, double end) {
+      return (a * start + b * control + c * end) * inverse;
+    };
+    return {{value(curve.start.beyond, curve.control.beyond, curve.end.beyond),
+             value(curve.start.height, curve.control.height, curve.end.height),
+             value(curve.start.run, curve.control.run, curve.end.run)},
+            weight};
+  }
+
+  /// A range of a curve's parameters, and on which sides of the path its ends lie.
+  struct Range {
     double from, to;
     bool from_within, to_within;
     int depth;
   };
 
-  /// Crosses the part of a curve that can meet only the lower or the upper half of the path. The
-  /// roots of the quartic are isolated by the changes of sign of its coefficients, of which there
-  /// are at least as many as roots, and an even number more (Descartes' rule).
+  /// Returns how often the coefficients change their sign of the Bernstein form over a range: as
+  /// often as there are roots, or more often by an even number (Descartes' rule). They are formed
+  /// of the control points there. Coefficients of the whole curve, divided, would have a rounding
+  /// of what is far from the path.
+  int sign_changes(const Curve& curve, const Range& range) const {
+    const auto [p, u] = polar(curve, range.from, range.from);
+    const auto [q, w] = polar(curve, range.from, range.to);
+    const auto [r, v] = polar(curve, range.to, range.to);
+    const bool is_within[] = {range.from_within, within_curve(p, q) > 0,
+                              2 * w * w * within_curve(q, q) + u * v * within_curve(p, r) > 0,
+                              within_curve(q, r) > 0, range.to_within};
+    int changes = 0;
+    for (size_t i = 1; i < std::size(is_within); ++i) changes += is_within[i] != is_within[i - 1];
+    return changes;
+  }
+
+  /// Crosses the part of a curve that can meet only the lower or the upper half of the path. Its
+  /// roots are isolated by halving.
   void cross_half(const Curve& curve, bool from_within, bool to_within, bool is_below) {
-    const double w = curve.weight, u = curve.start_weight, v = curve.end_weight;
-    const PathPoint &p = curve.start, &q = curve.control, &r = curve.end;
-    std::array<Quartic, kDeepest + 1> open;
-    int count = 0;
-    open[count++] = {{u * u * within(path_, p), u * w * within(path_, p, q),
-                      (2 * w * w * within(path_, q) + u * v * within(path_, p, r)) / 3,
-                      w * v * within(path_, q, r), v * v * within(path_, r)},
-                     0,
-                     1,
-                     from_within,
-                     to_within,
-                     0};
+    std::array<Range, kDeepest + 1> open;
+    int count = 0, ranges = 0;
+    open[count++] = {0, 1, from_within, to_within, 0};
     while (count > 0) {
-      const Quartic quartic = open[--count];
-      int changes = 0;
-      bool is_within = quartic.from_within;
-      for (size_t i = 1; i < 5; ++i) {
-        const bool is_next = i == 4 ? quartic.to_within : quartic.values[i] > 0;
-        changes += is_next != is_within;
-        is_within = is_next;
-      }
-      const bool differs = quartic.from_within != quartic.to_within;
+      const Range range = open[--count];
+      const int changes = sign_changes(curve, range);
       if (changes == 0) continue;
-      if (changes == 1 || quartic.depth == kDeepest) {
-        if (differs) add_root(curve, quartic, is_below);
+      if (changes == 1 || range.depth == kDeepest || ++ranges > kMostRanges) {
+        if (range.from_within != range.to_within) add_root(curve, range, is_below);
         continue;
       }
-      const double middle = 0.5 * (quartic.from + quartic.to);
-      Quartic first = quartic, second = quartic;
-      std::array<double, 5> row = quartic.values;
-      for (size_t i = 0; i < 5; ++i) {
-        first.values[i] = row[0];
-        second.values[4 - i] = row[4 - i];
-        for (size_t k = 0; k + i < 4; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
-      }
-      first.to = second.from = middle;
-      first.to_within = second.from_within = first.values[4] > 0;
-      first.depth = second.depth = quartic.depth + 1;
-      open[count++] = second;
-      open[count++] = first;
+      const double middle = 0.5 * (range.from + range.to);
+      const Polar half = polar(curve, middle, middle);
+      const bool is_within = within_curve(half.point, half.point) > 0;
+      const int depth = range.depth + 1;
+      open[count++] = {middle, range.to, is_within, range.to_within, depth};
+      open[count++] = {range.from, middle, range.from_within, is_within, depth};
     }
   }
 
   static constexpr double kLeastGrowth = 0x1p-26;  // the root of a rounding
   /// Two roots that are closer than this power of 1/2 are a touch that rounding may miss.
-  static constexpr int kDeepest = 30;
+  static constexpr int kDeepest = 53;
+  /// Four roots are isolated by fewer halvings. More there are only where the curve runs along the
+  /// path within its rounding, so that any sign is right.
+  static constexpr int kMostRanges = 4 * kDeepest;
 
-  PathPoint at(const Curve& curve, double s, PathPoint& slope) const {
-    const double a = (1 - s) * (1 - s) * curve.start_weight, b = 2 * s * (1 - s) * curve.weight,
-                 c = s * s * curve.end_weight;
-    const double inverse = 1 / (a + b + c);
-    const auto value = [&](double start, double control, double end) {
-      return (a * start + b * control + c * end) * inverse;
-    };
-    const PathPoint result{value(curve.start.r, curve.control.r, curve.end.r),
-                           value(curve.start.height, curve.control.height, curve.end.height),
-                           value(curve.start.run, curve.control.run, curve.end.run)};
+  CurvePoint at(const Curve& curve, double s, CurvePoint& slope) const {
+    const auto [result, weight] = polar(curve, s, s);
     const double da = -2 * (1 - s) * curve.start_weight, db = 2 * (1 - 2 * s) * curve.weight,
                  dc = 2 * s * curve.end_weight;
     const auto growth = [&](double at, double start, double control, double end) {
-      return (da * (start - at) + db * (control - at) + dc * (end - at)) * inverse;
+      return (da * (start - at) + db * (control - at) + dc * (end - at)) / weight;
     };
-    slope = {growth(result.r, curve.start.r, curve.control.r, curve.end.r), 0,
+    slope = {growth(result.beyond, curve.start.beyond, curve.control.beyond, curve.end.beyond), 0,
              growth(result.run, curve.start.run, curve.control.run, curve.end.run)};
     return result;
   }
 
   /// Adds the only root in a range, by Newton's method between bounds.
-  void add_root(const Curve& curve, const Quartic& range, bool is_below) {
+  void add_root(const Curve& curve, const Range& range, bool is_below) {
     double from = range.from, to = range.to;
-    PathPoint point, slope;
+    CurvePoint point, slope;
     double s = 0.5 * (from + to);
     constexpr int kMostSteps = 200, kQuickSteps = 12;
     constexpr double kLeastStep = 0x1p-54;
@@ -252,10 +280,11 @@ class PieceCrosser {
     for (int step = 0; step < kMostSteps; ++step) {
       point = at(curve, s, slope);
       if (path_.rise == 0) break;
-      const double value = within(path_, point);
+      const double value = within_curve(point, point);
       (value > 0) == range.from_within ? from = s : to = s;
       const double growth =
-          2 * (path_.rise * path_.rise * point.r * slope.r - point.run * slope.run);
+          2 * (path_.rise * path_.rise * (point.beyond + path_.offset) * slope.beyond -
+               point.run * slope.run);
       double next = s - value / growth;
       if (!(next > from && next < to) || step % kQuickSteps == kQuickSteps - 1) {
         next = 0.5 * (from + to);
@@ -263,13 +292,13 @@ class PieceCrosser {
       if (std::abs(next - s) <= kLeastStep || next == from || next == to) break;
       s = next;
     }
-    const double across =
-        std::sqrt(std::max(0.0, (point.r - path_.offset) * (point.r + path_.offset)));
+    const double across = std::sqrt(std::max(0.0, across2(point)));
     const double rho = is_below == (path_.upwards() > 0) ? -across : across;
+    const double r = point.beyond + path_.offset;
     // The height of the point and its ρ both tell τ. Its error in the one case is a rounding over
     // the rise. In the other it is that over how fast r grows, but not more than a rounding's root.
-    const double growth = std::max(across, kLeastGrowth * point.r) * path_.run;
-    const bool by_height = std::abs(path_.rise) * point.r >= growth;
+    const double growth = std::max(across, kLeastGrowth * r) * path_.run;
+    const bool by_height = std::abs(path_.rise) * r >= growth;
     add(by_height ? point.height / path_.rise : (rho - path_.start) / path_.run,
         range.to_within ? 1 : -1);
   }
