@@ -170,6 +170,10 @@ Primitive next_solid(std::mt19937& random) {
   return variants[random() % variants.size()].make(sizes);
 }
 
+/// A crossing with a profile's solid takes half as many operations again as one with a convex
+/// primitive, for which RayOracle has kRoundings.
+constexpr Real kMoreRoundings = 1.5;
+
 class ProfileCrossings : public testing::TestWithParam<int> {};
 
 TEST_P(ProfileCrossings, AreTheExactOnes) {
@@ -203,7 +207,7 @@ TEST_P(ProfileCrossings, AreTheExactOnes) {
     csgcore::find_all_crossings(frame, csgcore::checks::packet_of(lanes), canonical, search);
     for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
       const PivotRay& ray = lanes[lane];
-      const Real bound = shear * bounds.error_bound(ray);
+      const Real bound = kMoreRoundings * shear * bounds.error_bound(ray);
       // To first order distances are right only if they are small.
       constexpr int kFarThinner = 10;
       if (kFarThinner * bound > surfaces.thickness()) {
@@ -223,7 +227,7 @@ TEST_P(ProfileCrossings, AreTheExactOnes) {
   }
   std::printf("%s: %zu stretches, the worst end is off by %.2f roundings; %d rays left out\n",
               test_support::full_run() ? "full run" : "sample", crossed,
-              worst * csgcore::checks::kRoundings, too_thin);
+              worst * double(kMoreRoundings) * csgcore::checks::kRoundings, too_thin);
   EXPECT_GT(crossed, 10 * static_cast<size_t>(targets));
 }
 

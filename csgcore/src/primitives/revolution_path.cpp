@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <limits>
 
 namespace csgcore {
@@ -211,7 +210,17 @@ class PieceCrosser {
     int depth;
   };
 
-  /// Returns how often the coefficients change their sign of the Bernstein form over a range: as
+  /// Returns by how much `within_curve` differs if r is off by a rounding. Less tells no side.
+  double rounding(const CurvePoint& point) const {
+    const double r = point.beyond + path_.offset;
+    return 2 * kEpsilon * path_.rise * path_.rise * r * r;
+  }
+  /// Returns the side of the path on which a value lies, or `other` if it tells none.
+  static bool side(double value, double rounding, bool other) {
+    return std::abs(value) > rounding ? value > 0 : other;
+  }
+
+  /// Returns how often the coefficients of the Bernstein form over a range change their sign: as
   /// often as there are roots, or more often by an even number (Descartes' rule). They are formed
   /// of the control points there. Coefficients of the whole curve, divided, would have a rounding
   /// of what is far from the path.
@@ -219,11 +228,18 @@ class PieceCrosser {
     const auto [p, u] = polar(curve, range.from, range.from);
     const auto [q, w] = polar(curve, range.from, range.to);
     const auto [r, v] = polar(curve, range.to, range.to);
-    const bool is_within[] = {range.from_within, within_curve(p, q) > 0,
-                              2 * w * w * within_curve(q, q) + u * v * within_curve(p, r) > 0,
-                              within_curve(q, r) > 0, range.to_within};
+    const double least = std::max({rounding(p), rounding(q), rounding(r)});
+    const double middle = 2 * w * w * within_curve(q, q) + u * v * within_curve(p, r);
     int changes = 0;
-    for (size_t i = 1; i < std::size(is_within); ++i) changes += is_within[i] != is_within[i - 1];
+    bool is_within = range.from_within;
+    const auto add = [&](bool is_next) {
+      changes += is_next != is_within;
+      is_within = is_next;
+    };
+    add(side(within_curve(p, q), least, is_within));
+    add(side(middle, least * (2 * w * w + u * v), is_within));
+    add(side(within_curve(q, r), least, is_within));
+    add(range.to_within);
     return changes;
   }
 
@@ -242,8 +258,8 @@ class PieceCrosser {
         continue;
       }
       const double middle = 0.5 * (range.from + range.to);
-      const Polar half = polar(curve, middle, middle);
-      const bool is_within = within_curve(half.point, half.point) > 0;
+      const CurvePoint point = polar(curve, middle, middle).point;
+      const bool is_within = side(within_curve(point, point), rounding(point), range.from_within);
       const int depth = range.depth + 1;
       open[count++] = {middle, range.to, is_within, range.to_within, depth};
       open[count++] = {range.from, middle, range.from_within, is_within, depth};
