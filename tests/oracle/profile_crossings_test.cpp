@@ -17,6 +17,7 @@
 #include "checks.hpp"
 #include "exact_primitive.hpp"
 #include "exact_profile.hpp"
+#include "exact_twin.hpp"
 #include "placements.hpp"
 #include "primitives/intersect.hpp"
 #include "profile_aims.hpp"
@@ -217,7 +218,8 @@ TEST_P(ProfileCrossings, AreTheExactOnes) {
       const auto found = found_stretches(search.lanes[lane].found);
       const auto exact = exact_stretches(target, ray);
       const Real error = disagreement(surfaces, ray, found, exact);
-      EXPECT_LE(error, bound) << found << " instead of" << exact << " on " << ray.origin.x << ", "
+      EXPECT_LE(error, bound) << target.twin->as_cpp(primitive, "map") << "\n"
+                              << found << " instead of" << exact << " on " << ray.origin.x << ", "
                               << ray.origin.y << ", " << ray.origin.z << " + t " << ray.direction.x
                               << ", " << ray.direction.y << ", " << ray.direction.z;
       worst = std::max(worst, double(error / bound));

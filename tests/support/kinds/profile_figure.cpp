@@ -106,30 +106,14 @@ LongVec2 FigureEdge::nearest(const LongVec2& point) const {
     const bool is_on = (cross(chord, on - start) < 0) == is_counterclockwise;
     return is_on ? on : nearest_end;
   }
-  // Next to each of some parameters where the distance is least among its neighbours, the
-  // derivative of the squared distance changes its sign. A curve that folds back has several.
-  constexpr int kParts = 64, kSteps = 70;
+  // Where the derivative of the squared distance is 0, or at an end.
+  const LongVec2 away = start - point, first = control - start, bend = end - control - first;
+  const Polynomial slope{glm::dot(away, first), glm::dot(away, bend) + 2 * glm::dot(first, first),
+                         3 * glm::dot(first, bend), glm::dot(bend, bend), 0};
+  std::vector<Real> parameters{0, 1};
+  append_splits(slope, 3, 0, 1, parameters);
   const auto distance = [&](Real s) { return glm::length(at(s) - point); };
-  const auto slope = [&](Real s) {
-    const LongVec2 along = glm::mix(control - start, end - control, s);
-    return glm::dot(at(s) - point, along);
-  };
-  std::array<Real, kParts + 1> distances;
-  for (int i = 0; i <= kParts; ++i) distances[size_t(i)] = distance(Real(i) / kParts);
-  Real best = 0, least = kInfinity;
-  for (int i = 0; i <= kParts; ++i) {
-    const int before = std::max(0, i - 1), after = std::min(kParts, i + 1);
-    const Real own = distances[size_t(i)];
-    if (own > distances[size_t(before)] || own > distances[size_t(after)]) continue;
-    Real low = Real(before) / kParts, high = Real(after) / kParts;
-    for (int step = 0; step < kSteps; ++step) {
-      const Real middle = (low + high) / 2;
-      (slope(middle) < 0 ? low : high) = middle;
-    }
-    const Real refined = distance((low + high) / 2);
-    if (refined < least) least = refined, best = (low + high) / 2;
-  }
-  return at(best);
+  return at(*std::ranges::min_element(parameters, {}, distance));
 }
 
 Real FigureEdge::furthest(const LongVec2& direction) const {
