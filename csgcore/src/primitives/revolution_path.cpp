@@ -274,11 +274,12 @@ class PieceCrosser {
   static constexpr int kMostRanges = 4 * kDeepest;
 
   CurvePoint at(const Curve& curve, double s, CurvePoint& slope) const {
-    const auto [result, weight] = polar(curve, s, s);
+    const Polar own = polar(curve, s, s);
+    const CurvePoint& result = own.point;
     const double da = -2 * (1 - s) * curve.start_weight, db = 2 * (1 - 2 * s) * curve.weight,
                  dc = 2 * s * curve.end_weight;
     const auto growth = [&](double at, double start, double control, double end) {
-      return (da * (start - at) + db * (control - at) + dc * (end - at)) / weight;
+      return (da * (start - at) + db * (control - at) + dc * (end - at)) / own.weight;
     };
     slope = {growth(result.beyond, curve.start.beyond, curve.control.beyond, curve.end.beyond), 0,
              growth(result.run, curve.start.run, curve.control.run, curve.end.run)};
