@@ -16,21 +16,6 @@ namespace {
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-/// Leaves out balls that lie within another one. They are in the order of their radii, the largest
-/// first.
-void leave_out_contained(RoundBodies& balls) {
-  std::vector<RoundBody> kept;
-  const double slack = balls.slack();
-  for (const RoundBody& ball : balls.bodies) {
-    const bool is_contained = std::any_of(kept.begin(), kept.end(), [&](const RoundBody& other) {
-      return other.radius > ball.radius &&
-             glm::length(other.center - ball.center) + ball.radius <= other.radius + slack;
-    });
-    if (!is_contained) kept.push_back(ball);
-  }
-  balls.bodies = std::move(kept);
-}
-
 class BallHull {
  public:
   BallHull(RoundBodies balls, double least_strip, std::vector<Primitive>& pieces)
@@ -44,11 +29,7 @@ class BallHull {
   void add_pieces() {
     const auto visit = [this](uint32_t i, uint32_t j, const Circle& circle,
                               const CircleArcs& arcs) { add_strip(i, j, circle, arcs); };
-    if (balls_.hull_of_centers) {
-      visit_strips_of_edges(*this, *balls_.hull_of_centers, visit);
-    } else {
-      visit_strips(*this, visit);
-    }
+    visit_strips(*this, balls_, visit);
     add_polyhedron();
     for (size_t i = 0; i < size(); ++i) {
       if (is_round(i) && (shows_[i] || size() == 1)) {
@@ -135,9 +116,8 @@ class BallHull {
 
 void add_ball_hull(std::vector<RoundBody> balls, double least_strip,
                    std::vector<Primitive>& pieces) {
-  RoundBodies rest = without_inner_bodies(std::move(balls));
-  if (!rest.hull_of_centers) leave_out_contained(rest);
-  BallHull(std::move(rest), least_strip, pieces).add_pieces();
+  BallHull(without_inner_bodies(std::move(balls), BodyKind::kBalls), least_strip, pieces)
+      .add_pieces();
 }
 
 }  // namespace frontend

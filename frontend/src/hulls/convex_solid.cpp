@@ -141,6 +141,12 @@ class RoundSolid {
   /// The hull of discs, and a ball around each of its points: sums distribute over unions.
   bool lower_rounded_discs(double ball, ConvexSolid& result) const {
     const DiscHull hull = disc_hull(bodies(&RoundGenerator::disc_radius));
+    // Each oblique frustum would be made of facets by itself.
+    constexpr auto kMostOblique = 8;
+    const auto oblique =
+        std::count_if(hull.frusta.begin(), hull.frusta.end(),
+                      [&](const DiscHull::Pair& pair) { return is_oblique(hull, pair); });
+    if (oblique > kMostOblique) return false;
     std::vector<RoundBody> balls;
     for (const Vec3& point : hull.points) balls.push_back({point, ball});
     add_ball_hull(std::move(balls), kLeastStrip, result.pieces);
@@ -150,10 +156,17 @@ class RoundSolid {
     return true;
   }
 
+  bool is_oblique(const RoundBody& lower, const RoundBody& upper) const {
+    return glm::length(glm::dvec2(upper.center - lower.center)) > kSame * size_;
+  }
+  bool is_oblique(const DiscHull& hull, const DiscHull::Pair& pair) const {
+    return is_oblique(hull.discs[pair.lower], hull.discs[pair.upper]);
+  }
+
   void add_rounded_frustum(const RoundBody& lower, const RoundBody& upper, double ball,
                            ConvexSolid& result) const {
     const Vec3 across(0, 0, 1);
-    if (glm::length(glm::dvec2(upper.center - lower.center)) <= kSame * size_) {
+    if (!is_oblique(lower, upper)) {
       const Vec3 center(lower.center.x, lower.center.y, 0);
       auto revolved = revolved_hull({{lower.center - center, across, lower.radius, ball},
                                      {upper.center - center, across, upper.radius, ball}});
@@ -171,9 +184,10 @@ class RoundSolid {
   void lower_facets(ConvexSolid& result) const {
     result.is_faceted = true;
     std::vector<RoundGenerator> parts;
+    const int chords = affordable_chords();
     for (const RoundGenerator& generator : generators_) {
       if (generator.disc_radius > 0) {
-        replace_disc(generator, parts);
+        replace_disc(generator, chords, parts);
       } else {
         parts.push_back(generator);
       }
@@ -185,14 +199,61 @@ class RoundSolid {
     add_ball_hull(std::move(balls), kFacetStrip, result.pieces);
   }
 
+  /// Balls at the corners of chords have frusta between them, which are primitives.
+  int affordable_chords() const {
+    constexpr int kMostRoundCorners = 1 << 12;
+    constexpr int kFewestChords = 24;
+    int discs = 1;
+    bool has_ball = false;
+    for (const RoundGenerator& generator : generators_) {
+      discs += generator.disc_radius > 0;
+      has_ball = has_ball || (generator.disc_radius > 0 && generator.ball_radius > 0);
+    }
+    const int most = has_ball ? kMostRoundCorners : kMostPoints;
+    return std::clamp(most / discs, kFewestChords, kChordsOfDisc);
+  }
+
   std::vector<RoundGenerator> generators_;
   double size_ = 0;
 };
+
+/// Balls and discs of different sizes are compared in pairs: more take seconds.
+constexpr size_t kMostRoundParts = 4000;
+
+bool has_too_many_round_parts(const std::vector<RoundGenerator>& generators) {
+  size_t count = 0;
+  bool are_same = true;
+  const RoundGenerator& first = generators.front();
+  for (const RoundGenerator& generator : generators) {
+    count += generator.disc_radius > 0 || generator.ball_radius > 0;
+    are_same = are_same && generator.disc_radius == first.disc_radius &&
+               generator.ball_radius == first.ball_radius;
+  }
+  return !are_same && count > kMostRoundParts;
+}
+
+/// The hull with facets for all that is round.
+ConvexSolid faceted_solid(const Generators& generators) {
+  constexpr int kFewestChords = 24;
+  constexpr size_t kRoughly = 16;  // a ball has chords² / 8 points
+  const auto chords = static_cast<int>(std::sqrt(static_cast<double>(kMostPoints * kRoughly) /
+                                                 static_cast<double>(generators.size())));
+  ConvexSolid result;
+  result.is_faceted = true;
+  const PointSet points =
+      points_of(generators, std::clamp(chords, kFewestChords, kChordsOfCutDisc));
+  if (auto solid = solid_of_points(points.points)) {
+    result.pieces.push_back(std::move(solid->primitive));
+  }
+  return result;
+}
 
 }  // namespace
 
 ConvexSolid convex_solid(const Generators& generators) {
   RoundedGenerators round = rounded(generators);
+  if (round.generators.empty()) return {};
+  if (has_too_many_round_parts(round.generators)) return faceted_solid(generators);
   ConvexSolid result = RoundSolid(std::move(round.generators)).lower();
   result.is_faceted = result.is_faceted || round.is_faceted;
   if (round.frame == csgcore::Mat3(1.0)) return result;

@@ -38,11 +38,7 @@ class DiscStrips {
       if (arcs.length() < kLeastStrip) return;
       result.frusta.push_back(circle.growth > 0 ? DiscHull::Pair{i, j} : DiscHull::Pair{j, i});
     };
-    if (discs_.hull_of_centers) {
-      visit_strips_of_edges(*this, *discs_.hull_of_centers, visit);
-    } else {
-      visit_strips(*this, visit);
-    }
+    visit_strips(*this, discs_, visit);
     for (size_t i = 0; i < size(); ++i) {
       if (!is_round(i)) result.points.push_back(disc(i).center);
       for (const Vec3& direction : tangents_[i]) {
@@ -97,7 +93,7 @@ Primitive DiscHull::frustum(const Pair& pair) const {
 }
 
 DiscHull disc_hull(std::vector<RoundBody> discs) {
-  return DiscStrips(without_inner_bodies(std::move(discs))).hull();
+  return DiscStrips(without_inner_bodies(std::move(discs), BodyKind::kDiscs)).hull();
 }
 
 void add_disc_hull(std::vector<RoundBody> discs, std::vector<Primitive>& pieces) {

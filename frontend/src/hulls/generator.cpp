@@ -138,8 +138,7 @@ void replace_parts(const Generator& generator, int rings, bool replaces_round,
 static_assert(4 * kRingsOfBall == kChordsOfDisc);
 
 /// The rings that keep the number of points within bounds.
-int affordable_rings(const Generators& generators) {
-  constexpr double kMostPoints = 1 << 18;
+int affordable_rings(const Generators& generators, double most_points) {
   constexpr int kFewestRings = 6;
   int rings = kRingsOfBall;
   const auto points = [&] {
@@ -153,15 +152,15 @@ int affordable_rings(const Generators& generators) {
     }
     return sum;
   };
-  while (rings > kFewestRings && points() > kMostPoints) rings /= 2;
+  while (rings > kFewestRings && points() > most_points) rings /= 2;
   return rings;
 }
 
-RoundedGenerators rounded_in(const Mat3& frame, const Generators& generators) {
+RoundedGenerators rounded_in(const Mat3& frame, const Generators& generators, double most_points) {
   RoundedGenerators result;
   result.frame = frame;
   result.generators.reserve(generators.size());
-  const int rings = affordable_rings(generators);
+  const int rings = affordable_rings(generators, most_points);
   for (const Generator& generator : generators) {
     if (is_round(generator)) {
       result.generators.push_back(round_of(generator));
@@ -221,7 +220,7 @@ bool add_sum(const RoundGenerator& a, const RoundGenerator& b,
   std::vector<RoundGenerator> parts{b};
   if (is_skew) {
     parts.clear();
-    replace_disc(b, parts);
+    replace_disc(b, kChordsOfCutDisc, parts);
   }
   for (const RoundGenerator& part : parts) {
     result.push_back({a.center + part.center, a.disc_radius > 0 ? a.normal : part.normal,
@@ -252,14 +251,15 @@ bool is_finite(const Generator& generator) {
 
 RoundedGenerators rounded(const Generators& generators) {
   const std::optional<Mat3> frame = common_frame(generators);
-  return frame ? rounded_in(*frame, in_frame(*frame, generators))
-               : rounded_in(Mat3(1.0), generators);
+  return frame ? rounded_in(*frame, in_frame(*frame, generators), kMostPoints)
+               : rounded_in(Mat3(1.0), generators, kMostPoints);
 }
 
-void replace_disc(const RoundGenerator& generator, std::vector<RoundGenerator>& result) {
+void replace_disc(const RoundGenerator& generator, int chords,
+                  std::vector<RoundGenerator>& result) {
   const Axes axes = axes_along(generator.normal);
-  for (int k = 0; k < kChordsOfDisc; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kChordsOfDisc;
+  for (int k = 0; k < chords; ++k) {
+    const double angle = 2 * std::numbers::pi * k / chords;
     RoundGenerator point = generator;
     point.center += generator.disc_radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
     point.disc_radius = 0;
@@ -267,7 +267,7 @@ void replace_disc(const RoundGenerator& generator, std::vector<RoundGenerator>& 
   }
 }
 
-PointSet points_of(const Generators& generators) {
+PointSet points_of(const Generators& generators, int chords) {
   PointSet result;
   for (const Generator& generator : generators) {
     if (!generator.has_disc() && !generator.has_ball()) {
@@ -276,7 +276,7 @@ PointSet points_of(const Generators& generators) {
     }
     result.is_faceted = true;
     std::vector<RoundGenerator> points;
-    replace_parts(generator, kChordsOfCutDisc / 4, true, points);
+    replace_parts(generator, chords / 4, true, points);
     for (const RoundGenerator& point : points) result.points.push_back(point.center);
   }
   return result;
@@ -286,8 +286,10 @@ std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators&
   Generators both = a;
   both.insert(both.end(), b.begin(), b.end());
   const Mat3 frame = common_frame(both).value_or(Mat3(1.0));
-  RoundedGenerators first = rounded_in(frame, in_frame(frame, a));
-  RoundedGenerators second = rounded_in(frame, in_frame(frame, b));
+  // Facets of both would be multiplied.
+  constexpr double kMostPointsOfEach = 1 << 10;
+  RoundedGenerators first = rounded_in(frame, in_frame(frame, a), kMostPointsOfEach);
+  RoundedGenerators second = rounded_in(frame, in_frame(frame, b), kMostPointsOfEach);
   leave_out_inner_points(first.generators);
   leave_out_inner_points(second.generators);
   GeneratorSum result;

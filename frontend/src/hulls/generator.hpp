@@ -48,10 +48,13 @@ constexpr int kChordsOfDisc = 360;
 /// Rings of facets that stand for an ellipsoid, and half as many as the points of a ring: 1.5e-4 of
 /// the radius, less than a pixel up to radii of 6,500 pixels.
 constexpr int kRingsOfBall = 90;
+/// Where there are more points for all that is round, rings and chords are fewer: so many points
+/// take a second.
+constexpr int kMostPoints = 1 << 18;
 
 RoundedGenerators rounded(const Generators& generators);
-/// Puts points for the disc.
-void replace_disc(const RoundGenerator& generator, std::vector<RoundGenerator>& result);
+/// Puts points for the disc, which keep the ball.
+void replace_disc(const RoundGenerator& generator, int chords, std::vector<RoundGenerator>& result);
 
 /// Chords that stand for a disc within the outcome of set operations: 1e-3 of its radius, a pixel
 /// at a radius of 1,000 pixels.
@@ -62,7 +65,7 @@ struct PointSet {
   std::vector<csgcore::Vec3> points;
   bool is_faceted = false;  // points stand for something round
 };
-PointSet points_of(const Generators& generators);
+PointSet points_of(const Generators& generators, int chords);
 
 /// Generators of the Minkowski sum of the two hulls.
 struct GeneratorSum {

@@ -5,12 +5,14 @@
 #include <tuple>
 #include <utility>
 
+#include "hulls/point_hull.hpp"
+
 namespace frontend {
 namespace {
 
 using csgcore::Vec3;
 
-/// The hull of fewer points has all of them as corners, or nearly so.
+/// The hull of fewer centres is not looked for.
 constexpr size_t kFewBodies = 5;
 
 auto key_of(const RoundBody& body) {
@@ -24,15 +26,71 @@ PointHull hull_of_centers(const std::vector<RoundBody>& bodies) {
   return point_hull(on_grid(centers));
 }
 
-std::vector<RoundBody> corners_of(const std::vector<RoundBody>& bodies, const PointHull& hull) {
-  std::vector<RoundBody> result;
-  for (const uint32_t corner : hull.corners) result.push_back(bodies[corner]);
-  return result;
+/// Leaves out balls that lie within a larger one. They are in the order of their radii.
+void leave_out_contained(std::vector<RoundBody>& balls, double slack) {
+  std::vector<RoundBody> kept;
+  for (const RoundBody& ball : balls) {
+    bool is_contained = false;
+    for (size_t i = 0; i < kept.size() && kept[i].radius > ball.radius && !is_contained; ++i) {
+      is_contained =
+          glm::length(kept[i].center - ball.center) + ball.radius <= kept[i].radius + slack;
+    }
+    if (!is_contained) kept.push_back(ball);
+  }
+  balls = std::move(kept);
+}
+
+/// Each is a neighbour of all others.
+void add_all_neighbors(uint32_t first, uint32_t count, RoundBodies& result) {
+  for (uint32_t i = 0; i < count; ++i) {
+    std::vector<uint32_t>& own = result.neighbors.emplace_back();
+    for (uint32_t k = 0; k < count; ++k) {
+      if (k != i) own.push_back(first + k);
+    }
+  }
+}
+
+/// Those before and after each corner of a polygon, or the other end of a line.
+void add_neighbors_around(uint32_t first, uint32_t count, RoundBodies& result) {
+  for (uint32_t i = 0; i < count; ++i) {
+    std::vector<uint32_t>& own = result.neighbors.emplace_back();
+    own.push_back(first + (i + 1) % count);
+    if (count > 2) own.push_back(first + (i + count - 1) % count);
+  }
+}
+
+void add_neighbors_in_hull(uint32_t first, const PointHull& hull, RoundBodies& result) {
+  std::vector<uint32_t> body(hull.corners.back() + 1);
+  for (uint32_t i = 0; i < hull.corners.size(); ++i) body[hull.corners[i]] = first + i;
+  result.neighbors.resize(first + hull.corners.size());
+  for (const PointHull::Triangle& triangle : hull.triangles) {
+    // Each edge is passed once in either direction.
+    for (size_t k = 0; k < 3; ++k) {
+      result.neighbors[body[triangle[k]]].push_back(body[triangle[(k + 1) % 3]]);
+    }
+  }
+}
+
+void add_class(const std::vector<RoundBody>& group, RoundBodies& result) {
+  const auto first = static_cast<uint32_t>(result.bodies.size());
+  if (group.size() < kFewBodies) {
+    result.bodies.insert(result.bodies.end(), group.begin(), group.end());
+    add_all_neighbors(first, static_cast<uint32_t>(group.size()), result);
+  } else {
+    const PointHull hull = hull_of_centers(group);
+    for (const uint32_t corner : hull.corners) result.bodies.push_back(group[corner]);
+    if (hull.dimension == 3) {
+      add_neighbors_in_hull(first, hull, result);
+    } else {
+      add_neighbors_around(first, static_cast<uint32_t>(hull.corners.size()), result);
+    }
+  }
+  result.ends.push_back(static_cast<uint32_t>(result.bodies.size()));
 }
 
 }  // namespace
 
-RoundBodies without_inner_bodies(std::vector<RoundBody> bodies) {
+RoundBodies without_inner_bodies(std::vector<RoundBody> bodies, BodyKind kind) {
   RoundBodies result;
   csgcore::Box box;
   for (const RoundBody& body : bodies) {
@@ -42,22 +100,16 @@ RoundBodies without_inner_bodies(std::vector<RoundBody> bodies) {
   result.size = box.diagonal();
   std::sort(bodies.begin(), bodies.end(),
             [](const RoundBody& a, const RoundBody& b) { return key_of(a) < key_of(b); });
+  const auto is_same = [](const RoundBody& a, const RoundBody& b) {
+    return key_of(a) == key_of(b);
+  };
+  bodies.erase(std::unique(bodies.begin(), bodies.end(), is_same), bodies.end());
+  if (kind == BodyKind::kBalls) leave_out_contained(bodies, result.slack());
   for (auto first = bodies.begin(); first != bodies.end();) {
     const auto end = std::find_if(first, bodies.end(), [first](const RoundBody& body) {
       return body.radius != first->radius;
     });
-    std::vector<RoundBody> group(first, end);
-    const auto is_same = [](const RoundBody& a, const RoundBody& b) {
-      return a.center == b.center;
-    };
-    group.erase(std::unique(group.begin(), group.end(), is_same), group.end());
-    if (group.size() >= kFewBodies) {
-      PointHull hull = hull_of_centers(group);
-      group = corners_of(group, hull);
-      const bool is_only = first == bodies.begin() && end == bodies.end();
-      if (is_only && hull.dimension == 3) result.hull_of_centers = std::move(hull);
-    }
-    result.bodies.insert(result.bodies.end(), group.begin(), group.end());
+    add_class({first, end}, result);
     first = end;
   }
   return result;

@@ -11,11 +11,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "hulls/circle_arcs.hpp"
-#include "hulls/point_hull.hpp"
+#include "hulls/round_bodies.hpp"
 
 namespace frontend {
 
@@ -23,56 +22,74 @@ namespace frontend {
 /// is thinner than 2^-49.
 constexpr double kLeastStrip = 0x1p-23;
 
-/// Calls visit(i, j, circle, arcs) for the pairs that have arcs. `Bodies` has size(), is_round(i),
+/// Looks for the strips of bodies in classes.
+template <typename Bodies, typename Visit>
+class StripSearch {
+ public:
+  StripSearch(const Bodies& bodies, const RoundBodies& classes, const Visit& visit)
+      : bodies_(bodies), classes_(classes), visit_(visit) {
+    for (uint32_t k = 0; k < classes_.bodies.size(); ++k) order_.push_back(k);
+    for (uint32_t a = 0; a < classes_.ends.size(); ++a) {
+      class_of_.resize(classes_.ends[a], a);
+    }
+  }
+
+  void run() {
+    const std::vector<uint32_t>& ends = classes_.ends;
+    for (size_t a = 0; a < ends.size(); ++a) {
+      for (uint32_t i = begin(a); i < ends[a]; ++i) {
+        // Two of one class touch one plane only where their centres have a common edge.
+        for (const uint32_t j : classes_.neighbors[i]) {
+          if (i < j) look_between(i, j);
+        }
+      }
+      for (size_t b = a + 1; b < ends.size(); ++b) {
+        for (uint32_t i = begin(a); i < ends[a]; ++i) {
+          for (uint32_t j = begin(b); j < ends[b]; ++j) look_between(i, j);
+        }
+      }
+    }
+  }
+
+ private:
+  uint32_t begin(size_t a) const { return a == 0 ? 0 : classes_.ends[a - 1]; }
+
+  void look_between(uint32_t i, uint32_t j) {
+    if (!bodies_.is_round(i) && !bodies_.is_round(j)) return;
+    const auto circle = bodies_.circle(i, j);
+    if (!circle) return;
+    arcs_.reset();
+    const auto cut = [&](uint32_t k) {
+      if (k != i && k != j) bodies_.cut(*circle, i, j, k, arcs_);
+      return !arcs_.is_empty();
+    };
+    const auto& neighbors = classes_.neighbors;
+    if (!std::all_of(neighbors[i].begin(), neighbors[i].end(), cut)) return;
+    if (!std::all_of(neighbors[j].begin(), neighbors[j].end(), cut)) return;
+    const auto culprit = std::find_if_not(order_.begin(), order_.end(), [&](uint32_t k) {
+      // Their neighbours have spoken for their classes.
+      return class_of_[k] == class_of_[i] || class_of_[k] == class_of_[j] || cut(k);
+    });
+    if (culprit != order_.end()) {
+      std::rotate(order_.begin(), culprit, culprit + 1);
+    } else {
+      visit_(i, j, *circle, arcs_);
+    }
+  }
+
+  const Bodies& bodies_;
+  const RoundBodies& classes_;
+  const Visit& visit_;
+  std::vector<uint32_t> order_;  // of bodies: those that lately left nothing come first
+  std::vector<uint32_t> class_of_;
+  CircleArcs arcs_;
+};
+
+/// Calls visit(i, j, circle, arcs) for the pairs that have arcs. `Bodies` has is_round(i),
 /// circle(i, j) → an optional, and cut(circle, i, j, k, arcs). Pairs of points are left out.
 template <typename Bodies, typename Visit>
-void visit_strips(const Bodies& bodies, const Visit& visit) {
-  const auto count = static_cast<uint32_t>(bodies.size());
-  CircleArcs arcs;
-  std::vector<uint32_t> order(count);  // bodies that lately left nothing come first
-  for (uint32_t k = 0; k < count; ++k) order[k] = k;
-  for (uint32_t i = 0; i < count; ++i) {
-    for (uint32_t j = i + 1; j < count; ++j) {
-      if (!bodies.is_round(i) && !bodies.is_round(j)) continue;
-      const auto circle = bodies.circle(i, j);
-      if (!circle) continue;
-      arcs.reset();
-      for (size_t at = 0; at < count && !arcs.is_empty(); ++at) {
-        const uint32_t k = order[at];
-        if (k == i || k == j) continue;
-        bodies.cut(*circle, i, j, k, arcs);
-        if (arcs.is_empty()) std::rotate(order.begin(), order.begin() + at, order.begin() + at + 1);
-      }
-      if (!arcs.is_empty()) visit(i, j, *circle, arcs);
-    }
-  }
-}
-
-/// Does the same for bodies of one size, which are those of the hull's corners, in their order:
-/// only the edges of the hull of their centres have strips, and the two faces of an edge bound it.
-template <typename Bodies, typename Visit>
-void visit_strips_of_edges(const Bodies& bodies, const PointHull& hull, const Visit& visit) {
-  std::vector<uint32_t> body(hull.corners.empty() ? 0 : hull.corners.back() + 1);
-  for (uint32_t i = 0; i < hull.corners.size(); ++i) body[hull.corners[i]] = i;
-  CircleArcs arcs;
-  for (uint32_t t = 0; t < hull.triangles.size(); ++t) {
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t other = hull.neighbors[t][k];
-      if (other < t) continue;
-      const PointHull::Triangle& own = hull.triangles[t];
-      const uint32_t i = body[own[k]], j = body[own[(k + 1) % 3]];
-      if (!bodies.is_round(i) && !bodies.is_round(j)) continue;
-      const auto circle = bodies.circle(i, j);
-      if (!circle) continue;
-      arcs.reset();
-      bodies.cut(*circle, i, j, body[own[(k + 2) % 3]], arcs);
-      for (const uint32_t corner : hull.triangles[other]) {
-        const uint32_t third = body[corner];
-        if (third != i && third != j) bodies.cut(*circle, i, j, third, arcs);
-      }
-      if (!arcs.is_empty()) visit(i, j, *circle, arcs);
-    }
-  }
+void visit_strips(const Bodies& bodies, const RoundBodies& classes, const Visit& visit) {
+  StripSearch(bodies, classes, visit).run();
 }
 
 }  // namespace frontend

@@ -21,13 +21,15 @@ constexpr std::string_view kBecauseManyParts =
     "it needs the outcome of operations on too many solids";
 /// More parts take seconds to make and to draw.
 constexpr size_t kMostParts = 20000;
+/// Corners times the faces that they are compared with: so many take some seconds.
+constexpr size_t kMostSteps = size_t{1} << 23;
 /// Each face of a cutter makes a part of what it cuts.
 constexpr size_t kMostFaces = 400;
 
 PointSet points_of(const SolidPart& part) {
   SupportSet support;
   part.add_support(support);
-  PointSet result = frontend::points_of(support.generators);
+  PointSet result = frontend::points_of(support.generators, kChordsOfCutDisc);
   result.is_faceted = result.is_faceted || support.is_faceted;
   return result;
 }
@@ -52,8 +54,9 @@ void SolidCuts::fail(std::string_view why) {
   if (failure_.empty()) failure_ = why;
 }
 
-bool SolidCuts::is_affordable(size_t parts) {
-  if (parts > kMostParts) fail(kBecauseManyParts);
+bool SolidCuts::is_affordable(size_t parts, size_t steps) {
+  steps_ += steps;
+  if (parts > kMostParts || steps_ > kMostSteps) fail(kBecauseManyParts);
   return failure_.empty();
 }
 
@@ -118,7 +121,7 @@ SolidCuts::Parts SolidCuts::difference(Parts parts, const SolidPart& cutter) {
       if (faces.size() > kMostFaces) fail(is_faceted ? kBecauseRound : kBecauseManyParts);
     }
     const PointSet own = points_of(part);
-    if (!is_affordable(result.size())) return {};
+    if (!is_affordable(result.size(), own.points.size() * faces.size())) return {};
     const std::vector<Corners> pieces = frontend::difference(own.points, faces);
     if (pieces.size() == 1 && pieces.front() == own.points) {
       result.push_back(std::move(part));
@@ -138,13 +141,14 @@ SolidCuts::Parts SolidCuts::intersection(const Parts& parts, const Parts& others
     bool is_faceted = false;
     for (const SolidPart& part : parts) {
       if (!have_common_volume(part.box, other.box)) continue;
-      if (!are_convex(part, other) || !is_affordable(result.size())) return {};
+      if (!are_convex(part, other)) return {};
       if (faces.empty()) {
         const PointSet points = points_of(other);
         is_faceted = points.is_faceted;
         faces = faces_of(points.points);
       }
       const PointSet own = points_of(part);
+      if (!is_affordable(result.size(), own.points.size() * faces.size())) return {};
       const Corners common = frontend::intersection(own.points, faces);
       if (!common.empty()) {
         result.push_back(part_of_corners(common, is_faceted || own.is_faceted));

@@ -1,6 +1,7 @@
 // The outcome of set operations on solids, where all of them are convex.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -22,10 +23,11 @@ class SolidCuts {
   Parts difference(Parts parts, const SolidPart& cutter);
   Parts intersection(const Parts& parts, const Parts& others);
   bool are_convex(const SolidPart& a, const SolidPart& b);
-  bool is_affordable(size_t parts);
+  bool is_affordable(size_t parts, size_t steps);
   void fail(std::string_view why);
 
   std::string_view failure_;
+  size_t steps_ = 0;
 };
 
 }  // namespace frontend

@@ -26,6 +26,8 @@ constexpr std::string_view kBecauseNotConvex = "two of its operands are not conv
 constexpr std::string_view kBecauseManyCorners = "its operands have too many corners";
 /// More parts take seconds to make and to draw.
 constexpr size_t kMostSums = 20000;
+/// So many take some seconds.
+constexpr size_t kMostPairs = size_t{1} << 24;
 
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
@@ -115,7 +117,10 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
 }
 
 void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& box) {
+  pairs_ += a.generators.size() * b.generators.size();
   if (sums_.size() >= kMostSums) fail(kBecauseManyFaces);
+  if (pairs_ > kMostPairs) fail(kBecauseManyCorners);
+  if (!failure_.empty()) return;
   std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
   if (!sum) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;

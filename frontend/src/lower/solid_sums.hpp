@@ -1,6 +1,7 @@
 // Minkowski sums of the parts of solids.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ class SolidSums {
 
   std::vector<SolidPart> sums_;
   std::string_view failure_;
+  size_t pairs_ = 0;  // of generators that were added
 };
 
 }  // namespace frontend

@@ -270,5 +270,43 @@ TEST(ConvexSolid, IsTheHullByItsSupportFunction) {
   }
 }
 
+/// The facets lie within the hull, and are fine.
+void expect_fine_facets(const Generators& generators, double sagitta) {
+  const ConvexSolid solid = convex_solid(generators);
+  EXPECT_TRUE(solid.is_faceted);
+  Random random(1);
+  const Worst worst = compare(generators, solid, 500, random);
+  EXPECT_LE(worst.outside, kTolerance);
+  EXPECT_LE(worst.missing, sagitta);
+  EXPECT_GT(worst.missing, 0);
+}
+
+TEST(ConvexSolid, HasFineFacetsWhereNoFormIsExact) {
+  const Vec3 up(0, 0, 1), along(1, 0, 0);
+  expect_fine_facets({disc(Vec3(0.0), up, 2), disc(Vec3(0, 0, 1), up, 2), ball(Vec3(6, 0, 0), 1)},
+                     1e-4);
+  expect_fine_facets({disc(Vec3(0.0), up, 2), disc(Vec3(0, 0, 1), up, 2),
+                      disc(Vec3(6, 0, 0), along, 1), disc(Vec3(7, 0, 0), along, 1)},
+                     1e-4);
+  Generator ellipsoid = ball(Vec3(5, 0, 0), 1);
+  ellipsoid.ball[0].x = 3;
+  expect_fine_facets({ellipsoid, ball(Vec3(0.0), 2)}, 1e-3);
+  const auto sum = minkowski_sum({ellipsoid}, {disc(Vec3(0.0), up, 1), at(Vec3(0, 0, 3))});
+  ASSERT_TRUE(sum);
+  EXPECT_TRUE(sum->is_faceted);
+}
+
+TEST(ConvexSolid, HasNoMoreTangentPiecesThanThereAreTangents) {
+  // Eight equal balls at the corners of a box: the box's three slabs, its edges and its corners.
+  Generators corners;
+  for (int i = 0; i < 8; ++i) corners.push_back(ball(Vec3(i & 1, i & 2, i & 4), 0.5));
+  EXPECT_EQ(convex_solid(corners).pieces.size(), 1u + 12u + 8u);
+  // A ball within another, and one within the hull of others, have no part in it.
+  EXPECT_EQ(convex_solid({ball(Vec3(0.0), 2), ball(Vec3(1, 0, 0), 0.5)}).pieces.size(), 1u);
+  EXPECT_EQ(convex_solid({ball(Vec3(0.0), 2), ball(Vec3(9, 0, 0), 2), ball(Vec3(5, 0, 0), 1)})
+                .pieces.size(),
+            3u);
+}
+
 }  // namespace
 }  // namespace frontend
