@@ -7,7 +7,7 @@
 
 #include "csgcore/geometry.hpp"
 #include "lower/hull_pool.hpp"
-#include "lower/plane_lowering.hpp"
+#include "lower/lowered_subtree.hpp"
 #include "lower/solid_value.hpp"
 
 namespace frontend {

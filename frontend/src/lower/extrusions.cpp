@@ -1,0 +1,221 @@
+#include "lower/extrusions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lower/faceted_box.hpp"
+#include "lower/sliced_solid.hpp"
+#include "lower/smooth_slices.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Box;
+using csgcore::CsgTree;
+using csgcore::CsgTreeBuilder;
+using csgcore::Op;
+using csgcore::Primitive;
+using csgcore::Vec3;
+
+/// What the layers' scaling about the root's origin makes of a figure's place in the plane: its
+/// translation grows with z. So it does where they lean.
+Affine scaled_place(const PlaneMap& map, const Layers& layers) {
+  const double slope = (layers.top_scale - 1) / (layers.z_max - layers.z_min);
+  Affine place = in_space(map);
+  place.linear[2] = Vec3(slope * map.translation + layers.lean, 1);
+  place.translation = Vec3((1 - slope * layers.z_min) * map.translation, 0);
+  return place;
+}
+
+bool has_operation_but_union(const CsgTree& tree) {
+  const auto tokens = tree.tokens();
+  return std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
+    return !token.is_primitive && token.op != Op::kUnion;
+  });
+}
+
+/// A solid of more edges is not looked at to find its box: a ray may meet them all.
+constexpr size_t kMostLookedAtEdges = 2000;
+
+Box positive_box(const LoweredSubtree& solid) {
+  std::vector<Box> boxes;
+  for (const LoweredSubtree::Part& part : solid.parts) boxes.push_back(part.box);
+  return box_of_positive_leaves(solid.solid, boxes);
+}
+
+/// Extrudes a figure tree.
+class Extruding {
+ public:
+  Extruding(const PlaneSubtree& subtree, PlaneEvaluation& evaluation, uint32_t frame,
+            const FrameTree& frames, FigureSolids& solids, NodeProblems& problems)
+      : subtree_(subtree),
+        evaluation_(evaluation),
+        frame_(frame),
+        frames_(frames),
+        solids_(solids),
+        problems_(problems),
+        data_(subtree.data<LinearExtrudeNode>(subtree.root())) {
+    const LinearExtrudeArguments& given = data_.arguments;
+    layers_.z_min = given.is_centered ? -given.height / 2 : 0;
+    layers_.z_max = layers_.z_min + given.height;
+    layers_.twist = given.twist;
+    layers_.top_scale = given.top_scale;
+  }
+
+  LoweredSubtree lower(const FigureTree& figures) {
+    if (layers_.is_twisted() && !is_round(figures)) return lower_slices(figures);
+    const Layers layers{layers_.z_min, layers_.z_max, layers_.top_scale.x, lean()};
+    LoweredSubtree solid =
+        extrude(figures, layers, false, frames_[frame_].to_world, frames_, solids_);
+    if (!solid.is_union && edge_count(figures) > kMostLookedAtEdges)
+      solid.box = positive_box(solid);
+    return solid;
+  }
+
+ private:
+  /// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
+  /// has as many chords as slices in a turn.
+  Chords chords_of(const FigureTree& figures) const {
+    const Rectangle bounds = positive_bounds(figures);
+    const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
+    constexpr double kMost = 120;
+    if (!has_flat_sides(layers_, reach)) return {static_cast<int>(kMost), kSmoothTolerance * reach};
+    const double turns = layers_.turn() / (2 * std::numbers::pi);
+    const double slices = data_.arguments.slices.value_or(1) / turns;
+    return {static_cast<int>(std::clamp(std::ceil(slices), kMost, double{kChordsOfCircle})), 0};
+  }
+
+  Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
+
+  /// Whether a twist leaves all figures as they are: they are discs about the axis.
+  bool is_round(const FigureTree& figures) const {
+    return layers_.top_scale.x == layers_.top_scale.y &&
+           std::all_of(figures.figures.begin(), figures.figures.end(), [](const auto& placed) {
+             const Disc* disc = std::get_if<Disc>(placed.figure.get());
+             return disc != nullptr && keeps_circles(placed.map) &&
+                    placed.place().point(disc->center) == Vec2(0.0);
+           });
+  }
+
+  LoweredSubtree lower_slices(const FigureTree& figures) {
+    evaluation_.find_all_figures();
+    std::optional<SimplePolygons> outline =
+        united(evaluation_.figures(subtree_.root()), chords_of(figures));
+    if (!outline) {
+      problems_.add(subtree_.syntax(subtree_.root()), "crossings", [] {
+        return NodeProblems::Description{" is left out: its edges cross too often",
+                                         "let its outline not cross itself"};
+      });
+      return {};
+    }
+    if (outline->empty()) return {};
+    const LinearExtrudeArguments& given = data_.arguments;
+    const double slices =
+        given.slices ? *given.slices : slice_count(layers_, *outline, given.facets);
+    Slicing slicing = openscad_slicing(slices, given.segments, *outline);
+    if (slicing.slices < slices) note_fewer(slicing.slices);
+    Affine leaning;
+    leaning.linear[2] = Vec3(lean(), 1);
+    const Affine to_world = compose(frames_[frame_].to_world, leaning);
+    const Box box = mapped(to_world, sliced_box(layers_, slicing.slices, *outline));
+    const double radius = reach_of(*outline) * layers_.largest_scale();
+    if (!data_.is_faceted) slicing = smooth_slicing(layers_, slices, std::move(*outline));
+    LoweredSubtree result = cut_at_ends(sliced_mesh(layers_, slicing), radius);
+    for (LoweredSubtree::Part& part : result.parts) {
+      part.primitive.local_to_world = compose(to_world, part.primitive.local_to_world);
+      part.primitive.id = figures.figures.front().id;
+      part.frame = frame_;
+      part.box = box;
+    }
+    result.box = box;
+    return result;
+  }
+
+  void note_fewer(int slices) {
+    problems_.add(subtree_.syntax(subtree_.root()), "slices", [&] {
+      return NodeProblems::Description{
+          " is drawn with " + std::to_string(slices) + " slices: more would be too many triangles",
+          "give fewer slices, or a simpler outline"};
+    });
+  }
+
+  /// Cuts away what the mesh has beyond the ends.
+  LoweredSubtree cut_at_ends(Primitive mesh, double radius) const {
+    constexpr double kMargin = 1.5;
+    const Polygon square = square_of(kMargin * radius);
+    LoweredSubtree result;
+    CsgTreeBuilder builder;
+    builder.open(Op::kIntersection);
+    result.parts.push_back({std::move(mesh), frame_, {}});
+    std::optional<Primitive> slab =
+        solids_.extruded(outline_of(Polygons{square}), {layers_.z_min, layers_.z_max, 1});
+    if (slab) result.parts.push_back({std::move(*slab), frame_, {}});
+    for (uint32_t i = 0; i < result.parts.size(); ++i) builder.primitive(i);
+    builder.close();
+    result.solid = builder.finish();
+    return result;
+  }
+
+  static Polygon square_of(double half) {
+    return {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  }
+
+  const PlaneSubtree& subtree_;
+  PlaneEvaluation& evaluation_;
+  uint32_t frame_;
+  const FrameTree& frames_;
+  FigureSolids& solids_;
+  NodeProblems& problems_;
+  const LinearExtrudeNode& data_;
+  TwistedLayers layers_;
+};
+
+}  // namespace
+
+LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_plate,
+                       const Affine& root_to_world, const FrameTree& frames, FigureSolids& solids) {
+  LoweredSubtree result;
+  result.is_plate = is_plate;
+  Box whole;  // in the root's coordinates
+  result.solid = tree_of_parts(
+      figures, result.parts,
+      [&](const PlacedFigure& placed) -> std::optional<LoweredSubtree::Part> {
+        std::optional<Primitive> primitive =
+            solids.extruded(*placed.figure, layers, placed.profile);
+        if (!primitive) return std::nullopt;
+        const bool is_upright = layers.top_scale == 1 && layers.lean == Vec2(0.0);
+        const Affine to_world =
+            is_upright ? compose(frames[placed.frame].to_world, in_space(placed.place_in_node))
+                       : compose(root_to_world, scaled_place(placed.place(), layers));
+        primitive->local_to_world = compose(to_world, primitive->local_to_world);
+        const Rectangle bounds = faceted_bounds(placed);
+        Box box;
+        for (const Vec2& corner : {bounds.min, bounds.max}) {
+          box.merge(Vec3(corner + layers.z_min * layers.lean, is_plate ? 0 : layers.z_min));
+          box.merge(Vec3(layers.top_scale * corner + layers.z_max * layers.lean,
+                         is_plate ? 0 : layers.z_max));
+        }
+        whole.merge(box);
+        return LoweredSubtree::Part{std::move(*primitive), placed.frame,
+                                    mapped(root_to_world, box)};
+      });
+  result.is_union = !has_operation_but_union(figures.tree) && !whole.empty();
+  if (result.is_union) result.box = mapped(root_to_world, whole);
+  return result;
+}
+
+LoweredSubtree lower_linear_extrude(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
+                                    const FigureTree& figures, uint32_t frame,
+                                    const FrameTree& frames, FigureSolids& solids,
+                                    NodeProblems& problems) {
+  if (!(subtree.data<LinearExtrudeNode>(subtree.root()).arguments.height > 0)) return {};
+  return Extruding(subtree, evaluation, frame, frames, solids, problems).lower(figures);
+}
+
+}  // namespace frontend

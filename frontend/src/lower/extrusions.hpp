@@ -1,0 +1,25 @@
+// Plane figures, extruded along z.
+#pragma once
+
+#include <cstdint>
+
+#include "heal/frames.hpp"
+#include "lower/figure_solids.hpp"
+#include "lower/figure_tree.hpp"
+#include "lower/lowered_subtree.hpp"
+#include "lower/node_problems.hpp"
+
+namespace frontend {
+
+/// Extrudes each figure by itself. Of a plate the boxes are flat.
+LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_plate,
+                       const csgcore::Affine& root_to_world, const FrameTree& frames,
+                       FigureSolids& solids);
+
+/// Lowers a subtree whose root is a linear_extrude, in a frame.
+LoweredSubtree lower_linear_extrude(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
+                                    const FigureTree& figures, uint32_t frame,
+                                    const FrameTree& frames, FigureSolids& solids,
+                                    NodeProblems& problems);
+
+}  // namespace frontend

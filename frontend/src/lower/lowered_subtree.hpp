@@ -1,0 +1,30 @@
+// A subtree that OpenSCAD evaluates as a whole, as primitives.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "csgcore/csg_tree.hpp"
+#include "csgcore/geometry.hpp"
+#include "csgcore/primitive.hpp"
+
+namespace frontend {
+
+struct LoweredSubtree {
+  struct Part {
+    csgcore::Primitive primitive;  // under its matrices, without a colour
+    uint32_t frame;                // FrameTree
+    csgcore::Box box;              // of the corners that OpenSCAD's facets have, in the world
+  };
+  std::vector<Part> parts;
+  csgcore::CsgTree solid;  // over the parts
+  bool is_plate = false;
+  bool is_faceted = false;          // facets, finer than a pixel, stand for something round
+  std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
+  /// It is a union, of which OpenSCAD takes the corners of the box in the root's coordinates: `box`
+  /// is theirs, and may be larger than the boxes of the parts together.
+  bool is_union = false;
+};
+
+}  // namespace frontend
