@@ -108,9 +108,9 @@ SolidValue SolidEvaluation::solid_of_leaf(uint32_t node) {
   }
   if (const auto* faces = std::get_if<std::shared_ptr<const FaceSet>>(&data)) {
     uint64_t unfinite_faces = 0;  // none: the points are finite
-    return solid_of_faces(node, &sources_.polyhedra.solid(**faces, unfinite_faces));
+    return solid_of_faces(&sources_.polyhedra.solid(**faces, unfinite_faces));
   }
-  return solid_of_faces(node, solid_of_file(node));
+  return solid_of_faces(solid_of_file(node));
 }
 
 SolidValue SolidEvaluation::round_solid(const RoundNode& round) {
@@ -137,7 +137,7 @@ const SolidOfFaces* SolidEvaluation::solid_of_file(uint32_t node) {
   return file.solid;
 }
 
-SolidValue SolidEvaluation::solid_of_faces(uint32_t, const SolidOfFaces* solid) {
+SolidValue SolidEvaluation::solid_of_faces(const SolidOfFaces* solid) {
   if (solid == nullptr || solid->is_empty()) return {};
   return value_of(part_of(solid->under({}), {}));
 }

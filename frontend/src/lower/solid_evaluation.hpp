@@ -39,7 +39,7 @@ class SolidEvaluation {
  private:
   SolidValue evaluate(uint32_t node);
   SolidValue solid_of_leaf(uint32_t node);
-  SolidValue solid_of_faces(uint32_t node, const SolidOfFaces* solid);
+  SolidValue solid_of_faces(const SolidOfFaces* solid);
   const SolidOfFaces* solid_of_file(uint32_t node);
   SolidValue round_solid(const RoundNode& round);
   SolidValue extruded(uint32_t node);
