@@ -148,7 +148,7 @@ TEST(ImporterPrimitives, InvalidOnesAreTheEmptySetButCount) {
 
 TEST(ImporterPrimitives, IdCountsEveryPrimitiveNodeOfTheFile) {
   const ImportedDesign design = import_text(
-      "polygon(); *sphere(); fill() { sphere(); circle(); } sphere(0); %sphere(); sphere(); "
+      "polygon(); *sphere(); roof() { sphere(); circle(); } sphere(0); %sphere(); sphere(); "
       "text();");
   EXPECT_EQ(design.primitive_nodes, 8u);
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "6");
