@@ -54,7 +54,7 @@ struct Slicing {
 };
 
 /// The most triangles of the sides of an extrusion.
-constexpr double kMostSideTriangles = 1 << 22;
+constexpr double kMostSideTriangles = 1 << 20;
 /// Returns the slices without their fraction, or as many as kMostSideTriangles allows.
 int affordable_slices(double slices, double edges);
 

@@ -136,7 +136,7 @@ TEST(LinearExtrude, HasOpenScadsSlicesWhereTheyAreMeant) {
 
 TEST(LinearExtrude, TellsOfFewerSlicesThanAskedFor) {
   EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, twist = 90, slices = 1e9")),
-              HasSubstr("linear_extrude is drawn with 524288 slices"));
+              HasSubstr("linear_extrude is drawn with 131072 slices"));
 }
 
 TEST(LinearExtrude, MayLean) {
