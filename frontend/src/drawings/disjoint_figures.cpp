@@ -163,7 +163,8 @@ std::vector<Figure> joined(std::vector<Figure> figures) {
 }
 
 /// How long edges are, for their number: the cells that their boxes reach, of a grid with as many
-/// cells as there are edges. Outlines that do not cross themselves have short edges, or few.
+/// cells as there are edges. Outlines that do not cross themselves have short edges, or few. And
+/// how many loops lie over each other, by the areas of their boxes.
 class EdgeGrid {
  public:
   explicit EdgeGrid(const Outline& outline) : box_(bounds_of(Figure(outline))) {
@@ -172,18 +173,27 @@ class EdgeGrid {
     most_ = kMostCellsOfEdge * edges;
     for (const csgcore::ProfileLoop& loop : outline.loops) {
       Vec2 start = loop.empty() ? Vec2(0.0) : loop.back().end;
+      Rectangle box;
       for (const csgcore::ProfileEdge& edge : loop) {
+        box.merge(edge.end);
         const Vec2 cells = reach(glm::abs(edge.end - start), box_.max - box_.min);
         cells_ += cells.x * cells.y;
         start = edge.end;
       }
+      covered_ += area(box);
     }
   }
 
-  bool is_crowded() const { return cells_ > most_; }
+  bool is_piled_up() const { return covered_ > kMostLayers * area(box_); }
+  bool is_crowded() const { return cells_ > most_ || is_piled_up(); }
 
  private:
   static constexpr double kMostCellsOfEdge = 64;
+  static constexpr double kMostLayers = 64;
+
+  static double area(const Rectangle& box) {
+    return box.empty() ? 0 : (box.max.x - box.min.x) * (box.max.y - box.min.y);
+  }
 
   Vec2 reach(const Vec2& size, const Vec2& whole) const {
     const Vec2 least(std::numeric_limits<double>::min());
@@ -191,7 +201,7 @@ class EdgeGrid {
   }
 
   Rectangle box_;
-  double side_ = 1, most_ = 0, cells_ = 0;
+  double side_ = 1, most_ = 0, cells_ = 0, covered_ = 0;
 };
 
 bool is_disc(const Figure& figure) { return std::holds_alternative<Disc>(figure); }
@@ -203,6 +213,12 @@ std::vector<Figure> disjoint_figures(std::vector<Figure> figures) {
   constexpr size_t kManyEdges = 1 << 18;  // to unite so many polygons takes about a second
   size_t edges = 0;
   for (const Figure& figure : figures) edges += edge_count(figure);
+  if (edges > kManyEdges) {
+    // What is a tangle anyway is not united.
+    Outline all;
+    for (const Figure& figure : figures) append(figure, all);
+    if (EdgeGrid(all).is_piled_up()) return {std::move(all)};
+  }
   if (edges <= kManyEdges && std::all_of(figures.begin(), figures.end(), is_polygonal)) {
     if (std::optional<Outline> whole = united_outline(figures)) {
       figures.clear();

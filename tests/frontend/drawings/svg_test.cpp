@@ -221,6 +221,19 @@ TEST(Tangle, IsWhatHasTooManyCrossings) {
   }
   EXPECT_FALSE(is_tangle(outline_of(Polygons{circle})));
   EXPECT_TRUE(is_tangle(outline_of(Polygons{scribble})));
+  // Squares that lie over each other, and as many side by side.
+  const auto square_at = [](double x, double y) {
+    return outline_of(Polygons{{{x, y}, {x + 9, y}, {x + 9, y + 9}, {x, y + 9}}});
+  };
+  std::vector<Figure> pile, rows;
+  for (int i = 0; i < 70000; ++i) {
+    pile.push_back(square_at(i % 3, 0));
+    rows.push_back(square_at(10 * (i % 265), 10 * (i / 265)));
+  }
+  const std::vector<Figure> piled = disjoint_figures(std::move(pile));
+  ASSERT_EQ(piled.size(), 1u);
+  EXPECT_TRUE(is_tangle(piled.front()));
+  for (const Figure& figure : disjoint_figures(std::move(rows))) EXPECT_FALSE(is_tangle(figure));
 }
 
 }  // namespace
