@@ -117,8 +117,11 @@ SolidCuts::Parts SolidCuts::difference(Parts parts, const SolidPart& cutter) {
       const PointSet points = points_of(cutter);
       is_faceted = points.is_faceted;
       faces = faces_of(points.points);
-      if (faces.empty()) return parts;
       if (faces.size() > kMostFaces) fail(is_faceted ? kBecauseRound : kBecauseManyParts);
+    }
+    if (faces.empty()) {  // the cutter is flat
+      result.push_back(std::move(part));
+      continue;
     }
     const PointSet own = points_of(part);
     if (!is_affordable(result.size(), own.points.size() * faces.size())) return {};
@@ -146,6 +149,7 @@ SolidCuts::Parts SolidCuts::intersection(const Parts& parts, const Parts& others
         const PointSet points = points_of(other);
         is_faceted = points.is_faceted;
         faces = faces_of(points.points);
+        if (faces.empty()) break;  // it is flat
       }
       const PointSet own = points_of(part);
       if (!is_affordable(result.size(), own.points.size() * faces.size())) return {};

@@ -142,6 +142,17 @@ TEST(SolidHull, CutsConvexSolidsInside) {
   EXPECT_EQ(model_of("hull() { intersection() { cube(1); " + at(5, 0, 0, "cube(1);") + "} }"), "-");
 }
 
+TEST(SolidHull, OfADifferenceWithWhatIsFlatIsThatOfTheSolid) {
+  // A square that leans, and whose box meets the second cube only.
+  const std::string flat = "multmatrix([[1,0,0,5],[0,1,0,0],[1,0,0,0],[0,0,0,1]]) { cube(1); }";
+  const std::string cubes = "union() { cube(1); " + at(5, 0, 0, "cube(1);") + "}";
+  const Inside inside("hull() { difference() { " + cubes + flat + "} }");
+  EXPECT_TRUE(inside(0.5, 0.5, 0.5));
+  EXPECT_TRUE(inside(3, 0.5, 0.5));
+  EXPECT_TRUE(inside(5.5, 0.5, 0.5));
+  EXPECT_EQ(model_of("hull() { intersection() { " + cubes + flat + "} }"), "-");
+}
+
 TEST(SolidHull, IsLeftOutWhereItWouldNeedOtherOperations) {
   EXPECT_THAT(warnings_of("hull() { difference() { cube(4); sphere(3); } }"),
               testing::ElementsAre(
