@@ -278,8 +278,8 @@ HWY_INLINE void cross_lines(const Profile& profile, const PacketLines& rays, Lan
 /// Replaces the crossings of a ray's line with the figure by those of the ray with the solid.
 HWY_INLINE void cut_by_caps(const Profile& profile, const RayLine& ray, double base,
                             std::vector<Crossing>& found) {
-  // Of what lies before the solid's height only the sum of turns matters, and of what lies behind
-  // it nothing. A figure that crosses itself everywhere has most of its crossings there.
+  // Only the sum of the turns before the solid's height matters, and nothing of those behind it. A
+  // figure that crosses itself everywhere has most of its crossings there.
   int before = 0;
   std::erase_if(found, [&](const Crossing& crossing) {
     if (crossing.t < ray.first) before += crossing.turn;

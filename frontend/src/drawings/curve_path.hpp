@@ -78,7 +78,7 @@ class CurvePath {
   Vec2 last_;
   size_t curves_ = 0;
   std::vector<Kind> kinds_;
-  /// Of each segment in turn, its control points and its end. Of an arc: its centre, u, v, then
+  /// The control points and the end of each segment in turn. An arc has its centre, u, v, then
   /// start and sweep, then the number of OpenSCAD's pieces and 0, then its end.
   std::vector<Vec2> points_;
 };

@@ -93,7 +93,7 @@ class DxfReader {
     return std::string(word.substr(0, kMost)) + (word.size() > kMost ? "..." : "");
   }
 
-  /// Of each kind of problem the first is told.
+  /// Tells the first problem of each kind.
   void tell(const std::string& what, const std::string& todo) {
     const std::string_view kind = std::string_view(what).substr(0, what.find(' '));
     for (const DrawingProblem& problem : drawing_.problems) {

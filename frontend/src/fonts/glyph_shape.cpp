@@ -87,7 +87,7 @@ class ShapeBuilder {
 
   /// A quadratic curve whose control point is (3(p1 + p2) − p0 − p3)/4 has the cubic's ends, and
   /// differs from it by (p3 − 3p2 + 3p1 − p0)·t(t − 1/2)(t − 1), whose polynomial is at most √3/36.
-  /// Of n pieces, that third difference is a share of 1/n³ of the whole curve's.
+  /// The third difference of one of n pieces is 1/n³ of the whole curve's.
   void quadratics_to(const Cubic& cubic) {
     const double off_by =
         std::sqrt(3.0) / 36 * glm::length(cubic.p3 - 3.0 * cubic.p2 + 3.0 * cubic.p1 - cubic.p0);

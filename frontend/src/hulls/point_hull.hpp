@@ -14,11 +14,12 @@ namespace frontend {
 /// grid, however they lie.
 struct PointHull {
   using Triangle = std::array<uint32_t, 3>;
-  /// Of the smallest flat that holds all points: −1 for no points, 3 for a solid.
+  /// The dimension of the smallest flat that holds all points: −1 for no points, 3 for a solid.
   int dimension = -1;
-  /// Of a solid: counterclockwise as seen from outside. Neighbours may lie in one plane.
+  /// A solid's triangles, counterclockwise as seen from outside. Neighbours may lie in one plane.
   std::vector<Triangle> triangles;
-  /// Of a solid, by triangle: those across the edges from corner 0 to 1, 1 to 2 and 2 to 0.
+  /// A solid's triangles, by triangle: those across the edges from corner 0 to 1, 1 to 2 and 2 to
+  /// 0.
   std::vector<Triangle> neighbors;
   /// The points that the boundary has as corners: of a solid in the given order, of a plane polygon
   /// around it, of a line its two ends.

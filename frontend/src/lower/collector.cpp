@@ -430,14 +430,7 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
     return;
   }
   // It is a solid, and all that it would need is collected.
-  const uint32_t root = candidate_->subtree.root();
-  if (options_.picture == PictureKind::kRendered) {
-    if (rendered_dimension_ == 0) rendered_dimension_ = 3;
-    if (rendered_dimension_ == 2) {
-      note_mixing(tree_.nodes[root], 3, problems);
-      plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
-    }
-  }
+  take_rendered_dimension(candidate_->subtree.root(), 3);
   candidate_.reset();
 }
 
@@ -447,15 +440,17 @@ void Collector::leave_candidate() {
   if (!candidate.is_plane) return;
   forget_since(candidate);
   NodeProblems told;  // again
-  if (options_.picture == PictureKind::kRendered) {
-    if (rendered_dimension_ == 0) rendered_dimension_ = 2;
-    if (rendered_dimension_ == 3) {
-      note_mixing(tree_.nodes[candidate.subtree.root()], 2, problems);
-      plane_leaves.push_back({candidate.subtree.root(), 0, Presence::kEmpty, {}, {}, false});
-      return;
-    }
-  }
+  if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
   add_plane_leaf(candidate.subtree, candidate.context, told);
+}
+
+bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
+  if (options_.picture != PictureKind::kRendered) return true;
+  if (rendered_dimension_ == 0) rendered_dimension_ = dimension;
+  if (rendered_dimension_ == dimension) return true;
+  note_mixing(tree_.nodes[root], dimension, problems);
+  plane_leaves.push_back({root, 0, Presence::kEmpty, {}, {}, false});
+  return false;
 }
 
 void Collector::forget_since(const Candidate& candidate) {

@@ -121,6 +121,9 @@ class Collector final : public NodeSink {
   void enter_candidate(uint32_t node, uint32_t offset);
   void take_into_candidate(uint32_t node, uint32_t id);
   void leave_candidate();
+  /// Returns whether a final render keeps a part of that dimension; one that it does not is empty,
+  /// and told of.
+  bool take_rendered_dimension(uint32_t root, int dimension);
   void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf);

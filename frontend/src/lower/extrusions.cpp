@@ -33,13 +33,6 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
   return place;
 }
 
-bool has_operation_but_union(const CsgTree& tree) {
-  const auto tokens = tree.tokens();
-  return std::any_of(tokens.begin(), tokens.end(), [](const auto& token) {
-    return !token.is_primitive && token.op != Op::kUnion;
-  });
-}
-
 /// A solid of more edges is not looked at to find its box: a ray may meet them all.
 constexpr size_t kMostLookedAtEdges = 2000;
 
@@ -62,7 +55,7 @@ class Extruding {
         problems_(problems),
         data_(subtree.data<LinearExtrudeNode>(subtree.root())) {
     const LinearExtrudeArguments& given = data_.arguments;
-    layers_.z_min = given.is_centered ? -given.height / 2 : 0;
+    layers_.z_min = given.z_min();
     layers_.z_max = layers_.z_min + given.height;
     layers_.twist = given.twist;
     layers_.top_scale = given.top_scale;
@@ -205,7 +198,7 @@ LoweredSubtree extrude(const FigureTree& figures, const Layers& layers, bool is_
         return LoweredSubtree::Part{std::move(*primitive), placed.frame,
                                     mapped(root_to_world, box)};
       });
-  result.is_union = !has_operation_but_union(figures.tree) && !whole.empty();
+  result.is_union = is_union(figures.tree) && !whole.empty();
   if (result.is_union) result.box = mapped(root_to_world, whole);
   return result;
 }

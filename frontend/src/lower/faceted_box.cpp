@@ -12,6 +12,15 @@ csgcore::Box faceted_box(const csgcore::Primitive& primitive,
   return mapped(primitive.local_to_world, local);
 }
 
+bool is_axis_aligned(const csgcore::Affine& map) {
+  for (int column = 0; column < 3; ++column) {
+    int entries = 0;
+    for (int row = 0; row < 3; ++row) entries += map.linear[column][row] != 0;
+    if (entries > 1) return false;
+  }
+  return true;
+}
+
 csgcore::Box mapped(const csgcore::Affine& map, const csgcore::Box& box) {
   const csgcore::Vec3 half = 0.5 * box.size();
   const csgcore::Vec3 reach = glm::abs(map.linear[0]) * half.x + glm::abs(map.linear[1]) * half.y +

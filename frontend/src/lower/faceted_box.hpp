@@ -11,6 +11,9 @@ namespace frontend {
 csgcore::Box faceted_box(const csgcore::Primitive& primitive,
                          const csgcore::FacetSettings& settings);
 
+/// Returns whether the map takes each coordinate axis along one of them, or to nothing.
+bool is_axis_aligned(const csgcore::Affine& map);
+
 /// The box of the corners of a box under a map.
 csgcore::Box mapped(const csgcore::Affine& map, const csgcore::Box& box);
 

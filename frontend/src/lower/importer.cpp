@@ -12,6 +12,7 @@
 #include "heal/healing.hpp"
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
+#include "lower/faceted_box.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
 #include "lower/plane_lowering.hpp"
@@ -263,15 +264,6 @@ Box union_of(std::span<const Box> boxes) {
   Box result;
   for (const Box& box : boxes) result.merge(box);
   return result;
-}
-
-bool is_axis_aligned(const csgcore::Affine& map) {
-  for (int column = 0; column < 3; ++column) {
-    int entries = 0;
-    for (int row = 0; row < 3; ++row) entries += map.linear[column][row] != 0;
-    if (entries > 1) return false;
-  }
-  return true;
 }
 
 /// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of

@@ -158,4 +158,11 @@ Box box_of_positive_leaves(const LeafTree& tree, std::span<const Box> boxes) {
   return result;
 }
 
+bool is_union(const csgcore::CsgTree& tree) {
+  const auto tokens = tree.tokens();
+  return std::all_of(tokens.begin(), tokens.end(), [](const csgcore::CsgToken& token) {
+    return token.is_primitive || token.op == csgcore::Op::kUnion;
+  });
+}
+
 }  // namespace frontend

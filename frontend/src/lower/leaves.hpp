@@ -57,6 +57,9 @@ class Leaves {
   std::vector<Compound> compound_;
 };
 
+/// Returns whether the tree has no operation but unions.
+bool is_union(const csgcore::CsgTree& tree);
+
 /// Calls `builder` as for the subtree whose tokens these are, with add(builder, index) for each
 /// leaf. Subtrees whose root is_empty(root) is true for, given the index of its token, are empty
 /// operands.

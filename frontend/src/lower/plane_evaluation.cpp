@@ -270,22 +270,12 @@ std::optional<std::vector<Figure>> PlaneEvaluation::figures_of_minkowski(uint32_
 }
 
 PlaneMap PlaneEvaluation::map_of_resize(uint32_t node, std::span<const Figure> figures) const {
-  const ResizeArguments& arguments = subtree_.data<ResizeArguments>(node);
   Rectangle box;
   for (const Figure& figure : figures) box.merge(bounds_of(figure));
   PlaneMap map;
   if (box.empty()) return map;
-  const Vec2 size = box.max - box.min;
-  Vec2 factor(1.0);
-  for (int axis = 0; axis < 2; ++axis) {
-    const double wanted = arguments.size[static_cast<size_t>(axis)];
-    if (wanted > 0 && size[axis] > 0) factor[axis] = wanted / size[axis];
-  }
-  const int leading = arguments.size[1] > arguments.size[0] ? 1 : 0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto i = static_cast<size_t>(axis);
-    if (arguments.size[i] <= 0 && arguments.follows[i]) factor[axis] = factor[leading];
-  }
+  const csgcore::Vec3 factor =
+      subtree_.data<ResizeArguments>(node).factors(csgcore::Vec3(box.max - box.min, 0), 2);
   map.linear = glm::dmat2(factor.x, 0, 0, factor.y);
   return map;
 }

@@ -239,6 +239,21 @@ ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node) {
   return result;
 }
 
+csgcore::Vec3 ResizeArguments::factors(const csgcore::Vec3& box_size, int axes) const {
+  csgcore::Vec3 result(1.0);
+  size_t leading = 0;
+  for (int axis = 0; axis < axes; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    if (size[i] > 0 && box_size[axis] > 0) result[axis] = size[i] / box_size[axis];
+    if (size[i] > size[leading]) leading = i;
+  }
+  for (int axis = 0; axis < axes; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    if (size[i] <= 0 && follows[i]) result[axis] = result[static_cast<int>(leading)];
+  }
+  return result;
+}
+
 LinearExtrudeArguments read_linear_extrude(const SyntaxTree& tree, const SyntaxNode& node,
                                            NodeProblems& problems) {
   LinearExtrudeArguments result;

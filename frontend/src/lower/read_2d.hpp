@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "csgcore/facets.hpp"
+#include "csgcore/geometry.hpp"
 #include "frontend/syntax_tree.hpp"
 #include "lower/node_problems.hpp"
 #include "plane/figure.hpp"
@@ -33,12 +34,18 @@ OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node);
 struct ResizeArguments {
   std::array<double, 3> size{};
   std::array<bool, 3> follows{};  // `auto`
+
+  /// Returns the factors by which a box of that size is scaled, of the first `axes` axes; those of
+  /// others are 1.
+  csgcore::Vec3 factors(const csgcore::Vec3& box_size, int axes) const;
 };
 ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
 
 struct LinearExtrudeArguments {
   double height = 100;  // ≤ 0: nothing
   bool is_centered = false;
+  /// Of the bottom.
+  double z_min() const { return is_centered ? -height / 2 : 0; }
   double twist = 0;                // degrees, clockwise
   Vec2 top_scale{1.0};             // ≥ 0
   Vec2 lean{0.0};                  // how far the top is moved against the bottom

@@ -22,22 +22,6 @@ using csgcore::Vec3;
 
 constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
 
-/// The factors by which resize() scales a box.
-Vec3 resize_factors(const ResizeArguments& arguments, const Vec3& size) {
-  Vec3 factors(1.0);
-  int leading = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double wanted = arguments.size[static_cast<size_t>(axis)];
-    if (wanted > 0 && size[axis] > 0) factors[axis] = wanted / size[axis];
-    if (wanted > arguments.size[static_cast<size_t>(leading)]) leading = axis;
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<size_t>(axis);
-    if (arguments.size[i] <= 0 && arguments.follows[i]) factors[axis] = factors[leading];
-  }
-  return factors;
-}
-
 }  // namespace
 
 std::optional<SolidValue> SolidEvaluation::run() {
@@ -56,7 +40,7 @@ void SolidEvaluation::fail(std::string_view why) {
   if (failure_.empty()) failure_ = why;
 }
 
-/// Of the operands that count, in their order; they are gone then.
+/// Returns the values of the operands that count, in their order; the nodes lose them.
 std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
   std::vector<SolidValue> result;
   planes_.visit_operands(node, [&](uint32_t child) {
@@ -150,7 +134,7 @@ SolidValue SolidEvaluation::extruded(uint32_t node) {
     return {};
   }
   if (!(arguments.height > 0)) return {};
-  const double z_min = arguments.is_centered ? -arguments.height / 2 : 0;
+  const double z_min = arguments.z_min();
   const Layers layers{z_min, z_min + arguments.height, arguments.top_scale.x};
   std::vector<SolidPart> parts;
   for (const Figure& figure : planes_.union_of_operands(node)) {
@@ -239,7 +223,7 @@ SolidValue SolidEvaluation::resized(uint32_t node) {
   Box box;
   for (const SolidPart& part : united(result)) box.merge(part.box);
   if (box.empty()) return {};
-  const Vec3 factors = resize_factors(subtree_.data<ResizeArguments>(node), box.size());
+  const Vec3 factors = subtree_.data<ResizeArguments>(node).factors(box.size(), 3);
   Affine map;
   for (int axis = 0; axis < 3; ++axis) map.linear[axis][axis] = factors[axis];
   result.map(map);

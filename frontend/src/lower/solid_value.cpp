@@ -22,15 +22,6 @@ using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
 
-bool is_axis_aligned(const Affine& map) {
-  for (int column = 0; column < 3; ++column) {
-    int entries = 0;
-    for (int row = 0; row < 3; ++row) entries += map.linear[column][row] != 0;
-    if (entries > 1) return false;
-  }
-  return true;
-}
-
 template <typename Points>
 Box box_of_points(const Affine& map, const Points& points) {
   Box box;
@@ -127,12 +118,7 @@ SolidPart part_of(SupportSet body, const Box& box) {
   return part;
 }
 
-bool SolidValue::is_union() const {
-  const auto tokens = tree.tokens();
-  return std::all_of(tokens.begin(), tokens.end(), [](const csgcore::CsgToken& token) {
-    return token.is_primitive || token.op == Op::kUnion;
-  });
-}
+bool SolidValue::is_union() const { return frontend::is_union(tree); }
 
 Box SolidValue::box() const {
   Box result;
