@@ -61,6 +61,13 @@ const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::
   return positional;
 }
 
+std::optional<double> number_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                      std::string_view name, size_t position) {
+  const Value* value = find_argument(tree, node, name, position);
+  if (value == nullptr || value->kind != ValueKind::kNumber) return std::nullopt;
+  return value->number;
+}
+
 std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,
                                      std::string_view name, size_t position,
                                      NodeProblems& problems) {

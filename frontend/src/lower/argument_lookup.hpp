@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,10 @@ constexpr size_t kByNameOnly = std::numeric_limits<size_t>::max();
 /// null if there is none.
 const Value* find_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
                            size_t position);
+
+/// Returns the number of that name or place; nothing where it is missing, or is none.
+std::optional<double> number_argument(const SyntaxTree& tree, const SyntaxNode& node,
+                                      std::string_view name, size_t position = kByNameOnly);
 
 /// Returns the elements of the list of that name or place; none where it is missing.
 std::span<const Value> list_argument(const SyntaxTree& tree, const SyntaxNode& node,

@@ -32,13 +32,6 @@ std::optional<Vec2> pair_of(const SyntaxTree& tree, const Value& value) {
   return Vec2(elements[0].number, elements[1].number);
 }
 
-std::optional<double> number_argument(const SyntaxTree& tree, const SyntaxNode& node,
-                                      std::string_view name, size_t position = kByNameOnly) {
-  const Value* value = find_argument(tree, node, name, position);
-  if (value == nullptr || value->kind != ValueKind::kNumber) return std::nullopt;
-  return value->number;
-}
-
 bool is_true(const Value* value) {
   return value != nullptr && value->kind == ValueKind::kBool && value->boolean;
 }

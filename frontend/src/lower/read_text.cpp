@@ -33,12 +33,6 @@ std::string_view string_argument(const SyntaxTree& tree, const SyntaxNode& node,
   return is_string ? tree.text_of(*value) : std::string_view();
 }
 
-double number_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_view name,
-                       size_t position, double otherwise) {
-  const Value* value = find_argument(tree, node, name, position);
-  return value != nullptr && value->kind == ValueKind::kNumber ? value->number : otherwise;
-}
-
 /// Returns the words as a sentence has them: "left", "right" or "center".
 template <typename Words>
 std::string listed(const Words& words) {
@@ -74,9 +68,9 @@ auto align_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_
 TextSettings read_text(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
   TextSettings result;
   result.letters.text = string_argument(tree, node, "text", 0);
-  result.size = number_argument(tree, node, "size", 1, result.size);
+  result.size = number_argument(tree, node, "size", 1).value_or(result.size);
   result.font = string_argument(tree, node, "font", 2);
-  result.spacing = number_argument(tree, node, "spacing", kByNameOnly, result.spacing);
+  result.spacing = number_argument(tree, node, "spacing").value_or(result.spacing);
   result.letters.direction = string_argument(tree, node, "direction");
   result.letters.script = string_argument(tree, node, "script");
   result.letters.language = string_argument(tree, node, "language");

@@ -106,12 +106,6 @@ double reach_of(const SimplePolygons& outline) {
   return reach;
 }
 
-double edge_count(const SimplePolygons& outline) {
-  double count = 0;
-  for (const Polygon& polygon : outline) count += static_cast<double>(polygon.size());
-  return count;
-}
-
 Polygon cut(const Polygon& polygon, const std::vector<int>& count) {
   Polygon result;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -124,9 +118,10 @@ Polygon cut(const Polygon& polygon, const std::vector<int>& count) {
   return result;
 }
 
-int affordable_slices(double slices, double edges) {
-  return static_cast<int>(std::clamp(std::trunc(slices), 1.0,
-                                     std::max(1.0, std::floor(kMostSideTriangles / (2 * edges)))));
+int affordable_slices(double slices, size_t edges) {
+  return static_cast<int>(
+      std::clamp(std::trunc(slices), 1.0,
+                 std::max(1.0, std::floor(kMostSideTriangles / (2 * static_cast<double>(edges))))));
 }
 
 double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,

@@ -35,12 +35,6 @@ double slice_count(const TwistedLayers& layers, const SimplePolygons& outline,
 
 /// Returns the largest distance of the outline from the origin.
 double reach_of(const SimplePolygons& outline);
-double edge_count(const SimplePolygons& outline);
-/// Calls visit(start, end) for each edge.
-template <typename Visit>
-void visit_edges(const Polygon& polygon, const Visit& visit) {
-  for (size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[(i + 1) % polygon.size()]);
-}
 /// Cuts each edge into as many pieces of equal length as `count` has for it.
 Polygon cut(const Polygon& polygon, const std::vector<int>& count);
 
@@ -56,7 +50,7 @@ struct Slicing {
 /// The most triangles of the sides of an extrusion.
 constexpr double kMostSideTriangles = 1 << 20;
 /// Returns the slices without their fraction, or as many as kMostSideTriangles allows.
-int affordable_slices(double slices, double edges);
+int affordable_slices(double slices, size_t edges);
 
 /// Returns OpenSCAD's slices, with edges that are cut to get `segments` of them for each polygon,
 /// if that is given. There are fewer slices if the triangles would be more than kMostSideTriangles.

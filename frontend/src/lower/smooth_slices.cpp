@@ -104,8 +104,9 @@ std::optional<Slicing> round_slicing(const TwistedLayers& layers, double slices,
 
 Slicing between_images(const TwistedLayers& layers, double slices, SimplePolygons outline) {
   const double reach = reach_of(outline) * layers.largest_scale();
-  const double edges = edge_count(outline);
-  const double most = std::max(kMostSmoothTriangles, 2 * edges * affordable_slices(slices, edges));
+  const size_t edges = edge_count(outline);
+  const double most = std::max(kMostSmoothTriangles,
+                               2 * static_cast<double>(edges) * affordable_slices(slices, edges));
   for (double tolerance = kSmoothTolerance * reach; tolerance <= reach; tolerance *= 2) {
     const double wanted = std::max(slices, slices_within(layers, outline, reach, tolerance));
     Pieces pieces;

@@ -396,6 +396,12 @@ Rectangle bounds_of(std::span<const Polygon> polygons) {
   return result;
 }
 
+size_t edge_count(std::span<const Polygon> polygons) {
+  size_t count = 0;
+  for (const Polygon& polygon : polygons) count += polygon.size();
+  return count;
+}
+
 double signed_area(const Polygon& polygon) {
   double twice = 0;
   for (size_t i = 0; i < polygon.size(); ++i) {

@@ -1,6 +1,7 @@
 // Plane figures, as OpenSCAD's 2D nodes make them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <variant>
@@ -71,6 +72,14 @@ Rectangle bounds_of(const Figure& figure);
 /// Returns the bounds of the figure's image.
 Rectangle bounds_of(const PlaneMap& map, const Figure& figure);
 Rectangle bounds_of(std::span<const Polygon> polygons);
+
+size_t edge_count(std::span<const Polygon> polygons);
+
+/// Calls visit(start, end) for each edge.
+template <typename Visit>
+void visit_edges(const Polygon& polygon, const Visit& visit) {
+  for (size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[(i + 1) % polygon.size()]);
+}
 
 /// Returns the area of a polygon that does not cross itself, negative if it runs clockwise.
 double signed_area(const Polygon& polygon);

@@ -114,21 +114,11 @@ Polygon sum_of_convex(const Polygon& first, const Polygon& second) {
 /// Calls visit(start, end) for each edge.
 template <typename Visit>
 void visit_edges(const SimplePolygons& polygons, const Visit& visit) {
-  for (const Polygon& polygon : polygons) {
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      visit(polygon[i], polygon[(i + 1) % polygon.size()]);
-    }
-  }
+  for (const Polygon& polygon : polygons) frontend::visit_edges(polygon, visit);
 }
 
 /// More corners of parts than this would have too many crossings anyway.
 constexpr size_t kMostParts = 1 << 18;
-
-size_t edge_count(const SimplePolygons& polygons) {
-  size_t count = 0;
-  for (const Polygon& polygon : polygons) count += polygon.size();
-  return count;
-}
 
 Figure filled(SimplePolygons polygons) {
   return outline_of(std::move(polygons), FillRule::kNonZero);
