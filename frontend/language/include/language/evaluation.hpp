@@ -1,0 +1,69 @@
+// OpenSCAD's language: from the text of a design to its tree of nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/node.hpp"
+#include "language/source_files.hpp"
+
+namespace language {
+
+struct EvaluationOptions {
+  std::vector<std::string> definitions;       // -D, in order, as typed
+  std::string parameter_file, parameter_set;  // -p, -P; empty: none
+  bool hard_warnings = false;                 // --hardwarnings
+  bool check_parameters = true;               // --check-parameters
+  bool check_ranges = false;                  // --check-parameter-ranges
+  bool is_preview = true;                     // $preview
+  double time = 0;                            // $t
+  std::stop_token stop;
+};
+
+enum class Outcome : uint8_t {
+  kDone,
+  kAborted,     // by an assertion, endless recursion or a hard warning: the tree is empty
+  kNotParsed,   // a syntax error in the main file, or in what it includes
+  kUnreadable,  // the main file cannot be read
+};
+
+/// The camera that a design's own top level sets; absent: it does not assign that variable.
+struct DesignCamera {
+  std::optional<std::array<double, 3>> translation;   // $vpt
+  std::optional<std::array<double, 3>> rotation_deg;  // $vpr
+  std::optional<double> distance;                     // $vpd
+  std::optional<double> field_of_view_deg;            // $vpf
+};
+
+struct Evaluation {
+  Outcome outcome = Outcome::kDone;
+  /// Its children are the design's top-level nodes; itself it is none. Never null.
+  std::shared_ptr<Node> root;
+  std::shared_ptr<const SourceFiles> files;  // what the nodes' places refer to
+  /// Absolute paths of all files that were read, the main one first: sources, parameter sets,
+  /// fonts, and what import() and surface() name.
+  std::vector<std::string> files_read;
+  std::vector<std::string> lookups;  // absolute paths that were tried and did not exist
+  DesignCamera camera;
+  /// What the design uses and this evaluator does not know, with its place; empty: nothing.
+  std::string unknown;
+};
+
+/// Takes the lines that OpenSCAD would print, in order, without the line feed.
+using MessageSink = std::function<void(std::string_view line)>;
+
+/// Evaluates the design in the file `path` ("-": the standard input, whose text is
+/// `standard_input`). All messages go to `sink`, with OpenSCAD's texts, order and suppression
+/// (language.md §7). Throws nothing but Stopped (language/stopped.hpp), within 50 ms of a request
+/// of options.stop.
+Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
+                    const MessageSink& sink, std::string_view standard_input = {});
+
+}  // namespace language

@@ -1,0 +1,44 @@
+// The texts of a design's files, and where their lines begin.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/place.hpp"
+
+namespace language {
+
+struct SourceFile {
+  std::string
+      path;  // absolute and canonical where the file exists; "<stdin>" for the standard input
+  std::string text;  // of the main file and of used ones with what OpenSCAD appends (0x03 and -D)
+  /// Offsets at which lines begin, as OpenSCAD counts them in messages: after each CR and each LF
+  /// in code, and after each LF in comments and strings. The lexer appends them. Line 1 begins at
+  /// 0, which is not listed.
+  std::vector<uint32_t> message_line_starts;
+};
+
+/// Owns the source files of one evaluation. A file that is read twice (included twice) is stored
+/// once.
+class SourceFiles {
+ public:
+  FileId add(SourceFile file);
+  SourceFile& operator[](FileId file) { return files_[file]; }
+  const SourceFile& operator[](FileId file) const { return files_[file]; }
+  FileId size() const { return static_cast<FileId>(files_.size()); }
+
+  /// Returns the line that OpenSCAD's messages name for a place; lines count from 1.
+  uint32_t message_line(Place place) const;
+  /// Returns the line as editors count it: LF only, from 1.
+  uint32_t line(Place place) const;
+  /// Returns the column in bytes, from 1, of a place within its line().
+  uint32_t column(Place place) const;
+
+ private:
+  std::deque<SourceFile> files_;  // a deque, so that texts do not move
+};
+
+}  // namespace language

@@ -1,0 +1,33 @@
+// Identifiers of a design, each stored once.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace language {
+
+/// An identifier; equal identifiers of one NameTable have equal numbers.
+using Name = uint32_t;
+constexpr Name kNoName = 0xFFFFFFFFu;
+
+class NameTable {
+ public:
+  /// Returns the number of an identifier, which is stored at its first use.
+  Name intern(std::string_view text);
+  /// Returns the number of an identifier that is stored, or kNoName.
+  Name find(std::string_view text) const;
+  /// Returns an identifier with its `$`, if it has one. The text stays where it is.
+  std::string_view text(Name name) const { return texts_[name]; }
+  /// Returns whether a name is looked up dynamically: whether it begins with `$`.
+  bool is_dynamic(Name name) const { return texts_[name].front() == '$'; }
+  size_t size() const { return texts_.size(); }
+
+ private:
+  std::deque<std::string> texts_;  // a deque, whose elements do not move
+  std::unordered_map<std::string_view, Name> numbers_;
+};
+
+}  // namespace language

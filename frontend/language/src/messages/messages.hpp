@@ -1,0 +1,62 @@
+// What an evaluation says: OpenSCAD's messages, in order, with its suppression of repeats.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "language/place.hpp"
+#include "language/source_files.hpp"
+
+namespace language {
+
+enum class MessageGroup : uint8_t { kError, kWarning, kDeprecated, kTrace, kEcho, kPlain };
+
+struct Message {
+  MessageGroup group;
+  std::string text;  // without group and place
+  Place place;       // kNoFile: none is shown
+  std::string line;  // as OpenSCAD prints it: "WARNING: … in file x.scad, line 3"
+};
+
+/// The folder that a message's path is relative to (language.md §7 "Path").
+enum class PathBase : uint8_t { kMainFile, kUnit };
+
+class Messages {
+ public:
+  using Sink = std::function<void(const Message&)>;
+  Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(std::move(sink)) {}
+
+  /// Sets the folder of the main file and of the unit whose code is being evaluated; both absolute.
+  void set_main_folder(std::string folder);
+  void set_unit_folder(std::string_view folder);
+
+  /// Says a message unless it is a repeat that OpenSCAD drops (language.md §7 "Suppression").
+  void say(MessageGroup group, std::string text);
+  void say(MessageGroup group, std::string text, Place place, PathBase base);
+  void warn(std::string text, Place place, PathBase base = PathBase::kMainFile) {
+    say(MessageGroup::kWarning, std::move(text), place, base);
+  }
+
+  /// Returns " in file ‹path›, line ‹n›".
+  std::string place_suffix(Place place, PathBase base) const;
+  /// Returns how many warnings were made, dropped ones too: --hardwarnings stops at the first.
+  size_t warnings() const { return warnings_; }
+
+ private:
+  bool is_repeat(const Message& message);
+
+  const SourceFiles& files_;
+  Sink sink_;
+  std::string main_folder_;
+  std::string unit_folder_;
+  std::deque<std::string> last_lines_;            // the last five of ERROR, WARNING and TRACE
+  std::unordered_set<std::string> deprecations_;  // that were said
+  size_t warnings_ = 0;
+};
+
+}  // namespace language

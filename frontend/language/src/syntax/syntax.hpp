@@ -1,0 +1,198 @@
+// The syntax tree of OpenSCAD's language (language.md §2), as it is written: nothing is resolved
+// yet.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "base/name_table.hpp"
+#include "language/place.hpp"
+
+namespace language {
+
+// All nodes lie in the arena of their Program (syntax/program.hpp) and need no destruction.
+
+enum class ExpressionKind : uint8_t {
+  kUndef,
+  kBool,
+  kNumber,
+  kString,
+  kVariable,
+  kUnary,
+  kBinary,  // also && and ||
+  kTernary,
+  kIndex,
+  kMember,
+  kCall,
+  kVector,
+  kRange,
+  kFunction,
+  // The same three stand in expressions, and in vectors as comprehensions:
+  kLet,
+  kAssert,
+  kEcho,
+  // Comprehensions, which stand only within vectors:
+  kFor,
+  kForC,
+  kIf,
+  kEach,
+};
+
+enum class UnaryOperator : uint8_t { kNegate, kNot };  // a unary plus leaves no trace
+
+enum class BinaryOperator : uint8_t {
+  kPower,
+  kMultiply,
+  kDivide,
+  kModulo,
+  kAdd,
+  kSubtract,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kEqual,
+  kNotEqual,
+  kAnd,
+  kOr,
+};
+
+struct Expression {
+  ExpressionKind kind;
+  Place place;  // of the first token, as language.md §1 "Line numbers" says
+};
+
+struct Argument {
+  Name name;  // kNoName: positional
+  const Expression* value;
+  Place place;
+};
+
+struct Parameter {
+  Name name;
+  const Expression* value;  // null: no default
+  Place place;
+};
+
+struct BoolExpression : Expression {
+  bool value;
+};
+struct NumberExpression : Expression {
+  double value;
+};
+struct StringExpression : Expression {
+  std::string_view text;  // without quotes, escapes replaced
+};
+struct VariableExpression : Expression {
+  Name name;
+};
+struct UnaryExpression : Expression {
+  UnaryOperator op;
+  const Expression* operand;
+};
+struct BinaryExpression : Expression {
+  BinaryOperator op;
+  const Expression* left;
+  const Expression* right;
+};
+struct TernaryExpression : Expression {
+  const Expression* condition;
+  const Expression* then_value;
+  const Expression* else_value;
+};
+struct IndexExpression : Expression {
+  const Expression* container;
+  const Expression* index;
+};
+struct MemberExpression : Expression {
+  const Expression* container;
+  Name member;
+};
+struct CallExpression : Expression {
+  const Expression* callee;  // a VariableExpression for f(1)
+  std::span<const Argument> arguments;
+};
+struct VectorExpression : Expression {
+  std::span<const Expression* const> elements;  // expressions and comprehensions
+};
+struct RangeExpression : Expression {
+  const Expression* begin;
+  const Expression* step;  // null: not written
+  const Expression* end;
+};
+struct FunctionExpression : Expression {  // function(parameters) body
+  std::span<const Parameter> parameters;
+  const Expression* body;
+};
+struct BodyExpression : Expression {  // kLet, kAssert, kEcho, kFor
+  std::span<const Argument> arguments;
+  const Expression* body;  // null: assert() or echo() without one
+};
+struct ForCExpression : Expression {
+  std::span<const Argument> init;
+  const Expression* condition;
+  std::span<const Argument> increment;
+  const Expression* body;
+};
+struct IfExpression : Expression {
+  const Expression* condition;
+  const Expression* then_element;
+  const Expression* else_element;  // null: none
+};
+struct EachExpression : Expression {
+  const Expression* element;  // an expression or a comprehension
+};
+
+/// Casts to the node type that belongs to the expression's kind.
+template <typename Node>
+const Node& as(const Expression& expression) {
+  return static_cast<const Node&>(expression);
+}
+
+struct Assignment {
+  Name name;
+  const Expression* value;
+  Place place;  // of the name; where a scope assigns it twice, of the first
+};
+
+struct Scope;
+
+/// Bits of ModuleCall::modifiers. What has `*` is dropped by the parser.
+enum CallModifier : uint8_t { kRootModifier = 1, kHighlightModifier = 2, kBackgroundModifier = 4 };
+
+/// A module call, or an `if`, whose name is kNoName.
+struct ModuleCall {
+  Name name;
+  uint8_t modifiers = 0;
+  Place place;  // of the name; of an `if`, of its `)`
+  std::span<const Argument> arguments;
+  const Expression* condition = nullptr;  // of an `if`
+  const Scope* children = nullptr;        // never null: empty if there are none
+  const Scope* else_children = nullptr;   // of an `if` with `else`
+};
+
+struct FunctionDefinition {
+  Name name;
+  Place place;
+  std::span<const Parameter> parameters;
+  const Expression* body;
+};
+
+struct ModuleDefinition {
+  Name name;
+  Place place;  // of the `)` that ends its parameters
+  std::span<const Parameter> parameters;
+  const Scope* body;
+};
+
+/// A file's top level, a module's body or a child block. Each list is in source order; of names
+/// that are defined twice the definition that counts stands in the list, once.
+struct Scope {
+  std::span<const Assignment> assignments;  // place of the first, expression of the last
+  std::span<const FunctionDefinition> functions;
+  std::span<const ModuleDefinition> modules;
+  std::span<const ModuleCall> calls;
+};
+
+}  // namespace language
