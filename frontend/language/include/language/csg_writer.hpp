@@ -1,4 +1,4 @@
-// The text of a .csg, as OpenSCAD writes it (language.md §8).
+// The text of a .csg, as OpenSCAD writes it (LANGUAGE.md, "The .csg writer").
 #pragma once
 
 #include <string>

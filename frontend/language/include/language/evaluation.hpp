@@ -61,8 +61,8 @@ using MessageSink = std::function<void(std::string_view line)>;
 
 /// Evaluates the design in the file `path` ("-": the standard input, whose text is
 /// `standard_input`). All messages go to `sink`, with OpenSCAD's texts, order and suppression
-/// (language.md §7). Throws nothing but Stopped (language/stopped.hpp), within 50 ms of a request
-/// of options.stop.
+/// (LANGUAGE.md, "Messages"). Throws nothing but Stopped (language/stopped.hpp), within 50 ms of a
+/// request of options.stop.
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
                     const MessageSink& sink, std::string_view standard_input = {});
 

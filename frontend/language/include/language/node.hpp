@@ -12,7 +12,7 @@
 
 namespace language {
 
-/// How the .csg writer spells an argument (language.md §6 and §8).
+/// How the .csg writer spells an argument (LANGUAGE.md, "Builtin modules").
 enum class ArgumentStyle : uint8_t {
   kGeneral,        // "%g" numbers, vectors as [G, G]
   kGeneralTight,   // the same without blanks: [G,G,G]

@@ -87,7 +87,7 @@ class Value {
   const FunctionObject& function() const;
   SharedObject* object() const { return object_; }
 
-  /// Returns OpenSCAD's truth: false are false, 0, "", [] and undef (language.md §4).
+  /// Returns OpenSCAD's truth: false are false, 0, "", [] and undef (LANGUAGE.md, "Values").
   bool is_true() const;
 
  private:

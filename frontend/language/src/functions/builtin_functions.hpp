@@ -1,4 +1,4 @@
-// OpenSCAD's builtin functions (language.md §5).
+// OpenSCAD's builtin functions (LANGUAGE.md, "Builtin functions").
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ struct Message {
   std::string line;  // as OpenSCAD prints it: "WARNING: … in file x.scad, line 3"
 };
 
-/// The folder that a message's path is relative to (language.md §7 "Path").
+/// The folder that a message's path is relative to (LANGUAGE.md, "Messages").
 enum class PathBase : uint8_t { kMainFile, kUnit };
 
 class Messages {
@@ -35,7 +35,7 @@ class Messages {
   void set_main_folder(std::string folder);
   void set_unit_folder(std::string_view folder);
 
-  /// Says a message unless it is a repeat that OpenSCAD drops (language.md §7 "Suppression").
+  /// Says a message unless it is a repeat that OpenSCAD drops (LANGUAGE.md, "Messages").
   void say(MessageGroup group, std::string text);
   void say(MessageGroup group, std::string text, Place place, PathBase base);
   void warn(std::string text, Place place, PathBase base = PathBase::kMainFile) {

@@ -1,4 +1,4 @@
-// OpenSCAD's builtin modules, from their arguments to nodes (language.md §6).
+// OpenSCAD's builtin modules, from their arguments to nodes (LANGUAGE.md, "Builtin modules").
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The syntax tree of OpenSCAD's language (language.md §2), as it is written: nothing is resolved
-// yet.
+// The syntax tree of OpenSCAD's language (LANGUAGE.md, "Grammar"), as it is written: nothing is
+// resolved yet.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ enum class BinaryOperator : uint8_t {
 
 struct Expression {
   ExpressionKind kind;
-  Place place;  // of the first token, as language.md §1 "Line numbers" says
+  Place place;  // of the first token, as LANGUAGE.md, "Text" says
 };
 
 struct Argument {
