@@ -81,9 +81,9 @@ std::optional<Disc> half_disc(const Figure& figure) {
   return *disc;
 }
 
-/// The azimuths of the rings, in degrees. A partial turn has one more beyond each end, within what
-/// is cut away.
-std::vector<double> azimuths_of(const TurnSections& sections) {
+/// The azimuths of the rings, in degrees. A partial turn that goes on beyond its ends has one more
+/// there, within what is cut away.
+std::vector<double> azimuths_of(const TurnSections& sections, MeshEnds ends) {
   std::vector<double> result;
   for (int ring = 0; ring < sections.count; ++ring) {
     const double turn = sections.angle * ring / sections.count;
@@ -91,10 +91,12 @@ std::vector<double> azimuths_of(const TurnSections& sections) {
   }
   if (sections.is_closed()) return result;
   const double end = sections.start + sections.angle;
+  result.push_back(end);
+  if (ends == MeshEnds::kExact) return result;
   const double beyond =
       std::copysign(std::min((360 - std::abs(sections.angle)) / 3, 60.0), sections.angle);
   result.insert(result.begin(), sections.start - beyond);
-  result.insert(result.end(), {end, end + beyond});
+  result.push_back(end + beyond);
   return result;
 }
 
@@ -178,11 +180,11 @@ std::optional<Primitive> FigureSolids::revolved(const Figure& figure) {
   return csgcore::make_revolution(profile(outline));
 }
 
-Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
-                                      const TurnSections& sections) {
+Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons, const TurnSections& sections,
+                                      MeshEnds ends) {
   std::vector<Vec3> vertices;
   std::vector<csgcore::TriangleMesh::Triangle> triangles;
-  const std::vector<double> azimuths = azimuths_of(sections);
+  const std::vector<double> azimuths = azimuths_of(sections, ends);
   const bool is_left = bounds_of(polygons).min.x < 0;
   const bool is_reversed = (sections.angle > 0 && !sections.is_closed()) != is_left;
   std::map<std::pair<double, double>, uint32_t> on_axis;

@@ -41,15 +41,20 @@ class SlicedMesh {
     }
   }
 
-  csgcore::Primitive make() {
+  csgcore::Primitive make(MeshEnds ends) {
     const bool has_top = layers_.top_scale.x > 0 && layers_.top_scale.y > 0;
     add_layers(has_top);
     for (const Loop& loop : loops_) add_sides(loop, has_top);
-    go_on(0, layers_.z_min - kBeyondEnd * height());
-    if (has_top) {
+    const bool goes_on = ends == MeshEnds::kBeyond;
+    if (goes_on) {
+      go_on(0, layers_.z_min - kBeyondEnd * height());
+    } else {
+      close_at(0);
+    }
+    if (goes_on && has_top) {
       go_on(slices_, layers_.z_max + kBeyondEnd * height());
     } else {
-      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
+      close_at(slices_);
     }
     return csgcore::make_mesh(
         std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
@@ -164,6 +169,10 @@ class SlicedMesh {
     return result;
   }
 
+  void close_at(uint32_t layer) {
+    for (const Loop& loop : loops_) close(vertices_of(loop, layer), layer == 0);
+  }
+
   void close(std::vector<uint32_t> ring, bool is_bottom) {
     if (is_bottom) std::reverse(ring.begin(), ring.end());
     close_ring(std::move(ring), triangles_);
@@ -182,8 +191,8 @@ class SlicedMesh {
 
 }  // namespace
 
-csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing) {
-  return SlicedMesh(layers, slicing).make();
+csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing, MeshEnds ends) {
+  return SlicedMesh(layers, slicing).make(ends);
 }
 
 csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline) {
