@@ -32,6 +32,9 @@ struct TurnSections {
   bool is_closed() const { return angle == 360; }
 };
 
+/// More sections of a turn cannot be told from a round solid.
+constexpr int kMostSections = 3600;
+
 /// Makes the solids of a design. Those that have the same local solid share it.
 class FigureSolids {
  public:

@@ -56,8 +56,6 @@ class Revolving {
   }
 
  private:
-  /// More sections cannot be told from a round solid.
-  static constexpr int kMostSections = 3600;
   /// OpenSCAD's grid: a profile that reaches less beyond the axis touches it.
   static constexpr double kReachBeyondAxis = 0x1p-16;
 

@@ -1,7 +1,6 @@
 #include "lower/solid_evaluation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "lower/sections.hpp"
 #include "lower/shadows.hpp"
 #include "lower/solid_cuts.hpp"
+#include "lower/solid_extrusions.hpp"
 #include "lower/solid_sums.hpp"
 
 namespace frontend {
@@ -173,41 +173,18 @@ SolidValue SolidEvaluation::solid_of_faces(const SolidOfFaces* solid) {
 }
 
 SolidValue SolidEvaluation::extruded(uint32_t node) {
-  const LinearExtrudeArguments& arguments = subtree_.data<LinearExtrudeNode>(node).arguments;
-  const bool has_plain_scale = arguments.top_scale.x == arguments.top_scale.y;
-  if (arguments.twist != 0 || !has_plain_scale || arguments.lean != Vec2(0.0)) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
-  if (!(arguments.height > 0)) return {};
-  const double z_min = arguments.z_min();
-  const Layers layers{z_min, z_min + arguments.height, arguments.top_scale.x};
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : planes_.union_of_operands(node)) {
-    std::optional<Primitive> primitive = sources_.figures.extruded(figure, layers);
-    if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
-  }
-  return union_of(std::move(parts));
+  return value_or_failure(extruded_parts(subtree_.data<LinearExtrudeNode>(node),
+                                         planes_.union_of_operands(node), sources_.figures));
 }
 
 SolidValue SolidEvaluation::revolved(uint32_t node) {
-  const RotateExtrudeArguments& arguments = subtree_.data<RotateExtrudeNode>(node).arguments;
-  const std::vector<Figure> figures = planes_.union_of_operands(node);
-  Rectangle reach;
-  for (const Figure& figure : figures) reach.merge(bounds_of(figure));
-  const bool is_on_both_sides = reach.min.x < 0 && reach.max.x > 0;
-  if (std::abs(arguments.angle) != 360 || is_on_both_sides) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
-  PlaneMap to_right;
-  if (reach.min.x < 0) to_right.linear[0].x = -1;
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : figures) {
-    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
-    if (primitive) parts.push_back(part_of(std::move(*primitive), arguments.facets));
-  }
-  return union_of(std::move(parts));
+  return value_or_failure(revolved_parts(subtree_.data<RotateExtrudeNode>(node),
+                                         planes_.union_of_operands(node), sources_.figures));
+}
+
+SolidValue SolidEvaluation::value_or_failure(std::optional<std::vector<SolidPart>> parts) {
+  if (!parts) fail(kBecauseExtrusion);
+  return parts ? union_of(std::move(*parts)) : SolidValue();
 }
 
 SolidValue SolidEvaluation::hull(uint32_t node) {

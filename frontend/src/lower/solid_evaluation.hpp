@@ -51,6 +51,7 @@ class SolidEvaluation {
   SolidValue round_solid(const RoundNode& round);
   SolidValue extruded(uint32_t node);
   SolidValue revolved(uint32_t node);
+  SolidValue value_or_failure(std::optional<std::vector<SolidPart>> parts);
   SolidValue hull(uint32_t node);
   SolidValue minkowski(uint32_t node);
   SolidValue resized(uint32_t node);
