@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "meshes/ring_cap.hpp"
+#include "meshes/ring_faces.hpp"
 
 namespace frontend {
 namespace {
@@ -49,12 +51,14 @@ class SlicedMesh {
     if (goes_on) {
       go_on(0, layers_.z_min - kBeyondEnd * height());
     } else {
-      close_at(0);
+      add_face(0);
     }
-    if (goes_on && has_top) {
+    if (!has_top) {
+      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
+    } else if (goes_on) {
       go_on(slices_, layers_.z_max + kBeyondEnd * height());
     } else {
-      close_at(slices_);
+      add_face(slices_);
     }
     return csgcore::make_mesh(
         std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
@@ -169,8 +173,19 @@ class SlicedMesh {
     return result;
   }
 
-  void close_at(uint32_t layer) {
-    for (const Loop& loop : loops_) close(vertices_of(loop, layer), layer == 0);
+  /// The rings of a layer bound a face.
+  void add_face(uint32_t layer) {
+    std::vector<std::vector<uint32_t>> rings;
+    for (const Loop& loop : loops_) rings.push_back(loop.points);
+    const size_t first = triangles_.size();
+    const auto plan = plan_.begin() + static_cast<std::ptrdiff_t>(layer * points_.size());
+    triangulate_rings(rings, {plan, plan + static_cast<std::ptrdiff_t>(points_.size())},
+                      triangles_);
+    for (size_t i = first; i < triangles_.size(); ++i) {
+      auto& [a, b, c] = triangles_[i];
+      for (uint32_t* corner : {&a, &b, &c}) *corner = vertex_[layer * points_.size() + *corner];
+      if (layer == 0) std::swap(b, c);
+    }
   }
 
   void close(std::vector<uint32_t> ring, bool is_bottom) {
