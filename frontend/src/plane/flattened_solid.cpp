@@ -113,6 +113,61 @@ std::vector<Arc> boundary_of(std::vector<PlanEdge> edges) {
   return arcs;
 }
 
+using Triangles = std::span<const std::array<uint32_t, 3>>;
+
+/// Returns the union of the triangles' images, which run counterclockwise.
+std::optional<SimplePolygons> united_plan(const TriangleSet& solid, Triangles triangles) {
+  std::vector<PlanEdge> edges;
+  for (const std::array<uint32_t, 3>& triangle : triangles) add_edges(triangle, edges);
+  Polygons polygons;
+  for (const std::vector<uint64_t>& walk : closed_walks(boundary_of(std::move(edges)))) {
+    Polygon& polygon = polygons.emplace_back();
+    for (const uint64_t vertex : walk) polygon.push_back(plan_of(solid.vertices[vertex]));
+  }
+  const Figure figure = outline_of(std::move(polygons), FillRule::kNonZero);
+  return united(std::span(&figure, 1));
+}
+
+/// Removes holes that rounding has left between groups of triangles: they are thinner than what is
+/// rounded, by a share of the size.
+void remove_cracks(SimplePolygons& polygons) {
+  constexpr double kRounding = 0x1p-24;
+  const Rectangle box = bounds_of(polygons);
+  const double thinnest = kRounding * glm::length(box.max - box.min);
+  std::erase_if(polygons, [&](const Polygon& polygon) {
+    double length = 0;
+    visit_edges(polygon, [&](const Vec2& a, const Vec2& b) { length += glm::length(b - a); });
+    const double area = signed_area(polygon);
+    return area <= 0 && -area < thinnest * length;
+  });
+}
+
+/// Returns the same, for triangles of a rough solid: what lies over each other within a group of
+/// neighbours is gone before groups are united.
+std::optional<SimplePolygons> united_in_groups(const TriangleSet& solid, Triangles triangles) {
+  constexpr size_t kGroup = 64;
+  std::vector<SimplePolygons> groups;
+  for (size_t first = 0; first < triangles.size(); first += kGroup) {
+    const size_t count = std::min(kGroup, triangles.size() - first);
+    std::optional<SimplePolygons> group = united_plan(solid, triangles.subspan(first, count));
+    if (!group) return std::nullopt;
+    groups.push_back(std::move(*group));
+  }
+  while (groups.size() > 1) {
+    std::vector<SimplePolygons> larger;
+    for (size_t i = 0; i + 1 < groups.size(); i += 2) {
+      std::optional<SimplePolygons> both =
+          combined(csgcore::Op::kUnion, std::span(groups).subspan(i, 2));
+      if (!both) return std::nullopt;
+      remove_cracks(*both);
+      larger.push_back(std::move(*both));
+    }
+    if (groups.size() % 2 != 0) larger.push_back(std::move(groups.back()));
+    groups = std::move(larger);
+  }
+  return groups.empty() ? SimplePolygons{} : std::move(groups.front());
+}
+
 }  // namespace
 
 std::vector<Figure> section_of(const TriangleSet& solid) {
@@ -131,7 +186,7 @@ std::vector<Figure> section_of(const TriangleSet& solid) {
 }
 
 std::optional<Figure> shadow_of(const TriangleSet& solid, Boundary boundary) {
-  std::vector<PlanEdge> edges;
+  std::vector<std::array<uint32_t, 3>> triangles;  // all of them counterclockwise in the plan
   for (std::array<uint32_t, 3> triangle : solid.triangles) {
     const int turn =
         orientation(plan_of(solid.vertices[triangle[0]]), plan_of(solid.vertices[triangle[1]]),
@@ -139,17 +194,12 @@ std::optional<Figure> shadow_of(const TriangleSet& solid, Boundary boundary) {
     // A closed boundary casts the shadow of its upper faces.
     if (turn == 0 || (turn < 0 && boundary == Boundary::kClosed)) continue;
     if (turn < 0) std::swap(triangle[1], triangle[2]);
-    add_edges(triangle, edges);
+    triangles.push_back(triangle);
   }
-  Polygons polygons;
-  for (const std::vector<uint64_t>& walk : closed_walks(boundary_of(std::move(edges)))) {
-    Polygon& polygon = polygons.emplace_back();
-    for (const uint64_t vertex : walk) polygon.push_back(plan_of(solid.vertices[vertex]));
-  }
-  const Figure figure = outline_of(std::move(polygons), FillRule::kNonZero);
-  std::optional<SimplePolygons> united_polygons = united(std::span(&figure, 1));
-  if (!united_polygons) return std::nullopt;
-  return outline_of(std::move(*united_polygons));
+  std::optional<SimplePolygons> polygons = united_plan(solid, triangles);
+  if (!polygons) polygons = united_in_groups(solid, triangles);
+  if (!polygons) return std::nullopt;
+  return outline_of(std::move(*polygons));
 }
 
 }  // namespace frontend
