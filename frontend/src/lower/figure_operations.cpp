@@ -13,6 +13,19 @@ namespace frontend {
 using csgcore::CsgToken;
 using csgcore::CsgTreeBuilder;
 
+namespace {
+
+/// Returns the figures that the tree names.
+std::vector<Figure> figures_of(const FigureOperations& operations) {
+  std::vector<Figure> result;
+  for (const CsgToken& token : operations.tree.tokens()) {
+    if (token.is_primitive) result.push_back(operations.figures[token.value]);
+  }
+  return result;
+}
+
+}  // namespace
+
 FigureOperations union_of(std::vector<Figure> figures) {
   CsgTreeBuilder builder;
   for (uint32_t i = 0; i < figures.size(); ++i) builder.primitive(i);
@@ -34,7 +47,7 @@ FigureOperations union_of(std::vector<FigureOperations> operands) {
 }
 
 std::optional<std::vector<Figure>> outcome_of(const FigureOperations& operations) {
-  if (is_union(operations.tree)) return operations.figures;
+  if (is_union(operations.tree)) return figures_of(operations);
   std::vector<SimplePolygons> done;  // of the subtrees that no operation has taken
   for (const CsgToken& token : operations.tree.tokens()) {
     std::optional<SimplePolygons> polygons;

@@ -11,7 +11,7 @@ namespace frontend {
 
 struct FigureOperations {
   std::vector<Figure> figures;
-  csgcore::CsgTree tree;  // over their indices
+  csgcore::CsgTree tree;  // over the indices of some of them
 
   bool is_empty() const { return tree.empty(); }
 };
