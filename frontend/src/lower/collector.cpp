@@ -423,7 +423,8 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
   const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
-  const bool is_figure = is_plane_primitive(kind) || (is_drawing && !is_extrusion(kind));
+  const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
+                         (is_drawing && !is_extrusion(kind));
   if (candidate_->is_plane || !is_part || !is_solid) {
     candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
     candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
@@ -496,8 +497,14 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
                                 NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
-  PlaneEvaluation evaluation(subtree, told,
-                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  PlaneEvaluation evaluation(
+      subtree, told, [&](uint32_t left, std::string_view why) { leave_out(left, why); },
+      [&](const PlaneEvaluation& planes, uint32_t node) {
+        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
+        std::optional<FigureOperations> result = solids.projection(node);
+        if (!result) leave_out(node, solids.failure());
+        return result;
+      });
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
   if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
