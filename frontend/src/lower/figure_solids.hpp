@@ -9,9 +9,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/primitive.hpp"
 #include "csgcore/profile.hpp"
-#include "lower/mesh_ends.hpp"
 #include "plane/figure.hpp"
-#include "plane/outlines.hpp"
 
 namespace frontend {
 
@@ -23,17 +21,6 @@ struct Layers {
   double top_scale = 1;  // ≥ 0
   Vec2 lean{0.0};  // how far x and y are moved for each unit of z; FigureSolids leaves that out
 };
-
-/// How a full or partial turn is divided (frontend/OPENSCAD.md, "Extrusions").
-struct TurnSections {
-  double start = 0;  // degrees, of the first ring
-  double angle = 360;
-  int count = 3;
-  bool is_closed() const { return angle == 360; }
-};
-
-/// More sections of a turn cannot be told from a round solid.
-constexpr int kMostSections = 3600;
 
 /// Makes the solids of a design. Those that have the same local solid share it.
 class FigureSolids {
@@ -49,12 +36,6 @@ class FigureSolids {
   /// point has x < 0. It is a sphere, a frustum or a revolved profile. Nothing if the figure is
   /// empty.
   std::optional<csgcore::Primitive> revolved(const Figure& figure);
-
-  /// Returns OpenSCAD's mesh of the polygons, revolved; a partial turn has two ends. All points
-  /// have x ≥ 0, or all x ≤ 0.
-  static csgcore::Primitive revolved_mesh(const SimplePolygons& polygons,
-                                          const TurnSections& sections,
-                                          MeshEnds ends = MeshEnds::kBeyond);
 
   /// Returns the part of space around z between the azimuths 0 and `angle` (from above 0 to 180),
   /// within the radius and from z_min to z_max at least.

@@ -7,10 +7,12 @@
 #include "base/primitive_traits.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/revolutions.hpp"
 #include "lower/sections.hpp"
 #include "lower/shadows.hpp"
+#include "lower/sliced_extrusion.hpp"
+#include "lower/smooth_slices.hpp"
 #include "lower/solid_cuts.hpp"
-#include "lower/solid_extrusions.hpp"
 #include "lower/solid_sums.hpp"
 
 namespace frontend {
@@ -22,7 +24,24 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
+constexpr std::string_view kBecauseManyCrossings =
+    "it holds a rotate_extrude whose edges cross too often";
+
+/// Whether a twist leaves the figures as they are.
+bool are_round(const std::vector<Figure>& figures, const TwistedLayers& layers) {
+  return layers.top_scale.x == layers.top_scale.y &&
+         std::all_of(figures.begin(), figures.end(), [](const Figure& figure) {
+           const Disc* disc = std::get_if<Disc>(&figure);
+           return disc != nullptr && disc->center == Vec2(0.0);
+         });
+}
+
+/// `is_smooth`: the mesh stands for something round.
+SolidPart faceted_part(Primitive mesh, bool is_smooth) {
+  SolidPart part = part_of(std::move(mesh), {});
+  part.is_faceted = is_smooth;
+  return part;
+}
 
 }  // namespace
 
@@ -173,18 +192,65 @@ SolidValue SolidEvaluation::solid_of_faces(const SolidOfFaces* solid) {
 }
 
 SolidValue SolidEvaluation::extruded(uint32_t node) {
-  return value_or_failure(extruded_parts(subtree_.data<LinearExtrudeNode>(node),
-                                         planes_.union_of_operands(node), sources_.figures));
+  const LinearExtrudeNode& data = subtree_.data<LinearExtrudeNode>(node);
+  const LinearExtrudeArguments& arguments = data.arguments;
+  if (!(arguments.height > 0)) return {};
+  const std::vector<Figure> figures = planes_.union_of_operands(node);
+  const TwistedLayers layers = layers_of(arguments);
+  SolidValue result;
+  if (layers.is_twisted() && !are_round(figures, layers)) {
+    auto solid = sliced_extrusion(data, subtree_.syntax(node), figures, problems_);
+    if (!solid) return {};
+    result = value_of(faceted_part(std::move(solid->mesh), !data.is_faceted));
+    result.parts.front().box = solid->box;
+  } else {
+    std::vector<SolidPart> parts;
+    for (const Figure& figure : figures) {
+      std::optional<Primitive> primitive =
+          sources_.figures.extruded(figure, {layers.z_min, layers.z_max, layers.top_scale.x});
+      if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
+    }
+    result = union_of(std::move(parts));
+  }
+  if (arguments.lean != Vec2(0.0)) result.map(leaning(arguments));
+  return result;
 }
 
 SolidValue SolidEvaluation::revolved(uint32_t node) {
-  return value_or_failure(revolved_parts(subtree_.data<RotateExtrudeNode>(node),
-                                         planes_.union_of_operands(node), sources_.figures));
+  const RotateExtrudeNode& data = subtree_.data<RotateExtrudeNode>(node);
+  const std::vector<Figure> figures = planes_.union_of_operands(node);
+  Rectangle bounds;
+  for (const Figure& figure : figures) bounds.merge(bounds_of(figure));
+  if (bounds.empty() || data.arguments.angle == 0) return {};
+  const std::optional<Rectangle> reach = on_one_side(bounds, subtree_.syntax(node), problems_);
+  if (!reach) return {};
+  const bool is_left = reach->min.x < 0;
+  TurnSections sections = sections_of(data.arguments, is_left ? -reach->min.x : reach->max.x);
+  if (data.is_faceted && sections.count <= kMostSections) {
+    return revolved_in(sections, frontend::united(figures), is_left, false);
+  }
+  if (!sections.is_closed()) {
+    sections.count = static_cast<int>(std::ceil(std::abs(sections.angle) / 360 * kSmoothChords));
+    const Chords chords{kSmoothChords, kSmoothTolerance * glm::length(reach->max - reach->min)};
+    return revolved_in(sections, frontend::united(figures, chords), is_left, true);
+  }
+  PlaneMap to_right;
+  if (is_left) to_right.linear[0].x = -1;
+  std::vector<SolidPart> parts;
+  for (const Figure& figure : figures) {
+    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
+    if (primitive) parts.push_back(part_of(std::move(*primitive), data.arguments.facets));
+  }
+  return union_of(std::move(parts));
 }
 
-SolidValue SolidEvaluation::value_or_failure(std::optional<std::vector<SolidPart>> parts) {
-  if (!parts) fail(kBecauseExtrusion);
-  return parts ? union_of(std::move(*parts)) : SolidValue();
+SolidValue SolidEvaluation::revolved_in(const TurnSections& sections,
+                                        std::optional<SimplePolygons> outline, bool is_left,
+                                        bool is_smooth) {
+  if (!outline) fail(kBecauseManyCrossings);
+  if (!outline || outline->empty()) return {};
+  const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left);
+  return value_of(faceted_part(revolved_mesh(polygons, sections), is_smooth));
 }
 
 SolidValue SolidEvaluation::hull(uint32_t node) {

@@ -11,6 +11,7 @@
 #include "lower/import_polyhedra.hpp"
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_subtree.hpp"
+#include "lower/revolved_solid.hpp"
 #include "lower/solid_value.hpp"
 
 namespace frontend {
@@ -51,7 +52,8 @@ class SolidEvaluation {
   SolidValue round_solid(const RoundNode& round);
   SolidValue extruded(uint32_t node);
   SolidValue revolved(uint32_t node);
-  SolidValue value_or_failure(std::optional<std::vector<SolidPart>> parts);
+  SolidValue revolved_in(const TurnSections& sections, std::optional<SimplePolygons> outline,
+                         bool is_left, bool is_smooth);
   SolidValue hull(uint32_t node);
   SolidValue minkowski(uint32_t node);
   SolidValue resized(uint32_t node);

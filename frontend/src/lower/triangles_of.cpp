@@ -10,7 +10,7 @@
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "hulls/point_hull.hpp"
-#include "lower/figure_solids.hpp"
+#include "lower/revolved_solid.hpp"
 #include "lower/sliced_solid.hpp"
 #include "lower/slices.hpp"
 #include "plane/outlines.hpp"
@@ -58,15 +58,13 @@ TriangleSet triangles_of_extrusion(const Primitive& extrusion) {
                              Vec2(extrusion.r_top / extrusion.r_bottom)};
   Slicing slicing{1, std::move(polygons), {}};
   slicing.offsets.resize(slicing.outline.size());
-  return triangles_of(*sliced_mesh(layers, slicing, MeshEnds::kExact).mesh);
+  return triangles_of(*sliced_mesh(layers, slicing).mesh);
 }
 
 TriangleSet triangles_of_revolution(const Primitive& revolution) {
   TurnSections sections;
   sections.count = kChordsOfCircle;
-  return triangles_of(
-      *FigureSolids::revolved_mesh(polygons_of(*revolution.profile), sections, MeshEnds::kExact)
-           .mesh);
+  return triangles_of(*revolved_mesh(polygons_of(*revolution.profile), sections).mesh);
 }
 
 TriangleSet local_triangles_of(const Primitive& primitive) {
