@@ -38,6 +38,12 @@ constexpr std::string_view kBecauseTooSmall =
 /// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
 bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
 
+/// The colour within color(): the outermost one counts that has all of its channels.
+std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
+                                          const std::optional<csgcore::Color>& own) {
+  return outer && is_whole(*outer) ? outer : own;
+}
+
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
 
@@ -237,10 +243,9 @@ void Collector::enter_color(uint32_t node) {
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
-  if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
   Context context = contexts_.back();
   context.node = node;
-  context.color = color;
+  context.color = inner_color(outer, color);
   contexts_.push_back(context);
 }
 
@@ -484,13 +489,17 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
-    for (const uint32_t matrix : part.matrices) {
-      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(matrix));
+    for (const uint32_t node : part.around) {
+      if (const auto* color = std::get_if<NodeColor>(&subtree.solid(node))) {
+        inner.color = inner_color(inner.color, *color);
+        continue;
+      }
+      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(node));
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
     add_plane_leaf(subtree.part(part.node), inner, told);
-    plane_leaves.back().is_inner = true;
+    plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
@@ -571,7 +580,7 @@ void Collector::add_pending(const std::stop_token& stop) {
   size_t next = 0;
   for (PlaneLeaf& leaf : plane_leaves) {
     if (next < leaves.size() && leaf.node == leaves[next].node) {
-      leaves[next].is_inner = leaf.is_inner;
+      leaves[next].inner_modifiers = leaf.inner_modifiers;
       leaf = std::move(leaves[next++]);
     } else {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });

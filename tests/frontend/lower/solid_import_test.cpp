@@ -224,6 +224,18 @@ TEST(SolidHull, ShowsThePartsInsideThatHaveModifiers) {
               SizeIs(1));
 }
 
+TEST(SolidHull, ShowsThePartsInsideInTheirOwnColors) {
+  const ImportedDesign design = import_text(
+      "hull() { cube(1); color([1,0,0]) { %cube(2); } %group() { color([0,0,1]) { cube(3); } "
+      "cube(4); } }");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "(1+2+3)");
+  ASSERT_THAT(design.scene.primitives, SizeIs(4));
+  EXPECT_EQ(design.scene.primitives[1].color, (csgcore::Color{1, 0, 0, 1}));
+  EXPECT_EQ(design.scene.primitives[2].color, (csgcore::Color{0, 0, 1, 1}));
+  EXPECT_EQ(design.scene.primitives[3].color->a,
+            import_text("%cube(1);").scene.primitives[0].color->a);
+}
+
 TEST(SolidHull, KeepsTheOrderOfTheFile) {
   const ImportedDesign design =
       import_text("cube(1); hull() { cube(2); } cube(3); hull() { cube(4); cube(5); } cube(6);");
