@@ -87,9 +87,11 @@ void PlaneEvaluation::find_presence(uint32_t node) {
       own.presence = Presence::kSolid;
       return;
     case NodeKind::kProjection:
+      own.dimension = 2;
+      [[fallthrough]];
     case NodeKind::kRoof:
       own.presence = Presence::kLeftOut;
-      leave_out_(node, kBecauseUnsupported);
+      leave_out_(node, syntax.kind == NodeKind::kRoof ? kBecauseUnknown : kBecauseProjection);
       return;
     default:
       combine(node);

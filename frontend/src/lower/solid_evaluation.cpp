@@ -20,7 +20,8 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
+constexpr std::string_view kBecauseExtrusion =
+    "it holds an extrusion that twists, scales unevenly or turns in part";
 
 }  // namespace
 

@@ -81,13 +81,25 @@ struct SortedVertices {
   }
 };
 
-/// The directed edges of a polygon, to be counted.
+using Edges = std::vector<std::pair<uint32_t, uint32_t>>;
+
+/// Returns the directed edges of rings, each of which ends at one of the ends.
+Edges edges_of(std::span<const uint32_t> ranks, std::span<const uint32_t> ends) {
+  Edges edges;
+  uint32_t begin = 0;
+  for (const uint32_t end : ends) {
+    for (uint32_t i = begin; i < end; ++i) {
+      edges.emplace_back(ranks[i], ranks[i + 1 < end ? i + 1 : begin]);
+    }
+    begin = end;
+  }
+  return edges;
+}
+
+/// Directed edges, to be counted.
 class EdgeCounts {
  public:
-  explicit EdgeCounts(std::span<const uint32_t> ranks) {
-    for (size_t i = 0; i < ranks.size(); ++i) {
-      edges_.emplace_back(ranks[i], ranks[i + 1 < ranks.size() ? i + 1 : 0]);
-    }
+  explicit EdgeCounts(Edges edges) : edges_(std::move(edges)) {
     std::sort(edges_.begin(), edges_.end());
   }
   /// Returns how often the polygon runs from a to b, less how often it runs back.
@@ -98,7 +110,7 @@ class EdgeCounts {
     const auto [first, last] = std::equal_range(edges_.begin(), edges_.end(), std::pair(a, b));
     return last - first;
   }
-  std::vector<std::pair<uint32_t, uint32_t>> edges_;
+  Edges edges_;
 };
 
 /// Returns how often the polygon winds around each triangle.
@@ -127,18 +139,19 @@ std::vector<int64_t> windings_of(const DelaunayTriangulation& delaunay, const Ed
   return windings;
 }
 
-/// Returns false, and appends nothing, if the polygon has no constrained Delaunay triangulation, or
+/// Returns false, and appends nothing, if the rings have no constrained Delaunay triangulation, or
 /// it would take too long.
-bool add_delaunay(Corners corners, Places places, std::vector<Triangle>& triangles) {
+bool add_delaunay(Corners corners, std::span<const uint32_t> ends, Places places,
+                  std::vector<Triangle>& triangles) {
   const SortedVertices sorted(corners, places);
   if (sorted.has_twins || sorted.are_on_a_line()) return false;
   DelaunayTriangulation delaunay(sorted.points, kFreeSteps + kStepsPerCorner * corners.size());
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const uint32_t next = sorted.ranks[i + 1 < corners.size() ? i + 1 : 0];
-    if (!delaunay.constrain(sorted.ranks[i], next)) return false;
+  Edges edges = edges_of(sorted.ranks, ends);
+  for (const auto& [from, to] : edges) {
+    if (!delaunay.constrain(from, to)) return false;
   }
   delaunay.flip_to_delaunay();
-  const std::vector<int64_t> windings = windings_of(delaunay, EdgeCounts(sorted.ranks));
+  const std::vector<int64_t> windings = windings_of(delaunay, EdgeCounts(std::move(edges)));
   for (uint32_t t = 0; t < windings.size(); ++t) {
     Triangle triangle;
     for (uint32_t k = 0; k < 3; ++k) triangle[k] = sorted.numbers[delaunay.origin(3 * t + k)];
@@ -159,8 +172,22 @@ void triangulate(Corners corners, Places places, std::vector<Triangle>& triangle
       return;
     }
   }
-  if (corners.size() > 3 && add_delaunay(corners, places, triangles)) return;
+  const auto end = static_cast<uint32_t>(corners.size());
+  if (corners.size() > 3 && add_delaunay(corners, {&end, 1}, places, triangles)) return;
   add_fan(corners, triangles);
+}
+
+void triangulate_rings(Corners corners, std::span<const uint32_t> ends, Places places,
+                       std::vector<Triangle>& triangles) {
+  if (add_delaunay(corners, ends, places, triangles)) return;
+  uint32_t begin = 0;
+  for (const uint32_t end : ends) {
+    const uint32_t count = end - begin;
+    if (count >= 3) {
+      triangulate(corners.subspan(begin, count), places.subspan(begin, count), triangles);
+    }
+    begin = end;
+  }
 }
 
 }  // namespace frontend

@@ -27,4 +27,11 @@ namespace frontend {
 void triangulate(std::span<const uint32_t> corners, std::span<const glm::dvec2> places,
                  std::vector<std::array<uint32_t, 3>>& triangles);
 
+/// Appends the triangles of a region that several rings bound, those of its holes running the other
+/// way round. `ends` has one past the last corner of each ring. Where the rings cross each other,
+/// they are triangulated one by one: their triangles overlap, and those of the holes run backwards.
+void triangulate_rings(std::span<const uint32_t> corners, std::span<const uint32_t> ends,
+                       std::span<const glm::dvec2> places,
+                       std::vector<std::array<uint32_t, 3>>& triangles);
+
 }  // namespace frontend
