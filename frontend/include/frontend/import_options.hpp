@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "csgcore/primitive.hpp"
+#include "frontend/rendering_options.hpp"
 
 namespace frontend {
 
@@ -50,6 +51,8 @@ struct ImportOptions {
   bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
   bool keeps_places = false;
+  /// How openscad is asked for what scadray does not draw itself; by default it is not.
+  RenderingOptions rendering{};
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
 };
