@@ -113,16 +113,17 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
   const ImportedDesign design = import_text(
-      "sphere();\nroof() { square(1); }\n projection() { sphere(); }\nroof() { square(1); }");
+      "sphere();\nroof() { square(1); }\n hull() { difference() { cube(2); sphere(1); } }\n"
+      "roof() { square(1); }");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(
       design.warnings[0].text,
       "a.csg:2:1: warning: roof is left out; the first of 2 (OpenSCAD 2021.01 does not know it)");
   EXPECT_EQ(design.warnings[1].text,
-            "a.csg:3:2: warning: projection is left out (scadray itself makes no projections)");
+            "a.csg:3:2: warning: hull is left out (it needs a difference with a ball)");
   EXPECT_STREQ(Error(design.warnings[1]).what(),
-               "a.csg:3:2: error: projection is left out (scadray itself makes no projections)");
+               "a.csg:3:2: error: hull is left out (it needs a difference with a ball)");
 }
 
 TEST(ImporterUnsupported, MayBeAllThereIs) {
