@@ -615,6 +615,12 @@ void Collector::add_pending(const std::stop_token& stop) {
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
   std::vector<int> old_fragments = std::exchange(fragments, {});
+  size_t count = old_primitives.size();
+  for (const LoweredSubtree& solid : lowered) count += solid.parts.size();
+  primitives.reserve(count);
+  boxes.reserve(count);
+  frame_of.reserve(count);
+  fragments.reserve(count);
   std::vector<uint32_t> place(old_primitives.size());  // by primitive, of those that are there
   const auto add_old = [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
