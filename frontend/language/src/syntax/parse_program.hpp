@@ -1,22 +1,14 @@
 // Reads and parses a design.
 #pragma once
 
-#include <stop_token>
+#include <cstdint>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "messages/messages.hpp"
+#include "syntax/parse_options.hpp"
 #include "syntax/program.hpp"
 
 namespace language {
-
-struct ParseOptions {
-  std::vector<std::string> definitions;  // -D, in order, as typed
-  bool hard_warnings = false;
-  std::stop_token stop;
-  std::string_view standard_input;  // the text of the file "-"
-};
 
 enum class ParseOutcome : uint8_t {
   kParsed,      // perhaps without some of the used files

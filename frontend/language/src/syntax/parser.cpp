@@ -2,7 +2,6 @@
 #include "syntax/parser.hpp"
 
 #include "language/stopped.hpp"
-#include "syntax/parser_nested.hpp"
 
 namespace language {
 

@@ -1,6 +1,5 @@
 // Expressions; each function's grammar is in LANGUAGE.md, "Grammar".
 #include "syntax/parser.hpp"
-#include "syntax/parser_nested.hpp"
 
 namespace language {
 

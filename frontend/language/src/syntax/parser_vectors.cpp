@@ -1,6 +1,5 @@
 // What stands in brackets: vectors with their comprehensions, and ranges.
 #include "syntax/parser.hpp"
-#include "syntax/parser_nested.hpp"
 
 namespace language {
 

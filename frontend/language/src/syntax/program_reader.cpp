@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/read_file.hpp"
+#include "syntax/lexer.hpp"
 #include "syntax/parser.hpp"
 
 namespace language {

@@ -5,9 +5,11 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "messages/messages.hpp"
 #include "syntax/file_lookup.hpp"
 #include "syntax/library_search.hpp"
-#include "syntax/parse_program.hpp"
+#include "syntax/parse_options.hpp"
+#include "syntax/program.hpp"
 
 namespace language {
 
