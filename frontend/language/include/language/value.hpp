@@ -19,10 +19,10 @@ enum class ValueType : uint8_t {
   kFunction,
 };
 
-struct StringObject;    // values/string_object.hpp: bytes, and the number of code points
-struct VectorObject;    // values/vector_object.hpp: elements in one block
+struct StringObject;    // below: bytes, and the number of code points
+struct VectorObject;    // below: elements in one block
 struct RangeObject;     // values/range.hpp: begin, step, end
-struct FunctionObject;  // evaluation/function_object.hpp: code and captured scope
+struct FunctionObject;  // values/function_object.hpp: what a function value has to know
 
 /// What is counted: the head of each object. One evaluation runs in one thread, so the count is no
 /// atomic. An object deletes itself without recursion, however deeply vectors are nested.
@@ -34,24 +34,24 @@ struct SharedObject {
 /// Copies share their object; an object does not change once it is shared.
 class Value {
  public:
-  Value() : type_(ValueType::kUndef), number_(0) {}
-  Value(double number) : type_(ValueType::kNumber), number_(number) {}
+  Value() : type_(ValueType::kUndef) { payload_.number = 0; }
+  Value(double number) : type_(ValueType::kNumber) { payload_.number = number; }
   static Value unset() { return Value(ValueType::kUnset); }
   static Value undef() { return Value(); }
   static Value boolean(bool boolean) {
     Value value(ValueType::kBool);
-    value.boolean_ = boolean;
+    value.payload_.boolean = boolean;
     return value;
   }
   /// Takes over one reference to an object.
   static Value adopt(SharedObject* object) {
     Value value(object->type);
-    value.object_ = object;
+    value.payload_.object = object;
     return value;
   }
 
-  Value(const Value& other) : type_(other.type_), number_(other.number_) { acquire(); }
-  Value(Value&& other) noexcept : type_(other.type_), number_(other.number_) {
+  Value(const Value& other) : type_(other.type_), payload_(other.payload_) { acquire(); }
+  Value(Value&& other) noexcept : type_(other.type_), payload_(other.payload_) {
     other.type_ = ValueType::kUndef;
   }
   Value& operator=(const Value& other) {
@@ -59,13 +59,13 @@ class Value {
     return *this;
   }
   Value& operator=(Value&& other) noexcept {
-    swap(other);
+    Value(std::move(other)).swap(*this);
     return *this;
   }
   ~Value() { release(); }
   void swap(Value& other) noexcept {
     std::swap(type_, other.type_);
-    std::swap(number_, other.number_);
+    std::swap(payload_, other.payload_);
   }
 
   ValueType type() const { return type_; }
@@ -79,36 +79,73 @@ class Value {
   bool is_function() const { return type_ == ValueType::kFunction; }
 
   // Each of the following may be called for values of that type only.
-  bool boolean() const { return boolean_; }
-  double number() const { return number_; }
+  bool boolean() const { return payload_.boolean; }
+  double number() const { return payload_.number; }
   std::string_view text() const;            // bytes, perhaps invalid UTF-8
   std::span<const Value> elements() const;  // of a vector
   const RangeObject& range() const;
   const FunctionObject& function() const;
-  SharedObject* object() const { return object_; }
+
+  /// Returns the object of a string, vector, range or function.
+  SharedObject* object() const { return payload_.object; }
+  /// Returns whether this is the only reference to its object, which may then be changed.
+  bool is_unique() const { return is_shared() && payload_.object->references == 1; }
 
   /// Returns OpenSCAD's truth: false are false, 0, "", [] and undef (LANGUAGE.md, "Values").
-  bool is_true() const;
+  bool is_true() const {
+    if (type_ == ValueType::kBool) return payload_.boolean;
+    if (type_ == ValueType::kNumber) return payload_.number != 0;
+    return is_object_true();
+  }
 
  private:
-  explicit Value(ValueType type) : type_(type), number_(0) {}
+  friend class Destroyer;
+  union Payload {
+    double number;
+    bool boolean;
+    SharedObject* object;
+  };
+
+  explicit Value(ValueType type) : type_(type) { payload_.number = 0; }
   bool is_shared() const { return type_ >= ValueType::kString; }
+  bool is_object_true() const;
   void acquire() {
-    if (is_shared()) ++object_->references;
+    if (is_shared()) ++payload_.object->references;
   }
   void release() {
-    if (is_shared() && --object_->references == 0) destroy(object_);
+    if (is_shared() && --payload_.object->references == 0) destroy(payload_.object);
   }
   static void destroy(SharedObject* object) noexcept;
 
   ValueType type_;
-  union {
-    double number_;
-    bool boolean_;
-    SharedObject* object_;
-  };
+  Payload payload_;  // copied as a whole, whichever member is active
 };
 static_assert(sizeof(Value) == 16);
+
+/// A string; its bytes follow it in the same block.
+struct StringObject : SharedObject {
+  uint64_t size;
+  uint64_t code_points;  // as base/utf8.hpp counts them; equal to `size` if all bytes are ASCII
+  char* bytes() { return reinterpret_cast<char*>(this + 1); }
+};
+
+/// A vector; its elements follow it in the same block.
+struct VectorObject : SharedObject {
+  uint32_t size;
+  uint32_t capacity;
+  Value* elements() { return reinterpret_cast<Value*>(this + 1); }
+};
+static_assert(sizeof(VectorObject) == 16);
+
+inline std::string_view Value::text() const {
+  auto& string = static_cast<StringObject&>(*payload_.object);
+  return {string.bytes(), string.size};
+}
+
+inline std::span<const Value> Value::elements() const {
+  auto& vector = static_cast<VectorObject&>(*payload_.object);
+  return {vector.elements(), vector.size};
+}
 
 /// Returns the name that messages use: "undefined", "bool", "number", "string", "vector", "range",
 /// "function".

@@ -1,0 +1,131 @@
+#include "values/comparison.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "values/range.hpp"
+
+namespace language {
+namespace {
+
+template <typename T>
+Ordering ordering_of(const T& left, const T& right) {
+  if (left < right) return Ordering::kLess;
+  return right < left ? Ordering::kGreater : Ordering::kNeither;
+}
+
+Ordering order_ranges(const RangeObject& left, const RangeObject& right) {
+  const uint32_t left_count = left.count(), right_count = right.count();
+  if (left_count == 0 || right_count == 0) return ordering_of(left_count > 0, right_count > 0);
+  if (left.begin != right.begin) return ordering_of(left.begin, right.begin);
+  if (left.step != right.step) return ordering_of(left.step, right.step);
+  return ordering_of(left_count, right_count);
+}
+
+// Compares values that are not both vectors.
+Ordering order_leaves(const Value& left, std::string_view sign, const Value& right,
+                      OperatorProblem& problem) {
+  if (left.type() != right.type()) {
+    problem.text = undefined_operation(left, sign, right);
+    return Ordering::kUndefined;
+  }
+  switch (left.type()) {
+    case ValueType::kNumber:
+      return ordering_of(left.number(), right.number());
+    case ValueType::kBool:
+      return ordering_of(left.boolean(), right.boolean());
+    case ValueType::kString:
+      return ordering_of(left.text(), right.text());
+    case ValueType::kRange:
+      return order_ranges(left.range(), right.range());
+    default:
+      problem.text = operation_undefined(left, sign, right);
+      return Ordering::kUndefined;
+  }
+}
+
+bool are_leaves_equal(const Value& left, const Value& right) {
+  if (left.type() != right.type()) return false;
+  switch (left.type()) {
+    case ValueType::kNumber:
+      return left.number() == right.number();
+    case ValueType::kBool:
+      return left.boolean() == right.boolean();
+    case ValueType::kString:
+      return left.text() == right.text();
+    case ValueType::kRange:
+      return order_ranges(left.range(), right.range()) == Ordering::kNeither;
+    case ValueType::kFunction:
+      return left.object() == right.object();
+    default:
+      return true;
+  }
+}
+
+// Two vectors that are being compared; all elements below `next` are equal, or neither is less.
+struct Pair {
+  std::span<const Value> left, right;
+  size_t next = 0;
+
+  Pair(const Value& left_vector, const Value& right_vector)
+      : left(left_vector.elements()), right(right_vector.elements()) {}
+  bool has_both() const { return next < left.size() && next < right.size(); }
+};
+
+// Adds the lines that say where within vectors the comparison failed, from inside out. Each pair's
+// `next` is already past the element that failed.
+void append_indices(const std::vector<Pair>& pairs, std::string& text) {
+  for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair)
+    text += "\n\tin vector comparison at index " + std::to_string(pair->next - 1);
+}
+
+}  // namespace
+
+Ordering order(const Value& left, std::string_view sign, const Value& right,
+               OperatorProblem& problem) {
+  if (!left.is_vector() || !right.is_vector()) return order_leaves(left, sign, right, problem);
+  std::vector<Pair> pairs;
+  pairs.emplace_back(left, right);
+  while (true) {
+    Ordering ordering = Ordering::kNeither;
+    Pair& pair = pairs.back();
+    if (pair.has_both()) {
+      const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
+      ++pair.next;
+      if (a.is_vector() && b.is_vector()) {
+        pairs.emplace_back(a, b);
+        continue;
+      }
+      ordering = order_leaves(a, "<", b, problem);
+      if (ordering == Ordering::kUndefined) append_indices(pairs, problem.text);
+      if (ordering != Ordering::kNeither) return ordering;
+    } else {
+      ordering = ordering_of(pair.left.size(), pair.right.size());
+      pairs.pop_back();
+      if (ordering != Ordering::kNeither || pairs.empty()) return ordering;
+    }
+  }
+}
+
+bool are_equal(const Value& left, const Value& right) {
+  if (!left.is_vector() || !right.is_vector()) return are_leaves_equal(left, right);
+  std::vector<Pair> pairs;
+  pairs.emplace_back(left, right);
+  while (!pairs.empty()) {
+    Pair& pair = pairs.back();
+    if (pair.left.size() != pair.right.size()) return false;
+    if (!pair.has_both()) {
+      pairs.pop_back();
+      continue;
+    }
+    const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
+    ++pair.next;
+    if (a.is_vector() && b.is_vector())
+      pairs.emplace_back(a, b);
+    else if (!are_leaves_equal(a, b))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace language

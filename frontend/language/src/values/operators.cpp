@@ -1,0 +1,119 @@
+#include "values/operators.hpp"
+
+#include "values/comparison.hpp"
+#include "values/tree_map.hpp"
+#include "values/vector_products.hpp"
+
+namespace language {
+namespace {
+
+Value undefined(const Value& left, std::string_view sign, const Value& right,
+                OperatorProblem& problem) {
+  problem.text = undefined_operation(left, sign, right);
+  return Value::undef();
+}
+
+// What an operator makes of a pair of numbers within vectors; of any other pair undef, silently.
+template <typename Operation>
+auto on_numbers(Operation operation) {
+  return [operation](const Value& left, const Value& right) {
+    if (are_numbers(left, right)) return Value(operation(left.number(), right.number()));
+    return Value::undef();
+  };
+}
+
+template <typename Operation>
+Value elementwise(const Value& left, std::string_view sign, const Value& right,
+                  OperatorProblem& problem, Operation operation) {
+  if (left.is_vector() && right.is_vector()) return map_pairs(left, right, on_numbers(operation));
+  return undefined(left, sign, right, problem);
+}
+
+// Returns operation(element) for the numbers of a nested vector, and undef for its other leaves.
+template <typename Operation>
+Value map_numbers(const Value& vector, Operation operation) {
+  return map_leaves(vector, [&](const Value& leaf) {
+    return leaf.is_number() ? Value(operation(leaf.number())) : Value::undef();
+  });
+}
+
+Value scaled(double factor, const Value& vector) {
+  return map_numbers(vector, [factor](double number) { return factor * number; });
+}
+
+Value compared(Ordering ordering, bool is_less, bool is_neither, bool is_greater) {
+  if (ordering == Ordering::kUndefined) return Value::undef();
+  return Value::boolean(ordering == Ordering::kLess      ? is_less
+                        : ordering == Ordering::kGreater ? is_greater
+                                                         : is_neither);
+}
+
+}  // namespace
+
+namespace operators {
+
+Value add(const Value& left, const Value& right, OperatorProblem& problem) {
+  return elementwise(left, "+", right, problem, [](double a, double b) { return a + b; });
+}
+
+Value subtract(const Value& left, const Value& right, OperatorProblem& problem) {
+  return elementwise(left, "-", right, problem, [](double a, double b) { return a - b; });
+}
+
+Value multiply(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_number() && right.is_vector()) return scaled(left.number(), right);
+  if (left.is_vector() && right.is_number()) return scaled(right.number(), left);
+  if (left.is_vector() && right.is_vector()) return multiply_vectors(left, right, problem);
+  return undefined(left, "*", right, problem);
+}
+
+Value divide(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_number())
+    return map_numbers(left, [&](double number) { return number / right.number(); });
+  if (left.is_number() && right.is_vector())
+    return map_numbers(right, [&](double number) { return left.number() / number; });
+  return undefined(left, "/", right, problem);
+}
+
+Value modulo(const Value& left, const Value& right, OperatorProblem& problem) {
+  return undefined(left, "%", right, problem);
+}
+
+Value power(const Value& left, const Value& right, OperatorProblem& problem) {
+  return undefined(left, "^", right, problem);
+}
+
+Value negate(const Value& operand, OperatorProblem& problem) {
+  if (operand.is_vector()) return map_numbers(operand, [](double number) { return -number; });
+  problem.text = "undefined operation (-";
+  problem.text += type_name(operand.type());
+  problem.text += ')';
+  return Value::undef();
+}
+
+Value less(const Value& left, const Value& right, OperatorProblem& problem) {
+  return compared(order(left, "<", right, problem), true, false, false);
+}
+
+Value less_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())  // "not greater", which differs with NaN
+    return compared(order(right, "<", left, problem), false, true, true);
+  return compared(order(left, "<=", right, problem), true, true, false);
+}
+
+Value greater(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())
+    return compared(order(right, "<", left, problem), true, false, false);
+  return compared(order(left, ">", right, problem), false, false, true);
+}
+
+Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (left.is_vector() && right.is_vector())
+    return compared(order(left, "<", right, problem), false, true, true);
+  return compared(order(left, ">=", right, problem), false, true, true);
+}
+
+bool equal(const Value& left, const Value& right) { return are_equal(left, right); }
+
+}  // namespace operators
+}  // namespace language

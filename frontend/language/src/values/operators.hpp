@@ -1,0 +1,104 @@
+// OpenSCAD's operators (LANGUAGE.md, "Values"). Numbers are computed with inline, all else by a
+// call; no text is made unless something is wrong.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "language/value.hpp"
+#include "values/operator_problem.hpp"
+
+namespace language {
+
+namespace operators {
+Value add(const Value& left, const Value& right, OperatorProblem& problem);
+Value subtract(const Value& left, const Value& right, OperatorProblem& problem);
+Value multiply(const Value& left, const Value& right, OperatorProblem& problem);
+Value divide(const Value& left, const Value& right, OperatorProblem& problem);
+Value modulo(const Value& left, const Value& right, OperatorProblem& problem);
+Value power(const Value& left, const Value& right, OperatorProblem& problem);
+Value negate(const Value& operand, OperatorProblem& problem);
+Value less(const Value& left, const Value& right, OperatorProblem& problem);
+Value less_equal(const Value& left, const Value& right, OperatorProblem& problem);
+Value greater(const Value& left, const Value& right, OperatorProblem& problem);
+Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem);
+bool equal(const Value& left, const Value& right);
+Value index(const Value& container, const Value& index);
+}  // namespace operators
+
+inline Value add(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return left.number() + right.number();
+  return operators::add(left, right, problem);
+}
+
+inline Value subtract(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return left.number() - right.number();
+  return operators::subtract(left, right, problem);
+}
+
+inline Value multiply(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return left.number() * right.number();
+  return operators::multiply(left, right, problem);
+}
+
+inline Value divide(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return left.number() / right.number();
+  return operators::divide(left, right, problem);
+}
+
+inline Value modulo(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return std::fmod(left.number(), right.number());
+  return operators::modulo(left, right, problem);
+}
+
+inline Value power(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return std::pow(left.number(), right.number());
+  return operators::power(left, right, problem);
+}
+
+inline Value negate(const Value& operand, OperatorProblem& problem) {
+  if (operand.is_number()) return -operand.number();
+  return operators::negate(operand, problem);
+}
+
+inline Value less(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return Value::boolean(left.number() < right.number());
+  return operators::less(left, right, problem);
+}
+
+inline Value less_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return Value::boolean(left.number() <= right.number());
+  return operators::less_equal(left, right, problem);
+}
+
+inline Value greater(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return Value::boolean(left.number() > right.number());
+  return operators::greater(left, right, problem);
+}
+
+inline Value greater_equal(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (are_numbers(left, right)) return Value::boolean(left.number() >= right.number());
+  return operators::greater_equal(left, right, problem);
+}
+
+/// Returns whether two values are equal, which is defined for all.
+inline bool equal(const Value& left, const Value& right) {
+  if (are_numbers(left, right)) return left.number() == right.number();
+  return operators::equal(left, right);
+}
+
+/// Returns container[index], or undef.
+inline Value element_at(const Value& container, const Value& index) {
+  if (container.is_vector() && index.is_number()) {
+    const double position = index.number();
+    const auto elements = container.elements();
+    if (position >= 0 && position < static_cast<double>(elements.size()))
+      return elements[static_cast<size_t>(position)];
+  }
+  return operators::index(container, index);
+}
+
+/// Returns container.name, or undef.
+Value member(const Value& container, std::string_view name);
+
+}  // namespace language

@@ -1,0 +1,37 @@
+// Ranges: [begin : step : end].
+#pragma once
+
+#include <cstdint>
+
+#include "language/value.hpp"
+
+namespace language {
+
+struct RangeObject : SharedObject {
+  double begin, step, end;
+
+  /// Returns how many values it has, by OpenSCAD's rules (LANGUAGE.md, "Values"), which fold counts
+  /// of 2^32 and more. A step of zero counts without yielding anything: see steps().
+  uint32_t count() const;
+  /// Returns how many values a loop over it sees.
+  uint32_t steps() const { return step == 0 ? 0 : count(); }
+  /// Returns a value, of those below steps().
+  double value(uint32_t number) const { return begin + step * number; }
+};
+
+Value make_range(double begin, double step, double end);
+
+/// What is said of a range that is written [begin : end].
+struct RangeProblem {
+  bool is_reversed = false;  // begin and end were swapped, which is deprecated
+};
+/// Returns the range of [begin : end], or of [begin : step : end] if `step` is given. Undef unless
+/// all are numbers.
+Value range_of(const Value& begin, const Value& end, RangeProblem& problem);
+Value range_of(const Value& begin, const Value& step, const Value& end);
+
+inline const RangeObject& Value::range() const {
+  return static_cast<const RangeObject&>(*payload_.object);
+}
+
+}  // namespace language

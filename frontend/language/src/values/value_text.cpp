@@ -1,0 +1,101 @@
+#include "values/value_text.hpp"
+
+#include <vector>
+
+#include "base/number_text.hpp"
+#include "values/function_object.hpp"
+#include "values/object_memory.hpp"
+#include "values/range.hpp"
+
+namespace language {
+namespace {
+
+void append_range(std::string& out, const RangeObject& range) {
+  out += '[';
+  append_echo_number(out, range.begin);
+  out += " : ";
+  append_echo_number(out, range.step);
+  out += " : ";
+  append_echo_number(out, range.end);
+  out += ']';
+}
+
+void append_quoted(std::string& out, std::string_view text) {
+  out += '"';
+  out += text;
+  out += '"';
+}
+
+// Appends a value that is no vector.
+void append_leaf(std::string& out, const Value& value) {
+  switch (value.type()) {
+    case ValueType::kBool:
+      out += value.boolean() ? "true" : "false";
+      break;
+    case ValueType::kNumber:
+      append_echo_number(out, value.number());
+      break;
+    case ValueType::kString:
+      append_quoted(out, value.text());
+      break;
+    case ValueType::kRange:
+      append_range(out, value.range());
+      break;
+    case ValueType::kFunction:
+      value.function().append_text(out);
+      break;
+    default:
+      out += "undef";
+      break;
+  }
+}
+
+// Appends a vector. What is being written lies on a stack of its own, since vectors nest deeply.
+void append_vector(std::string& out, std::span<const Value> elements) {
+  std::vector<std::span<const Value>> rests{elements};  // of each open bracket, what is not written
+  out += '[';
+  while (true) {
+    check_text_size(out.size());
+    std::span<const Value>& rest = rests.back();
+    if (rest.empty()) {
+      out += ']';
+      rests.pop_back();
+      if (rests.empty()) return;
+      if (!rests.back().empty()) out += ", ";
+      continue;
+    }
+    const Value& element = rest.front();
+    rest = rest.subspan(1);
+    if (element.is_vector()) {
+      out += '[';
+      rests.push_back(element.elements());
+      continue;
+    }
+    append_leaf(out, element);
+    if (!rest.empty()) out += ", ";
+  }
+}
+
+}  // namespace
+
+void append_echo_text(std::string& out, const Value& value) {
+  if (value.is_vector())
+    append_vector(out, value.elements());
+  else
+    append_leaf(out, value);
+}
+
+void append_str_text(std::string& out, const Value& value) {
+  if (value.is_string())
+    out += value.text();
+  else
+    append_echo_text(out, value);
+}
+
+std::string echo_text(const Value& value) {
+  std::string text;
+  append_echo_text(text, value);
+  return text;
+}
+
+}  // namespace language

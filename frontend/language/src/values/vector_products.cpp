@@ -1,0 +1,148 @@
+#include "values/vector_products.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include "values/make.hpp"
+
+namespace language {
+namespace {
+
+using Row = std::span<const Value>;
+
+Value fail(OperatorProblem& problem, std::string text) {
+  problem.text = std::move(text);
+  return Value::undef();
+}
+
+std::string lengths(size_t left, size_t right) {
+  return " (" + std::to_string(left) + " != " + std::to_string(right) + ")";
+}
+
+std::string not_rectangular(size_t row) {
+  return "Matrix must be rectangular. Problem at row " + std::to_string(row);
+}
+
+std::string no_number_in_matrix(size_t row, size_t column) {
+  return "Matrix must contain only numbers. Problem at row " + std::to_string(row) + ", col " +
+         std::to_string(column);
+}
+
+std::string no_number_in_vector(size_t index) {
+  return "Vector must contain only numbers. Problem at index " + std::to_string(index);
+}
+
+// Returns the elements of a matrix's row; none of what is no vector.
+Row row_of(const Value& value) { return value.is_vector() ? value.elements() : Row{}; }
+
+bool is_row(const Value& value, size_t size) {
+  return value.is_vector() && value.elements().size() == size;
+}
+
+Value dot_product(Row left, Row right, OperatorProblem& problem) {
+  if (left.size() != right.size())
+    return fail(problem,
+                "vector*vector requires matching lengths" + lengths(left.size(), right.size()));
+  double sum = 0;
+  for (size_t i = 0; i < left.size(); ++i) {
+    if (!are_numbers(left[i], right[i]))
+      return fail(problem, undefined_operation(left[i], "*", right[i]));
+    sum += left[i].number() * right[i].number();
+  }
+  return sum;
+}
+
+Value matrix_times_vector(Row matrix, Row vector, OperatorProblem& problem) {
+  const size_t columns = matrix.front().elements().size();
+  if (columns != vector.size())
+    return fail(problem, "matrix*vector requires matrix column count to match vector length" +
+                             lengths(columns, vector.size()));
+  Value result = make_vector(matrix.size());
+  for (size_t i = 0; i < matrix.size(); ++i) {
+    if (!is_row(matrix[i], columns)) return fail(problem, not_rectangular(i));
+    const Row row = matrix[i].elements();
+    double sum = 0;
+    for (size_t j = 0; j < columns; ++j) {
+      if (!row[j].is_number()) return fail(problem, no_number_in_matrix(i, j));
+      if (!vector[j].is_number()) return fail(problem, no_number_in_vector(j));
+      sum += row[j].number() * vector[j].number();
+    }
+    append_element(result, sum);
+  }
+  return result;
+}
+
+// OpenSCAD says what is wrong with the elements twice, at first without a place.
+Value fail_twice(OperatorProblem& problem, std::string text) {
+  problem.unplaced = text;
+  return fail(problem, std::move(text));
+}
+
+Value vector_times_matrix(Row vector, Row matrix, OperatorProblem& problem) {
+  if (vector.size() != matrix.size())
+    return fail(problem, "vector*matrix requires vector length to match matrix row count" +
+                             lengths(vector.size(), matrix.size()));
+  const size_t columns = matrix.front().elements().size();
+  Value result = make_vector(columns);
+  for (size_t i = 0; i < columns; ++i) {
+    double sum = 0;
+    for (size_t j = 0; j < vector.size(); ++j) {
+      if (!is_row(matrix[j], columns)) return fail_twice(problem, not_rectangular(j));
+      const Value& element = matrix[j].elements()[i];
+      if (!vector[j].is_number()) return fail_twice(problem, no_number_in_vector(j));
+      if (!element.is_number()) return fail_twice(problem, no_number_in_matrix(j, i));
+      sum += vector[j].number() * element.number();
+    }
+    append_element(result, sum);
+  }
+  return result;
+}
+
+Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
+  const size_t columns = left.front().elements().size();
+  if (columns != right.size())
+    return fail(
+        problem,
+        "matrix*matrix requires left operand column count to match right operand row count" +
+            lengths(columns, right.size()));
+  Value result = make_vector(left.size());
+  for (size_t i = 0; i < left.size(); ++i) {
+    const Row row = row_of(left[i]);
+    if (row.size() != right.size())
+      return fail(problem,
+                  "matrix*matrix left operand row length does not match right operand row count" +
+                      lengths(row.size(), right.size()) + " at row " + std::to_string(i));
+    Value product = vector_times_matrix(row, right, problem);
+    if (product.is_undef()) {
+      problem.text += "\n\twhile processing left operand at row " + std::to_string(i);
+      return product;
+    }
+    append_element(result, std::move(product));
+  }
+  return result;
+}
+
+}  // namespace
+
+Value multiply_vectors(const Value& left_vector, const Value& right_vector,
+                       OperatorProblem& problem) {
+  const Row left = left_vector.elements(), right = right_vector.elements();
+  if (left.empty() || right.empty())
+    return fail(problem, "Multiplication is undefined on empty vectors");
+  const Value &left_first = left.front(), &right_first = right.front();
+  if (are_numbers(left_first, right_first)) return dot_product(left, right, problem);
+  if (left_first.is_number() && right_first.is_vector())
+    return vector_times_matrix(left, right, problem);
+  if (left_first.is_vector() && right_first.is_number())
+    return matrix_times_vector(left, right, problem);
+  if (left_first.is_vector() && right_first.is_vector())
+    return matrix_times_matrix(left, right, problem);
+  std::string text = "undefined vector*vector multiplication where first elements are types ";
+  text += type_name(left_first.type());
+  text += " and ";
+  text += type_name(right_first.type());
+  return fail(problem, std::move(text));
+}
+
+}  // namespace language
