@@ -140,9 +140,13 @@ void Parser::parse_module(ScopeBuilder& scope) {
   expect('(');
   const auto parameters = parse_parameters();
   const Place place = expect(')').place;
+  scope.add(ModuleDefinition{name, place, parameters, parse_module_body()});
+}
+
+const Scope* Parser::parse_module_body() {
   ScopeBuilder body(scopes_);
   parse_statement(body);
-  scope.add(ModuleDefinition{name, place, parameters, body.finish(arena_)});
+  return body.finish(arena_);
 }
 
 void Parser::parse_function(ScopeBuilder& scope) {

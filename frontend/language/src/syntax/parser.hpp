@@ -66,6 +66,7 @@ class Parser {
   void parse_block(ScopeBuilder& scope);
   void parse_assignment(ScopeBuilder& scope);
   void parse_module(ScopeBuilder& scope);
+  const Scope* parse_module_body();
   void parse_function(ScopeBuilder& scope);
   void parse_call(ScopeBuilder& scope);
   ModuleCall parse_modified_call(bool& is_disabled);
@@ -94,6 +95,8 @@ class Parser {
   Element parse_parenthesised_element();
   Element parse_let_element();
   const Expression* parse_for();
+  const Expression* make_for(std::span<const Argument> variables, const Expression* body,
+                             Place place);
   const Expression* parse_if_element();
   bool begins_expression();
   Operator binary_operator(const Token& token) const;

@@ -90,10 +90,7 @@ const Expression* Parser::parse_for() {
   const Place place = take().place;
   expect('(');
   const auto init = parse_arguments();
-  if (accept(')')) {
-    const Expression* body = parse_element(true).node;
-    return make<BodyExpression>(ExpressionKind::kFor, place, init, body);
-  }
+  if (accept(')')) return make_for(init, parse_element(true).node, place);
   expect(';');
   const Expression* condition = parse_expression();
   expect(';');
@@ -101,6 +98,14 @@ const Expression* Parser::parse_for() {
   expect(')');
   const Expression* body = parse_element(true).node;
   return make<ForCExpression>(ExpressionKind::kForC, place, init, condition, increment, body);
+}
+
+/// A loop over several variables is several loops.
+const Expression* Parser::make_for(std::span<const Argument> variables, const Expression* body,
+                                   Place place) {
+  for (size_t i = variables.size(); i-- > 0;)
+    body = make<BodyExpression>(ExpressionKind::kFor, place, variables.subspan(i, 1), body);
+  return body;
 }
 
 const Expression* Parser::parse_if_element() {

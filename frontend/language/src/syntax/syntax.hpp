@@ -134,9 +134,9 @@ struct FunctionExpression : Expression {  // function(parameters) body
   std::span<const Parameter> parameters;
   const Expression* body;
 };
-struct BodyExpression : Expression {  // kLet, kAssert, kEcho, kFor
-  std::span<const Argument> arguments;
-  const Expression* body;  // null: assert() or echo() without one
+struct BodyExpression : Expression {    // kLet, kAssert, kEcho, kFor
+  std::span<const Argument> arguments;  // of kFor one: loops over several variables are several
+  const Expression* body;               // null: assert() or echo() without one
 };
 struct ForCExpression : Expression {
   std::span<const Argument> init;
