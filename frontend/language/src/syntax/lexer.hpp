@@ -28,11 +28,16 @@ class Lexer {
   NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
 
  private:
+  /// How lines are counted in parser errors: `first`, plus the line feeds from `offset` on.
+  struct ErrorLines {
+    uint32_t first = 1;
+    uint32_t offset = 0;
+  };
   struct Includer {
     FileId file;
     const char* cursor;
     std::string folder;
-    uint32_t uncounted_lines;
+    ErrorLines error_lines;
   };
 
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
@@ -70,9 +75,9 @@ class Lexer {
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
   std::vector<uint32_t>* line_starts_ = nullptr;
-  uint32_t uncounted_lines_ = 0;  // of the current file, which parser errors do not count
-  std::string string_;            // the string that is being read
-  std::string last_path_name_;    // `use <>` means the last path's name once more
+  ErrorLines error_lines_;      // of the current file
+  std::string string_;          // the string that is being read
+  std::string last_path_name_;  // `use <>` means the last path's name once more
 };
 
 }  // namespace language
