@@ -141,6 +141,11 @@ void CodeCompiler::dynamic_call(const CallExpression& call) {
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
   const auto count = static_cast<uint32_t>(call.arguments.size());
+  if (site.is_in_unit) {
+    const uint32_t is_value = out_.emit(Op::kIfFunction, call.place, 0);
+    out_.emit(Op::kEnterUnit, call.place, 0, site.unit);
+    out_.land(is_value);
+  }
   out_.emit(Op::kPrepareCall, call.place, static_cast<int>(count) + 3, number);
   const uint32_t full = out_.depth();
   site.next = out_.emit(Op::kNextArgument, call.place, 0, number);

@@ -4,8 +4,6 @@
 #include "code/constants.hpp"
 
 namespace language {
-namespace {
-
 
 Compiler::KnownNames::KnownNames(NameTable& names)
     : pi(names.intern("PI")),
@@ -55,7 +53,8 @@ const Code& Compiler::code_of(FunctionEntry& function) {
   size_t slots = 0;
   do {  // a call of itself may pass it a name that it does not declare
     slots = function.parameters.slot_names.size();
-    code = Code{function.scope->unit};
+    code = Code();
+    code.unit = function.scope->unit;
     CodeCompiler(*this, code, *function.scope).compile_function(function);
   } while (function.parameters.slot_names.size() != slots);
   function.code = &code;
@@ -69,7 +68,8 @@ const Code& Compiler::code_of(ModuleEntry& module) {
   size_t slots = 0;
   do {  // a call of itself may pass it a name that it does not declare
     slots = module.parameters.slot_names.size();
-    code = Code{module.scope->unit};
+    code = Code();
+    code.unit = module.scope->unit;
     CodeCompiler(*this, code, *module.scope).compile_module(module);
   } while (module.parameters.slot_names.size() != slots);
   module.code = &code;

@@ -77,6 +77,7 @@ enum class Op : uint8_t {
   kWarnCount,        // say that builtin function b got a wrong number of arguments; push undef
   kUnknownFunction,  // warn of the name b; push undef
   kArgumentWarnings, // say the warnings of plans[b]; once if flag
+  kIfFunction,       // go to b if the top is a function value
   kPrepareCall,      // begin dynamic_calls[b], whose callee is on top
   kNextArgument,     // go to the next argument of dynamic_calls[b]
   kCallDynamic,      // call it
@@ -111,7 +112,6 @@ enum class Op : uint8_t {
   kEndSelection,     // end the group, if there is one; drop what kSelectChildren pushed
   kEndChild,         // a statement of a block has ended
   kEndUnit,          // the assignments of a top level have been evaluated
-  kStop,             // the program has ended
 };
 
 /// Flags of kBeginLoop: which limit of rounds holds.

@@ -30,12 +30,12 @@ struct ScopeVariable {
 /// slots of their frame.
 class ScopeLayout {
  public:
-  ScopeLayout(const ScopeLayout* parent, uint32_t unit, const Code* code, bool is_in_heap)
-      : parent(parent),
-        unit(unit),
-        code(code),
-        is_in_heap(is_in_heap),
-        heap_depth((parent ? parent->heap_depth : 0) + (is_in_heap ? 1 : 0)) {}
+  ScopeLayout(const ScopeLayout* around, uint32_t unit_number, const Code* opener, bool in_heap)
+      : parent(around),
+        unit(unit_number),
+        code(opener),
+        is_in_heap(in_heap),
+        heap_depth((around ? around->heap_depth : 0) + (in_heap ? 1 : 0)) {}
 
   const ScopeLayout* const parent;  // null for the top level of a file
   const uint32_t unit;
