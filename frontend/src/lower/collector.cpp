@@ -39,6 +39,12 @@ constexpr std::string_view kBecauseTooSmall =
 /// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
 bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
 
+/// The colour within color(): the outermost one counts that has all of its channels.
+std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
+                                          const std::optional<csgcore::Color>& own) {
+  return outer && is_whole(*outer) ? outer : own;
+}
+
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
 
@@ -240,10 +246,9 @@ void Collector::enter_color(uint32_t node) {
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
-  if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
   Context context = contexts_.back();
   context.node = node;
-  context.color = color;
+  context.color = inner_color(outer, color);
   contexts_.push_back(context);
 }
 
@@ -433,7 +438,8 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
   const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
-  const bool is_figure = is_plane_primitive(kind) || (is_drawing && !is_extrusion(kind));
+  const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
+                         (is_drawing && !is_extrusion(kind));
   if (candidate_->is_plane || !is_part || !is_solid) {
     candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
     candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
@@ -495,21 +501,31 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
-    for (const uint32_t matrix : part.matrices) {
-      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(matrix));
+    for (const uint32_t node : part.around) {
+      if (const auto* color = std::get_if<NodeColor>(&subtree.solid(node))) {
+        inner.color = inner_color(inner.color, *color);
+        continue;
+      }
+      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(node));
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
     add_plane_leaf(subtree.part(part.node), inner, told);
-    plane_leaves.back().is_inner = true;
+    plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
                                 NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
-  PlaneEvaluation evaluation(subtree, told,
-                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  PlaneEvaluation evaluation(
+      subtree, told, [&](uint32_t left, std::string_view why) { leave_out(left, why); },
+      [&](const PlaneEvaluation& planes, uint32_t node) {
+        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
+        std::optional<FigureOperations> result = solids.projection(node);
+        if (!result) leave_out(node, solids.failure());
+        return result;
+      });
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
   if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
@@ -576,7 +592,7 @@ void Collector::add_pending(const std::stop_token& stop) {
   size_t next = 0;
   for (PlaneLeaf& leaf : plane_leaves) {
     if (next < leaves.size() && leaf.node == leaves[next].node) {
-      leaves[next].is_inner = leaf.is_inner;
+      leaves[next].inner_modifiers = leaf.inner_modifiers;
       leaf = std::move(leaves[next++]);
     } else {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });

@@ -72,7 +72,7 @@ class Collector final : public NodeSink {
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
-    bool is_inner = false;                    // a `%` or `#` part inside of another one
+    uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.

@@ -225,11 +225,10 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
 }
 
 /// Parts of a hull are drawn beside it, or over it, as those of a group are.
-void add_inner_parts(const SyntaxTree& tree, const Collector& collected,
-                     ResolvedModifiers& modifiers) {
+void add_inner_parts(const Collector& collected, ResolvedModifiers& modifiers) {
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_inner || leaf.presence != Presence::kSolid) continue;
-    const uint8_t own = tree.nodes[leaf.node].modifiers;
+    if (leaf.presence != Presence::kSolid) continue;
+    const uint8_t own = leaf.inner_modifiers;
     if ((own & kBackground) != 0) modifiers.background.push_back(leaf.node);
     if ((own & kHighlight) != 0) modifiers.highlight.push_back(leaf.node);
   }
@@ -247,11 +246,11 @@ ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collecte
   }
   for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_inner) leaves[leaf.node] = {leaf.presence, leaf.box, true};
+    if (leaf.inner_modifiers == 0) leaves[leaf.node] = {leaf.presence, leaf.box, true};
   }
   ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
   if (picture != PictureKind::kRendered) {
-    add_inner_parts(tree, collected, modifiers);
+    add_inner_parts(collected, modifiers);
     return modifiers;
   }
   // Nothing is overlaid: `#` parts are operands like others.

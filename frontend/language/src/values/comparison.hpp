@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "language/value.hpp"
-#include "values/operators.hpp"
+#include "values/operator_problem.hpp"
 
 namespace language {
 
@@ -22,10 +21,5 @@ Ordering order(const Value& left, std::string_view sign, const Value& right,
                OperatorProblem& problem);
 
 bool are_equal(const Value& left, const Value& right);
-
-/// Return the warnings of operators: "undefined operation (number + string)", and "operation
-/// undefined (undefined < undefined)" for the comparison of two of a type that has no order.
-std::string undefined_operation(const Value& left, std::string_view sign, const Value& right);
-std::string operation_undefined(const Value& left, std::string_view sign, const Value& right);
 
 }  // namespace language

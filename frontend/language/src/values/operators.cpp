@@ -1,24 +1,11 @@
 #include "values/operators.hpp"
 
-#include "base/utf8.hpp"
 #include "values/comparison.hpp"
-#include "values/make.hpp"
-#include "values/range.hpp"
 #include "values/tree_map.hpp"
 #include "values/vector_products.hpp"
 
 namespace language {
 namespace {
-
-void append_types(std::string& out, const Value& left, std::string_view sign, const Value& right) {
-  out += '(';
-  out += type_name(left.type());
-  out += ' ';
-  out += sign;
-  out += ' ';
-  out += type_name(right.type());
-  out += ')';
-}
 
 Value undefined(const Value& left, std::string_view sign, const Value& right,
                 OperatorProblem& problem) {
@@ -62,18 +49,6 @@ Value compared(Ordering ordering, bool is_less, bool is_neither, bool is_greater
 }
 
 }  // namespace
-
-std::string undefined_operation(const Value& left, std::string_view sign, const Value& right) {
-  std::string text = "undefined operation ";
-  append_types(text, left, sign, right);
-  return text;
-}
-
-std::string operation_undefined(const Value& left, std::string_view sign, const Value& right) {
-  std::string text = "operation undefined ";
-  append_types(text, left, sign, right);
-  return text;
-}
 
 namespace operators {
 

@@ -3,18 +3,12 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 #include <string_view>
 
 #include "language/value.hpp"
+#include "values/operator_problem.hpp"
 
 namespace language {
-
-/// What an operator has to say beside its result. Both are warnings; empty: nothing.
-struct OperatorProblem {
-  std::string unplaced;  // said first, without a place
-  std::string text;      // said at the operator expression's place
-};
 
 namespace operators {
 Value add(const Value& left, const Value& right, OperatorProblem& problem);
@@ -31,10 +25,6 @@ Value greater_equal(const Value& left, const Value& right, OperatorProblem& prob
 bool equal(const Value& left, const Value& right);
 Value index(const Value& container, const Value& index);
 }  // namespace operators
-
-inline bool are_numbers(const Value& left, const Value& right) {
-  return left.is_number() && right.is_number();
-}
 
 inline Value add(const Value& left, const Value& right, OperatorProblem& problem) {
   if (are_numbers(left, right)) return left.number() + right.number();

@@ -1,8 +1,9 @@
 #include "values/vector_products.hpp"
 
 #include <span>
+#include <string>
+#include <utility>
 
-#include "values/comparison.hpp"
 #include "values/make.hpp"
 
 namespace language {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "language/value.hpp"
-#include "values/operators.hpp"
+#include "values/operator_problem.hpp"
 
 namespace language {
 

@@ -1,0 +1,65 @@
+#include "functions/builtin_functions.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "functions/functions.hpp"
+
+namespace language {
+namespace {
+
+constexpr std::array kFunctions = {
+    BuiltinFunction{"abs", 1, 1, functions::absolute},
+    BuiltinFunction{"acos", 1, 1, functions::arc_cosine},
+    BuiltinFunction{"asin", 1, 1, functions::arc_sine},
+    BuiltinFunction{"atan", 1, 1, functions::arc_tangent},
+    BuiltinFunction{"atan2", 2, 2, functions::arc_tangent_of_two},
+    BuiltinFunction{"ceil", 1, 1, functions::ceiling},
+    BuiltinFunction{"chr", 0, kAnyCount, functions::characters},
+    BuiltinFunction{"concat", 0, kAnyCount, functions::concatenation},
+    BuiltinFunction{"cos", 1, 1, functions::cosine},
+    BuiltinFunction{"cross", 0, kAnyCount, functions::cross},
+    BuiltinFunction{"exp", 1, 1, functions::exponential},
+    BuiltinFunction{"floor", 1, 1, functions::floor},
+    BuiltinFunction{"is_bool", 1, 1, functions::is_bool},
+    BuiltinFunction{"is_function", 1, 1, functions::is_function},
+    BuiltinFunction{"is_list", 1, 1, functions::is_list},
+    BuiltinFunction{"is_num", 1, 1, functions::is_number},
+    BuiltinFunction{"is_string", 1, 1, functions::is_string},
+    BuiltinFunction{"len", 1, 1, functions::length},
+    BuiltinFunction{"ln", 1, 1, functions::natural_logarithm},
+    BuiltinFunction{"log", 1, 2, functions::logarithm},
+    BuiltinFunction{"lookup", 2, 2, functions::lookup},
+    BuiltinFunction{"max", 1, kAnyCount, functions::maximum},
+    BuiltinFunction{"min", 1, kAnyCount, functions::minimum},
+    BuiltinFunction{"norm", 1, 1, functions::norm},
+    BuiltinFunction{"ord", 0, kAnyCount, functions::code_point},
+    BuiltinFunction{"parent_module", 0, 1, functions::parent_module},
+    BuiltinFunction{"pow", 2, 2, functions::power},
+    BuiltinFunction{"rands", 3, 4, functions::random_numbers},
+    BuiltinFunction{"round", 1, 1, functions::round},
+    BuiltinFunction{"search", 2, kAnyCount, functions::search},
+    BuiltinFunction{"sign", 1, 1, functions::sign},
+    BuiltinFunction{"sin", 1, 1, functions::sine},
+    BuiltinFunction{"sqrt", 1, 1, functions::square_root},
+    BuiltinFunction{"str", 0, kAnyCount, functions::string},
+    BuiltinFunction{"tan", 1, 1, functions::tangent},
+    BuiltinFunction{"version", 0, kAnyCount, functions::version},
+    BuiltinFunction{"version_num", 0, kAnyCount, functions::version_number},
+};
+static_assert(std::is_sorted(kFunctions.begin(), kFunctions.end(),
+                             [](const auto& a, const auto& b) { return a.name < b.name; }));
+
+}  // namespace
+
+std::span<const BuiltinFunction> builtin_functions() { return kFunctions; }
+
+const BuiltinFunction* find_builtin_function(std::string_view name) {
+  const auto found = std::lower_bound(kFunctions.begin(), kFunctions.end(), name,
+                                      [](const BuiltinFunction& function, std::string_view wanted) {
+                                        return function.name < wanted;
+                                      });
+  return found != kFunctions.end() && found->name == name ? &*found : nullptr;
+}
+
+}  // namespace language

@@ -1,0 +1,68 @@
+#include <array>
+#include <climits>
+#include <cmath>
+#include <string>
+
+#include "functions/functions.hpp"
+#include "values/make.hpp"
+
+namespace language::functions {
+namespace {
+
+// The program that is imitated.
+constexpr double kYear = 2021, kMonth = 1, kDay = 0;
+
+Value combined(double year, double month, double day) { return year * 10000 + month * 100 + day; }
+
+// Returns a number as an int; what does not fit becomes the least one.
+int int_of(double number) {
+  constexpr double kEnd = 2147483648.0;
+  const double whole = std::trunc(number);
+  return whole >= -kEnd && whole < kEnd ? static_cast<int>(whole) : INT_MIN;
+}
+
+}  // namespace
+
+Value version(const FunctionCall&) {
+  const std::array<Value, 3> parts = {kYear, kMonth, kDay};
+  return make_vector(parts);
+}
+
+Value version_number(const FunctionCall& call) {
+  if (call.arguments.empty()) return combined(kYear, kMonth, kDay);
+  const Value& argument = call.arguments[0];
+  if (!argument.is_vector()) return Value::undef();
+  const auto parts = argument.elements();
+  if (parts.size() < 2 || parts.size() > 3) return Value::undef();
+  for (const Value& part : parts)
+    if (!part.is_number()) return Value::undef();
+  return combined(parts[0].number(), parts[1].number(), parts.size() > 2 ? parts[2].number() : 0);
+}
+
+Value is_list(const FunctionCall& call) { return Value::boolean(call.arguments[0].is_vector()); }
+Value is_bool(const FunctionCall& call) { return Value::boolean(call.arguments[0].is_bool()); }
+Value is_string(const FunctionCall& call) { return Value::boolean(call.arguments[0].is_string()); }
+Value is_function(const FunctionCall& call) {
+  return Value::boolean(call.arguments[0].is_function());
+}
+Value is_number(const FunctionCall& call) {
+  const Value& argument = call.arguments[0];
+  return Value::boolean(argument.is_number() && !std::isnan(argument.number()));
+}
+
+Value parent_module(const FunctionCall& call) {
+  if (!call.arguments.empty() && !call.arguments[0].is_number()) return Value::undef();
+  const int level = call.arguments.empty() ? 1 : int_of(call.arguments[0].number());
+  const auto refuse = [&](std::string_view before, std::string_view after) {
+    call.warn(std::string(before) + "arent module index (" + std::to_string(level) + ") " +
+              std::string(after));
+    return Value::undef();
+  };
+  const auto modules = call.environment.module_names;
+  if (level < 0) return refuse("Negative p", "not allowed");
+  if (static_cast<size_t>(level) >= modules.size())
+    return refuse("P", "greater than the number of modules on the stack");
+  return make_string(modules[modules.size() - 1 - static_cast<size_t>(level)]);
+}
+
+}  // namespace language::functions

@@ -1,0 +1,88 @@
+#include <string>
+
+#include "base/number_conversions.hpp"
+#include "base/utf8.hpp"
+#include "functions/functions.hpp"
+#include "values/make.hpp"
+#include "values/object_memory.hpp"
+#include "values/range.hpp"
+#include "values/value_text.hpp"
+
+namespace language::functions {
+namespace {
+
+constexpr uint32_t kMostRangeValues = 10000;  // chr() ignores ranges of so many and more
+
+void append_character(std::string& out, double number) {
+  const uint32_t code_point = number > 0 ? low_bits(number) : 0;
+  if (code_point != 0 && is_code_point(code_point)) append_code_point(out, code_point);
+}
+
+void append_range_characters(std::string& out, const RangeObject& range, const FunctionCall& call) {
+  if (range.count() >= kMostRangeValues) {
+    call.environment.messages.say(MessageGroup::kWarning,
+                                  "Bad range parameter in for statement: too many elements (" +
+                                      std::to_string(range.count()) + ").");
+    return;
+  }
+  const uint32_t steps = range.steps();
+  for (uint32_t i = 0; i < steps; ++i) append_character(out, range.value(i));
+}
+
+// Appends the characters of a number, a range or a vector, which may nest deeply.
+void append_characters(std::string& out, const Value& value, const FunctionCall& call) {
+  std::vector<std::span<const Value>> rests{{&value, 1}};
+  while (!rests.empty()) {
+    auto& rest = rests.back();
+    if (rest.empty()) {
+      rests.pop_back();
+      continue;
+    }
+    const Value& element = rest.front();
+    rest = rest.subspan(1);
+    if (element.is_number())
+      append_character(out, element.number());
+    else if (element.is_range())
+      append_range_characters(out, element.range(), call);
+    else if (element.is_vector())
+      rests.push_back(element.elements());
+    check_text_size(out.size());
+  }
+}
+
+}  // namespace
+
+Value string(const FunctionCall& call) {
+  std::string text;
+  for (const Value& argument : call.arguments) {
+    append_str_text(text, argument);
+    check_text_size(text.size());
+  }
+  return make_string(text);
+}
+
+Value characters(const FunctionCall& call) {
+  std::string text;
+  for (const Value& argument : call.arguments) append_characters(text, argument, call);
+  return make_string(text);
+}
+
+Value code_point(const FunctionCall& call) {
+  const auto arguments = call.arguments;
+  if (arguments.empty()) return Value::undef();
+  const auto refuse = [&](std::string text) {
+    call.warn("ord() " + std::move(text));
+    return Value::undef();
+  };
+  if (arguments.size() > 1)
+    return refuse("called with " + std::to_string(arguments.size()) +
+                  " arguments, only 1 argument expected");
+  if (!arguments[0].is_string())
+    return refuse("argument " + echo_text(arguments[0]) + " is not of type string");
+  const std::string_view text = arguments[0].text();
+  if (!is_valid_utf8(text))
+    return refuse("argument '" + std::string(text) + "' is not a valid utf8 string");
+  return text.empty() ? Value::undef() : Value(first_code_point(text));
+}
+
+}  // namespace language::functions
