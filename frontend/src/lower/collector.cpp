@@ -20,6 +20,7 @@
 #include "lower/rendered_lowering.hpp"
 #include "lower/solid_evaluation.hpp"
 #include "lower/solid_lowering.hpp"
+#include "lower/typed_numbers.hpp"
 
 namespace frontend {
 namespace {
@@ -122,7 +123,9 @@ void Collector::take(uint32_t index, uint32_t offset) {
   const uint32_t id = primitive_nodes;
   if (has_place(tree_, node)) {
     ++primitive_nodes;
-    if (options_.keeps_places) places.push_back({node.location.line, offset});
+    if (options_.keeps_places) {
+      places.push_back({node.location.line, offset, 0, 0, node.location.file, 0});
+    }
   }
   if (root_ && !is_within(index, *root_)) return;
   if (disabled_ && is_within(index, *disabled_)) return;
@@ -262,8 +265,7 @@ void Collector::enter_leaf(uint32_t node, uint32_t offset) {
   context.node = node;
   context.in_leaf = true;
   context.leaf_color = context.color;
-  context.leaf_line = tree_.nodes[node].location.line;
-  context.leaf_offset = offset;
+  context.set_leaf_place(tree_.nodes[node].location, offset);
   compound_leaves.push_back({node, context.frame});
   contexts_.push_back(context);
 }
@@ -273,7 +275,7 @@ void Collector::leave_leaf(uint32_t node) {
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = false;
-  context.leaf_line = context.leaf_offset = 0;
+  context.set_leaf_place({}, 0);
   contexts_.push_back(context);
 }
 
@@ -333,6 +335,7 @@ void Collector::note_leaf_place(const Context& context) {
   if (!options_.keeps_places) return;
   places.back().leaf_line = context.leaf_line;
   places.back().leaf_offset = context.leaf_offset;
+  places.back().leaf_file = context.leaf_file;
 }
 
 void Collector::add_solid(uint32_t index, uint32_t id) {
@@ -346,11 +349,19 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
-  primitive_of[index] =
-      add_primitive(std::move(primitive), index, context, context.frame, box, count);
+  primitive_of[index] = add_primitive(std::move(primitive), index, context,
+                                      typed_frame(index, context.frame), box, count);
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
+}
+
+/// Returns the frame of a node's shape: that around it, or one within, which bears the errors of
+/// its typed numbers.
+uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
+  if (!tree_.has_all_digits) return frame;
+  const HealedMatrix typed = typed_numbers(tree_, node);
+  return typed.exact ? frame : frames.add(frame, typed);
 }
 
 uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
@@ -381,14 +392,14 @@ void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_place_ = {node, offset};
   const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
   if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
-    plane_context_.leaf_line = tree_.nodes[node].location.line;
-    plane_context_.leaf_offset = offset;
+    plane_context_.set_leaf_place(tree_.nodes[node].location, offset);
   }
   if (is_leaf_by_itself) note_leaf_place(plane_context_);
 }
 
 /// After the last node of the subtree.
 void Collector::leave_plane() {
+  plane_context_.frame = typed_frame(plane_->root(), plane_context_.frame);
   add_plane_leaf(*plane_, plane_place_, plane_context_, problems);
   // A plane figure among solids is ignored; what stands at the top is a candidate, too.
   PlaneLeaf& leaf = plane_leaves.back();
@@ -419,8 +430,7 @@ bool Collector::may_be_plane(uint32_t node) {
 void Collector::enter_candidate(uint32_t node, uint32_t offset) {
   Context context = contexts_.back();
   if (context.leaf_line == 0) {
-    context.leaf_line = tree_.nodes[node].location.line;
-    context.leaf_offset = offset;
+    context.set_leaf_place(tree_.nodes[node].location, offset);
   }
   candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
                                {node, offset},
@@ -459,7 +469,9 @@ void Collector::leave_candidate() {
   forget_since(candidate);
   NodeProblems told;  // again
   if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
-  add_plane_leaf(candidate.subtree, candidate.place, candidate.context, told);
+  Context context = candidate.context;
+  context.frame = typed_frame(candidate.subtree.root(), context.frame);
+  add_plane_leaf(candidate.subtree, candidate.place, context, told);
 }
 
 bool Collector::take_rendered_dimension(uint32_t root, int dimension) {

@@ -101,6 +101,13 @@ class Collector final : public NodeSink {
     bool flattened;                   // a matrix with inf or nan on the way: nothing is left
     bool in_leaf;                     // a compound one, whose nodes have no colours of their own
     uint32_t leaf_line, leaf_offset;  // of that one
+    uint32_t leaf_file = 0;
+
+    void set_leaf_place(Location location, uint32_t offset) {
+      leaf_line = location.line;
+      leaf_offset = offset;
+      leaf_file = location.file;
+    }
   };
   struct LeftOut {
     uint32_t node;
@@ -119,6 +126,7 @@ class Collector final : public NodeSink {
   void enter_leaf(uint32_t node, uint32_t offset);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  uint32_t typed_frame(uint32_t node, uint32_t frame);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);

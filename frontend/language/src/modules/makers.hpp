@@ -1,7 +1,7 @@
 // What makes the node of each builtin module (LANGUAGE.md, "Builtin modules").
 #pragma once
 
-#include "modules/builtin_modules.hpp"
+#include "modules/builtin_call.hpp"
 
 namespace language {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "modules/builtin_modules.hpp"
+#include "modules/builtin_call.hpp"
 
 namespace language {
 

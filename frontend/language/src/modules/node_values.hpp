@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "modules/builtin_modules.hpp"
+#include "modules/builtin_call.hpp"
 
 namespace language {
 

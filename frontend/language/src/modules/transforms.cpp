@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "functions/degrees.hpp"
+#include "base/degrees.hpp"
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
 #include "values/make.hpp"
