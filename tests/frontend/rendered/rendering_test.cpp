@@ -437,12 +437,11 @@ TEST(InstalledRenderer, LeavesNoGap) {
   const Environment cache("XDG_CACHE_HOME", folder.path());
   ImportOptions options;
   options.rendering.timeout_s = 60;
-  // A block with a hole from the origin to (3.1, 3.2, 3.3), turned by 30 degrees and moved.
+  // A block from the origin to (3.1, 3.2, 3.3), turned by 30 degrees and moved.
   const std::string design =
       "multmatrix([[0.866025,-0.5,0,0.1],[0.5,0.866025,0,0.7],[0,0,1,0.3]]) { minkowski() { "
-      "difference() { cube([2.1,2.2,2.3]); multmatrix([[1,0,0,0.5],[0,1,0,0.5]]) "
-      "{ cube([0.1,0.1,9]); } } difference() { cube(1); multmatrix([[1,0,0,0.5],[0,1,0,0.5]]) "
-      "{ cube([0.1,0.1,9]); } } } }";
+      "difference() { cube([2.1,2.2,2.3]); sphere(0.5); } "
+      "difference() { cube(1); sphere(0.1); } } }";
   const ImportedDesign all = TextImport(design, "a.csg", options).finish();
   options.rendering = {};
   const ImportedDesign exact =
