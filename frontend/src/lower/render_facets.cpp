@@ -15,9 +15,9 @@ namespace {
 
 /// A circle of 96 fragments is 1/7 of a pixel away from the round one if it is 512 pixels wide, one
 /// of 36 a pixel.
-constexpr std::array<int, 7> kFragments = {96, 72, 48, 36, 24, 18, 12};
-/// The facets, or pairs of facets in a sum, that openscad takes some five seconds for.
-constexpr double kMostRenderedFacets = 4096;
+constexpr std::array<int, 8> kFragments = {96, 72, 60, 48, 36, 24, 18, 12};
+/// The facets, or pairs of facets in a sum, that openscad takes some three seconds for.
+constexpr double kMostRenderedFacets = 2048;
 
 /// Of parts whose facets are not counted: a text, a file.
 constexpr double kFacetsOfOthers = 256;
@@ -117,6 +117,7 @@ class FacetCount {
       const bool multiplies = node.kind == NodeKind::kMinkowski;
       double children = multiplies && node.subtree_end > index + 1 ? 1 : 0;
       for (uint32_t c = index + 1; c < node.subtree_end; c = tree_.nodes[c].subtree_end) {
+        if ((tree_.nodes[c].modifiers & (kDisable | kBackground)) != 0) continue;
         const double of_child = facets[c - root_];
         children = multiplies ? children * std::max(of_child, 1.0) : children + of_child;
       }

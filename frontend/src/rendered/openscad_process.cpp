@@ -86,26 +86,24 @@ class Listener {
   std::string messages_;
 };
 
-/// Returns the first line of openscad's messages that says what is wrong; empty if there is none.
-std::string first_complaint(std::string_view messages) {
-  for (const std::string_view kind : {"ERROR: ", "WARNING: "}) {
-    const std::size_t start = messages.find(kind);
-    if (start == std::string_view::npos) continue;
-    const std::string_view line = messages.substr(start, messages.find('\n', start) - start);
-    return std::string(line.substr(kind.size()));
-  }
-  return {};
+/// Returns what the first error among openscad's messages says; empty if there is none.
+std::string first_error(std::string_view messages) {
+  constexpr std::string_view kError = "ERROR: ";
+  const std::size_t start = messages.find(kError);
+  if (start == std::string_view::npos) return {};
+  const std::string_view line = messages.substr(start, messages.find('\n', start) - start);
+  return std::string(line.substr(kError.size()));
 }
 
 OpenScadResult result_of(std::string_view output, std::string_view messages, int exit_code) {
   constexpr std::string_view kEmpty = "Current top level object is empty";
-  const std::string complaint = first_complaint(messages);
+  const std::string error = first_error(messages);
   if (exit_code == 0) {
     if (std::optional<RingedFaces> faces = read_nef_text(output)) return {std::move(faces), {}};
-  } else if (complaint.empty() && messages.find(kEmpty) != std::string_view::npos) {
+  } else if (error.empty() && messages.find(kEmpty) != std::string_view::npos) {
     return {RingedFaces{}, {}};
   }
-  if (!complaint.empty()) return {std::nullopt, "openscad says: " + complaint};
+  if (!error.empty()) return {std::nullopt, "openscad says: " + error};
   return {std::nullopt, exit_code == 0
                             ? "openscad wrote no solid"
                             : "openscad failed with exit code " + std::to_string(exit_code)};

@@ -124,7 +124,7 @@ struct CacheFile {
 
 }  // namespace
 
-RenderCache::RenderCache() : folder_(cache_folder()) {}
+RenderCache::RenderCache(uint64_t most_bytes) : folder_(cache_folder()), most_bytes_(most_bytes) {}
 
 std::string RenderCache::path_of(std::string_view key) const {
   Hashes hashes;
@@ -192,10 +192,10 @@ void RenderCache::make_room() const {
     bytes += file.bytes;
     files.push_back(std::move(file));
   }
-  if (bytes <= kMostBytes) return;
+  if (bytes <= most_bytes_) return;
   std::ranges::sort(files, {}, &CacheFile::used);
   for (const CacheFile& file : files) {
-    if (bytes <= kMostBytes) break;
+    if (bytes <= most_bytes_) break;
     std::error_code gone;
     fs::remove(file.path, gone);
     bytes -= file.bytes;

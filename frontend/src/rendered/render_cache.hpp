@@ -20,7 +20,7 @@ class RenderCache {
   static constexpr uint64_t kMostBytesOfFile = kMostBytes / 8;
 
   /// The folder is scadray in $XDG_CACHE_HOME, or else in ~/.cache. Without $HOME nothing is kept.
-  RenderCache();
+  explicit RenderCache(uint64_t most_bytes = kMostBytes);
 
   std::optional<RingedFaces> find(std::string_view key) const;
   /// Makes room, where it is needed, by removing what was not used for the longest time.
@@ -31,6 +31,7 @@ class RenderCache {
   void make_room() const;
 
   std::string folder_;  // empty: none
+  uint64_t most_bytes_;
 };
 
 }  // namespace frontend
