@@ -96,7 +96,8 @@ Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
       files(options.folder, polyhedra),
       fonts(options.font_files),
       tree_(tree),
-      options_(options) {
+      options_(options),
+      hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -541,8 +542,9 @@ Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEval
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
+  hulls_->end_version();
   if (pending_.empty()) return;
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
