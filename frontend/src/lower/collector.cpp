@@ -101,7 +101,8 @@ Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::
       fonts(options.font_files),
       tree_(tree),
       options_(options),
-      text_(text) {
+      text_(text),
+      hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -620,8 +621,9 @@ RenderRequest Collector::request_for(uint32_t node, const TextPlace& place, bool
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
+  hulls_->end_version();
   if (pending_.empty()) return;
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
   const std::vector<Rendering> renderings = render_pending(stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});

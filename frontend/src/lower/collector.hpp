@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -201,7 +202,7 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
-  HullPool hulls_;
+  const std::shared_ptr<HullPool> hulls_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
