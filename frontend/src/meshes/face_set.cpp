@@ -1,5 +1,6 @@
 #include "meshes/face_set.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -91,16 +92,46 @@ Vec3 area_vector(const FaceSet& faces, std::span<const uint32_t> face) {
   return sum;
 }
 
-/// A face as it is seen along the axis that its normal is nearest to, counterclockwise.
-void project(const FaceSet& faces, std::span<const uint32_t> face,
-             std::vector<glm::dvec2>& places) {
-  const Vec3 normal = area_vector(faces, face);
+int longest_axis(const Vec3& v) {
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
-    if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
   }
+  return axis;
+}
+
+/// Returns the axis that OpenSCAD looks along: the one nearest to the normal of a triangle in the
+/// face. That has the two corners that are furthest apart along the axis where the face is longest,
+/// and the corner with which they make the largest triangle.
+int axis_of_view(const FaceSet& faces, std::span<const uint32_t> face) {
+  const auto at = [&](uint32_t corner) -> const Vec3& { return faces.points[corner]; };
+  std::array<uint32_t, 3> least, most;
+  least.fill(face[0]);
+  most.fill(face[0]);
+  Vec3 size(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const uint32_t corner : face) {
+      if (at(corner)[axis] < at(least[axis])[axis]) least[axis] = corner;
+      if (at(corner)[axis] > at(most[axis])[axis]) most[axis] = corner;
+    }
+    size[axis] = at(most[axis])[axis] - at(least[axis])[axis];
+  }
+  const int along = longest_axis(size);
+  const Vec3 base = at(least[along]) - at(most[along]);
+  Vec3 normal(0.0);
+  for (const uint32_t corner : face) {
+    const Vec3 candidate = glm::cross(base, at(corner) - at(most[along]));
+    if (glm::dot(candidate, candidate) > glm::dot(normal, normal)) normal = candidate;
+  }
+  return longest_axis(normal);
+}
+
+/// A face as OpenSCAD sees it, counterclockwise.
+void project(const FaceSet& faces, std::span<const uint32_t> face,
+             std::vector<glm::dvec2>& places) {
+  const int axis = axis_of_view(faces, face);
   const int right = (axis + 1) % 3, up = (axis + 2) % 3;
-  const double sign = normal[axis] > 0 ? 1 : -1;
+  const double sign = area_vector(faces, face)[axis] > 0 ? 1 : -1;
   places.clear();
   for (const uint32_t corner : face) {
     places.emplace_back(faces.points[corner][right], sign * faces.points[corner][up]);

@@ -38,8 +38,8 @@ double enclosed_volume(const FaceSet& faces);
 /// Returns the faces as csgcore has them.
 csgcore::Mesh to_mesh(const FaceSet& faces);
 
-/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along the axis that
-/// its normal is nearest to, and triangulates it there (triangulation.hpp).
+/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along an axis
+/// (frontend/OPENSCAD.md, "Polyhedra"), and triangulates it there (triangulation.hpp).
 std::vector<csgcore::TriangleMesh::Triangle> triangles_of(const FaceSet& faces);
 
 }  // namespace frontend
