@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,18 +71,6 @@ class Extruding {
   }
 
  private:
-  /// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
-  /// has as many chords as slices in a turn.
-  Chords chords_of(const FigureTree& figures) const {
-    const Rectangle bounds = positive_bounds(figures);
-    const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
-    constexpr double kMost = 120;
-    if (!has_flat_sides(layers_, reach)) return {static_cast<int>(kMost), kSmoothTolerance * reach};
-    const double turns = layers_.turn() / (2 * std::numbers::pi);
-    const double slices = data_.arguments.slices.value_or(1) / turns;
-    return {static_cast<int>(std::clamp(std::ceil(slices), kMost, double{kChordsOfCircle})), 0};
-  }
-
   Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
 
   /// Whether a twist leaves all figures as they are: they are discs about the axis.
@@ -99,7 +86,8 @@ class Extruding {
   LoweredSubtree lower_slices(const FigureTree& figures) {
     evaluation_.find_all_figures();
     std::optional<SimplePolygons> outline =
-        united(evaluation_.figures(subtree_.root()), chords_of(figures));
+        united(evaluation_.figures(subtree_.root()),
+               chords_of_layers(layers_, positive_bounds(figures), data_.arguments.slices));
     if (!outline) {
       problems_.add(subtree_.syntax(subtree_.root()), "crossings", [] {
         return NodeProblems::Description{" is left out: its edges cross too often",

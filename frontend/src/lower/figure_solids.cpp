@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "csgcore/triangle_mesh.hpp"
 #include "heal/matrix_healing.hpp"
 #include "meshes/ring_cap.hpp"
+#include "meshes/ring_faces.hpp"
 
 namespace frontend {
 namespace {
@@ -81,9 +83,9 @@ std::optional<Disc> half_disc(const Figure& figure) {
   return *disc;
 }
 
-/// The azimuths of the rings, in degrees. A partial turn has one more beyond each end, within what
-/// is cut away.
-std::vector<double> azimuths_of(const TurnSections& sections) {
+/// The azimuths of the rings, in degrees. A partial turn that goes on beyond its ends has one more
+/// there, within what is cut away.
+std::vector<double> azimuths_of(const TurnSections& sections, MeshEnds ends) {
   std::vector<double> result;
   for (int ring = 0; ring < sections.count; ++ring) {
     const double turn = sections.angle * ring / sections.count;
@@ -91,11 +93,26 @@ std::vector<double> azimuths_of(const TurnSections& sections) {
   }
   if (sections.is_closed()) return result;
   const double end = sections.start + sections.angle;
+  result.push_back(end);
+  if (ends == MeshEnds::kExact) return result;
   const double beyond =
       std::copysign(std::min((360 - std::abs(sections.angle)) / 3, 60.0), sections.angle);
   result.insert(result.begin(), sections.start - beyond);
-  result.insert(result.end(), {end, end + beyond});
+  result.push_back(end + beyond);
   return result;
+}
+
+/// Adds the face at one end of a partial turn, which the rings bound.
+void add_end(std::vector<std::vector<uint32_t>> rings, bool are_reversed, bool is_flipped,
+             std::span<const Vec2> corner_of,
+             std::vector<csgcore::TriangleMesh::Triangle>& triangles) {
+  if (are_reversed) {
+    for (std::vector<uint32_t>& ring : rings) std::reverse(ring.begin(), ring.end());
+  }
+  const size_t first = triangles.size();
+  triangulate_rings(rings, corner_of, triangles);
+  if (!is_flipped) return;
+  for (size_t i = first; i < triangles.size(); ++i) std::swap(triangles[i][1], triangles[i][2]);
 }
 
 void add_numbers(const Vec2& v, std::vector<double>& key) { key.insert(key.end(), {v.x, v.y}); }
@@ -178,14 +195,16 @@ std::optional<Primitive> FigureSolids::revolved(const Figure& figure) {
   return csgcore::make_revolution(profile(outline));
 }
 
-Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
-                                      const TurnSections& sections) {
+Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons, const TurnSections& sections,
+                                      MeshEnds ends) {
   std::vector<Vec3> vertices;
   std::vector<csgcore::TriangleMesh::Triangle> triangles;
-  const std::vector<double> azimuths = azimuths_of(sections);
+  const std::vector<double> azimuths = azimuths_of(sections, ends);
   const bool is_left = bounds_of(polygons).min.x < 0;
   const bool is_reversed = (sections.angle > 0 && !sections.is_closed()) != is_left;
   std::map<std::pair<double, double>, uint32_t> on_axis;
+  std::vector<Vec2> corner_of;  // by vertex
+  std::vector<std::vector<uint32_t>> first_rings, last_rings;
   for (const Polygon& given : polygons) {
     Polygon polygon = given;
     if (is_reversed) std::reverse(polygon.begin(), polygon.end());
@@ -199,10 +218,14 @@ Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
         if (corner.x != 0) {
           ring.push_back(next);
           vertices.emplace_back(corner.x * cos_deg(azimuth), corner.x * sin_deg(azimuth), corner.y);
+          corner_of.push_back(corner);
           continue;
         }
         const auto [entry, is_new] = on_axis.try_emplace({corner.x, corner.y}, next);
-        if (is_new) vertices.emplace_back(0, 0, corner.y);
+        if (is_new) {
+          vertices.emplace_back(0, 0, corner.y);
+          corner_of.push_back(corner);
+        }
         ring.push_back(entry->second);
       }
     }
@@ -216,10 +239,17 @@ Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
       }
     }
     if (sections.is_closed()) continue;
+    if (ends == MeshEnds::kExact) {
+      first_rings.push_back(std::move(rings.front()));
+      last_rings.push_back(std::move(rings.back()));
+      continue;
+    }
     std::reverse(rings.front().begin(), rings.front().end());
     close_ring(rings.front(), triangles);
     close_ring(rings.back(), triangles);
   }
+  add_end(std::move(first_rings), is_reversed, !is_reversed, corner_of, triangles);
+  add_end(std::move(last_rings), is_reversed, is_reversed, corner_of, triangles);
   return csgcore::make_mesh(
       std::make_shared<csgcore::TriangleMesh>(std::move(vertices), std::move(triangles)));
 }

@@ -9,6 +9,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/primitive.hpp"
 #include "csgcore/profile.hpp"
+#include "lower/mesh_ends.hpp"
 #include "plane/figure.hpp"
 #include "plane/outlines.hpp"
 
@@ -31,6 +32,9 @@ struct TurnSections {
   bool is_closed() const { return angle == 360; }
 };
 
+/// More sections of a turn cannot be told from a round solid.
+constexpr int kMostSections = 3600;
+
 /// Makes the solids of a design. Those that have the same local solid share it.
 class FigureSolids {
  public:
@@ -46,9 +50,11 @@ class FigureSolids {
   /// empty.
   std::optional<csgcore::Primitive> revolved(const Figure& figure);
 
-  /// Returns OpenSCAD's mesh of the polygons, revolved. Of a partial turn it goes on beyond the two
-  /// ends, and has to be cut there. All points have x ≥ 0, or all x ≤ 0.
-  csgcore::Primitive revolved_mesh(const SimplePolygons& polygons, const TurnSections& sections);
+  /// Returns OpenSCAD's mesh of the polygons, revolved; a partial turn has two ends. All points
+  /// have x ≥ 0, or all x ≤ 0.
+  static csgcore::Primitive revolved_mesh(const SimplePolygons& polygons,
+                                          const TurnSections& sections,
+                                          MeshEnds ends = MeshEnds::kBeyond);
 
   /// Returns the part of space around z between the azimuths 0 and `angle` (from above 0 to 180),
   /// within the radius and from z_min to z_max at least.

@@ -18,7 +18,6 @@ enum class Role : uint8_t {
 };
 
 constexpr std::string_view kBecauseUnknown = "OpenSCAD 2021.01 does not know it";
-constexpr std::string_view kBecauseProjection = "scadray itself makes no projections";
 
 inline Role role_of(NodeKind kind) {
   switch (kind) {

@@ -56,8 +56,6 @@ class Revolving {
   }
 
  private:
-  /// More sections cannot be told from a round solid.
-  static constexpr int kMostSections = 3600;
   /// OpenSCAD's grid: a profile that reaches less beyond the axis touches it.
   static constexpr double kReachBeyondAxis = 0x1p-16;
 
@@ -125,7 +123,7 @@ class Revolving {
         point.x = is_left_ ? std::min(point.x, 0.0) : std::max(point.x, 0.0);
       }
     }
-    Primitive mesh = solids_.revolved_mesh(*outline, sections_);
+    Primitive mesh = FigureSolids::revolved_mesh(*outline, sections_);
     mesh.local_to_world = root_to_world_;
     mesh.id = figures.figures.front().id;
     result.parts.push_back({std::move(mesh), frame_, box_});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "csgcore/triangle_mesh.hpp"
 #include "meshes/ring_cap.hpp"
+#include "meshes/ring_faces.hpp"
 
 namespace frontend {
 namespace {
@@ -41,15 +43,22 @@ class SlicedMesh {
     }
   }
 
-  csgcore::Primitive make() {
+  csgcore::Primitive make(MeshEnds ends) {
     const bool has_top = layers_.top_scale.x > 0 && layers_.top_scale.y > 0;
     add_layers(has_top);
     for (const Loop& loop : loops_) add_sides(loop, has_top);
-    go_on(0, layers_.z_min - kBeyondEnd * height());
-    if (has_top) {
+    const bool goes_on = ends == MeshEnds::kBeyond;
+    if (goes_on) {
+      go_on(0, layers_.z_min - kBeyondEnd * height());
+    } else {
+      add_face(0);
+    }
+    if (!has_top) {
+      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
+    } else if (goes_on) {
       go_on(slices_, layers_.z_max + kBeyondEnd * height());
     } else {
-      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
+      add_face(slices_);
     }
     return csgcore::make_mesh(
         std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
@@ -164,6 +173,21 @@ class SlicedMesh {
     return result;
   }
 
+  /// The rings of a layer bound a face.
+  void add_face(uint32_t layer) {
+    std::vector<std::vector<uint32_t>> rings;
+    for (const Loop& loop : loops_) rings.push_back(loop.points);
+    const size_t first = triangles_.size();
+    const auto plan = plan_.begin() + static_cast<std::ptrdiff_t>(layer * points_.size());
+    triangulate_rings(rings, {plan, plan + static_cast<std::ptrdiff_t>(points_.size())},
+                      triangles_);
+    for (size_t i = first; i < triangles_.size(); ++i) {
+      auto& [a, b, c] = triangles_[i];
+      for (uint32_t* corner : {&a, &b, &c}) *corner = vertex_[layer * points_.size() + *corner];
+      if (layer == 0) std::swap(b, c);
+    }
+  }
+
   void close(std::vector<uint32_t> ring, bool is_bottom) {
     if (is_bottom) std::reverse(ring.begin(), ring.end());
     close_ring(std::move(ring), triangles_);
@@ -182,8 +206,8 @@ class SlicedMesh {
 
 }  // namespace
 
-csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing) {
-  return SlicedMesh(layers, slicing).make();
+csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing, MeshEnds ends) {
+  return SlicedMesh(layers, slicing).make(ends);
 }
 
 csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline) {

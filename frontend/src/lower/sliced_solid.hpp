@@ -2,14 +2,16 @@
 #pragma once
 
 #include "csgcore/primitive.hpp"
+#include "lower/mesh_ends.hpp"
 #include "lower/slices.hpp"
 
 namespace frontend {
 
-/// Returns the mesh of the sides. It goes on beyond both ends, unless the top has no area, and has
-/// to be cut there. Of the two diagonals of a quadrilateral it takes the one
-/// that OpenSCAD takes. The polygons of the outline do not cross.
-csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing);
+/// Returns the mesh of the sides; a top without an area ends there in any case. Of the two
+/// diagonals of a quadrilateral it takes the one that OpenSCAD takes. The polygons of the outline
+/// do not cross.
+csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing,
+                               MeshEnds ends = MeshEnds::kBeyond);
 
 /// Returns the box of the corners of all layers.
 csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline);

@@ -127,6 +127,18 @@ bool has_flat_sides(const TwistedLayers& layers, double reach) {
   return reach * layers.turn() > kLeastMotion * layers.height();
 }
 
+/// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
+/// has as many chords as slices in a turn.
+Chords chords_of_layers(const TwistedLayers& layers, const Rectangle& bounds,
+                        const std::optional<double>& slices) {
+  const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
+  constexpr double kMost = 120;
+  if (!has_flat_sides(layers, reach)) return {static_cast<int>(kMost), kSmoothTolerance * reach};
+  const double turns = layers.turn() / (2 * std::numbers::pi);
+  const double in_turn = std::ceil(slices.value_or(1) / turns);
+  return {static_cast<int>(std::clamp(in_turn, kMost, double{kChordsOfCircle})), 0};
+}
+
 Slicing smooth_slicing(const TwistedLayers& layers, double slices, SimplePolygons outline) {
   if (!has_flat_sides(layers, reach_of(outline))) {
     return between_images(layers, slices, std::move(outline));

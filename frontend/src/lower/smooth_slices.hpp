@@ -2,7 +2,10 @@
 // smooth solid.
 #pragma once
 
+#include <optional>
+
 #include "lower/slices.hpp"
+#include "plane/figure.hpp"
 
 namespace frontend {
 
@@ -13,6 +16,11 @@ constexpr double kSmoothTolerance = 0x1p-11;
 /// Returns whether an extrusion turns so much for its height that its sides are nearly flat, as
 /// those of a thread: a point at the distance `reach` moves by several heights.
 bool has_flat_sides(const TwistedLayers& layers, double reach);
+
+/// Returns the chords that curves get in an extrusion that turns. `slices` is what the design
+/// gives.
+Chords chords_of_layers(const TwistedLayers& layers, const Rectangle& bounds,
+                        const std::optional<double>& slices);
 
 /// Returns at least as many slices as given, and edges that are cut, so that the triangles are
 /// nowhere farther from the smooth sides than kSmoothTolerance. Sides that need too many triangles

@@ -1,14 +1,16 @@
 #include "lower/solid_evaluation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/primitive_traits.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/sections.hpp"
+#include "lower/shadows.hpp"
 #include "lower/solid_cuts.hpp"
+#include "lower/solid_extrusions.hpp"
 #include "lower/solid_sums.hpp"
 
 namespace frontend {
@@ -25,16 +27,60 @@ constexpr std::string_view kBecauseExtrusion =
 
 }  // namespace
 
-std::optional<SolidValue> SolidEvaluation::run() {
-  const uint32_t root = subtree_.root();
-  values_.resize(subtree_.end() - root);
+std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
+  first_ = root;
+  values_.assign(subtree_.end_of(root) - root, {});
   // Children come after their parents: from the last node on, all that a node holds is known.
-  for (uint32_t i = subtree_.end(); i-- > root && failure_.empty();) {
-    if (!subtree_.is_taken(i) || planes_.presence(i) != Presence::kSolid) continue;
-    if (planes_.dimension(i) == 3) values_[i - root] = evaluate(i);
+  const std::vector<uint32_t> nodes = solid_nodes(root);
+  for (auto node = nodes.rbegin(); node != nodes.rend() && failure_.empty(); ++node) {
+    values_[*node - root] = evaluate(*node);
   }
   if (!failure_.empty()) return std::nullopt;
   return std::move(values_.front());
+}
+
+/// The root, and the nodes of solids below it without those of other projections, whose figures are
+/// known.
+std::vector<uint32_t> SolidEvaluation::solid_nodes(uint32_t root) const {
+  std::vector<uint32_t> result{root};
+  for (uint32_t i = root + 1; i < subtree_.end_of(root);) {
+    if (!subtree_.is_taken(i) || subtree_.syntax(i).kind == NodeKind::kProjection) {
+      i = subtree_.end_of(i);
+      continue;
+    }
+    if (planes_.presence(i) == Presence::kSolid && planes_.dimension(i) == 3) result.push_back(i);
+    ++i;
+  }
+  return result;
+}
+
+std::optional<FigureOperations> SolidEvaluation::projection(uint32_t node) {
+  const std::optional<SolidValue> value = run(node);
+  if (!value) return std::nullopt;
+  if (value->is_empty()) return FigureOperations{};
+  return subtree_.data<ProjectionNode>(node).is_cut ? section(node, *value) : shadow(*value);
+}
+
+std::optional<FigureOperations> SolidEvaluation::section(uint32_t node, const SolidValue& value) {
+  Section section = section_of(value);
+  if (section.has_open_mesh) {
+    problems_.add(subtree_.syntax(node), "an open mesh", [] {
+      return NodeProblems::Description{": The given mesh is not closed",
+                                       "it has no section: close it"};
+    });
+  } else if (section.operations.is_empty()) {
+    problems_.add(subtree_.syntax(node), "nothing", [] {
+      return NodeProblems::Description{": Projection() failed", "nothing meets the plane z = 0"};
+    });
+  }
+  return std::move(section.operations);
+}
+
+std::optional<FigureOperations> SolidEvaluation::shadow(const SolidValue& value) {
+  Shadows shadows;
+  std::optional<FigureOperations> result = shadows.of(value);
+  if (!result) fail(shadows.failure());
+  return result;
 }
 
 void SolidEvaluation::fail(std::string_view why) {
@@ -46,7 +92,7 @@ std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
   std::vector<SolidValue> result;
   planes_.visit_operands(node, [&](uint32_t child) {
     if (planes_.presence(child) == Presence::kLeftOut) return;
-    result.push_back(std::move(values_[child - subtree_.root()]));
+    result.push_back(std::move(values_[child - first_]));
   });
   return result;
 }
@@ -128,41 +174,18 @@ SolidValue SolidEvaluation::solid_of_faces(const SolidOfFaces* solid) {
 }
 
 SolidValue SolidEvaluation::extruded(uint32_t node) {
-  const LinearExtrudeArguments& arguments = subtree_.data<LinearExtrudeNode>(node).arguments;
-  const bool has_plain_scale = arguments.top_scale.x == arguments.top_scale.y;
-  if (arguments.twist != 0 || !has_plain_scale || arguments.lean != Vec2(0.0)) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
-  if (!(arguments.height > 0)) return {};
-  const double z_min = arguments.z_min();
-  const Layers layers{z_min, z_min + arguments.height, arguments.top_scale.x};
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : planes_.union_of_operands(node)) {
-    std::optional<Primitive> primitive = sources_.figures.extruded(figure, layers);
-    if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
-  }
-  return union_of(std::move(parts));
+  return value_or_failure(extruded_parts(subtree_.data<LinearExtrudeNode>(node),
+                                         planes_.union_of_operands(node), sources_.figures));
 }
 
 SolidValue SolidEvaluation::revolved(uint32_t node) {
-  const RotateExtrudeArguments& arguments = subtree_.data<RotateExtrudeNode>(node).arguments;
-  const std::vector<Figure> figures = planes_.union_of_operands(node);
-  Rectangle reach;
-  for (const Figure& figure : figures) reach.merge(bounds_of(figure));
-  const bool is_on_both_sides = reach.min.x < 0 && reach.max.x > 0;
-  if (std::abs(arguments.angle) != 360 || is_on_both_sides) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
-  PlaneMap to_right;
-  if (reach.min.x < 0) to_right.linear[0].x = -1;
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : figures) {
-    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
-    if (primitive) parts.push_back(part_of(std::move(*primitive), arguments.facets));
-  }
-  return union_of(std::move(parts));
+  return value_or_failure(revolved_parts(subtree_.data<RotateExtrudeNode>(node),
+                                         planes_.union_of_operands(node), sources_.figures));
+}
+
+SolidValue SolidEvaluation::value_or_failure(std::optional<std::vector<SolidPart>> parts) {
+  if (!parts) fail(kBecauseExtrusion);
+  return parts ? union_of(std::move(*parts)) : SolidValue();
 }
 
 SolidValue SolidEvaluation::hull(uint32_t node) {
