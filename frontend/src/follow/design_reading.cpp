@@ -103,8 +103,9 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   version.messages.resize(version.messages.size() - version.design->warnings.size());
   DesignText text;
   text.is_exported = reading.good.is_exported;
-  TextImport import(reading.good.csg->view(), reading.good.text_name,
-                    beside(path, text, options.import), stop);
+  ImportOptions import_options = beside(path, text, options.import);
+  import_options.rendering.is_in_background = true;
+  TextImport import(reading.good.csg->view(), reading.good.text_name, import_options, stop);
   reading.good.design = std::make_shared<const ImportedDesign>(import.finish(stop));
   version.design = reading.good.design;
   version.unchanged = false;

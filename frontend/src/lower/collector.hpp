@@ -68,7 +68,8 @@ class Collector final : public NodeSink {
     uint32_t frame;
   };
   std::vector<CompoundLeaf> compound_leaves;
-  /// What has become of a 2D subtree that is a leaf as a whole, and of its root.
+  /// What has become of a node that is a leaf as a whole, of several primitives: a 2D subtree, a
+  /// hull, or a polyhedron whose faces run both ways.
   struct PlaneLeaf {
     uint32_t node;
     uint32_t frame;
@@ -133,7 +134,9 @@ class Collector final : public NodeSink {
                          uint32_t frame, const csgcore::Box& box, int fragments);
   void note_leaf_place(const Context& context);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
-                  bool& is_inside_out);
+                  const SolidOfFaces*& faces);
+  void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
+                 const Context& context);
   void enter_plane(uint32_t node, uint32_t offset);
   void leave_plane();
   bool may_be_plane(uint32_t node);
