@@ -41,12 +41,13 @@ class Composer {
       layers.push_back({Layer::Kind::kModel, false, leaves_.expanded(union_of(opaque))});
       opaque.clear();
     };
-    bool has_translucent = false;
+    bool has_translucent = false, has_model = false;
     for (const LeafUse& use : leaves_of_products(design.model)) {
       set_cut_faces(use);
       all.push_back(use.leaf);
       const bool is_highlighted = design.is_highlighted(use.leaf);
       const Layer::Kind kind = is_highlighted ? Layer::Kind::kHighlight : Layer::Kind::kModel;
+      has_model = has_model || kind == Layer::Kind::kModel;
       if (is_opaque_leaf(use.leaf, kind)) {
         opaque.push_back(use.leaf);
         continue;
@@ -57,6 +58,8 @@ class Composer {
     }
     end_opaque();
     scene_.model = leaves_.expanded(union_of(all));
+    // Without a layer of the model, all of it would be drawn before the others.
+    if (has_translucent && !has_model) layers.insert(layers.begin(), Layer{});
     if (has_translucent) scene_.layers = std::move(layers);
     for (const LeafTree& part : design.background) {
       add_leaves(design, part, Layer::Kind::kBackground);
