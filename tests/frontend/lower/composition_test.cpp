@@ -11,13 +11,13 @@
 namespace frontend {
 namespace {
 
-using ::testing::SizeIs;
 using csgcore::CutFaces;
 using csgcore::Layer;
 using csgcore::Vec3;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 const std::string kGlass = "color([1,0,0,0.5]) { sphere(); }";
 const std::string kOther = "color([0,1,0,0.5]) { cube(); }";
@@ -265,6 +265,15 @@ TEST(ThrownTogether, DrawsNoModelUnderALeafThatIsHighlighted) {
   ASSERT_THAT(scene.layers, SizeIs(3));
   EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kModel);
   EXPECT_TRUE(scene.layers[0].solid.empty());
+}
+
+TEST(ThrownTogether, APlateShowsItsBottomUnlessASubtractedOneHidesIt) {
+  const auto layers = [](const std::string& text) {
+    return import_text(text, for_picture(PictureKind::kThrownTogether)).scene.layers;
+  };
+  EXPECT_TRUE(layers("square(9); %circle(3);").back().shows_behind);
+  EXPECT_FALSE(layers("square(9); %sphere(3);").back().shows_behind);
+  EXPECT_THAT(layers("difference() { square(9); #circle(3); }"), SizeIs(2));
 }
 
 TEST(ThrownTogether, FacesThatRunTheOtherWayHaveTheColorOfTheInside) {
