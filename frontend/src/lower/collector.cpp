@@ -472,7 +472,10 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
 void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const NodeKind kind = tree_.nodes[node].kind;
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
-  const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
+  std::optional<uint32_t>& background = candidate_->background;
+  const bool is_in_background = background && is_within(node, *background);
+  const bool is_part = !is_in_background && (tree_.nodes[node].modifiers & kBackground) == 0;
+  if (!is_part && !is_in_background) background = node;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
   const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
                          (is_drawing && !is_extrusion(kind));

@@ -196,7 +196,8 @@ class Collector final : public NodeSink {
     Context context;
     NodeProblems problems;  // those of the nodes are told already
     size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills, pending;  // before it
-    bool is_plane;  // its first geometry is a plane figure's
+    bool is_plane;                         // its first geometry is a plane figure's
+    std::optional<uint32_t> background{};  // the last `%` node that stands in no other one
   };
   void forget_since(const Candidate& candidate);
   std::optional<Candidate> candidate_;
