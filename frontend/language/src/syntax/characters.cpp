@@ -21,18 +21,28 @@ size_t exponent_length(const char* text) {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
-/// Returns whether a character of several bytes is encoded at the start of a text, loosely:
+/// Returns the length of a character of several bytes at the start of a text; 0: there is none.
 /// OpenSCAD lets overlong ones and surrogates pass.
-bool begins_wide_character(const char* text) {
+size_t wide_character_length(const char* text) {
   const auto first = static_cast<unsigned char>(text[0]);
-  if (first < 0xC2 || first > 0xF4 || !is_continuation(text[1])) return false;
-  return first < 0xE0 || (is_continuation(text[2]) && (first < 0xF0 || is_continuation(text[3])));
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  for (size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  return length;
+}
+
+size_t wide_characters_length(const char* text) {
+  size_t length = 0;
+  while (const size_t next = wide_character_length(text + length)) length += next;
+  return length;
 }
 
 /// No token begins with such a sign; what is no character ends the text for OpenSCAD.
 TokenKind unknown_kind(const char* text) {
   const bool is_ascii = static_cast<unsigned char>(text[0]) < 0x80;
-  return is_ascii || begins_wide_character(text) ? TokenKind::kUnknown : TokenKind::kEnd;
+  return is_ascii || wide_character_length(text) > 0 ? TokenKind::kUnknown : TokenKind::kEnd;
 }
 
 }  // namespace
@@ -58,7 +68,7 @@ size_t path_part_length(const char* text, const char* end) {
 size_t wide_blank_length(const char* text) {
   if (text[0] == '\xEF') return text[1] == '\xBB' && text[2] == '\xBF' ? 3 : 0;
   const size_t length = std::strspn(text, "\xC2\xA0");
-  return length == 1 && begins_wide_character(text) ? 0 : length;
+  return wide_characters_length(text) > length ? 0 : length;
 }
 
 TokenKind sign_kind(const char* text) {
