@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "csgcore/primitive.hpp"
+#include "frontend/rendering_options.hpp"
 
 namespace frontend {
 
@@ -48,8 +49,10 @@ struct ImportOptions {
   /// Find the boxes of compound leaves for the view box, which takes looking at them; otherwise it
   /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;
-  /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
+  /// Fill ImportedDesign::places. For TextImport alone, and trees that have offsets.
   bool keeps_places = false;
+  /// How openscad is asked for what scadray does not draw itself; by default it is not.
+  RenderingOptions rendering{};
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
 };

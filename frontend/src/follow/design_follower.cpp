@@ -122,20 +122,36 @@ class DesignFollower::Follower {
     set_state(State::kReading);
   }
 
+  /// Runs `read`, which returns a DesignReading, in a thread of its own.
+  template <typename Read>
+  void start(const Read& read) {
+    reading_ = std::jthread([this, read](const std::stop_token& stop) {
+      try {
+        result_ = read(stop);
+        has_read_ = true;
+        wake_.raise();
+      } catch (const Stopped&) {
+      }
+    });
+  }
+
   void start_reading() {
     const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
     watch_.forget_changes();
     if (is_followed_) watch_.set_files(paths_to_watch());
     reading_since_ns_ = system_time_ns();
     set_state(State::kReading);
-    reading_ = std::jthread([this, noticed, before = good_](const std::stop_token& stop) {
-      try {
-        result_ = read_anew(path_, file_options(), before, stop);
-        result_.version.noticed = noticed;
-        has_read_ = true;
-        wake_.raise();
-      } catch (const Stopped&) {
-      }
+    start([this, noticed, before = good_](const std::stop_token& stop) {
+      DesignReading reading = read_anew(path_, file_options(), before, stop);
+      reading.version.noticed = noticed;
+      return reading;
+    });
+  }
+
+  /// After a reading that lacks what openscad still has to render.
+  void start_rendering(DesignReading before) {
+    start([this, before = std::move(before)](const std::stop_token& stop) {
+      return render_missing(path_, file_options(), before, stop);
     });
   }
 
@@ -155,6 +171,7 @@ class DesignFollower::Follower {
 
   void finish_reading() {
     reading_.join();
+    DesignReading reading = result_;
     good_ = std::move(result_.good);
     is_scad_ = is_scad(path_) || result_.is_scad;
     DesignVersion version = std::move(result_.version);
@@ -168,6 +185,8 @@ class DesignFollower::Follower {
     }
     state_ = State::kIdle;
     on_news_();
+    const ImportedDesign* const design = reading.version.design.get();
+    if (design && !design->lines_to_render.empty()) start_rendering(std::move(reading));
   }
 
   void set_state(State state) {

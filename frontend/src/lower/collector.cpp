@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/elapsed.hpp"
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
 #include "lower/faceted_box.hpp"
@@ -15,8 +16,11 @@
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
 #include "lower/read_drawing.hpp"
+#include "lower/render_text.hpp"
+#include "lower/rendered_lowering.hpp"
 #include "lower/solid_evaluation.hpp"
 #include "lower/solid_lowering.hpp"
+#include "lower/typed_numbers.hpp"
 
 namespace frontend {
 namespace {
@@ -37,6 +41,12 @@ constexpr std::string_view kBecauseTooSmall =
 
 /// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
 bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
+
+/// The colour within color(): the outermost one counts that has all of its channels.
+std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
+                                          const std::optional<csgcore::Color>& own) {
+  return outer && is_whole(*outer) ? outer : own;
+}
 
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
@@ -85,12 +95,13 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 
 }  // namespace
 
-Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
+Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text)
     : polyhedra(options.keeps_meshes),
       files(options.folder, polyhedra),
       fonts(options.font_files),
       tree_(tree),
-      options_(options) {
+      options_(options),
+      text_(text) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -112,7 +123,9 @@ void Collector::take(uint32_t index, uint32_t offset) {
   const uint32_t id = primitive_nodes;
   if (has_place(tree_, node)) {
     ++primitive_nodes;
-    if (options_.keeps_places) places.push_back({node.location.line, offset});
+    if (options_.keeps_places) {
+      places.push_back({node.location.line, offset, 0, 0, node.location.file, 0});
+    }
   }
   if (root_ && !is_within(index, *root_)) return;
   if (disabled_ && is_within(index, *disabled_)) return;
@@ -125,9 +138,12 @@ void Collector::take(uint32_t index, uint32_t offset) {
   if (is_disabled || !visit(index, id, offset)) skipped_ = index;
 }
 
-void Collector::finish(const std::stop_token& stop) {
+void Collector::end_of_nodes() {
   if (plane_) leave_plane();
   if (candidate_) leave_candidate();
+}
+
+void Collector::finish(const std::stop_token& stop) {
   add_pending(stop);
   std::sort(plane_leaves.begin(), plane_leaves.end(),
             [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
@@ -211,7 +227,7 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
     case Role::kUnsupportedOperation:
       break;
   }
-  leave_out(index, kBecauseUnsupported, true);
+  leave_out(index, kBecauseUnknown, true);
   return false;
 }
 
@@ -237,10 +253,9 @@ void Collector::enter_color(uint32_t node) {
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
-  if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
   Context context = contexts_.back();
   context.node = node;
-  context.color = color;
+  context.color = inner_color(outer, color);
   contexts_.push_back(context);
 }
 
@@ -250,8 +265,7 @@ void Collector::enter_leaf(uint32_t node, uint32_t offset) {
   context.node = node;
   context.in_leaf = true;
   context.leaf_color = context.color;
-  context.leaf_line = tree_.nodes[node].location.line;
-  context.leaf_offset = offset;
+  context.set_leaf_place(tree_.nodes[node].location, offset);
   compound_leaves.push_back({node, context.frame});
   contexts_.push_back(context);
 }
@@ -261,7 +275,7 @@ void Collector::leave_leaf(uint32_t node) {
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = false;
-  context.leaf_line = context.leaf_offset = 0;
+  context.set_leaf_place({}, 0);
   contexts_.push_back(context);
 }
 
@@ -309,7 +323,6 @@ const SolidOfFaces* Collector::read_file(uint32_t index) {
   const FileArguments arguments = read_file_arguments(tree_, node, problems);
   const ImportedFile& file =
       node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
-  if (file.is_unsupported) leave_out(index, kBecauseUnsupported);
   if (!file.problem.empty()) {
     problems.add(node, "a file", [&] {
       return NodeProblems::Description{": " + file.problem, file.todo};
@@ -322,6 +335,7 @@ void Collector::note_leaf_place(const Context& context) {
   if (!options_.keeps_places) return;
   places.back().leaf_line = context.leaf_line;
   places.back().leaf_offset = context.leaf_offset;
+  places.back().leaf_file = context.leaf_file;
 }
 
 void Collector::add_solid(uint32_t index, uint32_t id) {
@@ -335,11 +349,19 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
-  primitive_of[index] =
-      add_primitive(std::move(primitive), index, context, context.frame, box, count);
+  primitive_of[index] = add_primitive(std::move(primitive), index, context,
+                                      typed_frame(index, context.frame), box, count);
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
+}
+
+/// Returns the frame of a node's shape: that around it, or one within, which bears the errors of
+/// its typed numbers.
+uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
+  if (!tree_.has_all_digits) return frame;
+  const HealedMatrix typed = typed_numbers(tree_, node);
+  return typed.exact ? frame : frames.add(frame, typed);
 }
 
 uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
@@ -367,25 +389,30 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_.emplace(tree_, node);
   plane_context_ = contexts_.back();
+  plane_place_ = {node, offset};
   const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
   if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
-    plane_context_.leaf_line = tree_.nodes[node].location.line;
-    plane_context_.leaf_offset = offset;
+    plane_context_.set_leaf_place(tree_.nodes[node].location, offset);
   }
   if (is_leaf_by_itself) note_leaf_place(plane_context_);
 }
 
 /// After the last node of the subtree.
 void Collector::leave_plane() {
-  add_plane_leaf(*plane_, plane_context_, problems);
+  plane_context_.frame = typed_frame(plane_->root(), plane_context_.frame);
+  add_plane_leaf(*plane_, plane_place_, plane_context_, problems);
   // A plane figure among solids is ignored; what stands at the top is a candidate, too.
   PlaneLeaf& leaf = plane_leaves.back();
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
     leaf.solid = {};
     leaf.figures.clear();
+    if (!pending_.empty() && pending_.back().node == leaf.node) {
+      pending_.pop_back();
+      pending_contexts_.pop_back();
+    }
   }
-  if (any_modifiers) add_inner_parts(*plane_, plane_context_);
+  if (any_modifiers) add_inner_parts(*plane_, plane_place_, plane_context_);
   plane_.reset();
 }
 
@@ -403,10 +430,10 @@ bool Collector::may_be_plane(uint32_t node) {
 void Collector::enter_candidate(uint32_t node, uint32_t offset) {
   Context context = contexts_.back();
   if (context.leaf_line == 0) {
-    context.leaf_line = tree_.nodes[node].location.line;
-    context.leaf_offset = offset;
+    context.set_leaf_place(tree_.nodes[node].location, offset);
   }
   candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
+                               {node, offset},
                                context,
                                {},
                                primitives.size(),
@@ -423,7 +450,8 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
   const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
-  const bool is_figure = is_plane_primitive(kind) || (is_drawing && !is_extrusion(kind));
+  const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
+                         (is_drawing && !is_extrusion(kind));
   if (candidate_->is_plane || !is_part || !is_solid) {
     candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
     candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
@@ -441,7 +469,9 @@ void Collector::leave_candidate() {
   forget_since(candidate);
   NodeProblems told;  // again
   if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
-  add_plane_leaf(candidate.subtree, candidate.context, told);
+  Context context = candidate.context;
+  context.frame = typed_frame(candidate.subtree.root(), context.frame);
+  add_plane_leaf(candidate.subtree, candidate.place, context, told);
 }
 
 bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
@@ -470,37 +500,63 @@ void Collector::forget_since(const Candidate& candidate) {
   std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
 }
 
-void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
-                               NodeProblems& told) {
+void Collector::add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place,
+                               const Context& context, NodeProblems& told) {
   PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
-  leaf.presence = lower_plane(subtree, context, told, leaf);
+  Missing missing;
+  leaf.presence = lower_plane(subtree, context, told, leaf, missing);
+  if (!missing.nodes.empty() && !context.flattened && asks_for(subtree)) {
+    leaf.figures.clear();
+    leaf.is_plate = missing.is_of_plane;
+    leaf.presence =
+        ask_for(subtree, place, missing.is_of_plane, missing.nodes.front().why, context);
+  } else {
+    for (const Missing::Node& node : missing.nodes) leave_out(node.node, node.why);
+  }
   plane_leaves.push_back(std::move(leaf));
 }
 
 /// Gives each part inside that is drawn by itself a leaf of its own.
-void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& context) {
+void Collector::add_inner_parts(const PlaneSubtree& subtree, const TextPlace& place,
+                                const Context& context) {
   if (context.in_leaf || options_.picture == PictureKind::kRendered) return;
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
-    for (const uint32_t matrix : part.matrices) {
-      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(matrix));
+    for (const uint32_t node : part.around) {
+      if (const auto* color = std::get_if<NodeColor>(&subtree.solid(node))) {
+        inner.color = inner_color(inner.color, *color);
+        continue;
+      }
+      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(node));
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
-    add_plane_leaf(subtree.part(part.node), inner, told);
-    plane_leaves.back().is_inner = true;
+    add_plane_leaf(subtree.part(part.node), place, inner, told);
+    plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
+/// Adds nodes to `missing` that are not lowered; the rest is, as if they were not there.
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
-                                NodeProblems& told, PlaneLeaf& leaf) {
+                                NodeProblems& told, PlaneLeaf& leaf, Missing& missing) {
   const uint32_t root = subtree.root();
-  PlaneEvaluation evaluation(subtree, told,
-                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  const auto miss = [&](uint32_t node, std::string_view why) {
+    missing.nodes.push_back({node, why});
+  };
+  PlaneEvaluation evaluation(
+      subtree, told, miss, [&](const PlaneEvaluation& planes, uint32_t node) {
+        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
+        std::optional<FigureOperations> result = solids.projection(node);
+        if (!result) miss(node, solids.failure());
+        return result;
+      });
+  missing.is_of_plane = !evaluation.is_solid() && !is_extrusion(subtree.syntax(root).kind);
+  const auto is_put_off = [&] { return !missing.nodes.empty() && asks_for(subtree); };
+  if (is_put_off()) return Presence::kLeftOut;
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
-  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
+  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told, missing);
   const bool is_rendered = options_.picture == PictureKind::kRendered;
   const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
@@ -510,16 +566,17 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
     const std::span<const Figure> figures = evaluation.figures(root);
     leaf.figures.assign(figures.begin(), figures.end());
   }
+  if (is_put_off()) return Presence::kLeftOut;
   return take_lowered(std::move(lowered), context, leaf);
 }
 
 Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                                    const Context& context, NodeProblems& told) {
+                                    const Context& context, NodeProblems& told, Missing& missing) {
   const uint32_t root = subtree.root();
   SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files, figure_solids_}, told);
   std::optional<SolidValue> value = solids.run();
   if (!value) {
-    leave_out(root, solids.failure());
+    missing.nodes.push_back({root, solids.failure()});
     return Presence::kLeftOut;
   }
   if (value->is_empty()) return Presence::kEmpty;
@@ -529,15 +586,53 @@ Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEval
   return Presence::kSolid;
 }
 
+bool Collector::asks_for(const PlaneSubtree& subtree) const {
+  return options_.rendering.timeout_s > 0 && may_be_rendered(tree_, subtree.root());
+}
+
+/// Puts off the subtree until openscad has rendered it.
+Presence Collector::ask_for(const PlaneSubtree& subtree, const TextPlace& place, bool is_plane,
+                            std::string_view why, const Context& context) {
+  const uint32_t root = subtree.root();
+  pending_.push_back({root,
+                      context.frame,
+                      frames[context.frame].to_world,
+                      subtree.first_id(root),
+                      primitives.size(),
+                      {},
+                      PendingRendering{request_for(root, place, is_plane), is_plane, why}});
+  pending_contexts_.push_back(context);
+  return Presence::kSolid;
+}
+
+RenderRequest Collector::request_for(uint32_t node, const TextPlace& place, bool is_plane) const {
+  RenderRequest request;
+  if (text_.empty()) {
+    request = render_request(tree_, node, is_plane, options_, fonts.files());
+  } else {
+    const SyntaxTree part = parse_subtree(text_, place.offset);
+    request = render_request(part, node - place.node, is_plane, options_, fonts.files());
+  }
+  request.line = tree_.nodes[node].location.line;
+  return request;
+}
+
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
   if (pending_.empty()) return;
   std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
+  const std::vector<Rendering> renderings = render_pending(stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
   std::vector<int> old_fragments = std::exchange(fragments, {});
+  size_t count = old_primitives.size();
+  for (const LoweredSubtree& solid : lowered) count += solid.parts.size();
+  primitives.reserve(count);
+  boxes.reserve(count);
+  frame_of.reserve(count);
+  fragments.reserve(count);
   std::vector<uint32_t> place(old_primitives.size());  // by primitive, of those that are there
   const auto add_old = [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
@@ -548,14 +643,17 @@ void Collector::add_pending(const std::stop_token& stop) {
       fragments.push_back(old_fragments[i]);
     }
   };
-  size_t done = 0;
+  size_t done = 0, rendered = 0;
   std::vector<PlaneLeaf> leaves;
   for (size_t i = 0; i < pending_.size(); ++i) {
     add_old(done, pending_[i].primitives_before);
     done = pending_[i].primitives_before;
     PlaneLeaf& leaf = leaves.emplace_back(
         PlaneLeaf{pending_[i].node, pending_[i].frame, Presence::kEmpty, {}, {}, false});
-    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
+    leaf.presence =
+        pending_[i].rendering
+            ? take_rendering(pending_[i], renderings[rendered++], pending_contexts_[i], leaf)
+            : take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
   }
   add_old(done, old_primitives.size());
   for (uint32_t& primitive : primitive_of) {
@@ -564,12 +662,52 @@ void Collector::add_pending(const std::stop_token& stop) {
   size_t next = 0;
   for (PlaneLeaf& leaf : plane_leaves) {
     if (next < leaves.size() && leaf.node == leaves[next].node) {
-      leaves[next].is_inner = leaf.is_inner;
+      leaves[next].inner_modifiers = leaf.inner_modifiers;
       leaf = std::move(leaves[next++]);
     } else {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
     }
   }
+}
+
+/// Returns the renderings of those that have a request, in their order.
+std::vector<Rendering> Collector::render_pending(const std::stop_token& stop) {
+  std::vector<RenderRequest> requests;
+  for (const PendingSolid& solid : pending_) {
+    if (solid.rendering) requests.push_back(solid.rendering->request);
+  }
+  if (requests.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  std::vector<Rendering> renderings = render_all(requests, options_.rendering, stop);
+  rendering_ms = ms_since(start);
+  return renderings;
+}
+
+Presence Collector::take_rendering(const PendingSolid& pending, const Rendering& rendering,
+                                   const Context& context, PlaneLeaf& leaf) {
+  if (!rendering.faces && rendering.problem.empty()) {
+    lines_to_render.push_back(pending.rendering->request.line);
+    left_out.push_back(pending.node);
+    return Presence::kLeftOut;
+  }
+  if (!rendering.faces) {
+    leave_out(pending.node, explanations_.emplace_back(std::string(pending.rendering->why) + "; " +
+                                                       rendering.problem));
+    return Presence::kLeftOut;
+  }
+  leaf.is_rendered = true;
+  if (!pending.rendering->is_plane) {
+    return take_lowered(lower_rendered_solid(*rendering.faces, pending.to_world, pending.frame,
+                                             pending.id, polyhedra),
+                        context, leaf);
+  }
+  const std::optional<Figure> figure = rendered_figure(*rendering.faces);
+  if (!figure) return Presence::kEmpty;
+  const bool is_final = options_.picture == PictureKind::kRendered;
+  if (is_final) leaf.figures.push_back(*figure);
+  return take_lowered(lower_figure(*figure, is_final ? Plate::kFlat : Plate::kPreview, pending.id,
+                                   pending.frame, frames, figure_solids_),
+                      context, leaf);
 }
 
 Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {

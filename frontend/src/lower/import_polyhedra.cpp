@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/hashes.hpp"
+
 namespace frontend {
 namespace {
 
@@ -42,21 +44,6 @@ int scale_to_unit(FaceSet& faces) {
   }
   return exponent;
 }
-
-/// Two hashes of a sequence of words.
-class Hashes {
- public:
-  void add(uint64_t word) {
-    first_ = (std::rotl(first_, 23) ^ word) * 0x9E3779B97F4A7C15u;
-    second_ = (std::rotl(second_, 29) + word) * 0xD6E8FEB86659FD93u;
-    second_ ^= second_ >> 32;
-  }
-  uint64_t first() const { return first_; }
-  uint64_t second() const { return second_; }
-
- private:
-  uint64_t first_ = 1, second_ = 2;
-};
 
 std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
   std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
@@ -106,8 +93,8 @@ PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int expone
   for (const Vec3& point : faces.points) {
     for (int axis = 0; axis < 3; ++axis) hashes.add(std::bit_cast<uint64_t>(point[axis]));
   }
-  for (const uint32_t corner : faces.corners) hashes.add(corner);
-  for (const uint32_t end : faces.ends) hashes.add(end);
+  for (const uint32_t corner : faces.corners) hashes.add(uint64_t{corner});
+  for (const uint32_t end : faces.ends) hashes.add(uint64_t{end});
   return {faces.points.size(), faces.corners.size(),
           faces.ends.size(),   std::bit_cast<uint64_t>(int64_t{exponent}),
           hashes.first(),      hashes.second()};

@@ -17,7 +17,7 @@ enum class Role : uint8_t {
   kUnsupportedOperation,
 };
 
-constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
+constexpr std::string_view kBecauseUnknown = "OpenSCAD 2021.01 does not know it";
 
 inline Role role_of(NodeKind kind) {
   switch (kind) {
@@ -47,8 +47,8 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kResize:
     case NodeKind::kLinearExtrude:
     case NodeKind::kRotateExtrude:
-      return Role::kPlane;
     case NodeKind::kProjection:
+      return Role::kPlane;
     case NodeKind::kRoof:
       break;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,12 @@ struct FaceSet {
 /// faces with fewer than three corners, or with a point that is not finite. Returns how many faces
 /// were not finite.
 uint64_t tidy(FaceSet& faces);
+
+/// Projects a face along the axis that its normal, by Newell's sum, is nearest to. `places` becomes
+/// the places of its corners in that plane, in which it runs counterclockwise. `ends` has one past
+/// the last corner of each of its rings.
+void project(std::span<const csgcore::Vec3> points, std::span<const uint32_t> corners,
+             std::span<const uint32_t> ends, std::vector<glm::dvec2>& places);
 
 /// Returns the volume that the faces enclose, but for rounding. It is negative if they run
 /// clockwise.
