@@ -10,23 +10,17 @@
 
 namespace language {
 
-namespace {
-
-bool begins_byte_order_mark(const char* text) {
-  return text[0] == '\xEF' && text[1] == '\xBB' && text[2] == '\xBF';
-}
-
-}  // namespace
-
 Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena,
-             Messages& messages, FileLookup& lookup, FileId main, std::string folder)
+             Messages& messages, FileLookup& lookup, const Main& main)
     : files_(files),
       names_(names),
       arena_(arena),
       messages_(messages),
       lookup_(lookup),
-      folder_(std::move(folder)) {
-  enter(main, files_[main].text.data());
+      hard_warnings_(main.hard_warnings),
+      warnings_before_(messages.warnings()),
+      folder_(main.folder) {
+  enter(main.file, files_[main.file].text.data());
 }
 
 void Lexer::enter(FileId file, const char* cursor) {
@@ -82,8 +76,8 @@ bool Lexer::skip_blank() {
       skip_line_comment();
     } else if (c == '/' && cursor_[1] == '*') {
       if (!skip_block_comment()) return false;
-    } else if (begins_byte_order_mark(cursor_)) {
-      cursor_ += 3;
+    } else if (const size_t length = wide_blank_length(cursor_); length > 0) {
+      cursor_ += length;
     } else {
       return true;
     }
@@ -154,6 +148,7 @@ bool Lexer::lex_number(Token& token, size_t length) {
 void Lexer::lex_sign(Token& token) {
   token.kind = sign_kind(cursor_);
   if (token.kind == TokenKind::kSign) token.sign = *cursor_;
+  if (token.kind == TokenKind::kEnd) return;
   cursor_ += is_one_byte(token.kind) ? 1 : 2;
 }
 
@@ -187,7 +182,7 @@ void Lexer::lex_string(Token& token) {
 /// Returns whether `<` stands at the cursor, perhaps behind blanks.
 bool Lexer::begins_path() const {
   const char* at = cursor_;
-  while (is_blank_before_path(*at)) ++at;
+  while (is_blank(*at)) ++at;
   return *at == '<';
 }
 
@@ -216,6 +211,7 @@ bool Lexer::lex_include(Token& token) {
   }
   ++cursor_;
   const FileId file = lookup_.include(named_file(path_folder + last_path_name_));
+  check_warnings();
   if (file == kNoFile) return false;
   // OpenSCAD goes on counting with the line of messages, which differs where there are CRs.
   const ErrorLines lines{files_.message_line(token.place), offset_of(cursor_)};
@@ -240,7 +236,8 @@ void Lexer::lex_use(Token& token) {
   }
   if (cursor_ == end_) return lex_unterminated(token, "use statement");
   ++cursor_;
-  token.text = store(last_path_name_);
+  lookup_.use(named_file(last_path_name_));
+  check_warnings();
 }
 
 std::string_view Lexer::store(std::string_view text) {
@@ -253,6 +250,15 @@ std::string_view Lexer::store(std::string_view text) {
 void Lexer::lex_unterminated(Token& token, std::string_view what) {
   token.kind = TokenKind::kUnknown;
   say_error("Unterminated " + std::string(what));
+}
+
+void Lexer::check_warnings() const {
+  if (hard_warnings_ && messages_.warnings() > warnings_before_) fail("stop on first warning");
+}
+
+void Lexer::fail(const std::string& text) const {
+  say_error(text);
+  throw SyntaxError();
 }
 
 void Lexer::say_error(const std::string& text) const {

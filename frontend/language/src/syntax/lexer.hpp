@@ -13,19 +13,28 @@
 
 namespace language {
 
+/// Ends the parsing of a file, after the message about it.
+struct SyntaxError {};
+
 class Lexer {
  public:
-  /// Lexes the file `main`, whose path is in `folder`. `names` must begin with kFirstNames. Texts
+  struct Main {
+    FileId file = kNoFile;
+    std::string folder;          // of the file; absolute
+    bool hard_warnings = false;  // whether a warning is a syntax error
+  };
+
+  /// Lexes a file. `names` must begin with kFirstNames. Texts
   /// of tokens lie in the arena.
   Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
         FileLookup& lookup, FileId main, std::string folder);
 
   /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
   Token next();
-  /// Says a parser error about the last token.
-  void say_error(const std::string& text) const;
-  /// Returns a path that stands in the file of the last token. Valid until next() is called.
-  NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
+  /// Says a parser error about the last token, and throws SyntaxError.
+  [[noreturn]] void fail(const std::string& text) const;
+  /// Fails if there was a warning since the lexer was made, and warnings are errors.
+  void check_warnings() const;
 
  private:
   /// How lines are counted in parser errors: `first`, plus the line feeds from `offset` on.
@@ -41,6 +50,7 @@ class Lexer {
   };
 
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
+  NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();
@@ -59,6 +69,7 @@ class Lexer {
   bool begins_path() const;
   bool reach_path_part();
   std::string_view store(std::string_view text);
+  void say_error(const std::string& text) const;
   void lex_unterminated(Token& token, std::string_view what);
 
   SourceFiles& files_;
@@ -66,6 +77,8 @@ class Lexer {
   std::pmr::memory_resource& arena_;
   Messages& messages_;
   FileLookup& lookup_;
+  bool hard_warnings_;
+  size_t warnings_before_;
 
   std::vector<Includer> includers_;          // outermost first
   std::vector<std::string> being_included_;  // paths of the included files among them

@@ -66,14 +66,14 @@ void ProgramReader::parse_used() {
 bool ProgramReader::parse(uint32_t unit_number) {
   current_unit_ = unit_number;
   Unit& unit = program_.units[unit_number];
-  Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this, unit.file,
-              unit.folder);
-  Parser parser(lexer, program_.files, program_.names, program_.arena, messages_, *this,
-                {program_.units[0].file, options_.hard_warnings, options_.stop});
+  Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
+              {unit.file, unit.folder, options_.hard_warnings});
+  Parser parser(lexer, program_.files, program_.names, program_.arena, messages_,
+                {program_.units[0].file, options_.stop});
   try {
     unit.scope = parser.parse_file();
     return true;
-  } catch (const Parser::SyntaxError&) {
+  } catch (const SyntaxError&) {
     return false;
   }
 }

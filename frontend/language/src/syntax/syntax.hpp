@@ -172,7 +172,7 @@ struct Scope;
 struct ModuleCall {
   Name name;
   uint8_t modifiers = 0;  // CallModifier
-  Place place;  // of the name; of an `if`, of its `)`
+  Place place;            // of the name; of an `if`, of its `)`
   std::span<const Argument> arguments;
   const Expression* condition = nullptr;  // of an `if`
   const Scope* children = nullptr;        // never null: empty if there are none
