@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "functions/functions.hpp"
 #include "values/make.hpp"
@@ -62,16 +63,19 @@ double draw(std::mt19937& random) {
 Value random_numbers(const FunctionCall& call) {
   constexpr double kMostBound = std::numeric_limits<double>::max() / 2;
   const auto arguments = call.arguments;
-  if (!arguments[0].is_number()) return Value::undef();
+  const auto has_number = [&](size_t i) {
+    return i < arguments.size() && arguments[i].is_number();
+  };
+  if (!has_number(0)) return Value::undef();
   double least = bound_of(call, 0, "min", -kMostBound);
-  if (!arguments[1].is_number()) return Value::undef();
+  if (!has_number(1)) return Value::undef();
   double most = bound_of(call, 1, "max", kMostBound);
   if (most < least) std::swap(least, most);
-  if (!arguments[2].is_number()) return Value::undef();
+  if (!has_number(2)) return Value::undef();
   const size_t count = count_of(call);
   std::mt19937& random = call.environment.random;
-  if (arguments.size() > 3) {
-    if (!arguments[3].is_number()) return Value::undef();
+  if (call.written > 3) {
+    if (!has_number(3)) return Value::undef();
     random.seed(seed_of(arguments[3].number()));
   }
   Value result = make_vector(count);

@@ -1,4 +1,7 @@
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/number_conversions.hpp"
 #include "base/utf8.hpp"
@@ -68,18 +71,18 @@ Value characters(const FunctionCall& call) {
 }
 
 Value code_point(const FunctionCall& call) {
-  const auto arguments = call.arguments;
-  if (arguments.empty()) return Value::undef();
+  if (call.written == 0) return Value::undef();
   const auto refuse = [&](std::string text) {
     call.warn("ord() " + std::move(text));
     return Value::undef();
   };
-  if (arguments.size() > 1)
-    return refuse("called with " + std::to_string(arguments.size()) +
+  if (call.written > 1)
+    return refuse("called with " + std::to_string(call.written) +
                   " arguments, only 1 argument expected");
-  if (!arguments[0].is_string())
-    return refuse("argument " + echo_text(arguments[0]) + " is not of type string");
-  const std::string_view text = arguments[0].text();
+  const Value& argument = call.arguments[0];
+  if (!argument.is_string())
+    return refuse("argument " + echo_text(argument) + " is not of type string");
+  const std::string_view text = argument.text();
   if (!is_valid_utf8(text))
     return refuse("argument '" + std::string(text) + "' is not a valid utf8 string");
   return text.empty() ? Value::undef() : Value(first_code_point(text));
