@@ -63,6 +63,10 @@ size_t next_of_exactly_one(const FunctionCall& call);
 size_t next_of_exactly_two(const FunctionCall& call);
 size_t next_of_lookup(const FunctionCall& call);
 
+/// The same of chr() and rands(), which warn of an argument before the next one is evaluated.
+size_t next_of_characters(const FunctionCall& call);
+size_t next_of_random_numbers(const FunctionCall& call);
+
 /// Warns that an argument has the wrong type, and returns undef.
 Value not_converted(const FunctionCall& call);
 
