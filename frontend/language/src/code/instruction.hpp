@@ -105,11 +105,10 @@ enum class Op : uint8_t {
   kUnlessInModule,   // go to b if the code is not within a user module
   kAllChildren,      // begin a group, run all children in it
   kDeprecatedChild,  // say that child() is deprecated
-  kSelectChildren,   // replace the top by the numbers of the children that it selects, 0, and
+  kSelectChildren,   // check the selection of children on top; push how many are done, 0, and
                      // whether they go into a group, which is begun; flag: of child(). Goes to b,
-                     // without these, if it selects none
-  kNextChild,        // run the next of the children whose numbers are on top, whose count done is
-                     // in slot a; go to b after the last
+                     // and drops the selection, if there is nothing to run
+  kNextChild,        // run the next child of the selection in slot a; go to b after the last
   kEndSelection,     // end the group, if there is one; drop what kSelectChildren pushed
   kEndChild,         // a statement of a block has ended
   kEndUnit,          // the assignments of a top level have been evaluated

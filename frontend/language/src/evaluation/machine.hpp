@@ -156,9 +156,8 @@ class Machine {
   void all_children(const NodeSite& site);
   void say_child_is_deprecated();
   bool select_children(const NodeSite& site, bool is_child);
-  void select_child(double index, bool is_child, Value& numbers);
-  void select_from_vector(const Value& indices, Value& numbers);
-  bool select_from_range(const Value& value, Value& numbers);
+  bool is_child_number(double number, bool is_child);
+  Value next_selected(uint32_t state);
   void next_child(uint32_t state, uint32_t after);
   void end_selection();
   bool end_child(bool is_last);  // true: of the frame that runs children
