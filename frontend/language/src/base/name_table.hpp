@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <vector>
 
 namespace language {
 
@@ -15,7 +15,7 @@ constexpr Name kNoName = 0xFFFFFFFFu;
 
 class NameTable {
  public:
-  /// Returns the number of an identifier, which is stored at its first use.
+  /// Returns the number of an identifier, which is stored at its first use. Numbers count from 0.
   Name intern(std::string_view text);
   /// Returns the number of an identifier that is stored, or kNoName.
   Name find(std::string_view text) const;
@@ -26,8 +26,16 @@ class NameTable {
   size_t size() const { return texts_.size(); }
 
  private:
-  std::deque<std::string> texts_;  // a deque, whose elements do not move
-  std::unordered_map<std::string_view, Name> numbers_;
+  struct Slot {
+    uint32_t hash = 0;
+    Name name = kNoName;
+  };
+
+  size_t slot_of(std::string_view text, uint32_t hash) const;
+  void grow();
+
+  std::deque<std::string> texts_;                     // a deque, whose elements do not move
+  std::vector<Slot> slots_ = std::vector<Slot>(256);  // open addressing, at most half full
 };
 
 }  // namespace language

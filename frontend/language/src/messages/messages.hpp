@@ -24,24 +24,30 @@ struct Message {
 };
 
 /// The folder that a message's path is relative to (LANGUAGE.md, "Messages").
-enum class PathBase : uint8_t { kMainFile, kUnit };
+enum class PathBase : uint8_t {
+  kMainFile,
+  kUnit,
+  kStart,  // where the program was started; lines are then counted as editors do: parser errors
+};
 
 class Messages {
  public:
   using Sink = std::function<void(const Message&)>;
-  Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(std::move(sink)) {}
+  Messages(const SourceFiles& files, Sink sink);
 
-  /// Sets the folder of the main file and of the unit whose code is being evaluated; both absolute.
+  /// Set the folder of the main file and of the unit whose code is being evaluated; both absolute.
   void set_main_folder(std::string folder);
   void set_unit_folder(std::string_view folder);
 
   /// Says a message unless it is a repeat that OpenSCAD drops (LANGUAGE.md, "Messages").
   void say(MessageGroup group, std::string text);
   void say(MessageGroup group, std::string text, Place place, PathBase base);
-  void warn(std::string text, Place place, PathBase base = PathBase::kMainFile) {
+  void warn(std::string text, Place place = {}, PathBase base = PathBase::kMainFile) {
     say(MessageGroup::kWarning, std::move(text), place, base);
   }
 
+  /// Returns a file's path relative to a folder, as messages show it.
+  std::string shown_path(FileId file, PathBase base) const;
   /// Returns " in file ‹path›, line ‹n›".
   std::string place_suffix(Place place, PathBase base) const;
   /// Returns how many warnings were made, dropped ones too: --hardwarnings stops at the first.
@@ -49,9 +55,11 @@ class Messages {
 
  private:
   bool is_repeat(const Message& message);
+  const std::string& base_folder(PathBase base) const;
 
   const SourceFiles& files_;
   Sink sink_;
+  std::string start_folder_;
   std::string main_folder_;
   std::string unit_folder_;
   std::deque<std::string> last_lines_;            // the last five of ERROR, WARNING and TRACE

@@ -40,7 +40,11 @@ enum class ExpressionKind : uint8_t {
   kEach,
 };
 
-enum class UnaryOperator : uint8_t { kNegate, kNot };  // a unary plus leaves no trace
+enum class UnaryOperator : uint8_t {  // a unary plus leaves no trace
+  kNegate,
+  kNot,
+  kComplement,  // ~, which OpenSCAD 2021.01 does not know
+};
 
 enum class BinaryOperator : uint8_t {
   kPower,
@@ -57,11 +61,16 @@ enum class BinaryOperator : uint8_t {
   kNotEqual,
   kAnd,
   kOr,
+  // OpenSCAD 2021.01 does not know these:
+  kBitAnd,
+  kBitOr,
+  kShiftLeft,
+  kShiftRight,
 };
 
 struct Expression {
   ExpressionKind kind;
-  Place place;  // of the first token, as LANGUAGE.md, "Text" says
+  Place place;  // of the first token: of an operator's left operand, of its parenthesis
 };
 
 struct Argument {
@@ -126,9 +135,9 @@ struct FunctionExpression : Expression {  // function(parameters) body
   std::span<const Parameter> parameters;
   const Expression* body;
 };
-struct BodyExpression : Expression {  // kLet, kAssert, kEcho, kFor
-  std::span<const Argument> arguments;
-  const Expression* body;  // null: assert() or echo() without one
+struct BodyExpression : Expression {    // kLet, kAssert, kEcho, kFor
+  std::span<const Argument> arguments;  // of kFor one: loops over several variables are several
+  const Expression* body;               // null: assert() or echo() without one
 };
 struct ForCExpression : Expression {
   std::span<const Argument> init;

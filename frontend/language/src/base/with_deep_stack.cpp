@@ -1,0 +1,47 @@
+#include "base/with_deep_stack.hpp"
+
+#include <pthread.h>
+
+#include <exception>
+
+namespace language {
+
+namespace {
+
+struct Job {
+  const std::function<void()>& work;
+  std::exception_ptr thrown;
+};
+
+void* run(void* argument) {
+  auto& job = *static_cast<Job*>(argument);
+  try {
+    job.work();
+  } catch (...) {
+    job.thrown = std::current_exception();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void with_deep_stack(const std::function<void()>& work) {
+  // A parenthesis takes four frames, which take up to 4 kB where sanitizers widen them. Only what
+  // is touched costs memory.
+  constexpr size_t kStackBytes = size_t{128} << 20;
+  Job job{work, nullptr};
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_t thread;
+  const bool is_running = pthread_create(&thread, &attributes, run, &job) == 0;
+  pthread_attr_destroy(&attributes);
+  if (is_running) {
+    pthread_join(thread, nullptr);
+  } else {
+    run(&job);  // without room for another stack, an ordinary design still fits this one
+  }
+  if (job.thrown) std::rethrow_exception(job.thrown);
+}
+
+}  // namespace language

@@ -1,0 +1,97 @@
+#include "messages/messages.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace language {
+
+namespace {
+
+std::string_view group_prefix(MessageGroup group) {
+  switch (group) {
+    case MessageGroup::kError:
+      return "ERROR: ";
+    case MessageGroup::kWarning:
+      return "WARNING: ";
+    case MessageGroup::kDeprecated:
+      return "DEPRECATED: ";
+    case MessageGroup::kTrace:
+      return "TRACE: ";
+    case MessageGroup::kEcho:
+      return "ECHO: ";
+    case MessageGroup::kPlain:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+Messages::Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(std::move(sink)) {
+  std::error_code no_folder;
+  start_folder_ = std::filesystem::current_path(no_folder).string();
+}
+
+void Messages::set_main_folder(std::string folder) { main_folder_ = std::move(folder); }
+
+void Messages::set_unit_folder(std::string_view folder) { unit_folder_ = folder; }
+
+void Messages::say(MessageGroup group, std::string text) {
+  say(group, std::move(text), Place{}, PathBase::kMainFile);
+}
+
+void Messages::say(MessageGroup group, std::string text, Place place, PathBase base) {
+  if (group == MessageGroup::kWarning) ++warnings_;
+  std::string line = std::string(group_prefix(group)) + text;
+  if (place.file != kNoFile) line += place_suffix(place, base);
+  const Message message{group, std::move(text), place, std::move(line)};
+  if (!is_repeat(message)) sink_(message);
+}
+
+bool Messages::is_repeat(const Message& message) {
+  switch (message.group) {
+    case MessageGroup::kDeprecated:
+      return !deprecations_.insert(message.line).second;
+    case MessageGroup::kError:
+    case MessageGroup::kWarning:
+    case MessageGroup::kTrace:
+      break;
+    case MessageGroup::kEcho:
+    case MessageGroup::kPlain:
+      return false;
+  }
+  constexpr size_t kRemembered = 5;  // lines that all have to be the same
+  if (last_lines_.size() == kRemembered &&
+      std::ranges::all_of(last_lines_,
+                          [&](const std::string& last) { return last == message.line; }))
+    return true;
+  last_lines_.push_back(message.line);
+  if (last_lines_.size() > kRemembered) last_lines_.pop_front();
+  return false;
+}
+
+const std::string& Messages::base_folder(PathBase base) const {
+  switch (base) {
+    case PathBase::kMainFile:
+      break;
+    case PathBase::kUnit:
+      return unit_folder_;
+    case PathBase::kStart:
+      return start_folder_;
+  }
+  return main_folder_;
+}
+
+std::string Messages::shown_path(FileId file, PathBase base) const {
+  const std::string& path = files_[file].path;
+  const std::string& folder = base_folder(base);
+  if (!path.starts_with('/') || folder.empty()) return path;
+  return std::filesystem::path(path).lexically_relative(folder).string();
+}
+
+std::string Messages::place_suffix(Place place, PathBase base) const {
+  const uint32_t line = base == PathBase::kStart ? files_.line(place) : files_.message_line(place);
+  return " in file " + shown_path(place.file, base) + ", line " + std::to_string(line);
+}
+
+}  // namespace language

@@ -1,0 +1,54 @@
+// Which bytes the language's tokens consist of (LANGUAGE.md, "Text").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "syntax/token.hpp"
+
+namespace language {
+
+enum CharacterClass : uint8_t { kBlankByte = 1, kWordByte = 2, kDigitByte = 4, kStringByte = 8 };
+
+constexpr std::array<uint8_t, 256> kCharacterClasses = [] {
+  std::array<uint8_t, 256> classes{};
+  // The two bytes of a no-break space count as blanks one by one.
+  for (const unsigned char c : std::string_view(" \t\n\r\xC2\xA0")) classes[c] |= kBlankByte;
+  for (int c = 0; c < 256; ++c) {
+    const bool is_digit = '0' <= c && c <= '9';
+    const bool is_letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
+    if (is_digit) classes[c] |= kDigitByte;
+    if (is_digit || is_letter || c == '_') classes[c] |= kWordByte;
+    if (c != '\0' && c != '\n' && c != '"' && c != '\\') classes[c] |= kStringByte;
+  }
+  return classes;
+}();
+
+inline bool is_of(char c, CharacterClass wanted) {
+  return (kCharacterClasses[static_cast<unsigned char>(c)] & wanted) != 0;
+}
+inline bool is_blank(char c) { return is_of(c, kBlankByte); }
+inline bool is_word(char c) { return is_of(c, kWordByte); }
+inline bool is_digit(char c) { return is_of(c, kDigitByte); }
+/// Returns whether a byte within a string is not simply a part of its value.
+inline bool ends_plain_text(char c) { return !is_of(c, kStringByte); }
+/// Returns whether a byte may stand between `include` or `use` and `<`.
+inline bool is_blank_before_path(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// The following read a text that ends with a NUL.
+
+/// Returns the length of the number at the start of a text; 0: there is none.
+size_t number_length(const char* text);
+
+/// Returns the length of a path's part: up to `>`, a line end, a tab or the text's end.
+size_t path_part_length(const char* text, const char* end);
+
+/// Returns the kind of the sign at the start of a text.
+TokenKind sign_kind(const char* text);
+
+/// Returns whether a sign of this kind has one byte. The others have two.
+inline bool is_one_byte(TokenKind kind) { return kind < TokenKind::kLessEqual; }
+
+}  // namespace language

@@ -1,0 +1,29 @@
+// What `include` and `use` name.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "language/place.hpp"
+
+namespace language {
+
+/// A path as a design writes it.
+struct NamedFile {
+  std::string_view name;
+  const std::string& folder;                    // absolute; of the file where it is written
+  std::span<const std::string> being_included;  // canonical paths, which are not found again
+};
+
+/// Finds and reads files for the lexer and the parser, and says what it does not find.
+class FileLookup {
+ public:
+  virtual ~FileLookup() = default;
+  /// Returns the text that an `include` stands for, or kNoFile if there is none.
+  virtual FileId include(const NamedFile& file) = 0;
+  /// Adds a library, or a font, to those that the file being parsed uses.
+  virtual void use(const NamedFile& file) = 0;
+};
+
+}  // namespace language

@@ -1,0 +1,252 @@
+#include "syntax/lexer.hpp"
+
+#include <cstring>
+#include <filesystem>
+
+#include "base/decimal_number.hpp"
+#include "syntax/characters.hpp"
+#include "syntax/string_escape.hpp"
+
+namespace language {
+
+namespace {
+
+bool begins_byte_order_mark(const char* text) {
+  return text[0] == '\xEF' && text[1] == '\xBB' && text[2] == '\xBF';
+}
+
+}  // namespace
+
+Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena,
+             Messages& messages, FileLookup& lookup, FileId main, std::string folder)
+    : files_(files),
+      names_(names),
+      arena_(arena),
+      messages_(messages),
+      lookup_(lookup),
+      folder_(std::move(folder)) {
+  enter(main, files_[main].text.data());
+}
+
+void Lexer::enter(FileId file, const char* cursor) {
+  SourceFile& source = files_[file];
+  file_ = file;
+  begin_ = source.text.data();
+  end_ = begin_ + source.text.size();
+  cursor_ = cursor;
+  line_starts_ = &source.message_line_starts;
+}
+
+/// Goes on in the file that includes the current one. Returns false if none does.
+bool Lexer::leave() {
+  if (includers_.empty()) return false;
+  Includer includer = std::move(includers_.back());
+  includers_.pop_back();
+  being_included_.pop_back();
+  folder_ = std::move(includer.folder);
+  enter(includer.file, includer.cursor);
+  return true;
+}
+
+/// A file that is included twice is lexed twice: its lines are noted once.
+void Lexer::begin_line_at(const char* at) {
+  const uint32_t offset = offset_of(at);
+  if (line_starts_->empty() || line_starts_->back() < offset) line_starts_->push_back(offset);
+}
+
+Token Lexer::next() {
+  for (;;) {
+    Token token;
+    const bool is_whole = skip_blank();
+    token.place = position();
+    if (!is_whole) {
+      lex_unterminated(token, "comment");
+      return token;
+    }
+    if (lex(token)) return token;
+  }
+}
+
+/// Skips blanks and comments. Returns false if a comment is not terminated.
+bool Lexer::skip_blank() {
+  for (;;) {
+    const char c = *cursor_;
+    if (c == '\n' || c == '\r') {
+      begin_line_at(++cursor_);
+    } else if (is_blank(c)) {
+      ++cursor_;
+    } else if (c == '/' && cursor_[1] == '/') {
+      skip_line_comment();
+    } else if (c == '/' && cursor_[1] == '*') {
+      if (!skip_block_comment()) return false;
+    } else if (begins_byte_order_mark(cursor_)) {
+      cursor_ += 3;
+    } else {
+      return true;
+    }
+  }
+}
+
+void Lexer::skip_line_comment() {
+  const void* line_feed = std::memchr(cursor_, '\n', static_cast<size_t>(end_ - cursor_));
+  cursor_ = line_feed ? static_cast<const char*>(line_feed) : end_;
+}
+
+bool Lexer::skip_block_comment() {
+  for (cursor_ += 2; cursor_ < end_; ++cursor_) {
+    if (*cursor_ == '\n') begin_line_at(cursor_ + 1);
+    if (*cursor_ == '*' && cursor_[1] == '/') {
+      cursor_ += 2;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Reads what stands at the cursor, which is no blank. Returns false if that yields no token.
+bool Lexer::lex(Token& token) {
+  const char c = *cursor_;
+  if (is_word(c) || c == '$' || (c == '.' && is_digit(cursor_[1]))) return lex_word(token);
+  if (c == '"') {
+    lex_string(token);
+  } else if (c != '\0') {
+    lex_sign(token);
+  } else if (cursor_ == end_ && leave()) {
+    return false;
+  }  // else the token stays kEnd: OpenSCAD reads no further than a NUL
+  return true;
+}
+
+/// Reads a name, a number, `include <path>` or `use <path>`: the longest that there is.
+bool Lexer::lex_word(Token& token) {
+  const char* end = cursor_ + (*cursor_ == '$');
+  while (is_word(*end)) ++end;
+  const auto length = static_cast<size_t>(end - cursor_);
+  const size_t digits = number_length(cursor_);
+  if (digits > 0 && digits >= length) return lex_number(token, digits);
+  if (length == 1 && *cursor_ == '$') {
+    lex_sign(token);
+    return true;
+  }
+  token.name = names_.intern({cursor_, length});
+  cursor_ = end;
+  token.kind = token.name < static_cast<Name>(TokenKind::kName) ? static_cast<TokenKind>(token.name)
+                                                                : TokenKind::kName;
+  if ((token.name == kIncludeName || token.name == kUseName) && begins_path()) {
+    if (token.name == kIncludeName) return lex_include(token);
+    lex_use(token);
+  }
+  return true;
+}
+
+/// A number that is too large vanishes.
+bool Lexer::lex_number(Token& token, size_t length) {
+  const auto number = decimal_number({cursor_, length});
+  cursor_ += length;
+  token.kind = TokenKind::kNumber;
+  token.number = number.value_or(0);
+  return number.has_value();
+}
+
+void Lexer::lex_sign(Token& token) {
+  token.kind = sign_kind(cursor_);
+  if (token.kind == TokenKind::kSign) token.sign = *cursor_;
+  cursor_ += is_one_byte(token.kind) ? 1 : 2;
+}
+
+void Lexer::lex_string(Token& token) {
+  token.kind = TokenKind::kString;
+  const char* const text = ++cursor_;
+  while (!ends_plain_text(*cursor_)) ++cursor_;
+  if (*cursor_ == '"') {  // most strings stand in the file as they are
+    token.text = {text, static_cast<size_t>(cursor_ - text)};
+    ++cursor_;
+    return;
+  }
+  string_.assign(text, cursor_);
+  while (*cursor_ != '"') {
+    if (cursor_ == end_) return lex_unterminated(token, "string");
+    if (*cursor_ == '\\') {
+      cursor_ += append_escape(cursor_, string_);
+      continue;
+    }
+    if (*cursor_ == '\n') {
+      begin_line_at(cursor_ + 1);
+    } else if (*cursor_ != '\0') {
+      string_ += *cursor_;
+    }
+    ++cursor_;
+  }
+  ++cursor_;
+  token.text = store(string_);
+}
+
+/// Returns whether `<` stands at the cursor, perhaps behind blanks.
+bool Lexer::begins_path() const {
+  const char* at = cursor_;
+  while (is_blank_before_path(*at)) ++at;
+  return *at == '<';
+}
+
+/// Skips what separates the parts of a path. Returns false at the end of the path or of the file.
+bool Lexer::read_path_part() {
+  while (*cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n') ++cursor_;
+  return *cursor_ != '>' && cursor_ < end_;
+}
+
+bool Lexer::lex_include(Token& token) {
+  std::string path_folder;
+  last_path_name_.clear();
+  cursor_ += std::strcspn(cursor_, "<") + 1;
+  while (read_path_part()) {
+    const std::string_view part(cursor_, path_part_length(cursor_, end_));
+    const size_t slash = part.rfind('/');
+    if (slash != part.npos) path_folder = part.substr(0, slash + 1);
+    if (slash + 1 < part.size()) last_path_name_ = part.substr(slash + 1);
+    cursor_ += part.size();
+  }
+  if (cursor_ == end_) {
+    lex_unterminated(token, "include statement");
+    return true;
+  }
+  ++cursor_;
+  const FileId file = lookup_.include(named_file(path_folder + last_path_name_));
+  if (file == kNoFile) return false;
+  includers_.push_back({file_, cursor_, std::move(folder_)});
+  const std::string& path = files_[file].path;
+  being_included_.push_back(path);
+  folder_ = std::filesystem::path(path).parent_path().string();
+  enter(file, files_[file].text.data());
+  return false;
+}
+
+void Lexer::lex_use(Token& token) {
+  token.kind = TokenKind::kUse;
+  for (; *cursor_ != '<'; ++cursor_) {
+    if (*cursor_ == '\n' || *cursor_ == '\r') begin_line_at(cursor_ + 1);
+  }
+  ++cursor_;
+  while (read_path_part()) {
+    const size_t length = path_part_length(cursor_, end_);
+    last_path_name_.assign(cursor_, length);
+    cursor_ += length;
+  }
+  if (cursor_ == end_) return lex_unterminated(token, "use statement");
+  ++cursor_;
+  token.text = store(last_path_name_);
+}
+
+std::string_view Lexer::store(std::string_view text) {
+  if (text.empty()) return {};
+  auto* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
+  std::memcpy(copy, text.data(), text.size());
+  return {copy, text.size()};
+}
+
+void Lexer::lex_unterminated(Token& token, std::string_view what) {
+  token.kind = TokenKind::kUnknown;
+  messages_.say(MessageGroup::kError, "Parser error: Unterminated " + std::string(what), position(),
+                PathBase::kStart);
+}
+
+}  // namespace language

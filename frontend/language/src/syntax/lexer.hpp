@@ -1,0 +1,75 @@
+// Splits the text of a file, and of the files that it includes, into tokens (LANGUAGE.md, "Text").
+#pragma once
+
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "base/name_table.hpp"
+#include "language/source_files.hpp"
+#include "messages/messages.hpp"
+#include "syntax/file_lookup.hpp"
+#include "syntax/token.hpp"
+
+namespace language {
+
+class Lexer {
+ public:
+  /// Lexes the file `main`, whose path is in `folder`. `names` must begin with kFirstNames. Texts
+  /// of tokens lie in the arena.
+  Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
+        FileLookup& lookup, FileId main, std::string folder);
+
+  /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
+  Token next();
+  /// Returns the place behind the last token.
+  Place position() const { return {file_, offset_of(cursor_)}; }
+  /// Returns a path that stands in the file of the last token. Valid until next() is called.
+  NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
+
+ private:
+  struct Includer {
+    FileId file;
+    const char* cursor;
+    std::string folder;
+  };
+
+  uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
+  void enter(FileId file, const char* cursor);
+  bool leave();
+  void begin_line_at(const char* at);
+
+  bool skip_blank();
+  void skip_line_comment();
+  bool skip_block_comment();
+  bool lex(Token& token);
+  bool lex_word(Token& token);
+  bool lex_number(Token& token, size_t length);
+  void lex_sign(Token& token);
+  void lex_string(Token& token);
+  bool lex_include(Token& token);
+  void lex_use(Token& token);
+  bool begins_path() const;
+  bool read_path_part();
+  std::string_view store(std::string_view text);
+  void lex_unterminated(Token& token, std::string_view what);
+
+  SourceFiles& files_;
+  NameTable& names_;
+  std::pmr::memory_resource& arena_;
+  Messages& messages_;
+  FileLookup& lookup_;
+
+  std::vector<Includer> includers_;          // outermost first
+  std::vector<std::string> being_included_;  // paths of the included files among them
+  FileId file_ = kNoFile;
+  std::string folder_;           // of the current file
+  const char* begin_ = nullptr;  // of its text, behind which stands a NUL
+  const char* cursor_ = nullptr;
+  const char* end_ = nullptr;
+  std::vector<uint32_t>* line_starts_ = nullptr;
+  std::string string_;          // the string that is being read
+  std::string last_path_name_;  // `use <>` means the last path's name once more
+};
+
+}  // namespace language

@@ -1,0 +1,30 @@
+// Where `include` and `use` look for files (LANGUAGE.md, "Text").
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace language {
+
+/// Finds files in the order: absolute path; the folder of the file that names it; the parts of
+/// OPENSCADPATH; the user's and the system's library folder.
+class LibrarySearch {
+ public:
+  /// Reads the environment. Absolute paths that were tried and do not exist are added to `lookups`.
+  explicit LibrarySearch(std::vector<std::string>& lookups);
+
+  /// Returns the canonical path of a file that is named in a file of `folder` (absolute). Empty:
+  /// there is none but folders and the paths in `excluded`, which are canonical.
+  std::string find(std::string_view name, const std::string& folder,
+                   std::span<const std::string> excluded = {});
+
+ private:
+  std::string try_path(const std::string& path, std::span<const std::string> excluded);
+
+  std::vector<std::string>& lookups_;
+  std::vector<std::string> library_folders_;  // absolute
+};
+
+}  // namespace language

@@ -1,0 +1,263 @@
+// Tokens and statements. Expressions are in parser_expressions.cpp.
+#include "syntax/parser.hpp"
+
+#include "language/stopped.hpp"
+
+namespace language {
+
+const Token& Parser::fetch(int position) {
+  constexpr uint32_t kTokensBetweenChecks = 4096;
+  if (++taken_ % kTokensBetweenChecks == 0 && settings_.stop.stop_requested()) throw Stopped();
+  tokens_[position] = lexer_.next();
+  ahead_ = position + 1;
+  check_hard_warnings();
+  return tokens_[position];
+}
+
+const Token& Parser::peek_second() {
+  peek();
+  return ahead_ > 1 ? tokens_[1] : fetch(1);
+}
+
+/// Removes the token that peek() returns. The next one is not read before it is needed: reading
+/// may include a file, and say that it is missing.
+void Parser::consume() {
+  peek();
+  if (--ahead_ > 0) tokens_[0] = tokens_[1];
+}
+
+Token Parser::take() {
+  const Token token = peek();
+  consume();
+  return token;
+}
+
+Token Parser::expect(char sign) {
+  if (!peek().is(sign)) fail();
+  return take();
+}
+
+Token Parser::expect_name() {
+  if (!peek().is(TokenKind::kName)) fail();
+  return take();
+}
+
+bool Parser::accept(char sign) {
+  if (!peek().is(sign)) return false;
+  consume();
+  return true;
+}
+
+/// Consumes commas, and returns how many.
+int Parser::accept_commas() {
+  int count = 0;
+  while (accept(',')) ++count;
+  return count;
+}
+
+void Parser::fail(std::string_view what) {
+  messages_.say(MessageGroup::kError, "Parser error: " + std::string(what), lexer_.position(),
+                PathBase::kStart);
+  throw SyntaxError();
+}
+
+void Parser::check_hard_warnings() {
+  if (settings_.hard_warnings && messages_.warnings() > 0) fail("stop on first warning");
+}
+
+const Scope* Parser::parse_file() {
+  ScopeBuilder scope(scopes_);
+  while (!peek().is(TokenKind::kEnd)) {
+    if (peek().is(TokenKind::kUse)) {
+      lookup_.use(lexer_.named_file(take().text));
+      check_hard_warnings();
+    } else {
+      parse_statement(scope);
+    }
+  }
+  return scope.finish(arena_);
+}
+
+void Parser::parse_statement(ScopeBuilder& scope) {
+  switch (peek().kind) {
+    case TokenKind::kModule:
+      return parse_module(scope);
+    case TokenKind::kFunction:
+      return parse_function(scope);
+    case TokenKind::kFileEnd:
+      is_behind_file_ = true;
+      return consume();
+    case TokenKind::kName:
+      if (peek_second().is('=')) return parse_assignment(scope);
+      return parse_call(scope);
+    case TokenKind::kSign:
+      if (accept(';')) return;
+      if (peek().is('{')) return parse_block(scope);
+      return parse_call(scope);
+    default:
+      return parse_call(scope);
+  }
+}
+
+/// A block outside of child blocks makes no scope.
+void Parser::parse_block(ScopeBuilder& scope) {
+  const Nested nested(*this, 1);
+  expect('{');
+  while (!accept('}')) parse_statement(scope);
+}
+
+void Parser::parse_assignment(ScopeBuilder& scope) {
+  const Token name = expect_name();
+  expect('=');
+  const Expression* value = parse_expression();
+  expect(';');
+  const Assignment assignment{name.name, value, name.place};
+  const Place first = scope.add(assignment);
+  if (first.file != kNoFile && !is_behind_file_) say_overwritten(assignment, first);
+}
+
+void Parser::say_overwritten(const Assignment& assignment, Place first) {
+  const Place second = assignment.place;
+  const auto is_main = [&](Place place) {
+    return files_[place.file].path == files_[settings_.design_file].path;
+  };
+  const uint32_t line = files_.message_line(first);
+  std::string text =
+      std::string(names_.text(assignment.name)) + " was assigned on line " + std::to_string(line);
+  if (!is_main(first) || !is_main(second)) {
+    const bool is_same = files_[first.file].path == files_[second.file].path;
+    if (is_same ? line == files_.message_line(second) : !is_main(first)) return;
+    text += " of \"" + messages_.shown_path(first.file, PathBase::kMainFile) + "\"";
+  }
+  messages_.warn(text + " but was overwritten", second);
+  check_hard_warnings();
+}
+
+void Parser::parse_module(ScopeBuilder& scope) {
+  const Nested nested(*this, 7);
+  consume();
+  const Name name = expect_name().name;
+  expect('(');
+  const auto parameters = parse_parameters();
+  const Place place = expect(')').place;
+  scope.add(ModuleDefinition{name, place, parameters, parse_module_body()});
+}
+
+const Scope* Parser::parse_module_body() {
+  ScopeBuilder body(scopes_);
+  parse_statement(body);
+  return body.finish(arena_);
+}
+
+void Parser::parse_function(ScopeBuilder& scope) {
+  consume();
+  const Token name = expect_name();
+  expect('(');
+  const auto parameters = parse_parameters();
+  expect(')');
+  expect('=');
+  const Expression* body = parse_expression();
+  expect(';');
+  scope.add(FunctionDefinition{name.name, name.place, parameters, body});
+}
+
+void Parser::parse_call(ScopeBuilder& scope) {
+  bool is_disabled = false;
+  const ModuleCall call = parse_modified_call(is_disabled);
+  if (!is_disabled) scope.add(call);
+}
+
+ModuleCall Parser::parse_modified_call(bool& is_disabled) {
+  const auto modified = [&](uint8_t modifier) {
+    const Nested nested(*this, 1);
+    consume();
+    ModuleCall call = parse_modified_call(is_disabled);
+    call.modifiers |= modifier;
+    return call;
+  };
+  switch (peek().sign) {
+    case '!':
+      return modified(kRootModifier);
+    case '#':
+      return modified(kHighlightModifier);
+    case '%':
+      return modified(kBackgroundModifier);
+    case '*':
+      is_disabled = true;
+      return modified(0);
+    default:
+      return peek().is(TokenKind::kIf) ? parse_if() : parse_plain_call();
+  }
+}
+
+ModuleCall Parser::parse_if() {
+  const Nested nested(*this, 5);
+  ModuleCall call{};
+  call.name = kNoName;
+  consume();
+  expect('(');
+  call.condition = parse_expression();
+  call.place = expect(')').place;
+  call.children = parse_children();
+  if (peek().is(TokenKind::kElse)) {
+    consume();
+    call.else_children = parse_children();
+  }
+  return call;
+}
+
+ModuleCall Parser::parse_plain_call() {
+  const Nested nested(*this, 2);
+  if (!begins_call()) fail();
+  const Token name = take();
+  ModuleCall call{};
+  call.name = name.name;
+  call.place = name.place;
+  expect('(');
+  call.arguments = parse_arguments();
+  expect(')');
+  call.children = parse_children();
+  return call;
+}
+
+/// Some reserved words name modules, too.
+bool Parser::begins_call() {
+  switch (peek().kind) {
+    case TokenKind::kName:
+    case TokenKind::kLet:
+    case TokenKind::kAssert:
+    case TokenKind::kEcho:
+    case TokenKind::kFor:
+    case TokenKind::kEach:
+      return true;
+    default:
+      return false;
+  }
+}
+
+const Scope* Parser::parse_children() {
+  static constexpr Scope kNoChildren;
+  if (accept(';')) return &kNoChildren;
+  ScopeBuilder scope(scopes_);
+  if (peek().is('{')) {
+    parse_child_statement(scope);
+  } else {
+    parse_call(scope);
+  }
+  return scope.finish(arena_);
+}
+
+void Parser::parse_child_statement(ScopeBuilder& scope) {
+  if (accept(';')) return;
+  if (peek().is('{')) {
+    const Nested nested(*this, 2);
+    consume();
+    while (!accept('}')) parse_child_statement(scope);
+  } else if (peek().is(TokenKind::kName) && peek_second().is('=')) {
+    parse_assignment(scope);
+  } else {
+    parse_call(scope);
+  }
+}
+
+}  // namespace language

@@ -1,0 +1,155 @@
+// Makes syntax trees of tokens (LANGUAGE.md, "Grammar").
+#pragma once
+
+#include <memory_resource>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "syntax/arena_list.hpp"
+#include "syntax/lexer.hpp"
+#include "syntax/scope_builder.hpp"
+#include "syntax/syntax.hpp"
+
+namespace language {
+
+/// Parses one file with all that it includes. Throws SyntaxError after the message about it.
+class Parser {
+ public:
+  struct SyntaxError {};
+  struct Settings {
+    FileId design_file = kNoFile;  // the main file of the design, which warnings treat differently
+    bool hard_warnings = false;    // whether a warning is a syntax error
+    std::stop_token stop;
+  };
+
+  Parser(Lexer& lexer, const SourceFiles& files, const NameTable& names,
+         std::pmr::memory_resource& arena, Messages& messages, FileLookup& lookup,
+         const Settings& settings)
+      : lexer_(lexer),
+        files_(files),
+        names_(names),
+        arena_(arena),
+        messages_(messages),
+        lookup_(lookup),
+        settings_(settings) {}
+
+  const Scope* parse_file();
+
+ private:
+  class Nested;
+  struct Element {
+    const Expression* node;
+    bool is_comprehension;
+  };
+  struct Operator {
+    int level = 0;  // 1 binds least; 0: no binary operator
+    BinaryOperator op = BinaryOperator::kOr;
+  };
+
+  // Tokens.
+  const Token& peek() { return ahead_ > 0 ? tokens_[0] : fetch(0); }
+  const Token& peek_second();
+  const Token& fetch(int position);
+  void consume();
+  Token take();
+  Token expect(char sign);
+  Token expect_name();
+  bool accept(char sign);
+  int accept_commas();
+  [[noreturn]] void fail(std::string_view what = "syntax error");
+  void check_hard_warnings();
+
+  // Statements.
+  void parse_statement(ScopeBuilder& scope);
+  void parse_block(ScopeBuilder& scope);
+  void parse_assignment(ScopeBuilder& scope);
+  void parse_module(ScopeBuilder& scope);
+  const Scope* parse_module_body();
+  void parse_function(ScopeBuilder& scope);
+  void parse_call(ScopeBuilder& scope);
+  ModuleCall parse_modified_call(bool& is_disabled);
+  ModuleCall parse_if();
+  ModuleCall parse_plain_call();
+  const Scope* parse_children();
+  void parse_child_statement(ScopeBuilder& scope);
+  void say_overwritten(const Assignment& assignment, Place first);
+  bool begins_call();
+
+  // Expressions.
+  const Expression* parse_expression();
+  const Expression* parse_conditional(const Expression* condition, Place start);
+  const Expression* parse_binary(const Expression* left, Place start, int least_level);
+  const Expression* parse_unary();
+  const Expression* parse_power(const Expression* base, Place start);
+  const Expression* parse_postfix(const Expression* operand, Place start);
+  const Expression* parse_primary();
+  const Expression* parse_index(const Expression* container, Place start);
+  const Expression* parse_function_literal();
+  const Expression* parse_body_expression(ExpressionKind kind);
+  const Expression* parse_bracket();
+  const Expression* parse_range(const Expression* begin, Place start);
+  const Expression* parse_vector(const Element& first, Place start);
+  Element parse_element(bool may_be_parenthesised);
+  Element parse_parenthesised_element();
+  Element parse_let_element();
+  const Expression* parse_for();
+  const Expression* make_for(std::span<const Argument> variables, const Expression* body,
+                             Place place);
+  const Expression* parse_if_element();
+  bool begins_expression();
+  Operator binary_operator(const Token& token) const;
+
+  // Lists in parentheses.
+  std::span<const Argument> parse_arguments();
+  Argument parse_argument();
+  std::span<const Parameter> parse_parameters();
+  Parameter parse_parameter();
+
+  template <typename Node, typename... Fields>
+  const Expression* make(ExpressionKind kind, Place place, Fields... fields) {
+    void* memory = arena_.allocate(sizeof(Node), alignof(Node));
+    if constexpr (sizeof...(fields) == 0)
+      return new (memory) Node{kind, place};
+    else
+      return new (memory) Node{{kind, place}, fields...};
+  }
+
+  Lexer& lexer_;
+  const SourceFiles& files_;
+  const NameTable& names_;
+  std::pmr::memory_resource& arena_;
+  Messages& messages_;
+  FileLookup& lookup_;
+  Settings settings_;
+
+  Token tokens_[2];
+  int ahead_ = 0;                // tokens that were read and not consumed
+  uint32_t depth_ = 0;           // see Nested
+  uint32_t taken_ = 0;           // tokens
+  bool is_behind_file_ = false;  // whether 0x03 was met
+  ScopeStacks scopes_;
+  std::vector<Argument> arguments_;
+  std::vector<Parameter> parameters_;
+  std::vector<const Expression*> elements_;
+};
+
+/// Counts the symbols that OpenSCAD's parser would stack, and fails where it runs out of memory.
+class Parser::Nested {
+ public:
+  Nested(Parser& parser, uint32_t symbols) : parser_(parser), symbols_(symbols) {
+    constexpr uint32_t kMostSymbols = 19'994;
+    parser_.depth_ += symbols_;
+    if (parser_.depth_ > kMostSymbols) parser_.fail("memory exhausted");
+  }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+  ~Nested() { parser_.depth_ -= symbols_; }
+
+ private:
+  Parser& parser_;
+  uint32_t symbols_;
+};
+
+}  // namespace language

@@ -1,0 +1,45 @@
+// Reads the files of a design while they are parsed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "messages/messages.hpp"
+#include "syntax/file_lookup.hpp"
+#include "syntax/library_search.hpp"
+#include "syntax/parse_options.hpp"
+#include "syntax/program.hpp"
+
+namespace language {
+
+class ProgramReader : public FileLookup {
+ public:
+  ProgramReader(Program& program, Messages& messages, const ParseOptions& options);
+
+  /// Adds the main file as unit 0. Returns false if it cannot be read.
+  bool read_main(const std::string& path);
+  /// Parses the main file. Returns false after a syntax error.
+  bool parse_main() { return parse(0); }
+  /// Parses all files that unit 0 uses, and those that they use.
+  void parse_used();
+
+  FileId include(const NamedFile& file) override;
+  void use(const NamedFile& file) override;
+
+ private:
+  bool parse(uint32_t unit);
+  uint32_t add_unit(std::string path, std::string_view text);
+  std::string unit_text(std::string_view file_text) const;
+  void use_font(const std::string& name, const std::string& path);
+
+  Program& program_;
+  Messages& messages_;
+  const ParseOptions& options_;
+  LibrarySearch search_;
+  uint32_t current_unit_ = 0;                         // the one being parsed
+  std::unordered_map<std::string, FileId> included_;  // by canonical path
+  std::unordered_map<std::string, uint32_t> used_;    // units by canonical path
+};
+
+}  // namespace language

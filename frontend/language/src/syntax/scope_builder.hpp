@@ -1,0 +1,82 @@
+// Gathers what stands in a scope.
+#pragma once
+
+#include <memory_resource>
+#include <unordered_map>
+#include <vector>
+
+#include "syntax/arena_list.hpp"
+#include "syntax/syntax.hpp"
+
+namespace language {
+
+/// An ArenaList whose elements have names, each once.
+template <typename T>
+class NamedArenaList : public ArenaList<T> {
+ public:
+  using ArenaList<T>::ArenaList;
+
+  /// Returns the element of a name, or null.
+  T* find(Name name) {
+    constexpr size_t kFewElements = 16;  // for which a search costs less than a map
+    if (this->size() > kFewElements) return find_indexed(name);
+    for (size_t i = 0; i < this->size(); ++i) {
+      if ((*this)[i].name == name) return &(*this)[i];
+    }
+    return nullptr;
+  }
+
+ private:
+  T* find_indexed(Name name) {
+    for (; indexed_ < this->size(); ++indexed_) index_.emplace((*this)[indexed_].name, indexed_);
+    const auto found = index_.find(name);
+    return found == index_.end() ? nullptr : &(*this)[found->second];
+  }
+
+  std::unordered_map<Name, size_t> index_;
+  size_t indexed_ = 0;  // elements that the index knows
+};
+
+/// What the scopes being parsed share.
+struct ScopeStacks {
+  std::vector<Assignment> assignments;
+  std::vector<FunctionDefinition> functions;
+  std::vector<ModuleDefinition> modules;
+  std::vector<ModuleCall> calls;
+};
+
+/// One scope being parsed; those within it must be finished before.
+class ScopeBuilder {
+ public:
+  explicit ScopeBuilder(ScopeStacks& stacks)
+      : assignments_(stacks.assignments),
+        functions_(stacks.functions),
+        modules_(stacks.modules),
+        calls_(stacks.calls) {}
+
+  /// Adds an assignment. Returns the place of the one that it overwrites, which has no file if
+  /// there is none: that one keeps its place and gets the new expression.
+  Place add(const Assignment& assignment);
+  void add(const FunctionDefinition& definition) { replace(functions_, definition); }
+  void add(const ModuleDefinition& definition) { replace(modules_, definition); }
+  void add(const ModuleCall& call) { calls_.push(call); }
+  /// Returns the scope, in an arena.
+  const Scope* finish(std::pmr::memory_resource& arena) const;
+
+ private:
+  template <typename T>
+  void replace(NamedArenaList<T>& definitions, const T& definition) {
+    if (T* older = definitions.find(definition.name)) {
+      *older = definition;
+    } else {
+      definitions.push(definition);
+    }
+  }
+
+  NamedArenaList<Assignment> assignments_;
+  NamedArenaList<FunctionDefinition> functions_;
+  NamedArenaList<ModuleDefinition> modules_;
+  ArenaList<ModuleCall> calls_;
+};
+
+}  // namespace language

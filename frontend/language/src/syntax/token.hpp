@@ -1,0 +1,71 @@
+// The language's words and signs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "base/name_table.hpp"
+#include "language/place.hpp"
+
+namespace language {
+
+enum class TokenKind : uint8_t {
+  // Reserved words, in the order of kFirstNames.
+  kModule,
+  kFunction,
+  kIf,
+  kElse,
+  kLet,
+  kAssert,
+  kEcho,
+  kFor,
+  kEach,
+  kTrue,
+  kFalse,
+  kUndef,
+
+  kName,
+  kNumber,
+  kString,
+  kUse,      // use <path>
+  kFileEnd,  // the byte 0x03 that OpenSCAD puts behind the main file and behind used ones
+  kEnd,      // of all text
+  kUnknown,  // what no token begins with, or what is not terminated
+  kSign,     // a sign of one byte, which is Token::sign
+  kLessEqual,
+  kGreaterEqual,
+  kEqual,
+  kNotEqual,
+  kAnd,
+  kOr,
+  kShiftLeft,
+  kShiftRight,
+};
+
+/// The first names of every design's table: the reserved words, whose numbers are their token's
+/// kinds, and two that are reserved before `<` only.
+constexpr std::array<std::string_view, 14> kFirstNames = {
+    "module", "function", "if",   "else",  "let",   "assert",  "echo",
+    "for",    "each",     "true", "false", "undef", "include", "use"};
+constexpr Name kIncludeName = 12;
+constexpr Name kUseName = 13;
+
+/// Gives kFirstNames the first numbers of a table, which must be empty.
+inline void add_first_names(NameTable& names) {
+  for (const std::string_view name : kFirstNames) names.intern(name);
+}
+
+struct Token {
+  TokenKind kind = TokenKind::kEnd;
+  char sign = 0;  // of kSign
+  Name name = kNoName;
+  Place place;  // of its first byte
+  double number = 0;
+  std::string_view text;  // of a string, escapes replaced; of `use`, the path
+
+  bool is(TokenKind wanted) const { return kind == wanted; }
+  bool is(char wanted) const { return sign == wanted; }
+};
+
+}  // namespace language
