@@ -127,12 +127,12 @@ class CodeCompiler {
 
   Compiler& compiler_;
   CodeBuilder out_;
-  ScopeLayout* scope_;           // the innermost scope
+  ScopeLayout* scope_;  // the innermost scope
   LiteralFinder literals_;
   FunctionEntry* function_ = nullptr;  // whose body is compiled
   ScopeLayout* parameter_scope_ = nullptr;
-  uint32_t body_start_ = 0;            // where a tail call goes
-  bool finds_all_set_ = false;         // statements run after the assignments around them
+  uint32_t body_start_ = 0;     // where a tail call goes
+  bool finds_all_set_ = false;  // statements run after the assignments around them
 };
 
 }  // namespace language

@@ -109,8 +109,8 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
       out_.emit(Op::kPop, argument.place, -1);
     }
   }
-  const bool may_repeat = module.wants_first && !call.arguments.empty() &&
-                          call.arguments.front().name == kNoName;
+  const bool may_repeat =
+      module.wants_first && !call.arguments.empty() && call.arguments.front().name == kNoName;
   if (!may_repeat) return out_.constant(Value::unset(), call.place);
   const uint32_t unwanted = out_.emit(Op::kWantsFirst, call.place, 0, 0, site);
   expression(*call.arguments.front().value);

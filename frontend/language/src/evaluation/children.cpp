@@ -62,10 +62,9 @@ void Machine::select_child(double index, bool is_child, Value& numbers) {
   const uint32_t count = child_count();
   if (number >= 0 && number < count) return append_element(numbers, number);
   if (is_child) {
-    const std::string problem =
-        number < 0 ? "Negative child index (" + text + ") not allowed"
-                   : "Child index (" + text + ") out of bounds (" + std::to_string(count) +
-                         " children)";
+    const std::string problem = number < 0 ? "Negative child index (" + text + ") not allowed"
+                                           : "Child index (" + text + ") out of bounds (" +
+                                                 std::to_string(count) + " children)";
     return warn(problem, PathBase::kMainFile);
   }
   messages_.say(MessageGroup::kWarning, number < 0

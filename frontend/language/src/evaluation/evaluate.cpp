@@ -1,8 +1,7 @@
-#include "language/evaluation.hpp"
-
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/machine.hpp"
+#include "language/evaluation.hpp"
 #include "syntax/parse_program.hpp"
 #include "values/make.hpp"
 
@@ -107,8 +106,8 @@ void Session::say_root_modifiers() {
 }
 
 void Session::evaluate_program() {
-  for (const std::string_view name : {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd",
-                                      "$vpf"})
+  for (const std::string_view name :
+       {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
     program_->names.intern(name);
   Compiler compiler(*program_, builtin_shapes(program_->names), options_.check_parameters);
   const std::string& folder = program_->units[0].folder;

@@ -40,8 +40,7 @@ class HardWarning : public std::exception {
 
 class Machine {
  public:
-  Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules,
-          std::stop_token stop);
+  Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, std::stop_token stop);
   ~Machine();
 
   /// Gives a `$` name its value before the program begins.
@@ -195,7 +194,7 @@ class Machine {
   std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called
   std::vector<std::shared_ptr<Node>> nodes_;
   std::vector<std::string_view> module_names_;
-  std::vector<Value> parameters_;  // of the call that is being made
+  std::vector<Value> parameters_;    // of the call that is being made
   std::vector<UnitRecord> records_;  // of the top levels that are being evaluated
   std::vector<KeptUnit> kept_units_;
 
