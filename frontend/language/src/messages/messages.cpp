@@ -25,6 +25,10 @@ std::string_view group_prefix(MessageGroup group) {
   return "";
 }
 
+std::string suffix_of(const std::string& path, uint32_t line) {
+  return " in file " + path + ", line " + std::to_string(line);
+}
+
 }  // namespace
 
 Messages::Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(std::move(sink)) {
@@ -37,13 +41,21 @@ void Messages::set_main_folder(std::string folder) { main_folder_ = std::move(fo
 void Messages::set_unit_folder(std::string_view folder) { unit_folder_ = folder; }
 
 void Messages::say(MessageGroup group, std::string text) {
-  say(group, std::move(text), Place{}, PathBase::kMainFile);
+  say(group, std::move(text), Place{}, std::string());
 }
 
 void Messages::say(MessageGroup group, std::string text, Place place, PathBase base) {
+  say(group, std::move(text), place, place.file == kNoFile ? "" : place_suffix(place, base));
+}
+
+void Messages::say_parser_error(std::string text, Place place, uint32_t line) {
+  const std::string path = relative_path(place.file, start_folder_);
+  say(MessageGroup::kError, std::move(text), place, suffix_of(path, line));
+}
+
+void Messages::say(MessageGroup group, std::string text, Place place, const std::string& suffix) {
   if (group == MessageGroup::kWarning) ++warnings_;
-  std::string line = std::string(group_prefix(group)) + text;
-  if (place.file != kNoFile) line += place_suffix(place, base);
+  std::string line = std::string(group_prefix(group)) + text + suffix;
   const Message message{group, std::move(text), place, std::move(line)};
   if (!is_repeat(message)) sink_(message);
 }
@@ -70,28 +82,18 @@ bool Messages::is_repeat(const Message& message) {
   return false;
 }
 
-const std::string& Messages::base_folder(PathBase base) const {
-  switch (base) {
-    case PathBase::kMainFile:
-      break;
-    case PathBase::kUnit:
-      return unit_folder_;
-    case PathBase::kStart:
-      return start_folder_;
-  }
-  return main_folder_;
-}
-
-std::string Messages::shown_path(FileId file, PathBase base) const {
+std::string Messages::relative_path(FileId file, const std::string& folder) const {
   const std::string& path = files_[file].path;
-  const std::string& folder = base_folder(base);
   if (!path.starts_with('/') || folder.empty()) return path;
   return std::filesystem::path(path).lexically_relative(folder).string();
 }
 
+std::string Messages::shown_path(FileId file, PathBase base) const {
+  return relative_path(file, base == PathBase::kMainFile ? main_folder_ : unit_folder_);
+}
+
 std::string Messages::place_suffix(Place place, PathBase base) const {
-  const uint32_t line = base == PathBase::kStart ? files_.line(place) : files_.message_line(place);
-  return " in file " + shown_path(place.file, base) + ", line " + std::to_string(line);
+  return suffix_of(shown_path(place.file, base), files_.message_line(place));
 }
 
 }  // namespace language

@@ -24,11 +24,7 @@ struct Message {
 };
 
 /// The folder that a message's path is relative to (LANGUAGE.md, "Messages").
-enum class PathBase : uint8_t {
-  kMainFile,
-  kUnit,
-  kStart,  // where the program was started; lines are then counted as editors do: parser errors
-};
+enum class PathBase : uint8_t { kMainFile, kUnit };
 
 class Messages {
  public:
@@ -46,6 +42,10 @@ class Messages {
     say(MessageGroup::kWarning, std::move(text), place, base);
   }
 
+  /// Says an error of the parser, whose lines are counted differently, and whose path is relative
+  /// to the folder where the program was started.
+  void say_parser_error(std::string text, Place place, uint32_t line);
+
   /// Returns a file's path relative to a folder, as messages show it.
   std::string shown_path(FileId file, PathBase base) const;
   /// Returns " in file ‹path›, line ‹n›".
@@ -55,7 +55,8 @@ class Messages {
 
  private:
   bool is_repeat(const Message& message);
-  const std::string& base_folder(PathBase base) const;
+  void say(MessageGroup group, std::string text, Place place, const std::string& suffix);
+  std::string relative_path(FileId file, const std::string& folder) const;
 
   const SourceFiles& files_;
   Sink sink_;

@@ -1,5 +1,6 @@
 #include "syntax/lexer.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -35,6 +36,7 @@ void Lexer::enter(FileId file, const char* cursor) {
   end_ = begin_ + source.text.size();
   cursor_ = cursor;
   line_starts_ = &source.message_line_starts;
+  error_lines_ = {};
 }
 
 /// Goes on in the file that includes the current one. Returns false if none does.
@@ -45,6 +47,7 @@ bool Lexer::leave() {
   being_included_.pop_back();
   folder_ = std::move(includer.folder);
   enter(includer.file, includer.cursor);
+  error_lines_ = includer.error_lines;
   return true;
 }
 
@@ -189,8 +192,10 @@ bool Lexer::begins_path() const {
 }
 
 /// Skips what separates the parts of a path. Returns false at the end of the path or of the file.
-bool Lexer::read_path_part() {
-  while (*cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n') ++cursor_;
+bool Lexer::reach_path_part() {
+  for (; *cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n'; ++cursor_) {
+    if (*cursor_ == '\n') --error_lines_.first;  // which is not counted
+  }
   return *cursor_ != '>' && cursor_ < end_;
 }
 
@@ -198,7 +203,7 @@ bool Lexer::lex_include(Token& token) {
   std::string path_folder;
   last_path_name_.clear();
   cursor_ += std::strcspn(cursor_, "<") + 1;
-  while (read_path_part()) {
+  while (reach_path_part()) {
     const std::string_view part(cursor_, path_part_length(cursor_, end_));
     const size_t slash = part.rfind('/');
     if (slash != part.npos) path_folder = part.substr(0, slash + 1);
@@ -212,7 +217,9 @@ bool Lexer::lex_include(Token& token) {
   ++cursor_;
   const FileId file = lookup_.include(named_file(path_folder + last_path_name_));
   if (file == kNoFile) return false;
-  includers_.push_back({file_, cursor_, std::move(folder_)});
+  // OpenSCAD goes on counting with the line of messages, which differs where there are CRs.
+  const ErrorLines lines{files_.message_line(token.place), offset_of(cursor_)};
+  includers_.push_back({file_, cursor_, std::move(folder_), lines});
   const std::string& path = files_[file].path;
   being_included_.push_back(path);
   folder_ = std::filesystem::path(path).parent_path().string();
@@ -226,7 +233,7 @@ void Lexer::lex_use(Token& token) {
     if (*cursor_ == '\n' || *cursor_ == '\r') begin_line_at(cursor_ + 1);
   }
   ++cursor_;
-  while (read_path_part()) {
+  while (reach_path_part()) {
     const size_t length = path_part_length(cursor_, end_);
     last_path_name_.assign(cursor_, length);
     cursor_ += length;
@@ -245,8 +252,13 @@ std::string_view Lexer::store(std::string_view text) {
 
 void Lexer::lex_unterminated(Token& token, std::string_view what) {
   token.kind = TokenKind::kUnknown;
-  messages_.say(MessageGroup::kError, "Parser error: Unterminated " + std::string(what), position(),
-                PathBase::kStart);
+  say_error("Unterminated " + std::string(what));
+}
+
+void Lexer::say_error(const std::string& text) const {
+  const auto line_feeds = std::count(begin_ + error_lines_.offset, cursor_, '\n');
+  const uint32_t line = error_lines_.first + static_cast<uint32_t>(line_feeds);
+  messages_.say_parser_error("Parser error: " + text, position(), line);
 }
 
 }  // namespace language

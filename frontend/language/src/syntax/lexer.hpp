@@ -22,18 +22,25 @@ class Lexer {
 
   /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
   Token next();
-  /// Returns the place behind the last token.
-  Place position() const { return {file_, offset_of(cursor_)}; }
+  /// Says a parser error about the last token.
+  void say_error(const std::string& text) const;
   /// Returns a path that stands in the file of the last token. Valid until next() is called.
   NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
 
  private:
+  /// How lines are counted in parser errors: `first`, plus the line feeds from `offset` on.
+  struct ErrorLines {
+    uint32_t first = 1;
+    uint32_t offset = 0;
+  };
   struct Includer {
     FileId file;
     const char* cursor;
     std::string folder;
+    ErrorLines error_lines;
   };
 
+  Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();
@@ -50,7 +57,7 @@ class Lexer {
   bool lex_include(Token& token);
   void lex_use(Token& token);
   bool begins_path() const;
-  bool read_path_part();
+  bool reach_path_part();
   std::string_view store(std::string_view text);
   void lex_unterminated(Token& token, std::string_view what);
 
@@ -68,6 +75,7 @@ class Lexer {
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
   std::vector<uint32_t>* line_starts_ = nullptr;
+  ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read
   std::string last_path_name_;  // `use <>` means the last path's name once more
 };

@@ -56,8 +56,7 @@ int Parser::accept_commas() {
 }
 
 void Parser::fail(std::string_view what) {
-  messages_.say(MessageGroup::kError, "Parser error: " + std::string(what), lexer_.position(),
-                PathBase::kStart);
+  lexer_.say_error(std::string(what));
   throw SyntaxError();
 }
 
