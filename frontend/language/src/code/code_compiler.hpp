@@ -71,6 +71,7 @@ class CodeCompiler {
   void call(const CallExpression& call);
   void named_call(const CallExpression& call, Name name);
   void builtin_call(const CallExpression& call, Name name);
+  void lazy_call(const CallExpression& call, uint32_t builtin);
   void static_call(const CallExpression& call, Found<FunctionEntry> found);
   void dynamic_call(const CallExpression& call);
   void is_undef_call(const CallExpression& call);

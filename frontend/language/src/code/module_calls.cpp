@@ -124,7 +124,8 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
 
 void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   if (is_child) out_.emit(Op::kDeprecatedChild, call.place, 0);
-  const uint32_t outside = out_.emit(Op::kUnlessInModule, call.place, 0);
+  // child() looks at its argument anywhere, children() within modules only.
+  const uint32_t outside = is_child ? 0 : out_.emit(Op::kUnlessInModule, call.place, 0);
   if (call.arguments.empty() && !is_child) {
     out_.emit(Op::kAllChildren, call.place, 0, add_node_site(call, "group"));
     end_node(call);
@@ -143,7 +144,7 @@ void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   out_.land(next);
   out_.emit(Op::kEndSelection, call.place, -3);
   out_.land(none);
-  out_.land(outside);
+  if (!is_child) out_.land(outside);
 }
 
 }  // namespace language

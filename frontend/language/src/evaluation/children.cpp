@@ -1,4 +1,6 @@
 // children() and child().
+#include <limits>
+
 #include "evaluation/machine.hpp"
 #include "values/make.hpp"
 #include "values/range.hpp"
@@ -9,8 +11,11 @@ namespace {
 
 constexpr uint32_t kRangeLimit = 10000;  // of a range of this count and more nothing is selected
 
-// OpenSCAD cuts an index to a whole number.
-double whole(double number) { return std::trunc(number); }
+// Cuts to a whole number as C does on this processor: the least one for all that does not fit.
+int whole(double number) {
+  const bool fits = number > -2147483649.0 && number < 2147483648.0;
+  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
+}
 
 }  // namespace
 
@@ -56,10 +61,11 @@ bool Machine::end_child(bool is_last) {
 }
 
 // Returns whether there is a child of that number, and says if not.
-bool Machine::is_child_number(double number, bool is_child) {
-  const std::string text = std::to_string(static_cast<int>(number));
+bool Machine::is_child_number(int number, bool is_child) {
+  if (number >= 0 && static_cast<uint32_t>(number) < child_count()) return true;
+  if (number >= 0 && !activation()) return false;
+  const std::string text = std::to_string(number);
   const std::string count = std::to_string(child_count());
-  if (number >= 0 && number < child_count()) return true;
   if (is_child) {
     warn(number < 0 ? "Negative child index (" + text + ") not allowed"
                     : "Child index (" + text + ") out of bounds (" + count + " children)",
@@ -77,10 +83,10 @@ bool Machine::select_children(const NodeSite& site, bool is_child) {
   Value selection = stack_.pop();
   bool is_group = false;
   if (selection.is_number() || is_child) {
-    const double number = whole(selection.is_number() ? selection.number() : 0);
+    const int number = whole(selection.is_number() ? selection.number() : 0);
     if (!is_child_number(number, is_child)) return false;
     selection = language::make_vector(1);
-    append_element(selection, number);
+    append_element(selection, static_cast<double>(number));
   } else if (selection.is_vector() || selection.is_range()) {
     is_group = true;
   } else {
