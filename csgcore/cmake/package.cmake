@@ -11,7 +11,7 @@ if(SCADRAY_GLRENDER)
   list(APPEND scadray_components glrender)
 endif()
 if(SCADRAY_FRONTEND)
-  list(APPEND scadray_components frontend)
+  list(APPEND scadray_components frontend/language frontend)
 endif()
 
 # The libraries link scadray_options privately; static libraries carry that into the export.

@@ -48,7 +48,7 @@ struct ImportOptions {
   /// Find the boxes of compound leaves for the view box, which takes looking at them; otherwise it
   /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;
-  /// Fill ImportedDesign::places. For TextImport alone: a tree has no offsets.
+  /// Fill ImportedDesign::places. For TextImport alone, and trees that have offsets.
   bool keeps_places = false;
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;

@@ -19,6 +19,7 @@ struct PrimitivePlace {
   /// The same of the compound leaf that the node is a part of; 0: the node is a leaf by itself.
   uint32_t leaf_line = 0;
   uint32_t leaf_offset = 0;
+  uint32_t file = 0, leaf_file = 0;  // Location::file
 };
 
 struct ImportedDesign {

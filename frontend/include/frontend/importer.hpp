@@ -28,6 +28,9 @@ class TextImport {
   /// Throws what parse() throws (parser.hpp).
   TextImport(std::string_view text, std::string file_name, const ImportOptions& options = {},
              const std::stop_token& stop = {});
+  /// Takes a tree instead of a text.
+  explicit TextImport(SyntaxTree tree, const ImportOptions& options = {},
+                      const std::stop_token& stop = {});
   TextImport(TextImport&&) noexcept;
   TextImport& operator=(TextImport&&) noexcept;
   ~TextImport();

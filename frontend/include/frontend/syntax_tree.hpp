@@ -106,11 +106,22 @@ struct SyntaxTree {
   SyntaxTree& operator=(const SyntaxTree&) = delete;
 
   std::string file_name;  // as messages show it
+  /// The names of the files that Location::file counts, of an evaluated .scad: it and what it
+  /// includes and uses. Empty: all nodes are of the file `file_name`.
+  std::vector<std::string> file_names;
+  /// Whether the numbers are the design's own doubles. Those of a .csg have six digits.
+  bool has_all_digits = false;
   std::vector<SyntaxNode> nodes;
+  /// Where the nodes' names begin in their files, in bytes, if that is kept: by node, or empty.
+  std::vector<uint32_t> offsets;
   std::vector<Argument> arguments;
   std::vector<Value> values;
   std::vector<char> strings;  // a vector, whose storage does not move with the tree
 
+  /// Returns the name of the file that a place is in.
+  const std::string& file_of(Location location) const {
+    return location.file < file_names.size() ? file_names[location.file] : file_name;
+  }
   std::span<const Argument> arguments_of(const SyntaxNode& node) const {
     return {arguments.data() + node.first_argument, node.argument_count};
   }

@@ -143,6 +143,7 @@ class DesignFollower::Follower {
     DesignFileOptions options;
     options.import = options_.import;
     options.openscad_arguments = options_.openscad_arguments;
+    options.evaluator = options_.evaluator;
     return options;
   }
 

@@ -12,7 +12,7 @@ namespace frontend {
 
 /// The last version that could be read; null and 0 before there is one.
 struct GoodVersion {
-  std::shared_ptr<const FileText> csg;
+  DesignTexts texts;
   std::shared_ptr<const ImportedDesign> design;
   std::size_t nodes = 0;
 };
@@ -25,7 +25,8 @@ struct DesignReading {
   bool is_scad = false;  // told by the text, where the name does not tell
 };
 
-/// Reads the design. Of `options` only `import` and `openscad_arguments` are used. Every failure is
+/// Reads the design. Of `options` only `import`, `evaluator` and `openscad_arguments`
+/// are used. Every failure is
 /// reported in version.error; only Stopped (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);

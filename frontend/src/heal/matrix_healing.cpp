@@ -389,23 +389,24 @@ std::optional<Recognised> recognise(const Mat3& file, const Mat3& half) {
   return recognise_axis_angle(file, half, widest);
 }
 
+/// How far the entries of a matrix may be from the design's.
+struct Rounding {
+  Mat3 half{0.0};  // half the interval of each
+  Mat3 kept{0.0};  // the same where the entry shows that it is rounded; else 0
+};
+
 /// Keeps an axis-aligned or general matrix, with the rounding of its digits as its errors.
-void keep_linear(HealedMatrix& matrix) {
-  for_each_entry([&](int c, int r) {
-    const Digits digits = digits_of(matrix.map.linear[c][r]);
-    if (digits.count != 6) return;
-    matrix.linear_error[c][r] = digits.half_unit;
-    matrix.exact = false;
-  });
+void keep_linear(HealedMatrix& matrix, const Rounding& rounding) {
+  matrix.linear_error = rounding.kept;
+  matrix.exact = largest_entry(rounding.kept) == 0;
 }
 
-void heal_linear(HealedMatrix& matrix) {
+void heal_linear(HealedMatrix& matrix, const Rounding& rounding) {
   const Mat3 file = matrix.map.linear;
-  if (is_axis_aligned(file)) return keep_linear(matrix);
-  Mat3 half;
-  for_each_entry([&](int c, int r) { half[c][r] = digits_of(file[c][r]).half_unit; });
+  const Mat3& half = rounding.half;
+  if (is_axis_aligned(file)) return keep_linear(matrix, rounding);
   const std::optional<Scale> scale = uniform_scale(file, half);
-  if (!scale) return keep_linear(matrix);
+  if (!scale) return keep_linear(matrix, rounding);
   const Mat3 unit_file = file / scale->factor;
   const Mat3 unit_half = half / scale->factor;
   std::optional<Recognised> found;
@@ -438,6 +439,16 @@ void bound_translation(HealedMatrix& matrix) {
   matrix.exact = false;
 }
 
+Rounding rounding_to_six_digits(const Mat3& file) {
+  Rounding rounding;
+  for_each_entry([&](int c, int r) {
+    const Digits digits = digits_of(file[c][r]);
+    rounding.half[c][r] = digits.half_unit;
+    if (digits.count == 6) rounding.kept[c][r] = digits.half_unit;
+  });
+  return rounding;
+}
+
 }  // namespace
 
 Digits digits_of(double value) {
@@ -459,6 +470,22 @@ Digits digits_of(double value) {
   // A power of ten has the unit of the numbers below it: %g prints numbers just below it as that
   // power (0.9999997 as 1), and entries of a rotation are never above 1.
   return {count, integer == 1 && count == 1 ? 0.05 * unit : 0.5 * unit};
+}
+
+double typed_error(double value) {
+  constexpr int kLeast = 6, kMost = 10;
+  // Scaling costs some units in the 16th digit, 1e-6 here; one computed number in 50,000 looks
+  // typed, with an error that does not matter.
+  constexpr double kScalingNoise = 1e-5;
+  double size = std::abs(value);
+  if (size == 0) return 0;
+  const int exponent = decimal_exponent(size);
+  size *= power_of_ten(kMost - 1 - exponent);
+  int64_t integer = nearest_integer(size);
+  if (std::abs(size - static_cast<double>(integer)) > kScalingNoise) return 0;
+  int digits = kMost;
+  for (; digits >= kLeast && integer % 10 == 0; --digits) integer /= 10;
+  return digits < kLeast ? 0 : 0.5 * power_of_ten(exponent + 1 - digits);
 }
 
 double sin_deg(double angle_deg) {
@@ -491,8 +518,25 @@ Mat3 euler_rotation(const Vec3& angles_deg) {
 HealedMatrix heal_matrix(const Affine& from_file) {
   HealedMatrix matrix;
   matrix.map = from_file;
-  if (from_file.linear != Mat3(1.0)) heal_linear(matrix);
+  if (from_file.linear != Mat3(1.0)) {
+    heal_linear(matrix, rounding_to_six_digits(from_file.linear));
+  }
   bound_translation(matrix);
+  return matrix;
+}
+
+HealedMatrix heal_typed_matrix(const Affine& from_design) {
+  HealedMatrix matrix;
+  matrix.map = from_design;
+  if (from_design.linear != Mat3(1.0)) {
+    Mat3 error;
+    for_each_entry([&](int c, int r) { error[c][r] = typed_error(from_design.linear[c][r]); });
+    if (largest_entry(error) > 0) heal_linear(matrix, {error, error});
+  }
+  for (int i = 0; i < 3; ++i) {
+    matrix.translation_error[i] = typed_error(from_design.translation[i]);
+    matrix.exact = matrix.exact && matrix.translation_error[i] == 0;
+  }
   return matrix;
 }
 

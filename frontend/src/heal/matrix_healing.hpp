@@ -23,6 +23,11 @@ struct Digits {
 /// Precondition: `value` is finite.
 Digits digits_of(double value);
 
+/// Returns how far a number of a design may be from what is meant: half a unit of its last digit if
+/// it has 6 to 10 significant digits, as a person types for 1/3. 0 for shorter numbers, which are
+/// meant so, and for longer ones, which are computed. Precondition: `value` is finite.
+double typed_error(double value);
+
 /// Sine and cosine of an angle in degrees, exact at multiples of 30 and 45 (as OpenSCAD's are).
 double sin_deg(double angle_deg);
 double cos_deg(double angle_deg);
@@ -35,5 +40,9 @@ csgcore::Mat3 euler_rotation(const csgcore::Vec3& angles_deg);
 /// every entry stays within its rounding. Anything else stays as it is. Precondition: `from_file`
 /// is finite.
 HealedMatrix heal_matrix(const csgcore::Affine& from_file);
+
+/// The same for a matrix whose entries are the design's own doubles. It stays as it is unless a
+/// person has typed some of them with 6 to 10 digits (typed_error).
+HealedMatrix heal_typed_matrix(const csgcore::Affine& from_design);
 
 }  // namespace frontend

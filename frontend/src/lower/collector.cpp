@@ -17,6 +17,7 @@
 #include "lower/read_drawing.hpp"
 #include "lower/solid_evaluation.hpp"
 #include "lower/solid_lowering.hpp"
+#include "lower/typed_numbers.hpp"
 
 namespace frontend {
 namespace {
@@ -37,6 +38,12 @@ constexpr std::string_view kBecauseTooSmall =
 
 /// Whether color() has set all of it: OpenSCAD takes the channels that are missing of the scheme.
 bool is_whole(const csgcore::Color& color) { return color.r >= 0 && color.g >= 0 && color.b >= 0; }
+
+/// The colour within color(): the outermost one counts that has all of its channels.
+std::optional<csgcore::Color> inner_color(const std::optional<csgcore::Color>& outer,
+                                          const std::optional<csgcore::Color>& own) {
+  return outer && is_whole(*outer) ? outer : own;
+}
 
 constexpr double kLargestSize = 0x1p300;
 static_assert(kLargestExponent == 300);
@@ -112,7 +119,9 @@ void Collector::take(uint32_t index, uint32_t offset) {
   const uint32_t id = primitive_nodes;
   if (has_place(tree_, node)) {
     ++primitive_nodes;
-    if (options_.keeps_places) places.push_back({node.location.line, offset});
+    if (options_.keeps_places) {
+      places.push_back({node.location.line, offset, 0, 0, node.location.file, 0});
+    }
   }
   if (root_ && !is_within(index, *root_)) return;
   if (disabled_ && is_within(index, *disabled_)) return;
@@ -237,10 +246,9 @@ void Collector::enter_color(uint32_t node) {
   if (options_.picture == PictureKind::kRendered) return;
   const std::optional<csgcore::Color>& outer = contexts_.back().color;
   if (!color && !outer) return;
-  if (outer && is_whole(*outer)) return;  // the outermost one wins that has all of its channels
   Context context = contexts_.back();
   context.node = node;
-  context.color = color;
+  context.color = inner_color(outer, color);
   contexts_.push_back(context);
 }
 
@@ -250,8 +258,7 @@ void Collector::enter_leaf(uint32_t node, uint32_t offset) {
   context.node = node;
   context.in_leaf = true;
   context.leaf_color = context.color;
-  context.leaf_line = tree_.nodes[node].location.line;
-  context.leaf_offset = offset;
+  context.set_leaf_place(tree_.nodes[node].location, offset);
   compound_leaves.push_back({node, context.frame});
   contexts_.push_back(context);
 }
@@ -261,7 +268,7 @@ void Collector::leave_leaf(uint32_t node) {
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = false;
-  context.leaf_line = context.leaf_offset = 0;
+  context.set_leaf_place({}, 0);
   contexts_.push_back(context);
 }
 
@@ -322,6 +329,7 @@ void Collector::note_leaf_place(const Context& context) {
   if (!options_.keeps_places) return;
   places.back().leaf_line = context.leaf_line;
   places.back().leaf_offset = context.leaf_offset;
+  places.back().leaf_file = context.leaf_file;
 }
 
 void Collector::add_solid(uint32_t index, uint32_t id) {
@@ -335,11 +343,19 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
-  primitive_of[index] =
-      add_primitive(std::move(primitive), index, context, context.frame, box, count);
+  primitive_of[index] = add_primitive(std::move(primitive), index, context,
+                                      typed_frame(index, context.frame), box, count);
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
+}
+
+/// Returns the frame of a node's shape: that around it, or one within, which bears the errors of
+/// its typed numbers.
+uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
+  if (!tree_.has_all_digits) return frame;
+  const HealedMatrix typed = typed_numbers(tree_, node);
+  return typed.exact ? frame : frames.add(frame, typed);
 }
 
 uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
@@ -369,14 +385,14 @@ void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_context_ = contexts_.back();
   const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
   if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
-    plane_context_.leaf_line = tree_.nodes[node].location.line;
-    plane_context_.leaf_offset = offset;
+    plane_context_.set_leaf_place(tree_.nodes[node].location, offset);
   }
   if (is_leaf_by_itself) note_leaf_place(plane_context_);
 }
 
 /// After the last node of the subtree.
 void Collector::leave_plane() {
+  plane_context_.frame = typed_frame(plane_->root(), plane_context_.frame);
   add_plane_leaf(*plane_, plane_context_, problems);
   // A plane figure among solids is ignored; what stands at the top is a candidate, too.
   PlaneLeaf& leaf = plane_leaves.back();
@@ -403,8 +419,7 @@ bool Collector::may_be_plane(uint32_t node) {
 void Collector::enter_candidate(uint32_t node, uint32_t offset) {
   Context context = contexts_.back();
   if (context.leaf_line == 0) {
-    context.leaf_line = tree_.nodes[node].location.line;
-    context.leaf_offset = offset;
+    context.set_leaf_place(tree_.nodes[node].location, offset);
   }
   candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
                                context,
@@ -423,7 +438,8 @@ void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
   const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
-  const bool is_figure = is_plane_primitive(kind) || (is_drawing && !is_extrusion(kind));
+  const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
+                         (is_drawing && !is_extrusion(kind));
   if (candidate_->is_plane || !is_part || !is_solid) {
     candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
     candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
@@ -441,7 +457,9 @@ void Collector::leave_candidate() {
   forget_since(candidate);
   NodeProblems told;  // again
   if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
-  add_plane_leaf(candidate.subtree, candidate.context, told);
+  Context context = candidate.context;
+  context.frame = typed_frame(candidate.subtree.root(), context.frame);
+  add_plane_leaf(candidate.subtree, context, told);
 }
 
 bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
@@ -483,21 +501,31 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
     Context inner = context;
-    for (const uint32_t matrix : part.matrices) {
-      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(matrix));
+    for (const uint32_t node : part.around) {
+      if (const auto* color = std::get_if<NodeColor>(&subtree.solid(node))) {
+        inner.color = inner_color(inner.color, *color);
+        continue;
+      }
+      const FileMatrix& file = std::get<FileMatrix>(subtree.solid(node));
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
     add_plane_leaf(subtree.part(part.node), inner, told);
-    plane_leaves.back().is_inner = true;
+    plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
                                 NodeProblems& told, PlaneLeaf& leaf) {
   const uint32_t root = subtree.root();
-  PlaneEvaluation evaluation(subtree, told,
-                             [&](uint32_t left, std::string_view why) { leave_out(left, why); });
+  PlaneEvaluation evaluation(
+      subtree, told, [&](uint32_t left, std::string_view why) { leave_out(left, why); },
+      [&](const PlaneEvaluation& planes, uint32_t node) {
+        SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
+        std::optional<FigureOperations> result = solids.projection(node);
+        if (!result) leave_out(node, solids.failure());
+        return result;
+      });
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
   if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
@@ -564,7 +592,7 @@ void Collector::add_pending(const std::stop_token& stop) {
   size_t next = 0;
   for (PlaneLeaf& leaf : plane_leaves) {
     if (next < leaves.size() && leaf.node == leaves[next].node) {
-      leaves[next].is_inner = leaf.is_inner;
+      leaves[next].inner_modifiers = leaf.inner_modifiers;
       leaf = std::move(leaves[next++]);
     } else {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });

@@ -72,7 +72,7 @@ class Collector final : public NodeSink {
     std::optional<csgcore::Box> known_box{};  // OpenSCAD's, where it need not be looked for
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
-    bool is_inner = false;                    // a `%` or `#` part inside of another one
+    uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
@@ -91,6 +91,13 @@ class Collector final : public NodeSink {
     bool flattened;                   // a matrix with inf or nan on the way: nothing is left
     bool in_leaf;                     // a compound one, whose nodes have no colours of their own
     uint32_t leaf_line, leaf_offset;  // of that one
+    uint32_t leaf_file = 0;
+
+    void set_leaf_place(Location location, uint32_t offset) {
+      leaf_line = location.line;
+      leaf_offset = offset;
+      leaf_file = location.file;
+    }
   };
   struct LeftOut {
     uint32_t node;
@@ -109,6 +116,7 @@ class Collector final : public NodeSink {
   void enter_leaf(uint32_t node, uint32_t offset);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  uint32_t typed_frame(uint32_t node, uint32_t frame);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);

@@ -1,16 +1,12 @@
 #include "lower/extrusions.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "lower/faceted_box.hpp"
-#include "lower/sliced_solid.hpp"
-#include "lower/smooth_slices.hpp"
+#include "lower/sliced_extrusion.hpp"
 
 namespace frontend {
 namespace {
@@ -53,13 +49,8 @@ class Extruding {
         frames_(frames),
         solids_(solids),
         problems_(problems),
-        data_(subtree.data<LinearExtrudeNode>(subtree.root())) {
-    const LinearExtrudeArguments& given = data_.arguments;
-    layers_.z_min = given.z_min();
-    layers_.z_max = layers_.z_min + given.height;
-    layers_.twist = given.twist;
-    layers_.top_scale = given.top_scale;
-  }
+        data_(subtree.data<LinearExtrudeNode>(subtree.root())),
+        layers_(layers_of(data_.arguments)) {}
 
   LoweredSubtree lower(const FigureTree& figures) {
     if (layers_.is_twisted() && !is_round(figures)) return lower_slices(figures);
@@ -72,18 +63,6 @@ class Extruding {
   }
 
  private:
-  /// Sides that turn need triangles for each chord and each slice. A round outline with flat sides
-  /// has as many chords as slices in a turn.
-  Chords chords_of(const FigureTree& figures) const {
-    const Rectangle bounds = positive_bounds(figures);
-    const double reach = std::max(glm::length(bounds.min), glm::length(bounds.max));
-    constexpr double kMost = 120;
-    if (!has_flat_sides(layers_, reach)) return {static_cast<int>(kMost), kSmoothTolerance * reach};
-    const double turns = layers_.turn() / (2 * std::numbers::pi);
-    const double slices = data_.arguments.slices.value_or(1) / turns;
-    return {static_cast<int>(std::clamp(std::ceil(slices), kMost, double{kChordsOfCircle})), 0};
-  }
-
   Vec2 lean() const { return data_.arguments.lean / data_.arguments.height; }
 
   /// Whether a twist leaves all figures as they are: they are discs about the axis.
@@ -98,65 +77,21 @@ class Extruding {
 
   LoweredSubtree lower_slices(const FigureTree& figures) {
     evaluation_.find_all_figures();
-    std::optional<SimplePolygons> outline =
-        united(evaluation_.figures(subtree_.root()), chords_of(figures));
-    if (!outline) {
-      problems_.add(subtree_.syntax(subtree_.root()), "crossings", [] {
-        return NodeProblems::Description{" is left out: its edges cross too often",
-                                         "let its outline not cross itself"};
-      });
-      return {};
-    }
-    if (outline->empty()) return {};
-    const LinearExtrudeArguments& given = data_.arguments;
-    const double slices =
-        given.slices ? *given.slices : slice_count(layers_, *outline, given.facets);
-    Slicing slicing = openscad_slicing(slices, given.segments, *outline);
-    if (slicing.slices < slices) note_fewer(slicing.slices);
-    Affine leaning;
-    leaning.linear[2] = Vec3(lean(), 1);
-    const Affine to_world = compose(frames_[frame_].to_world, leaning);
-    const Box box = mapped(to_world, sliced_box(layers_, slicing.slices, *outline));
-    const double radius = reach_of(*outline) * layers_.largest_scale();
-    if (!data_.is_faceted) slicing = smooth_slicing(layers_, slices, std::move(*outline));
-    LoweredSubtree result = cut_at_ends(sliced_mesh(layers_, slicing), radius);
-    for (LoweredSubtree::Part& part : result.parts) {
-      part.primitive.local_to_world = compose(to_world, part.primitive.local_to_world);
-      part.primitive.id = figures.figures.front().id;
-      part.frame = frame_;
-      part.box = box;
-    }
-    result.box = box;
-    return result;
-  }
-
-  void note_fewer(int slices) {
-    problems_.add(subtree_.syntax(subtree_.root()), "slices", [&] {
-      return NodeProblems::Description{
-          " is drawn with " + std::to_string(slices) + " slices: more would be too many triangles",
-          "give fewer slices, or a simpler outline"};
-    });
-  }
-
-  /// Cuts away what the mesh has beyond the ends.
-  LoweredSubtree cut_at_ends(Primitive mesh, double radius) const {
-    constexpr double kMargin = 1.5;
-    const Polygon square = square_of(kMargin * radius);
+    const uint32_t root = subtree_.root();
+    std::optional<SlicedExtrusion> solid =
+        sliced_extrusion(data_, subtree_.syntax(root), evaluation_.figures(root), problems_);
     LoweredSubtree result;
+    if (!solid) return result;
+    const Affine to_world = compose(frames_[frame_].to_world, leaning(data_.arguments));
+    Primitive& mesh = solid->mesh;
+    mesh.local_to_world = to_world;
+    mesh.id = figures.figures.front().id;
+    result.box = mapped(to_world, solid->box);
+    result.parts.push_back({std::move(mesh), frame_, *result.box});
     CsgTreeBuilder builder;
-    builder.open(Op::kIntersection);
-    result.parts.push_back({std::move(mesh), frame_, {}});
-    std::optional<Primitive> slab =
-        solids_.extruded(outline_of(Polygons{square}), {layers_.z_min, layers_.z_max, 1});
-    if (slab) result.parts.push_back({std::move(*slab), frame_, {}});
-    for (uint32_t i = 0; i < result.parts.size(); ++i) builder.primitive(i);
-    builder.close();
+    builder.primitive(0);
     result.solid = builder.finish();
     return result;
-  }
-
-  static Polygon square_of(double half) {
-    return {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
   }
 
   const PlaneSubtree& subtree_;

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "csgcore/triangle_mesh.hpp"
 #include "heal/matrix_healing.hpp"
-#include "meshes/ring_cap.hpp"
 
 namespace frontend {
 namespace {
@@ -79,23 +77,6 @@ std::optional<Disc> half_disc(const Figure& figure) {
   const Disc* disc = std::get_if<Disc>(&figure);
   if (disc == nullptr || disc->center.x != 0) return std::nullopt;
   return *disc;
-}
-
-/// The azimuths of the rings, in degrees. A partial turn has one more beyond each end, within what
-/// is cut away.
-std::vector<double> azimuths_of(const TurnSections& sections) {
-  std::vector<double> result;
-  for (int ring = 0; ring < sections.count; ++ring) {
-    const double turn = sections.angle * ring / sections.count;
-    result.push_back(sections.start + (sections.is_closed() ? -turn : turn));
-  }
-  if (sections.is_closed()) return result;
-  const double end = sections.start + sections.angle;
-  const double beyond =
-      std::copysign(std::min((360 - std::abs(sections.angle)) / 3, 60.0), sections.angle);
-  result.insert(result.begin(), sections.start - beyond);
-  result.insert(result.end(), {end, end + beyond});
-  return result;
 }
 
 void add_numbers(const Vec2& v, std::vector<double>& key) { key.insert(key.end(), {v.x, v.y}); }
@@ -176,52 +157,6 @@ std::optional<Primitive> FigureSolids::revolved(const Figure& figure) {
     }
   }
   return csgcore::make_revolution(profile(outline));
-}
-
-Primitive FigureSolids::revolved_mesh(const SimplePolygons& polygons,
-                                      const TurnSections& sections) {
-  std::vector<Vec3> vertices;
-  std::vector<csgcore::TriangleMesh::Triangle> triangles;
-  const std::vector<double> azimuths = azimuths_of(sections);
-  const bool is_left = bounds_of(polygons).min.x < 0;
-  const bool is_reversed = (sections.angle > 0 && !sections.is_closed()) != is_left;
-  std::map<std::pair<double, double>, uint32_t> on_axis;
-  for (const Polygon& given : polygons) {
-    Polygon polygon = given;
-    if (is_reversed) std::reverse(polygon.begin(), polygon.end());
-    const size_t count = polygon.size();
-    // The rings share what lies on the axis.
-    std::vector<std::vector<uint32_t>> rings;
-    for (const double azimuth : azimuths) {
-      std::vector<uint32_t>& ring = rings.emplace_back();
-      for (const Vec2& corner : polygon) {
-        const auto next = static_cast<uint32_t>(vertices.size());
-        if (corner.x != 0) {
-          ring.push_back(next);
-          vertices.emplace_back(corner.x * cos_deg(azimuth), corner.x * sin_deg(azimuth), corner.y);
-          continue;
-        }
-        const auto [entry, is_new] = on_axis.try_emplace({corner.x, corner.y}, next);
-        if (is_new) vertices.emplace_back(0, 0, corner.y);
-        ring.push_back(entry->second);
-      }
-    }
-    for (size_t r = 0; r + (sections.is_closed() ? 0 : 1) < rings.size(); ++r) {
-      const std::vector<uint32_t>& from = rings[r];
-      const std::vector<uint32_t>& to = rings[(r + 1) % rings.size()];
-      for (size_t i = 0; i < count; ++i) {
-        const size_t j = (i + 1) % count;
-        triangles.push_back({from[i], from[j], to[j]});
-        triangles.push_back({from[i], to[j], to[i]});
-      }
-    }
-    if (sections.is_closed()) continue;
-    std::reverse(rings.front().begin(), rings.front().end());
-    close_ring(rings.front(), triangles);
-    close_ring(rings.back(), triangles);
-  }
-  return csgcore::make_mesh(
-      std::make_shared<csgcore::TriangleMesh>(std::move(vertices), std::move(triangles)));
 }
 
 Primitive FigureSolids::wedge(double angle, double radius, double z_min, double z_max) {

@@ -10,7 +10,6 @@
 #include "csgcore/primitive.hpp"
 #include "csgcore/profile.hpp"
 #include "plane/figure.hpp"
-#include "plane/outlines.hpp"
 
 namespace frontend {
 
@@ -21,14 +20,6 @@ struct Layers {
   double z_max = 0;
   double top_scale = 1;  // ≥ 0
   Vec2 lean{0.0};  // how far x and y are moved for each unit of z; FigureSolids leaves that out
-};
-
-/// How a full or partial turn is divided (frontend/OPENSCAD.md, "Extrusions").
-struct TurnSections {
-  double start = 0;  // degrees, of the first ring
-  double angle = 360;
-  int count = 3;
-  bool is_closed() const { return angle == 360; }
 };
 
 /// Makes the solids of a design. Those that have the same local solid share it.
@@ -45,10 +36,6 @@ class FigureSolids {
   /// point has x < 0. It is a sphere, a frustum or a revolved profile. Nothing if the figure is
   /// empty.
   std::optional<csgcore::Primitive> revolved(const Figure& figure);
-
-  /// Returns OpenSCAD's mesh of the polygons, revolved. Of a partial turn it goes on beyond the two
-  /// ends, and has to be cut there. All points have x ≥ 0, or all x ≤ 0.
-  csgcore::Primitive revolved_mesh(const SimplePolygons& polygons, const TurnSections& sections);
 
   /// Returns the part of space around z between the azimuths 0 and `angle` (from above 0 to 180),
   /// within the radius and from z_min to z_max at least.

@@ -67,6 +67,9 @@ class FigureTreeWriter {
         for (const PlacedGlyph& letter : subtree_.data<TextNode>(node).letters) add(letter, node);
         builder_.close();
         return end;
+      case NodeKind::kProjection:
+        add_operations(node);
+        return end;
       case NodeKind::kImport:
       case NodeKind::kHull:
       case NodeKind::kMinkowski:
@@ -88,6 +91,14 @@ class FigureTreeWriter {
         open_.push_back({end, open_.back().frame, open_.back().map});
     }
     return node + 1;
+  }
+
+  void add_operations(uint32_t node) {
+    const FigureOperations& operations = evaluation_.projection(node);
+    builder_.open(Op::kUnion);
+    rebuild(operations.tree.tokens(), builder_,
+            [&](CsgTreeBuilder&, uint32_t index) { add(operations.figures[index], node, 0); });
+    builder_.close();
   }
 
   /// All of a node that was evaluated, or of a drawing.

@@ -10,7 +10,7 @@ bool is_affine(const FileMatrix& file) {
 }
 
 HealedMatrix heal(const FileMatrix& file) {
-  HealedMatrix matrix = heal_matrix(file.map);
+  HealedMatrix matrix = file.has_all_digits ? heal_typed_matrix(file.map) : heal_matrix(file.map);
   if (file.divisor != 1) {
     const double size = std::abs(file.divisor);
     matrix.map = {matrix.map.linear / file.divisor, matrix.map.translation / file.divisor};

@@ -9,7 +9,8 @@ namespace frontend {
 /// Returns whether the matrix is finite once it is divided.
 bool is_affine(const FileMatrix& file);
 
-/// Heals the matrix as it stands in the file, and divides it. Preconditions: both are finite.
+/// Heals the matrix as it stands in the file or the design, and divides it. Preconditions: both are
+/// finite.
 HealedMatrix heal(const FileMatrix& file);
 
 }  // namespace frontend

@@ -310,6 +310,7 @@ FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node
 
 FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems) {
   FileMatrix result;
+  result.has_all_digits = tree.has_all_digits;
   const Value* matrix = find_argument(tree, node, "m", 0);
   if (matrix == nullptr) return result;
   if (matrix->kind != ValueKind::kList) {

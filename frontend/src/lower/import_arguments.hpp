@@ -46,7 +46,8 @@ FileArguments read_file_arguments(const SyntaxTree& tree, const SyntaxNode& node
 /// The affine part of a multmatrix as it stands in the file, before the division by m[3][3].
 struct FileMatrix {
   csgcore::Affine map;
-  double divisor = 1;  // m[3][3]; may be 0
+  double divisor = 1;           // m[3][3]; may be 0
+  bool has_all_digits = false;  // SyntaxTree::has_all_digits
 };
 /// Rows and entries that are missing are the identity's.
 FileMatrix read_matrix(const SyntaxTree& tree, const SyntaxNode& node, NodeProblems& problems);

@@ -215,8 +215,9 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
   }
   if (count == 0) return;
   const auto node = std::find(collected.primitive_of.begin(), collected.primitive_of.end(), first);
+  const Location first_place = tree.nodes[node - collected.primitive_of.begin()].location;
   warnings.push_back(
-      make_warning(tree.file_name, tree.nodes[node - collected.primitive_of.begin()].location,
+      make_warning(tree.file_of(first_place), first_place,
                    std::to_string(count) + " round primitive" +
                        (count == 1 ? " is smooth" : "s are smooth; this is the first") +
                        ": more than " + std::to_string(kMostFacets) + " facets would be needed",
@@ -224,11 +225,10 @@ void facet(const SyntaxTree& tree, Collector& collected, std::vector<Warning>& w
 }
 
 /// Parts of a hull are drawn beside it, or over it, as those of a group are.
-void add_inner_parts(const SyntaxTree& tree, const Collector& collected,
-                     ResolvedModifiers& modifiers) {
+void add_inner_parts(const Collector& collected, ResolvedModifiers& modifiers) {
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_inner || leaf.presence != Presence::kSolid) continue;
-    const uint8_t own = tree.nodes[leaf.node].modifiers;
+    if (leaf.presence != Presence::kSolid) continue;
+    const uint8_t own = leaf.inner_modifiers;
     if ((own & kBackground) != 0) modifiers.background.push_back(leaf.node);
     if ((own & kHighlight) != 0) modifiers.highlight.push_back(leaf.node);
   }
@@ -246,11 +246,11 @@ ResolvedModifiers modifiers_of(const SyntaxTree& tree, const Collector& collecte
   }
   for (const uint32_t node : collected.left_out) leaves[node].presence = Presence::kLeftOut;
   for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_inner) leaves[leaf.node] = {leaf.presence, leaf.box, true};
+    if (leaf.inner_modifiers == 0) leaves[leaf.node] = {leaf.presence, leaf.box, true};
   }
   ResolvedModifiers modifiers = resolve_modifiers(tree, collected.selected, leaves);
   if (picture != PictureKind::kRendered) {
-    add_inner_parts(tree, collected, modifiers);
+    add_inner_parts(collected, modifiers);
     return modifiers;
   }
   // Nothing is overlaid: `#` parts are operands like others.
@@ -360,7 +360,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
   collected.finish(stop);
   ImportedDesign design;
-  design.warnings = collected.problems.warnings(tree.file_name);
+  design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
   design.places = std::move(collected.places);
   design.flat_outlines = flat_outlines(collected);
@@ -405,13 +405,8 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   return design;
 }
 
-}  // namespace
-
-ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
-                             const std::stop_token& stop) {
-  ImportOptions without_places = options;
-  without_places.keeps_places = false;
-  Collector collected(tree, without_places);
+/// Takes all nodes of a finished tree.
+void collect(const SyntaxTree& tree, Collector& collected, const std::stop_token& stop) {
   size_t solids = 0;
   size_t matrices = 0;
   for (const SyntaxNode& node : tree.nodes) {
@@ -421,8 +416,18 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
   collected.reserve(tree.nodes.size(), solids, matrices);
   for (uint32_t i = 0; i < tree.nodes.size(); ++i) {
     throw_if_stopped(stop);
-    collected.take(i, 0);
+    collected.take(i, tree.offsets.empty() ? 0 : tree.offsets[i]);
   }
+}
+
+}  // namespace
+
+ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
+                             const std::stop_token& stop) {
+  ImportOptions with_known_places = options;
+  with_known_places.keeps_places = options.keeps_places && !tree.offsets.empty();
+  Collector collected(tree, with_known_places);
+  collect(tree, collected, stop);
   return finish_import(tree, collected, options, stop);
 }
 
@@ -431,6 +436,8 @@ struct TextImport::Impl {
       : options(import_options), collector(tree, options) {
     tree.file_name = std::move(file_name);
   }
+  Impl(SyntaxTree whole, const ImportOptions& import_options)
+      : options(import_options), tree(std::move(whole)), collector(tree, options) {}
 
   const ImportOptions options;
   SyntaxTree tree;
@@ -445,6 +452,11 @@ TextImport::TextImport(std::string_view text, std::string file_name, const Impor
   const size_t leaves = text.size() / kBytesPerLeaf;
   impl_->collector.reserve(text.size() / kBytesPerNode, leaves, leaves);
   parse_nodes(text, impl_->tree, impl_->collector, stop);
+}
+
+TextImport::TextImport(SyntaxTree tree, const ImportOptions& options, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(std::move(tree), options)) {
+  collect(impl_->tree, impl_->collector, stop);
 }
 
 TextImport::TextImport(TextImport&&) noexcept = default;

@@ -21,27 +21,44 @@ bool shows_parts(NodeKind kind) {
   }
 }
 
+/// Whether the node's children are leaves by themselves.
+bool is_group(NodeKind kind) {
+  return kind == NodeKind::kMultmatrix || kind == NodeKind::kColor || kind == NodeKind::kGroup ||
+         kind == NodeKind::kUnion;
+}
+
+/// A node that is open, and the modifiers that it hands down.
+struct Open {
+  uint32_t end;
+  uint8_t modifiers;
+};
+
 }  // namespace
 
 std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree) {
   std::vector<InnerPart> result;
-  std::vector<uint32_t> matrices;  // that are open
+  std::vector<uint32_t> around;  // that are open
+  std::vector<Open> open;
   for (uint32_t i = subtree.root(); i < subtree.end();) {
-    while (!matrices.empty() && i >= subtree.end_of(matrices.back())) matrices.pop_back();
+    while (!around.empty() && i >= subtree.end_of(around.back())) around.pop_back();
+    while (!open.empty() && i >= open.back().end) open.pop_back();
     const SyntaxNode& node = subtree.syntax(i);
     const bool is_inner = i != subtree.root();
     if (!subtree.is_taken(i) || (is_inner && (node.modifiers & kDisable) != 0)) {
       i = subtree.end_of(i);
       continue;
     }
-    if (is_inner && (node.modifiers & (kBackground | kHighlight)) != 0) {
-      result.push_back({i, matrices});
-    }
+    uint8_t modifiers = is_inner ? node.modifiers & (kBackground | kHighlight) : 0;
+    // What is in the background is not overlaid with what is around it.
+    if ((modifiers & kBackground) == 0 && !open.empty()) modifiers |= open.back().modifiers;
+    const bool is_leaf = !is_group(node.kind);
+    if (is_leaf && modifiers != 0) result.push_back({i, modifiers, around});
     if (!shows_parts(node.kind)) {
       i = subtree.end_of(i);
       continue;
     }
-    if (node.kind == NodeKind::kMultmatrix) matrices.push_back(i);
+    open.push_back({subtree.end_of(i), is_leaf ? uint8_t{0} : modifiers});
+    if (node.kind == NodeKind::kMultmatrix || node.kind == NodeKind::kColor) around.push_back(i);
     ++i;
   }
   return result;

@@ -8,14 +8,15 @@
 
 namespace frontend {
 
-/// A node with `%` or `#` inside of such a node.
+/// A node inside of such a node that has `%` or `#`, or stands in groups that do.
 struct InnerPart {
   uint32_t node;
-  std::vector<uint32_t> matrices;  // the multmatrix nodes around it, from the root's on
+  uint8_t modifiers;             // kBackground, kHighlight or both
+  std::vector<uint32_t> around;  // the multmatrix and color nodes around it, from the root's on
 };
 
-/// Returns those that OpenSCAD's preview shows: none of other roots, and none inside of extrusions,
-/// offset() and render().
+/// Returns the leaves of what OpenSCAD's preview shows: of groups their members. None of other
+/// roots, and none inside of extrusions, offset() and render().
 std::vector<InnerPart> inner_parts(const PlaneSubtree& subtree);
 
 }  // namespace frontend

@@ -35,7 +35,7 @@ class NodeProblems {
   void clear() { problems_.clear(); }
 
   /// In the order of the places where each occurs first.
-  std::vector<Warning> warnings(const std::string& file_name) const;
+  std::vector<Warning> warnings(const SyntaxTree& tree) const;
 
  private:
   struct Problem {

@@ -47,8 +47,8 @@ inline Role role_of(NodeKind kind) {
     case NodeKind::kResize:
     case NodeKind::kLinearExtrude:
     case NodeKind::kRotateExtrude:
-      return Role::kPlane;
     case NodeKind::kProjection:
+      return Role::kPlane;
     case NodeKind::kRoof:
       break;
   }

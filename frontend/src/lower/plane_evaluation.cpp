@@ -31,23 +31,25 @@ bool combines_figures(NodeKind kind) {
 }  // namespace
 
 PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems,
-                                 LeaveOut leave_out)
+                                 LeaveOut leave_out, Project project)
     : subtree_(subtree),
       problems_(problems),
       leave_out_(std::move(leave_out)),
+      project_(std::move(project)),
       nodes_(subtree.end() - subtree.root()) {
-  // Children come after their parents: from the last node on, all that a node holds is known.
-  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) find_presence(i);
-  std::vector<bool> needs(nodes_.size());
   for (uint32_t i = subtree_.root(); i < subtree_.end(); ++i) {
-    const bool has = needs[i - subtree_.root()] || combines_figures(subtree_.syntax(i).kind);
-    at(i).has_figures = has;
-    if (!has) continue;
+    const NodeKind kind = subtree_.syntax(i).kind;
+    at(i).has_figures = at(i).has_figures || combines_figures(kind);
+    if (!at(i).has_figures && kind != NodeKind::kProjection) continue;
     for (uint32_t c = i + 1; c < subtree_.end_of(i); c = subtree_.end_of(c)) {
-      needs[c - subtree_.root()] = true;
+      at(c).has_figures = true;
     }
   }
-  find_figures();
+  // Children come after their parents: from the last node on, all that a node holds is known.
+  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) {
+    find_presence(i);
+    find_figures(i);
+  }
 }
 
 void PlaneEvaluation::find_presence(uint32_t node) {
@@ -87,6 +89,8 @@ void PlaneEvaluation::find_presence(uint32_t node) {
       own.presence = Presence::kSolid;
       return;
     case NodeKind::kProjection:
+      project(node);
+      return;
     case NodeKind::kRoof:
       own.presence = Presence::kLeftOut;
       leave_out_(node, kBecauseUnsupported);
@@ -104,7 +108,7 @@ void PlaneEvaluation::combine(uint32_t node) {
   visit_operands(node, [&](uint32_t child) {
     if (own.dimension == 0) own.dimension = at(child).dimension;
   });
-  ignore_other_dimension(node, own.dimension);
+  ignore_other_dimension(node, own.dimension, problems_);
   own.presence = combined_presence(node);
   if (syntax.kind != NodeKind::kMultmatrix || own.presence != Presence::kSolid) return;
   const MatrixNode& matrix = subtree_.data<MatrixNode>(node);
@@ -118,13 +122,30 @@ void PlaneEvaluation::combine(uint32_t node) {
   }
 }
 
+/// Its children are solids, and OpenSCAD does not tell of others that cast no shadow.
+void PlaneEvaluation::project(uint32_t node) {
+  Node& own = at(node);
+  own.dimension = 2;
+  NodeProblems untold;
+  const bool is_cut = subtree_.data<ProjectionNode>(node).is_cut;
+  ignore_other_dimension(node, 3, is_cut ? problems_ : untold);
+  std::optional<FigureOperations> projection = project_(*this, node);
+  if (!projection) {
+    own.presence = Presence::kLeftOut;
+    return;
+  }
+  own.presence = projection->is_empty() ? Presence::kEmpty : Presence::kSolid;
+  own.projection = std::move(*projection);
+}
+
 /// OpenSCAD takes operands of the other dimension for empty ones.
-void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension) {
+void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
+                                             NodeProblems& problems) {
   visit_operands(node, [&](uint32_t child) {
     Node& operand = at(child);
     if (operand.dimension == 0 || operand.dimension == dimension) return;
     if (operand.presence == Presence::kSolid) {
-      problems_.add(subtree_.syntax(child), "dimension", [&] {
+      problems.add(subtree_.syntax(child), "dimension", [&] {
         const bool is_plane = dimension == 2;
         return NodeProblems::Description{is_plane ? ": Ignoring 3D child object for 2D operation"
                                                   : ": Ignoring 2D child object for 3D operation",
@@ -162,18 +183,12 @@ void PlaneEvaluation::find_all_figures() {
     node.has_figures = true;
     node.figures.clear();
   }
-  find_figures();
-}
-
-void PlaneEvaluation::find_figures() {
-  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) {
-    if (at(i).has_figures && at(i).presence == Presence::kSolid && at(i).dimension == 2) {
-      find_figures(i);
-    }
-  }
+  for (uint32_t i = subtree_.end(); i-- > subtree_.root();) find_figures(i);
 }
 
 void PlaneEvaluation::find_figures(uint32_t node) {
+  const Node& own = at(node);
+  if (!own.has_figures || own.presence != Presence::kSolid || own.dimension != 2) return;
   std::optional<std::vector<Figure>> figures = combined_figures(node);
   if (figures) {
     at(node).figures = std::move(*figures);
@@ -211,6 +226,8 @@ std::optional<std::vector<Figure>> PlaneEvaluation::combined_figures(uint32_t no
       return figures_of_operation(node);
     case NodeKind::kMinkowski:
       return figures_of_minkowski(node);
+    case NodeKind::kProjection:
+      return outcome_of(projection(node));
     case NodeKind::kOffset:
       return offset(union_of_operands(node), subtree_.data<OffsetSettings>(node));
     case NodeKind::kFill:

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "lower/figure_operations.hpp"
 #include "lower/node_problems.hpp"
 #include "lower/plane_subtree.hpp"
 #include "lower/resolved_modifiers.hpp"
@@ -19,9 +21,14 @@ class PlaneEvaluation {
  public:
   /// Is told of nodes that have to be left out, and why.
   using LeaveOut = std::function<void(uint32_t node, std::string_view why)>;
+  /// Returns what a projection node makes of the solids that it holds, which are known; nothing if
+  /// it has to be left out, which is told.
+  using Project = std::function<std::optional<FigureOperations>(const PlaneEvaluation& evaluation,
+                                                                uint32_t node)>;
 
   /// Finds out what each node is as an operand.
-  PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems, LeaveOut leave_out);
+  PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& problems, LeaveOut leave_out,
+                  Project project);
 
   /// What the node is as an operand of the one around it; of the root, on its own. Of an extrusion
   /// that is the root, what its children are together.
@@ -37,6 +44,8 @@ class PlaneEvaluation {
   std::span<const Figure> figures(uint32_t node) const { return at(node).figures; }
   /// Returns the map of a resize node that has figures.
   const PlaneMap& resize_map(uint32_t node) const { return at(node).map; }
+  /// Returns what a projection node that is solid makes, in the coordinates around it.
+  const FigureOperations& projection(uint32_t node) const { return at(node).projection; }
   /// Finds the figures of all nodes.
   void find_all_figures();
   /// Returns those of the operands, which must have been found.
@@ -56,16 +65,16 @@ class PlaneEvaluation {
     bool has_figures = false;
     std::vector<Figure> figures;
     PlaneMap map;
+    FigureOperations projection;
   };
-  struct Operands;
 
   Node& at(uint32_t node) { return nodes_[node - subtree_.root()]; }
   const Node& at(uint32_t node) const { return nodes_[node - subtree_.root()]; }
   void find_presence(uint32_t node);
   void combine(uint32_t node);
-  void ignore_other_dimension(uint32_t node, uint8_t dimension);
+  void project(uint32_t node);
+  void ignore_other_dimension(uint32_t node, uint8_t dimension, NodeProblems& problems);
   Presence combined_presence(uint32_t node) const;
-  void find_figures();
   void find_figures(uint32_t node);
   std::optional<std::vector<Figure>> combined_figures(uint32_t node);
   std::optional<std::vector<Figure>> figures_of_operation(uint32_t node) const;
@@ -75,6 +84,7 @@ class PlaneEvaluation {
   const PlaneSubtree& subtree_;
   NodeProblems& problems_;
   LeaveOut leave_out_;
+  Project project_;
   std::vector<Node> nodes_;
 };
 

@@ -113,6 +113,8 @@ PlaneNodeData data_of(const SyntaxTree& tree, const SyntaxNode& node, const Impo
       return offset_settings(read_offset(tree, node), options);
     case NodeKind::kResize:
       return read_resize(tree, node);
+    case NodeKind::kProjection:
+      return ProjectionNode{read_cut(tree, node)};
     case NodeKind::kLinearExtrude:
       return linear_extrude_node(read_linear_extrude(tree, node, problems), options);
     case NodeKind::kRotateExtrude: {

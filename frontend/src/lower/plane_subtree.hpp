@@ -45,8 +45,13 @@ struct RotateExtrudeNode {
   bool is_faceted = false;
 };
 
-using PlaneNodeData = std::variant<std::monostate, FigureNode, TextNode, MatrixNode, OffsetSettings,
-                                   ResizeArguments, LinearExtrudeNode, RotateExtrudeNode>;
+struct ProjectionNode {
+  bool is_cut = false;  // it is a section; else it is a shadow
+};
+
+using PlaneNodeData =
+    std::variant<std::monostate, FigureNode, TextNode, MatrixNode, OffsetSettings, ResizeArguments,
+                 LinearExtrudeNode, RotateExtrudeNode, ProjectionNode>;
 
 /// Where nodes get what the design does not hold itself.
 struct PlaneSources {

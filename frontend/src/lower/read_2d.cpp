@@ -232,6 +232,10 @@ ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node) {
   return result;
 }
 
+bool read_cut(const SyntaxTree& tree, const SyntaxNode& node) {
+  return is_true(find_argument(tree, node, "cut", 0));
+}
+
 csgcore::Vec3 ResizeArguments::factors(const csgcore::Vec3& box_size, int axes) const {
   csgcore::Vec3 result(1.0);
   size_t leading = 0;

@@ -41,6 +41,9 @@ struct ResizeArguments {
 };
 ResizeArguments read_resize(const SyntaxTree& tree, const SyntaxNode& node);
 
+/// Whether a projection node is a section; else it is a shadow.
+bool read_cut(const SyntaxTree& tree, const SyntaxNode& node);
+
 struct LinearExtrudeArguments {
   double height = 100;  // ≤ 0: nothing
   bool is_centered = false;

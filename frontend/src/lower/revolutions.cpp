@@ -39,28 +39,19 @@ class Revolving {
     if (!reach || reach->empty()) return result;
     is_left_ = reach->min.x < 0;
     const double radius = is_left_ ? -reach->min.x : reach->max.x;
-    const double share = std::abs(data_.arguments.angle) / 360;
-    sections_.count = std::max(
-        1, static_cast<int>(csgcore::fragment_count(radius, data_.arguments.facets) * share));
-    sections_.angle = data_.arguments.angle;
-    sections_.start = data_.arguments.start.value_or(sections_.is_closed() ? 180 : 0);
+    sections_ = sections_of(data_.arguments, radius);
     box_ = mapped(root_to_world_, box_of_rings(*reach));
     result.box = box_;
     if (data_.is_faceted && sections_.count <= kMostSections) {
       lower_mesh(figures, result);
     } else {
       lower_figures(figures, result);
+      if (!sections_.is_closed() && !result.solid.empty()) cut(*reach, radius, result);
     }
-    if (!sections_.is_closed() && !result.solid.empty()) cut(*reach, radius, result);
     return result;
   }
 
  private:
-  /// More sections cannot be told from a round solid.
-  static constexpr int kMostSections = 3600;
-  /// OpenSCAD's grid: a profile that reaches less beyond the axis touches it.
-  static constexpr double kReachBeyondAxis = 0x1p-16;
-
   /// The bounds of the result in the plane; nothing if it stands on both sides of the axis.
   std::optional<Rectangle> reach_of(const FigureTree& figures) {
     Rectangle reach = positive_bounds(figures);
@@ -69,29 +60,16 @@ class Revolving {
     evaluation_.find_all_figures();
     const std::optional<SimplePolygons> outline = united(evaluation_.figures(subtree_.root()));
     if (!outline) return std::nullopt;
-    reach = bounds_of(*outline);
-    if (std::min(-reach.min.x, reach.max.x) <= kReachBeyondAxis) {
-      (reach.max.x > -reach.min.x ? reach.min.x : reach.max.x) = 0;
-      return reach;
-    }
-    problems_.add(subtree_.syntax(subtree_.root()), "sides", [&] {
-      std::array<char, 160> text;
-      std::snprintf(text.data(), text.size(),
-                    ": all points for rotate_extrude() must have the same X coordinate sign "
-                    "(range is %.2f -> %.2f)",
-                    reach.min.x, reach.max.x);
-      return NodeProblems::Description{text.data(), "keep the profile on one side of the Y axis"};
-    });
-    return std::nullopt;
+    return on_one_side(bounds_of(*outline), subtree_.syntax(subtree_.root()), problems_);
   }
 
   /// The corners that OpenSCAD's rings have.
   Box box_of_rings(const Rectangle& reach) const {
     Box box;
-    const int count = std::min(sections_.count, kMostSections);
-    for (int ring = 0; ring <= count; ++ring) {
-      const double turn = sections_.angle * ring / count;
-      const double azimuth = sections_.start + (sections_.is_closed() ? -turn : turn);
+    TurnSections sections = sections_;
+    sections.count = std::min(sections.count, kMostSections);
+    for (int ring = 0; ring <= sections.count; ++ring) {
+      const double azimuth = sections.azimuth(ring);
       const Vec2 direction(cos_deg(azimuth), sin_deg(azimuth));
       box.merge(Vec3(reach.min.x * direction, reach.min.y));
       box.merge(Vec3(reach.max.x * direction, reach.max.y));
@@ -120,12 +98,7 @@ class Revolving {
     evaluation_.find_all_figures();
     std::optional<SimplePolygons> outline = united(evaluation_.figures(subtree_.root()));
     if (!outline || outline->empty()) return;
-    for (Polygon& polygon : *outline) {
-      for (Vec2& point : polygon) {
-        point.x = is_left_ ? std::min(point.x, 0.0) : std::max(point.x, 0.0);
-      }
-    }
-    Primitive mesh = solids_.revolved_mesh(*outline, sections_);
+    Primitive mesh = revolved_mesh(cut_at_axis(std::move(*outline), is_left_), sections_);
     mesh.local_to_world = root_to_world_;
     mesh.id = figures.figures.front().id;
     result.parts.push_back({std::move(mesh), frame_, box_});
@@ -172,6 +145,45 @@ class Revolving {
 };
 
 }  // namespace
+
+TurnSections sections_of(const RotateExtrudeArguments& arguments, double radius) {
+  TurnSections sections;
+  sections.angle = arguments.angle;
+  const double share = std::abs(arguments.angle) / 360;
+  sections.count =
+      std::max(1, static_cast<int>(csgcore::fragment_count(radius, arguments.facets) * share));
+  sections.start = arguments.start.value_or(sections.is_closed() ? 180 : 0);
+  return sections;
+}
+
+std::optional<Rectangle> on_one_side(Rectangle bounds, const SyntaxNode& node,
+                                     NodeProblems& problems) {
+  if (!(bounds.min.x < 0 && bounds.max.x > 0)) return bounds;
+  // OpenSCAD's grid: a figure that reaches less beyond the axis touches it.
+  constexpr double kReachBeyondAxis = 0x1p-16;
+  if (std::min(-bounds.min.x, bounds.max.x) <= kReachBeyondAxis) {
+    (bounds.max.x > -bounds.min.x ? bounds.min.x : bounds.max.x) = 0;
+    return bounds;
+  }
+  problems.add(node, "sides", [&] {
+    std::array<char, 160> text;
+    std::snprintf(text.data(), text.size(),
+                  ": all points for rotate_extrude() must have the same X coordinate sign "
+                  "(range is %.2f -> %.2f)",
+                  bounds.min.x, bounds.max.x);
+    return NodeProblems::Description{text.data(), "keep the profile on one side of the Y axis"};
+  });
+  return std::nullopt;
+}
+
+SimplePolygons cut_at_axis(SimplePolygons polygons, bool is_left) {
+  for (Polygon& polygon : polygons) {
+    for (Vec2& point : polygon) {
+      point.x = is_left ? std::min(point.x, 0.0) : std::max(point.x, 0.0);
+    }
+  }
+  return polygons;
+}
 
 LoweredSubtree lower_rotate_extrude(const PlaneSubtree& subtree, PlaneEvaluation& evaluation,
                                     const FigureTree& figures, uint32_t frame,

@@ -9,15 +9,12 @@
 #include <vector>
 
 #include "csgcore/triangle_mesh.hpp"
-#include "meshes/ring_cap.hpp"
+#include "meshes/triangulation.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::Vec3;
-
-/// The mesh goes on beyond an end by this share of the extrusion's height. Any share does.
-constexpr double kBeyondEnd = 0.125;
 
 /// A polygon of the outline by the numbers of its points; points at one place have one number.
 struct Loop {
@@ -45,12 +42,8 @@ class SlicedMesh {
     const bool has_top = layers_.top_scale.x > 0 && layers_.top_scale.y > 0;
     add_layers(has_top);
     for (const Loop& loop : loops_) add_sides(loop, has_top);
-    go_on(0, layers_.z_min - kBeyondEnd * height());
-    if (has_top) {
-      go_on(slices_, layers_.z_max + kBeyondEnd * height());
-    } else {
-      for (const Loop& loop : loops_) close(vertices_of(loop, slices_), false);
-    }
+    add_cap(0);
+    add_cap(slices_);
     return csgcore::make_mesh(
         std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
   }
@@ -134,39 +127,22 @@ class SlicedMesh {
     return rising < falling;
   }
 
-  /// Adds a prism on the first or last layer.
-  void go_on(uint32_t layer, double z) {
-    const auto first = static_cast<uint32_t>(vertices_.size());
-    for (size_t i = 0; i < points_.size(); ++i) {
-      vertices_.emplace_back(plan_[layer * points_.size() + i], z);
-    }
+  /// Closes the mesh at the first or the last layer.
+  void add_cap(uint32_t layer) {
+    std::vector<uint32_t> corners, ends;
+    std::vector<Vec2> places;
     for (const Loop& loop : loops_) {
-      const std::vector<uint32_t> from = vertices_of(loop, layer);
-      std::vector<uint32_t> to;
-      for (const uint32_t point : loop.points) to.push_back(first + point);
-      const bool is_bottom = layer == 0;
-      for (size_t i = 0; i < from.size(); ++i) {
-        const size_t j = (i + 1) % from.size();
-        const uint32_t p = from[is_bottom ? j : i], q = from[is_bottom ? i : j];
-        const uint32_t p_end = to[is_bottom ? j : i], q_end = to[is_bottom ? i : j];
-        triangles_.push_back({p, q, q_end});
-        triangles_.push_back({p, q_end, p_end});
+      for (const uint32_t point : loop.points) {
+        corners.push_back(vertex_[layer * points_.size() + point]);
+        places.push_back(plan_[layer * points_.size() + point]);
       }
-      close(std::move(to), is_bottom);
+      ends.push_back(static_cast<uint32_t>(corners.size()));
     }
-  }
-
-  std::vector<uint32_t> vertices_of(const Loop& loop, uint32_t layer) const {
-    std::vector<uint32_t> result;
-    for (const uint32_t point : loop.points) {
-      result.push_back(vertex_[layer * points_.size() + point]);
-    }
-    return result;
-  }
-
-  void close(std::vector<uint32_t> ring, bool is_bottom) {
-    if (is_bottom) std::reverse(ring.begin(), ring.end());
-    close_ring(std::move(ring), triangles_);
+    const size_t first = triangles_.size();
+    triangulate_all(corners, ends, places, triangles_);
+    if (layer > 0) return;
+    for (size_t i = first; i < triangles_.size(); ++i)
+      std::swap(triangles_[i][0], triangles_[i][1]);
   }
 
   const TwistedLayers& layers_;

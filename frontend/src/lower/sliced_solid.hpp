@@ -6,8 +6,7 @@
 
 namespace frontend {
 
-/// Returns the mesh of the sides. It goes on beyond both ends, unless the top has no area, and has
-/// to be cut there. Of the two diagonals of a quadrilateral it takes the one
+/// Returns the closed mesh. Of the two diagonals of a quadrilateral of the sides it takes the one
 /// that OpenSCAD takes. The polygons of the outline do not cross.
 csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing);
 

@@ -10,6 +10,9 @@ namespace frontend {
 /// pixel of a figure that is 1,000 pixels wide.
 constexpr double kSmoothTolerance = 0x1p-11;
 
+/// So many chords are no farther from a circle than that share of its radius.
+constexpr int kSmoothChords = 120;
+
 /// Returns whether an extrusion turns so much for its height that its sides are nearly flat, as
 /// those of a thread: a point at the distance `reach` moves by several heights.
 bool has_flat_sides(const TwistedLayers& layers, double reach);

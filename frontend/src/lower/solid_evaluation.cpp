@@ -1,13 +1,17 @@
 #include "lower/solid_evaluation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/primitive_traits.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
+#include "lower/revolutions.hpp"
+#include "lower/sections.hpp"
+#include "lower/shadows.hpp"
+#include "lower/sliced_extrusion.hpp"
+#include "lower/smooth_slices.hpp"
 #include "lower/solid_cuts.hpp"
 #include "lower/solid_sums.hpp"
 
@@ -20,20 +24,81 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseExtrusion = "it holds an extrusion that cannot be drawn";
+constexpr std::string_view kBecauseManyCrossings =
+    "it holds a rotate_extrude whose edges cross too often";
+
+/// Whether a twist leaves the figures as they are.
+bool are_round(const std::vector<Figure>& figures, const TwistedLayers& layers) {
+  return layers.top_scale.x == layers.top_scale.y &&
+         std::all_of(figures.begin(), figures.end(), [](const Figure& figure) {
+           const Disc* disc = std::get_if<Disc>(&figure);
+           return disc != nullptr && disc->center == Vec2(0.0);
+         });
+}
+
+/// `is_smooth`: the mesh stands for something round.
+SolidPart faceted_part(Primitive mesh, bool is_smooth) {
+  SolidPart part = part_of(std::move(mesh), {});
+  part.is_faceted = is_smooth;
+  return part;
+}
 
 }  // namespace
 
-std::optional<SolidValue> SolidEvaluation::run() {
-  const uint32_t root = subtree_.root();
-  values_.resize(subtree_.end() - root);
+std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
+  first_ = root;
+  values_.assign(subtree_.end_of(root) - root, {});
   // Children come after their parents: from the last node on, all that a node holds is known.
-  for (uint32_t i = subtree_.end(); i-- > root && failure_.empty();) {
-    if (!subtree_.is_taken(i) || planes_.presence(i) != Presence::kSolid) continue;
-    if (planes_.dimension(i) == 3) values_[i - root] = evaluate(i);
+  const std::vector<uint32_t> nodes = solid_nodes(root);
+  for (auto node = nodes.rbegin(); node != nodes.rend() && failure_.empty(); ++node) {
+    values_[*node - root] = evaluate(*node);
   }
   if (!failure_.empty()) return std::nullopt;
   return std::move(values_.front());
+}
+
+/// The root, and the nodes of solids below it without those of other projections, whose figures are
+/// known.
+std::vector<uint32_t> SolidEvaluation::solid_nodes(uint32_t root) const {
+  std::vector<uint32_t> result{root};
+  for (uint32_t i = root + 1; i < subtree_.end_of(root);) {
+    if (!subtree_.is_taken(i) || subtree_.syntax(i).kind == NodeKind::kProjection) {
+      i = subtree_.end_of(i);
+      continue;
+    }
+    if (planes_.presence(i) == Presence::kSolid && planes_.dimension(i) == 3) result.push_back(i);
+    ++i;
+  }
+  return result;
+}
+
+std::optional<FigureOperations> SolidEvaluation::projection(uint32_t node) {
+  const std::optional<SolidValue> value = run(node);
+  if (!value) return std::nullopt;
+  if (value->is_empty()) return FigureOperations{};
+  return subtree_.data<ProjectionNode>(node).is_cut ? section(node, *value) : shadow(*value);
+}
+
+std::optional<FigureOperations> SolidEvaluation::section(uint32_t node, const SolidValue& value) {
+  Section section = section_of(value);
+  if (section.has_open_mesh) {
+    problems_.add(subtree_.syntax(node), "an open mesh", [] {
+      return NodeProblems::Description{": The given mesh is not closed",
+                                       "it has no section: close it"};
+    });
+  } else if (section.operations.is_empty()) {
+    problems_.add(subtree_.syntax(node), "nothing", [] {
+      return NodeProblems::Description{": Projection() failed", "nothing meets the plane z = 0"};
+    });
+  }
+  return std::move(section.operations);
+}
+
+std::optional<FigureOperations> SolidEvaluation::shadow(const SolidValue& value) {
+  Shadows shadows;
+  std::optional<FigureOperations> result = shadows.of(value);
+  if (!result) fail(shadows.failure());
+  return result;
 }
 
 void SolidEvaluation::fail(std::string_view why) {
@@ -45,7 +110,7 @@ std::vector<SolidValue> SolidEvaluation::operands(uint32_t node) {
   std::vector<SolidValue> result;
   planes_.visit_operands(node, [&](uint32_t child) {
     if (planes_.presence(child) == Presence::kLeftOut) return;
-    result.push_back(std::move(values_[child - subtree_.root()]));
+    result.push_back(std::move(values_[child - first_]));
   });
   return result;
 }
@@ -127,41 +192,65 @@ SolidValue SolidEvaluation::solid_of_faces(const SolidOfFaces* solid) {
 }
 
 SolidValue SolidEvaluation::extruded(uint32_t node) {
-  const LinearExtrudeArguments& arguments = subtree_.data<LinearExtrudeNode>(node).arguments;
-  const bool has_plain_scale = arguments.top_scale.x == arguments.top_scale.y;
-  if (arguments.twist != 0 || !has_plain_scale || arguments.lean != Vec2(0.0)) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
+  const LinearExtrudeNode& data = subtree_.data<LinearExtrudeNode>(node);
+  const LinearExtrudeArguments& arguments = data.arguments;
   if (!(arguments.height > 0)) return {};
-  const double z_min = arguments.z_min();
-  const Layers layers{z_min, z_min + arguments.height, arguments.top_scale.x};
+  const std::vector<Figure> figures = planes_.union_of_operands(node);
+  const TwistedLayers layers = layers_of(arguments);
+  SolidValue result;
+  if (layers.is_twisted() && !are_round(figures, layers)) {
+    auto solid = sliced_extrusion(data, subtree_.syntax(node), figures, problems_);
+    if (!solid) return {};
+    result = value_of(faceted_part(std::move(solid->mesh), !data.is_faceted));
+    result.parts.front().box = solid->box;
+  } else {
+    std::vector<SolidPart> parts;
+    for (const Figure& figure : figures) {
+      std::optional<Primitive> primitive =
+          sources_.figures.extruded(figure, {layers.z_min, layers.z_max, layers.top_scale.x});
+      if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
+    }
+    result = union_of(std::move(parts));
+  }
+  if (arguments.lean != Vec2(0.0)) result.map(leaning(arguments));
+  return result;
+}
+
+SolidValue SolidEvaluation::revolved(uint32_t node) {
+  const RotateExtrudeNode& data = subtree_.data<RotateExtrudeNode>(node);
+  const std::vector<Figure> figures = planes_.union_of_operands(node);
+  Rectangle bounds;
+  for (const Figure& figure : figures) bounds.merge(bounds_of(figure));
+  if (bounds.empty() || data.arguments.angle == 0) return {};
+  const std::optional<Rectangle> reach = on_one_side(bounds, subtree_.syntax(node), problems_);
+  if (!reach) return {};
+  const bool is_left = reach->min.x < 0;
+  TurnSections sections = sections_of(data.arguments, is_left ? -reach->min.x : reach->max.x);
+  if (data.is_faceted && sections.count <= kMostSections) {
+    return revolved_in(sections, frontend::united(figures), is_left, false);
+  }
+  if (!sections.is_closed()) {
+    sections.count = static_cast<int>(std::ceil(std::abs(sections.angle) / 360 * kSmoothChords));
+    const Chords chords{kSmoothChords, kSmoothTolerance * glm::length(reach->max - reach->min)};
+    return revolved_in(sections, frontend::united(figures, chords), is_left, true);
+  }
+  PlaneMap to_right;
+  if (is_left) to_right.linear[0].x = -1;
   std::vector<SolidPart> parts;
-  for (const Figure& figure : planes_.union_of_operands(node)) {
-    std::optional<Primitive> primitive = sources_.figures.extruded(figure, layers);
-    if (primitive) parts.push_back(part_of(std::move(*primitive), {}));
+  for (const Figure& figure : figures) {
+    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
+    if (primitive) parts.push_back(part_of(std::move(*primitive), data.arguments.facets));
   }
   return union_of(std::move(parts));
 }
 
-SolidValue SolidEvaluation::revolved(uint32_t node) {
-  const RotateExtrudeArguments& arguments = subtree_.data<RotateExtrudeNode>(node).arguments;
-  const std::vector<Figure> figures = planes_.union_of_operands(node);
-  Rectangle reach;
-  for (const Figure& figure : figures) reach.merge(bounds_of(figure));
-  const bool is_on_both_sides = reach.min.x < 0 && reach.max.x > 0;
-  if (std::abs(arguments.angle) != 360 || is_on_both_sides) {
-    fail(kBecauseExtrusion);
-    return {};
-  }
-  PlaneMap to_right;
-  if (reach.min.x < 0) to_right.linear[0].x = -1;
-  std::vector<SolidPart> parts;
-  for (const Figure& figure : figures) {
-    std::optional<Primitive> primitive = sources_.figures.revolved(mapped(to_right, figure));
-    if (primitive) parts.push_back(part_of(std::move(*primitive), arguments.facets));
-  }
-  return union_of(std::move(parts));
+SolidValue SolidEvaluation::revolved_in(const TurnSections& sections,
+                                        std::optional<SimplePolygons> outline, bool is_left,
+                                        bool is_smooth) {
+  if (!outline) fail(kBecauseManyCrossings);
+  if (!outline || outline->empty()) return {};
+  const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left);
+  return value_of(faceted_part(revolved_mesh(polygons, sections), is_smooth));
 }
 
 SolidValue SolidEvaluation::hull(uint32_t node) {

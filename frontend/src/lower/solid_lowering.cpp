@@ -16,7 +16,10 @@ using csgcore::Primitive;
 
 /// What cannot be drawn at any scale is beyond double's numbers in places.
 std::vector<Primitive> pieces_of(const SolidPart& part, HullPool& hulls, bool& is_faceted) {
-  if (part.primitive) return {*part.primitive};
+  if (part.primitive) {
+    is_faceted = is_faceted || part.is_faceted;
+    return {*part.primitive};
+  }
   const Generators& generators = part.body.generators;
   if (!std::all_of(generators.begin(), generators.end(), is_finite)) return {};
   ConvexSolid solid = hulls.solid(generators);

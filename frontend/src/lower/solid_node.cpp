@@ -28,6 +28,10 @@ SolidNode read_solid_node(const SyntaxTree& tree, const SyntaxNode& node,
       NodeProblems told;  // read_matrix() of the same node tells the subtree's
       return read_matrix(tree, node, told);
     }
+    case NodeKind::kColor: {
+      NodeProblems told;  // a color within a solid of one colour counts for its `%` parts only
+      return read_color(tree, node, told);
+    }
     default:
       return std::monostate();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "csgcore/facets.hpp"
@@ -21,9 +22,14 @@ struct RoundNode {
   csgcore::FacetSettings facets;
 };
 
-/// A cube's box, a polyhedron's faces, a file's name, or a multmatrix. Nothing for other nodes.
-using SolidNode = std::variant<std::monostate, RoundNode, csgcore::Box,
-                               std::shared_ptr<const FaceSet>, FileArguments, FileMatrix>;
+/// What color() sets: nothing if it says nothing.
+using NodeColor = std::optional<csgcore::Color>;
+
+/// A cube's box, a polyhedron's faces, a file's name, a multmatrix, or a color. Nothing for other
+/// nodes.
+using SolidNode =
+    std::variant<std::monostate, RoundNode, csgcore::Box, std::shared_ptr<const FaceSet>,
+                 FileArguments, FileMatrix, NodeColor>;
 
 /// Reads the node's arguments.
 SolidNode read_solid_node(const SyntaxTree& tree, const SyntaxNode& node,

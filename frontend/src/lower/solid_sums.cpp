@@ -37,9 +37,10 @@ SupportSet support_of(const SolidPart& part) {
   return support;
 }
 
-/// The hull of points of a face.
-SupportSet face_support(std::span<const Vec3> points) {
+/// The hull of points of a face of the part.
+SupportSet face_support(std::span<const Vec3> points, const SolidPart& part) {
   SupportSet support;
+  support.is_faceted = part.is_faceted;
   for (const Vec3& point : points) {
     Generator& generator = support.generators.emplace_back();
     generator.center = point;
@@ -47,9 +48,7 @@ SupportSet face_support(std::span<const Vec3> points) {
   return support;
 }
 
-SolidPart moved(const Primitive& primitive, const Vec3& offset, const Box& box) {
-  SolidPart part;
-  part.primitive = primitive;
+SolidPart moved(SolidPart part, const Vec3& offset, const Box& box) {
   part.primitive->local_to_world.translation += offset;
   part.box = box;
   return part;
@@ -108,9 +107,9 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
   if (!convex.is_convex()) {
     fail(kBecauseNotConvex);
   } else if (other.primitive->shape == Shape::kMesh) {
-    add_mesh(*other.primitive, convex, box);
+    add_mesh(other, convex, box);
   } else if (other.primitive->shape == Shape::kExtrusion) {
-    add_extrusion(*other.primitive, convex, box);
+    add_extrusion(other, convex, box);
   } else {
     fail("one of its operands is round and not convex");
   }
@@ -132,24 +131,26 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
 
 /// The mesh, moved to a point of the convex body, and the sum of the body and each face: whatever
 /// of the sum meets no face lies within the mesh as a whole.
-void SolidSums::add_mesh(const Primitive& mesh, const SolidPart& convex, const Box& box) {
+void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const Box& box) {
   const SupportSet support = support_of(convex);
+  const Primitive& mesh = *part.primitive;
   if (mesh.mesh->triangles().size() > kMostSums) return fail(kBecauseManyFaces);
   if (!mesh.mesh->is_closed()) return fail("one of its operands is an open mesh");
-  sums_.push_back(moved(mesh, support.generators.front().center, box));
+  sums_.push_back(moved(part, support.generators.front().center, box));
   for (const auto& triangle : mesh.mesh->triangles()) {
     std::array<Vec3, 3> corners;
     for (size_t i = 0; i < 3; ++i) {
       corners[i] = mesh.local_to_world.point(mesh.mesh->vertices()[triangle[i]]);
     }
-    add_convex(face_support(corners), support, box);
+    add_convex(face_support(corners, part), support, box);
   }
 }
 
 /// The extrusion, with the upright line between the ends of the convex body added to it, and the
 /// sum of the body and each wall: whatever of the sum meets no wall has all of its sections within
 /// the profile, and that line meets the extrusion.
-void SolidSums::add_extrusion(const Primitive& extrusion, const SolidPart& convex, const Box& box) {
+void SolidSums::add_extrusion(const SolidPart& part, const SolidPart& convex, const Box& box) {
+  const Primitive& extrusion = *part.primitive;
   const Affine& map = extrusion.local_to_world;
   SupportSet local = support_of(convex);
   if (map.determinant() == 0 || extrusion.r_bottom != extrusion.r_top) {
@@ -159,18 +160,18 @@ void SolidSums::add_extrusion(const Primitive& extrusion, const SolidPart& conve
   map_all(to_local, local.generators);
   const auto line = upright_line(local.generators);
   if (!line) return fail("the convex one of its operands leans");
-  Primitive core = extrusion;
-  core.z_min += (*line)[0].z;
-  core.z_max += (*line)[1].z;
+  SolidPart core = part;
+  core.primitive->z_min += (*line)[0].z;
+  core.primitive->z_max += (*line)[1].z;
   const Vec3 aside((*line)[0].x, (*line)[0].y, 0);
-  sums_.push_back(moved(core, map.direction(aside), box));
+  sums_.push_back(moved(std::move(core), map.direction(aside), box));
   const SupportSet support = support_of(convex);
   const double scale = extrusion.r_bottom;
   const auto add_wall = [&](const Vec2& a, const Vec2& b) {
     const std::array<Vec3, 4> corners{
         map.point(Vec3(scale * a, extrusion.z_min)), map.point(Vec3(scale * b, extrusion.z_min)),
         map.point(Vec3(scale * b, extrusion.z_max)), map.point(Vec3(scale * a, extrusion.z_max))};
-    add_convex(face_support(corners), support, box);
+    add_convex(face_support(corners, part), support, box);
   };
   for (const Polygon& polygon :
        chords_of(Outline{{extrusion.profile->loops().begin(), extrusion.profile->loops().end()},

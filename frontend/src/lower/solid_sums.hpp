@@ -20,9 +20,8 @@ class SolidSums {
 
  private:
   void add_convex(const SupportSet& a, const SupportSet& b, const csgcore::Box& box);
-  void add_mesh(const csgcore::Primitive& mesh, const SolidPart& convex, const csgcore::Box& box);
-  void add_extrusion(const csgcore::Primitive& extrusion, const SolidPart& convex,
-                     const csgcore::Box& box);
+  void add_mesh(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
+  void add_extrusion(const SolidPart& part, const SolidPart& convex, const csgcore::Box& box);
   void fail(std::string_view why);
 
   std::vector<SolidPart> sums_;

@@ -85,6 +85,7 @@ bool SolidPart::is_convex() const { return !primitive || frontend::is_convex(*pr
 
 void SolidPart::add_support(SupportSet& support) const {
   if (primitive) {
+    support.is_faceted = support.is_faceted || is_faceted;
     frontend::add_support(*primitive, support);
     return;
   }
@@ -96,7 +97,7 @@ void SolidPart::add_support(SupportSet& support) const {
 void SolidPart::map(const Affine& map) {
   if (primitive) {
     primitive->local_to_world = compose(map, primitive->local_to_world);
-    box = box_of(*primitive, facets);
+    box = is_axis_aligned(map) ? mapped(map, box) : box_of(*primitive, facets);
     return;
   }
   map_all(map, body.generators);

@@ -18,6 +18,7 @@ namespace frontend {
 struct SolidPart {
   std::optional<csgcore::Primitive> primitive{};
   csgcore::FacetSettings facets{};  // of a primitive: OpenSCAD's
+  bool is_faceted = false;          // of a primitive: its facets stand for something round
   SupportSet body{};                // if there is no primitive
   /// The box of the corners that OpenSCAD has of it, in the coordinates around it.
   csgcore::Box box{};

@@ -16,11 +16,22 @@ using glm::dvec2;
 using Triangle = std::array<uint32_t, 3>;
 using Corners = std::span<const uint32_t>;
 using Places = std::span<const dvec2>;
+using Ends = std::span<const uint32_t>;
 
 /// The work that the triangulation of a polygon may take, three times. Circles take 3 steps for
 /// each corner, and stars of 10,000 corners 100. What takes more is not Delaunay's in all places. A
 /// step takes 0.1 µs.
 constexpr uint64_t kStepsPerCorner = 16, kFreeSteps = 1 << 20;
+
+/// Calls visit(i, k) for each edge of the polygons, from corner i to corner k.
+template <typename Visit>
+void visit_edges(Ends ends, const Visit& visit) {
+  uint32_t first = 0;
+  for (const uint32_t end : ends) {
+    for (uint32_t i = first; i < end; ++i) visit(i, i + 1 < end ? i + 1 : first);
+    first = end;
+  }
+}
 
 void add_fan(Corners corners, std::vector<Triangle>& triangles) {
   for (size_t i = 2; i < corners.size(); ++i) {
@@ -50,11 +61,11 @@ std::optional<size_t> diagonal_of(Places places) {
   return (least + 1) % 2;
 }
 
-/// The different vertices of a polygon in the order of the triangulation.
+/// The different vertices of polygons in the order of the triangulation.
 struct SortedVertices {
-  std::vector<uint32_t> numbers;  // as the polygon's corners have them
+  std::vector<uint32_t> numbers;  // as the polygons' corners have them
   std::vector<dvec2> points;
-  std::vector<uint32_t> ranks;  // by corner of the polygon: its vertex here
+  std::vector<uint32_t> ranks;  // by corner of the polygons: its vertex here
   bool has_twins = false;       // two vertices are at one place
 
   SortedVertices(Corners corners, Places places) : ranks(corners.size()) {
@@ -81,16 +92,14 @@ struct SortedVertices {
   }
 };
 
-/// The directed edges of a polygon, to be counted.
+/// The directed edges of polygons, to be counted.
 class EdgeCounts {
  public:
-  explicit EdgeCounts(std::span<const uint32_t> ranks) {
-    for (size_t i = 0; i < ranks.size(); ++i) {
-      edges_.emplace_back(ranks[i], ranks[i + 1 < ranks.size() ? i + 1 : 0]);
-    }
+  EdgeCounts(std::span<const uint32_t> ranks, Ends ends) {
+    visit_edges(ends, [&](uint32_t i, uint32_t k) { edges_.emplace_back(ranks[i], ranks[k]); });
     std::sort(edges_.begin(), edges_.end());
   }
-  /// Returns how often the polygon runs from a to b, less how often it runs back.
+  /// Returns how often the polygons run from a to b, less how often they run back.
   int64_t along(uint32_t a, uint32_t b) const { return count(a, b) - count(b, a); }
 
  private:
@@ -101,7 +110,7 @@ class EdgeCounts {
   std::vector<std::pair<uint32_t, uint32_t>> edges_;
 };
 
-/// Returns how often the polygon winds around each triangle.
+/// Returns how often the polygons wind around each triangle.
 std::vector<int64_t> windings_of(const DelaunayTriangulation& delaunay, const EdgeCounts& edges) {
   constexpr int64_t kUnknown = INT64_MIN;
   std::vector<int64_t> windings(delaunay.sides() / 3, kUnknown);
@@ -127,18 +136,19 @@ std::vector<int64_t> windings_of(const DelaunayTriangulation& delaunay, const Ed
   return windings;
 }
 
-/// Returns false, and appends nothing, if the polygon has no constrained Delaunay triangulation, or
-/// it would take too long.
-bool add_delaunay(Corners corners, Places places, std::vector<Triangle>& triangles) {
+/// Returns false, and appends nothing, if the polygons have no constrained Delaunay triangulation,
+/// or it would take too long.
+bool add_delaunay(Corners corners, Ends ends, Places places, std::vector<Triangle>& triangles) {
   const SortedVertices sorted(corners, places);
   if (sorted.has_twins || sorted.are_on_a_line()) return false;
   DelaunayTriangulation delaunay(sorted.points, kFreeSteps + kStepsPerCorner * corners.size());
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const uint32_t next = sorted.ranks[i + 1 < corners.size() ? i + 1 : 0];
-    if (!delaunay.constrain(sorted.ranks[i], next)) return false;
-  }
+  bool is_constrained = true;
+  visit_edges(ends, [&](uint32_t i, uint32_t k) {
+    is_constrained = is_constrained && delaunay.constrain(sorted.ranks[i], sorted.ranks[k]);
+  });
+  if (!is_constrained) return false;
   delaunay.flip_to_delaunay();
-  const std::vector<int64_t> windings = windings_of(delaunay, EdgeCounts(sorted.ranks));
+  const std::vector<int64_t> windings = windings_of(delaunay, EdgeCounts(sorted.ranks, ends));
   for (uint32_t t = 0; t < windings.size(); ++t) {
     Triangle triangle;
     for (uint32_t k = 0; k < 3; ++k) triangle[k] = sorted.numbers[delaunay.origin(3 * t + k)];
@@ -159,8 +169,18 @@ void triangulate(Corners corners, Places places, std::vector<Triangle>& triangle
       return;
     }
   }
-  if (corners.size() > 3 && add_delaunay(corners, places, triangles)) return;
+  const std::array<uint32_t, 1> end{static_cast<uint32_t>(corners.size())};
+  if (corners.size() > 3 && add_delaunay(corners, end, places, triangles)) return;
   add_fan(corners, triangles);
+}
+
+void triangulate_all(Corners corners, Ends ends, Places places, std::vector<Triangle>& triangles) {
+  if (ends.size() > 1 && add_delaunay(corners, ends, places, triangles)) return;
+  size_t first = 0;
+  for (const uint32_t end : ends) {
+    triangulate(corners.subspan(first, end - first), places.subspan(first, end - first), triangles);
+    first = end;
+  }
 }
 
 }  // namespace frontend

@@ -27,4 +27,12 @@ namespace frontend {
 void triangulate(std::span<const uint32_t> corners, std::span<const glm::dvec2> places,
                  std::vector<std::array<uint32_t, 3>>& triangles);
 
+/// Appends the triangles of several polygons as triangulate() does for one: together they wind
+/// around each triangle, so that a polygon that runs clockwise is a hole in the one around it.
+/// `ends` has one past the last corner of each. Polygons that cross each other are triangulated one
+/// by one.
+void triangulate_all(std::span<const uint32_t> corners, std::span<const uint32_t> ends,
+                     std::span<const glm::dvec2> places,
+                     std::vector<std::array<uint32_t, 3>>& triangles);
+
 }  // namespace frontend

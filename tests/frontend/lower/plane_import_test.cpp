@@ -121,8 +121,8 @@ TEST(LinearExtrude, MayEndInALineOrAPoint) {
 TEST(LinearExtrude, OfADiscAboutTheAxisIsAFrustum) {
   EXPECT_EQ(shape_of_only(extruded("circle(2);", "height = 4, twist = 90, scale = 0.5")),
             Shape::kFrustum);
-  EXPECT_EQ(model_of(extruded("circle(2);", "height = 4, twist = 90, scale = [1, 2]")), "(0*0)");
-  EXPECT_EQ(model_of(extruded(moved(1, 0, "circle(2);"), "height = 4, twist = 90")), "(0*0)");
+  EXPECT_EQ(model_of(extruded("circle(2);", "height = 4, twist = 90, scale = [1, 2]")), "0");
+  EXPECT_EQ(model_of(extruded(moved(1, 0, "circle(2);"), "height = 4, twist = 90")), "0");
 }
 
 TEST(LinearExtrude, HasOpenScadsSlicesWhereTheyAreMeant) {

@@ -94,6 +94,46 @@ TEST(SolidHull, OfExtrusionsTakesTheirArcs) {
   EXPECT_FALSE(torus(0, 5.9, 0.9));
 }
 
+TEST(SolidHull, OfExtrusionsThatTurnOrLeanTakesTheirCorners) {
+  const std::string bar = "square([8, 1], center = true);";
+  const Inside turned("hull() { linear_extrude(height = 4, twist = 90) {" + bar + "} }");
+  EXPECT_TRUE(turned(3.9, 0, 0.01));
+  EXPECT_TRUE(turned(0, -3.9, 3.99));
+  EXPECT_TRUE(turned(2, 1.9, 2)) << "between the corners of both ends";
+  EXPECT_FALSE(turned(3.9, 0.6, 3.99));
+  EXPECT_FALSE(turned(0, 0, 4.01));
+  EXPECT_EQ(turned.design().faceted_leaves, 1u);
+  const Inside wide(
+      "hull() { linear_extrude(height = 4, scale = [0, 2]) { square(2, center = true); } }");
+  EXPECT_TRUE(wide(0, 1.99, 3.99));
+  EXPECT_FALSE(wide(0.1, 0, 3.9));
+  const Inside leaning("hull() { linear_extrude(v = [3, 0, 4], scale = 0.5) { circle(r = 1); } }");
+  EXPECT_TRUE(leaning(3.49, 0, 3.999));
+  EXPECT_FALSE(leaning(3.51, 0, 3.999));
+  EXPECT_EQ(leaning.design().faceted_leaves, 0u) << "it is a frustum";
+}
+
+TEST(SolidHull, OfAPartialTurnEndsWhereItEnds) {
+  const std::string turn = "rotate_extrude(angle = 90) {" + at(5, 0, 0, "circle(r = 1);") + "}";
+  const Inside inside("hull() {" + turn + "}");
+  EXPECT_TRUE(inside(3, 3, 0));
+  EXPECT_TRUE(inside(4.2, 4.2, 0));
+  EXPECT_FALSE(inside(4.3, 4.3, 0));
+  EXPECT_FALSE(inside(5, -0.01, 0));
+  EXPECT_EQ(inside.design().faceted_leaves, 1u);
+  EXPECT_THAT(warnings_of("hull() { rotate_extrude() { square(2, center = true); } cube(1); }"),
+              testing::ElementsAre(HasSubstr("same X coordinate sign (range is -1.00 -> 1.00)")));
+}
+
+TEST(SolidHull, WithFacetsHasTheRingsOfRevolutions) {
+  ImportOptions options;
+  options.facets = Facets::kAll;
+  const Inside inside("hull() { rotate_extrude($fn = 4) {" + at(5, 0, 0, "square(1);") + "} }",
+                      options);
+  EXPECT_TRUE(inside(5.99, 0, 0.5));
+  EXPECT_FALSE(inside(3.1, 3.1, 0.5));
+}
+
 TEST(SolidHull, WithFacetsIsThePolyhedronOfOpenScadsCorners) {
   ImportOptions options;
   options.facets = Facets::kAll;
@@ -184,6 +224,18 @@ TEST(SolidHull, ShowsThePartsInsideThatHaveModifiers) {
               SizeIs(1));
 }
 
+TEST(SolidHull, ShowsThePartsInsideInTheirOwnColors) {
+  const ImportedDesign design = import_text(
+      "hull() { cube(1); color([1,0,0]) { %cube(2); } %group() { color([0,0,1]) { cube(3); } "
+      "cube(4); } }");
+  EXPECT_EQ(layers_of(design.scene, csgcore::Layer::Kind::kBackground), "(1+2+3)");
+  ASSERT_THAT(design.scene.primitives, SizeIs(4));
+  EXPECT_EQ(design.scene.primitives[1].color, (csgcore::Color{1, 0, 0, 1}));
+  EXPECT_EQ(design.scene.primitives[2].color, (csgcore::Color{0, 0, 1, 1}));
+  EXPECT_EQ(design.scene.primitives[3].color->a,
+            import_text("%cube(1);").scene.primitives[0].color->a);
+}
+
 TEST(SolidHull, KeepsTheOrderOfTheFile) {
   const ImportedDesign design =
       import_text("cube(1); hull() { cube(2); } cube(3); hull() { cube(4); cube(5); } cube(6);");
@@ -252,6 +304,16 @@ TEST(SolidMinkowski, OfAMeshGoesAlongItsFaces) {
   EXPECT_FALSE(inside(-0.6, 1, 1));
 }
 
+TEST(SolidMinkowski, OfATurningExtrusionGoesAlongItsFaces) {
+  const Inside inside(
+      "minkowski() { linear_extrude(height = 4, twist = 45) { difference() {"
+      "square(8, center = true); square(4, center = true); } } cube(1, center = true); }");
+  EXPECT_TRUE(inside(3, 0, 4.4));
+  EXPECT_FALSE(inside(0, 0, 4.4)) << "in the hole, over which the ends have no faces";
+  EXPECT_FALSE(inside(0, 0, 2));
+  EXPECT_TRUE(inside(4.4, 0, 0));
+}
+
 TEST(SolidMinkowski, IsLeftOutOfTwoThatAreNotConvex) {
   const std::string ring = "rotate_extrude() {" + at(5, 0, 0, "circle(r = 1);") + "}";
   EXPECT_THAT(warning_of("minkowski() {" + ring + ring + "}"), HasSubstr("minkowski is left out"));
@@ -266,6 +328,13 @@ TEST(SolidResize, ScalesAboutTheOriginToTheBoxOfTheUnion) {
   expect_box(design.view_box, Vec3(2.5, 2.5, 1.5), Vec3(22.5, 12.5, 7.5), 1e-14);
   const ImportedDesign ball = import_text("resize([0, 0, 8]) { sphere(r = 2, $fn = 4); }");
   EXPECT_NEAR(ball.view_box.max.z, 4, 1e-15);
+}
+
+TEST(SolidResize, OfATurnTakesItsCorners) {
+  const ImportedDesign design = import_text("resize([12, 0, 0]) { rotate_extrude(angle = 90) {" +
+                                            at(5, 0, 0, "square(1);") + "} }");
+  EXPECT_NEAR(design.view_box.max.x, 12, 1e-12);
+  EXPECT_NEAR(design.view_box.max.y, 6, 1e-12);
 }
 
 TEST(SolidResize, KeepsOperationsWhoseBoxItCanFind) {

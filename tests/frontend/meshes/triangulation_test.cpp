@@ -241,5 +241,22 @@ TEST(Orientation, IsExact) {
   EXPECT_EQ(orientation({0.1, 0.1}, {0.2, 0.2}, {0.7, 0.7}), 0);
 }
 
+TEST(TriangulateAll, LeavesOutHoles) {
+  const std::vector<dvec2> places{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {2, 2}, {2, 5}, {5, 5}, {5, 2}};
+  const std::vector<uint32_t> ends{4, 8};
+  std::vector<Triangle> triangles;
+  triangulate_all(numbered(places.size()), ends, places, triangles);
+  double area = 0;
+  for (const Triangle& t : triangles) {
+    const double own = area_of(places[t[0]], places[t[1]], places[t[2]]);
+    EXPECT_GT(own, 0);
+    area += own;
+  }
+  EXPECT_EQ(area, 64 - 9);
+  auto edges = edges_of({0, 1, 2, 3});
+  edges.merge(edges_of({4, 5, 6, 7}));
+  EXPECT_EQ(open_edges(triangles), edges);
+}
+
 }  // namespace
 }  // namespace frontend

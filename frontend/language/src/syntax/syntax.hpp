@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/name_table.hpp"
+#include "language/call_modifier.hpp"
 #include "language/place.hpp"
 
 namespace language {
@@ -167,13 +168,10 @@ struct Assignment {
 
 struct Scope;
 
-/// Bits of ModuleCall::modifiers. What has `*` is dropped by the parser.
-enum CallModifier : uint8_t { kRootModifier = 1, kHighlightModifier = 2, kBackgroundModifier = 4 };
-
 /// A module call, or an `if`, whose name is kNoName.
 struct ModuleCall {
   Name name;
-  uint8_t modifiers = 0;
+  uint8_t modifiers = 0;  // CallModifier
   Place place;  // of the name; of an `if`, of its `)`
   std::span<const Argument> arguments;
   const Expression* condition = nullptr;  // of an `if`

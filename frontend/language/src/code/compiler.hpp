@@ -1,0 +1,87 @@
+// Compiles a program, each function and module when it is first called.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "code/builtins.hpp"
+#include "code/code.hpp"
+#include "syntax/program.hpp"
+
+namespace language {
+
+/// The top level of a file.
+struct UnitEntry {
+  std::unique_ptr<ScopeLayout> scope;
+  const Code* assignments = nullptr;
+  BlockEntry calls{};          // compiled for the main file only
+  bool binds_dynamic = false;  // whether the assignments set `$` names
+};
+
+/// A function that a name means.
+template <typename Entry>
+struct Found {
+  Entry* entry = nullptr;         // null: none has that name
+  bool is_in_other_unit = false;  // it belongs to a file that the code's own file uses
+};
+
+class Compiler {
+ public:
+  Compiler(Program& program, Builtins builtins, bool check_parameters);
+
+  UnitEntry& unit(uint32_t number);
+  /// Each of the following compiles what it returns, unless that has happened.
+  const Code& code_of(FunctionEntry& function);
+  const Code& code_of(ModuleEntry& module);
+  const Code& code_of(BlockEntry& block);
+  const Code& defaults_of(Callable& callable, bool is_module);
+
+  /// Fills in what calls have to know of a function's or module's parameters.
+  void prepare(Callable& callable);
+  /// Returns how the arguments of a call are assigned. Code of the callee that lacks a variable for
+  /// one of them is discarded.
+  ArgumentPlan plan(Callable& callable, std::span<const Argument> arguments, Place call);
+  ArgumentPlan plan_module(ModuleEntry& module, std::span<const Argument> arguments, Place call);
+  /// Of a builtin module, whose parameters are all in order.
+  ArgumentPlan plan_builtin(const ModuleShape& module, std::span<const Argument> arguments,
+                            Place call);
+
+  Found<FunctionEntry> find_function(const ScopeLayout& from, Name name);
+  Found<ModuleEntry> find_module(const ScopeLayout& from, Name name);
+
+  FunctionEntry& add_literal(const FunctionExpression& literal, const ScopeLayout& scope);
+  BlockEntry& add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope);
+  ScopeLayout& add_scope(const ScopeLayout* parent, uint32_t unit, const Code* code,
+                         bool is_in_heap);
+  /// Makes the functions and modules of a scope known.
+  void define(ScopeLayout& layout, const Scope& scope);
+
+  const Program& program() const { return program_; }
+  const NameTable& names() const { return program_.names; }
+  const Builtins& builtins() const { return builtins_; }
+
+  // Names that the language gives a meaning.
+  struct KnownNames {
+    explicit KnownNames(NameTable& names);
+    Name pi, is_undef, children, child, child_count, let, assign, for_, intersection_for, echo,
+        assert_, group, union_, difference, intersection, dxf_dim, dxf_cross;
+  };
+  const KnownNames& known() const { return known_; }
+
+ private:
+  Code& add_code(uint32_t unit);
+
+  Program& program_;
+  Builtins builtins_;
+  bool check_parameters_;
+  KnownNames known_;
+  std::vector<std::unique_ptr<UnitEntry>> units_;
+  std::deque<FunctionEntry> functions_;
+  std::deque<ModuleEntry> modules_;
+  std::deque<BlockEntry> blocks_;
+  std::deque<ScopeLayout> scopes_;
+  std::deque<Code> codes_;
+};
+
+}  // namespace language

@@ -1,0 +1,215 @@
+// Expressions: each pushes its value.
+#include "code/code_compiler.hpp"
+#include "code/constants.hpp"
+
+namespace language {
+namespace {
+
+Op op_of(BinaryOperator op) {
+  switch (op) {
+    case BinaryOperator::kPower:
+      return Op::kPower;
+    case BinaryOperator::kMultiply:
+      return Op::kMultiply;
+    case BinaryOperator::kDivide:
+      return Op::kDivide;
+    case BinaryOperator::kModulo:
+      return Op::kModulo;
+    case BinaryOperator::kAdd:
+      return Op::kAdd;
+    case BinaryOperator::kSubtract:
+      return Op::kSubtract;
+    case BinaryOperator::kLess:
+      return Op::kLess;
+    case BinaryOperator::kLessEqual:
+      return Op::kLessEqual;
+    case BinaryOperator::kGreater:
+      return Op::kGreater;
+    case BinaryOperator::kGreaterEqual:
+      return Op::kGreaterEqual;
+    case BinaryOperator::kEqual:
+      return Op::kEqual;
+    default:
+      return Op::kNotEqual;
+  }
+}
+
+bool is_logical(const Expression& expression) {
+  if (expression.kind != ExpressionKind::kBinary) return false;
+  const BinaryOperator op = as<BinaryExpression>(expression).op;
+  return op == BinaryOperator::kAnd || op == BinaryOperator::kOr;
+}
+
+bool is_arithmetic(const Expression& expression) {
+  return expression.kind == ExpressionKind::kBinary && !is_logical(expression);
+}
+
+}  // namespace
+
+void CodeCompiler::expression(const Expression& expression) {
+  switch (expression.kind) {
+    case ExpressionKind::kUndef:
+      out_.emit(Op::kUndef, expression.place, 1);
+      return;
+    case ExpressionKind::kBool:
+    case ExpressionKind::kNumber:
+    case ExpressionKind::kString:
+      return out_.constant(constant_value(expression), expression.place);
+    case ExpressionKind::kVariable:
+      return variable(as<VariableExpression>(expression).name, expression.place);
+    case ExpressionKind::kUnary:
+      return unary(as<UnaryExpression>(expression));
+    case ExpressionKind::kBinary:
+      return is_logical(expression) ? logical(as<BinaryExpression>(expression))
+                                    : binary_chain(as<BinaryExpression>(expression));
+    case ExpressionKind::kTernary:
+      return ternary(as<TernaryExpression>(expression));
+    case ExpressionKind::kIndex:
+    case ExpressionKind::kMember:
+      return index_chain(expression);
+    case ExpressionKind::kCall:
+      return call(as<CallExpression>(expression));
+    case ExpressionKind::kVector:
+      return vector(as<VectorExpression>(expression));
+    case ExpressionKind::kRange:
+      return range(as<RangeExpression>(expression));
+    case ExpressionKind::kFunction:
+      return literal(as<FunctionExpression>(expression));
+    case ExpressionKind::kLet:
+    case ExpressionKind::kAssert:
+    case ExpressionKind::kEcho:
+      return body_expression(as<BodyExpression>(expression));
+    default:  // a comprehension stands within vectors only
+      out_.emit(Op::kUndef, expression.place, 1);
+  }
+}
+
+void CodeCompiler::unary(const UnaryExpression& unary) {
+  const Value constant = constant_value(unary);
+  if (constant.is_set()) return out_.constant(constant, unary.place);
+  expression(*unary.operand);
+  out_.emit(unary.op == UnaryOperator::kNot ? Op::kNot : Op::kNegate, unary.place, 0);
+}
+
+// a + b + c is nested to the left, as deeply as it is long, so the left operands are followed by a
+// loop. The right operand of each operator is evaluated before the left one.
+void CodeCompiler::binary_chain(const BinaryExpression& binary) {
+  std::vector<const BinaryExpression*> chain{&binary};
+  while (is_arithmetic(*chain.back()->left))
+    chain.push_back(&as<BinaryExpression>(*chain.back()->left));
+  for (const BinaryExpression* link : chain) expression(*link->right);
+  expression(*chain.back()->left);
+  for (auto link = chain.rbegin(); link != chain.rend(); ++link)
+    out_.emit(op_of((*link)->op), (*link)->place, -1);
+}
+
+void CodeCompiler::logical(const BinaryExpression& binary) {
+  std::vector<const BinaryExpression*> chain{&binary};
+  while (is_logical(*chain.back()->left))
+    chain.push_back(&as<BinaryExpression>(*chain.back()->left));
+  expression(*chain.back()->left);
+  for (auto position = chain.rbegin(); position != chain.rend(); ++position) {
+    const BinaryExpression& link = **position;
+    const bool is_and = link.op == BinaryOperator::kAnd;
+    if (!is_and) out_.emit(Op::kNot, link.place, 0);
+    const uint32_t decided = out_.emit(Op::kJumpIfFalse, link.place, -1);
+    expression(*link.right);
+    out_.emit(Op::kToBool, link.place, 0);
+    const uint32_t done = out_.emit(Op::kJump, link.place, -1);
+    out_.land(decided);
+    out_.emit(Op::kFalse, link.place, 1);
+    if (!is_and) out_.emit(Op::kNot, link.place, 0);
+    out_.land(done);
+  }
+}
+
+uint32_t CodeCompiler::jump_if_false(const Expression& condition) {
+  expression(condition);
+  return out_.emit(Op::kJumpIfFalse, condition.place, -1);
+}
+
+void CodeCompiler::ternary(const TernaryExpression& ternary) {
+  const uint32_t is_false = jump_if_false(*ternary.condition);
+  expression(*ternary.then_value);
+  const uint32_t done = out_.emit(Op::kJump, ternary.place, -1);
+  out_.land(is_false);
+  expression(*ternary.else_value);
+  out_.land(done);
+}
+
+// v[1][2].x is nested to the left, too. An index is evaluated before what it selects from.
+void CodeCompiler::index_chain(const Expression& outermost) {
+  std::vector<const Expression*> chain;
+  const Expression* container = &outermost;
+  while (container->kind == ExpressionKind::kIndex || container->kind == ExpressionKind::kMember) {
+    chain.push_back(container);
+    if (container->kind == ExpressionKind::kIndex) {
+      expression(*as<IndexExpression>(*container).index);
+      container = as<IndexExpression>(*container).container;
+    } else {
+      container = as<MemberExpression>(*container).container;
+    }
+  }
+  expression(*container);
+  for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+    if ((*link)->kind == ExpressionKind::kIndex) {
+      out_.emit(Op::kIndex, (*link)->place, -1);
+    } else {
+      out_.emit(Op::kMember, (*link)->place, 0, as<MemberExpression>(**link).member);
+    }
+  }
+}
+
+// The end is evaluated only after a begin that is a number, the step only after an end that is one.
+void CodeCompiler::range(const RangeExpression& range) {
+  expression(*range.begin);
+  const uint32_t no_begin = out_.emit(Op::kUnlessNumber, range.place, 0);
+  expression(*range.end);
+  uint32_t no_end = no_begin;
+  if (range.step) {
+    no_end = out_.emit(Op::kUnlessNumber, range.place, 0);
+    expression(*range.step);
+  }
+  uint16_t flag = range.step ? kHasStep : 0;
+  if (range.step && is_literal(*range.begin) && is_literal(*range.step) && is_literal(*range.end))
+    flag |= kChecksDirection;
+  out_.emit(Op::kRange, range.place, range.step ? -2 : -1, 0, 0, flag);
+  const uint32_t done = out_.emit(Op::kJump, range.place, -1);
+  // Where a part is no number, the parts that were evaluated become undef.
+  if (range.step) {
+    out_.land(no_end);
+    out_.set_depth(out_.depth() + 2);
+    out_.emit(Op::kPop, range.place, -1);
+    out_.set_depth(out_.depth() - 1);
+  }
+  out_.land(no_begin);
+  out_.set_depth(out_.depth() + 1);
+  out_.emit(Op::kPop, range.place, -1);
+  out_.emit(Op::kUndef, range.place, 1);
+  out_.land(done);
+}
+
+void CodeCompiler::vector(const VectorExpression& vector) {
+  const Value constant = constant_value(vector);
+  if (constant.is_set()) return out_.constant(constant, vector.place);
+  bool is_plain = true;
+  for (const Expression* element : vector.elements)
+    is_plain = is_plain && element->kind < ExpressionKind::kLet;
+  if (is_plain) {
+    for (const Expression* element : vector.elements) expression(*element);
+    const auto count = static_cast<uint32_t>(vector.elements.size());
+    out_.emit(Op::kVector, vector.place, 1 - static_cast<int>(count), count);
+    return;
+  }
+  const uint32_t slot = out_.depth();
+  out_.emit(Op::kBeginVector, vector.place, 1);
+  for (const Expression* value : vector.elements) element(*value, slot);
+}
+
+void CodeCompiler::literal(const FunctionExpression& literal) {
+  auto& functions = out_.code().functions;
+  functions.push_back(&compiler_.add_literal(literal, *scope_));
+  out_.emit(Op::kFunction, literal.place, 1, static_cast<uint32_t>(functions.size() - 1));
+}
+
+}  // namespace language

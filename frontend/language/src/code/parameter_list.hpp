@@ -1,0 +1,65 @@
+// The parameters of a function or module, and what the arguments of a call are assigned to.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/name_table.hpp"
+#include "syntax/syntax.hpp"
+
+namespace language {
+
+/// What an argument or a default is assigned to.
+struct Target {
+  Name name;
+  uint32_t slot;    // counted from the first parameter; unused for `$` names
+  bool is_dynamic;  // a `$` name, which is bound instead
+};
+
+/// Parameters in their slots. A name that is listed twice has one slot, and the last default wins.
+struct ParameterList {
+  std::vector<Target> targets;              // of each parameter, in order
+  std::vector<const Expression*> defaults;  // per slot; null: none
+  std::vector<Name> slot_names;             // parameters first, then what calls pass undeclared
+  uint32_t declared_slots = 0;
+
+  ParameterList() = default;
+  ParameterList(std::span<const Parameter> parameters, const NameTable& names);
+  /// Parameters of a builtin module, which have no defaults.
+  ParameterList(std::span<const Name> parameters, const NameTable& names);
+  /// Returns the slot of a name that a call passes, which gets one if it has none. `$` names have
+  /// no slot.
+  Target target_of(Name name, const NameTable& names);
+  bool declares(Name name) const;
+};
+
+/// Returns whether a name is looked up dynamically: `$children` is the one `$` name that is not.
+bool is_dynamic_name(Name name, const NameTable& names);
+
+/// Returns whether one of the arguments is named by a name that is looked up dynamically.
+bool names_dynamic(std::span<const Argument> arguments, const NameTable& names);
+
+struct ArgumentWarning {
+  std::string text;
+  Place place;
+  bool is_resolution;  // one that --check-parameters=false silences
+};
+
+/// How the arguments of a call are assigned to parameters.
+struct ArgumentPlan {
+  struct Step {
+    uint32_t argument;
+    Target target;
+  };
+  std::vector<Step> steps;                // in the order of evaluation
+  std::vector<ArgumentWarning> warnings;  // said before it
+};
+
+/// Resolves arguments as OpenSCAD does (LANGUAGE.md, "Scopes and calls"); `call` is the place of
+/// the call.
+ArgumentPlan plan_arguments(std::span<const Argument> arguments, ParameterList& parameters,
+                            size_t positional, Place call, const NameTable& names);
+
+}  // namespace language

@@ -1,0 +1,65 @@
+// Where the variables, functions and modules of a scope are found (LANGUAGE.md, "Scopes and
+// calls").
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "base/name_table.hpp"
+
+namespace language {
+
+struct FunctionEntry;
+struct ModuleEntry;
+struct Code;
+
+struct ScopeVariable {
+  Name name;
+  uint32_t slot;  // in the frame, or in the heap scope
+  /// Whether code of the scope's own Code finds it set: its assignment has been compiled.
+  bool is_set = false;
+  /// Whether code elsewhere does: a parameter that every call sets.
+  bool is_always_set = false;
+  /// Whether it may be unset even later: what only some calls pass, or only later rounds of a
+  /// C-style for assign.
+  bool is_optional = false;
+};
+
+/// A scope as the compiler knows it. One whose variables other code can refer to (a function
+/// literal, a nested definition, a child block) is a scope in the heap at run time; the others are
+/// slots of their frame.
+class ScopeLayout {
+ public:
+  ScopeLayout(const ScopeLayout* around, uint32_t unit_number, const Code* opener, bool in_heap)
+      : parent(around),
+        unit(unit_number),
+        code(opener),
+        is_in_heap(in_heap),
+        heap_depth((around ? around->heap_depth : 0) + (in_heap ? 1 : 0)) {}
+
+  const ScopeLayout* const parent;  // null for the top level of a file
+  const uint32_t unit;
+  const Code* const code;  // whose instructions open it
+  const bool is_in_heap;
+  const uint32_t heap_depth;  // number of heap scopes from the file's top level to here
+
+  /// Adds a variable, at the end of what has the same name.
+  ScopeVariable& add(Name name, uint32_t slot);
+  /// Adds a variable of a heap scope in its next slot, unless it is there.
+  ScopeVariable& declare(Name name);
+  const ScopeVariable* find(Name name) const;
+  ScopeVariable* find(Name name);
+  void mark_set(Name name) { find(name)->is_set = true; }
+  uint32_t size() const { return static_cast<uint32_t>(variables_.size()); }
+  const std::vector<ScopeVariable>& variables() const { return variables_; }
+
+  std::unordered_map<Name, FunctionEntry*> functions;
+  std::unordered_map<Name, ModuleEntry*> modules;
+
+ private:
+  std::vector<ScopeVariable> variables_;
+  std::unordered_map<Name, uint32_t> index_;  // filled once there are many
+};
+
+}  // namespace language

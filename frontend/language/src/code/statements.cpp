@@ -1,0 +1,215 @@
+// Assignments and module calls.
+#include <algorithm>
+
+#include "code/code_compiler.hpp"
+#include "code/constants.hpp"
+
+namespace language {
+
+bool CodeCompiler::compile_unit(const Scope& scope) {
+  for (const Assignment& assignment : scope.assignments)
+    if (!is_dynamic_name(assignment.name, compiler_.names())) scope_->declare(assignment.name);
+  assign(scope, nullptr, {});
+  out_.emit(Op::kEndUnit, {}, 0);
+  return assigns_dynamic(scope);
+}
+
+void CodeCompiler::compile_block(BlockEntry& block) {
+  finds_all_set_ = true;
+  auto& entries = out_.code().entries;
+  for (const ModuleCall& call : block.calls) {
+    entries.push_back(out_.here());
+    statement(call);
+    out_.emit(Op::kEndChild, call.place, 0);
+  }
+  entries.push_back(out_.here());
+  out_.emit(Op::kEndChild, {}, 0, 0, 0, 1);
+}
+
+// Parameters, $children and the variables of the body are one scope.
+void CodeCompiler::compile_module(ModuleEntry& module) {
+  finds_all_set_ = true;
+  const auto& parameters = module.parameters;
+  const auto slots = static_cast<uint32_t>(parameters.slot_names.size());
+  out_.code().slots = slots;
+  out_.set_depth(slots);
+  ScopeLayout& scope = open_scope(true, module.place);
+  const uint32_t open = out_.here() - 1;
+  out_.emit(Op::kChildCount, module.place, 1);
+  scope.declare(compiler_.known().child_count);
+  store(compiler_.known().child_count, module.place);
+  for (uint32_t slot = 0; slot < slots; ++slot) {
+    const bool is_declared = slot < parameters.declared_slots;
+    ScopeVariable& variable = scope.declare(parameters.slot_names[slot]);
+    const bool overrides_count = variable.name == compiler_.known().child_count && !is_declared;
+    const uint32_t target = variable.slot;
+    variable.is_set = variable.is_always_set = is_declared || overrides_count;
+    variable.is_optional = !variable.is_set;
+    out_.emit(Op::kLocal, module.place, 1, slot);
+    out_.emit(Op::kStoreScoped, module.place, -1, target, 0, overrides_count ? 1 : 0);
+  }
+  for (const Assignment& assignment : module.body->assignments)
+    if (!is_dynamic_name(assignment.name, compiler_.names())) scope.declare(assignment.name);
+  compiler_.define(scope, *module.body);
+  set_scope_size(open, scope);
+  assign(*module.body, &module, {});
+  statements(module.body->calls);
+  out_.emit(Op::kReturnModule, module.place, 0);
+}
+
+bool CodeCompiler::assigns_dynamic(const Scope& scope) const {
+  return std::any_of(scope.assignments.begin(), scope.assignments.end(),
+                     [&](const Assignment& assignment) {
+                       return is_dynamic_name(assignment.name, compiler_.names());
+                     });
+}
+
+bool Hiding::hides(Name name) const {
+  const auto has_name = [&](const auto& binding) { return binding.name == name; };
+  return std::any_of(arguments.begin(), arguments.end(), has_name) ||
+         (unit && std::any_of(unit->assignments.begin(), unit->assignments.end(), has_name));
+}
+
+void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const Hiding& hiding) {
+  for (const Assignment& assignment : scope.assignments) {
+    if (module) parameter_warning(assignment, *module);
+    expression(*assignment.value);
+    const bool is_hidden =
+        is_dynamic_name(assignment.name, compiler_.names()) && hiding.hides(assignment.name);
+    if (is_hidden) {
+      out_.emit(Op::kPop, assignment.place, -1);
+    } else {
+      store(assignment.name, assignment.place);
+      if (ScopeVariable* variable = scope_->find(assignment.name)) variable->is_optional = false;
+    }
+  }
+}
+
+void CodeCompiler::parameter_warning(const Assignment& assignment, const ModuleEntry& module) {
+  if (!is_literal(*assignment.value)) return;
+  const ScopeVariable* variable = scope_->find(assignment.name);
+  const bool is_parameter = module.parameters.declares(assignment.name) ||
+                            (variable && variable->is_optional) ||
+                            assignment.name == compiler_.known().child_count;
+  if (!is_parameter) return;
+  if (variable) {
+    out_.emit(Op::kScoped, assignment.place, 1, variable->slot, 0);
+  } else {
+    out_.emit(Op::kUndef, assignment.place, 1);
+  }
+  out_.emit(Op::kParameterLiteral, assignment.place, -1, assignment.name, module.name);
+}
+
+void CodeCompiler::statements(std::span<const ModuleCall> calls) {
+  for (const ModuleCall& call : calls) statement(call);
+}
+
+void CodeCompiler::block(const Scope& scope) {
+  if (scope.assignments.empty()) return statements(scope.calls);
+  const Place place = scope.assignments.front().place;
+  const bool has_mark = assigns_dynamic(scope);
+  const uint32_t base = out_.depth();
+  if (has_mark) out_.emit(Op::kMarkTrail, place, 1);
+  ScopeLayout& layout = open_scope(true, place);
+  const uint32_t open = out_.here() - 1;
+  for (const Assignment& assignment : scope.assignments)
+    if (!is_dynamic_name(assignment.name, compiler_.names())) layout.declare(assignment.name);
+  set_scope_size(open, layout);
+  assign(scope, nullptr, {});
+  statements(scope.calls);
+  close_scope(place);
+  if (has_mark) out_.emit(Op::kUndoTrail, place, 0, base);
+  drop_to(base, place);
+}
+
+void CodeCompiler::statement(const ModuleCall& call) {
+  if (call.name == kNoName) return if_statement(call);
+  const auto found = compiler_.find_module(*scope_, call.name);
+  const auto& builtins = compiler_.builtins().modules;
+  const uint32_t region = begin_region();
+  if (found.entry) {
+    module_call(call, found);
+  } else if (const auto builtin = builtins.find(call.name); builtin != builtins.end()) {
+    builtin_module(call, builtin->second);
+  } else if (!special_statement(call)) {
+    out_.emit(Op::kUnknownModule, call.place, 0, call.name);
+  }
+  end_region(region, call.name, nullptr, call.place);
+}
+
+bool CodeCompiler::special_statement(const ModuleCall& call) {
+  const Compiler::KnownNames& known = compiler_.known();
+  const Name name = call.name;
+  if (name == known.for_) {
+    for_statement(call, "group");
+  } else if (name == known.intersection_for) {
+    for_statement(call, "intersection");
+  } else if (name == known.let) {
+    let_statement(call);
+  } else if (name == known.assign) {
+    assign_statement(call);
+  } else if (name == known.children || name == known.child) {
+    children_call(call, name == known.child);
+  } else if (name == known.echo) {
+    echo_arguments(call.arguments, call.place);
+    node_if_children(call);
+  } else if (name == known.assert_) {
+    assert_arguments(call.arguments, call.place);
+    node_if_children(call);
+  } else if (name == known.group || name == known.union_ || name == known.difference ||
+             name == known.intersection) {
+    plain_node(call, compiler_.names().text(name));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void CodeCompiler::if_statement(const ModuleCall& call) {
+  const uint32_t region = begin_region();
+  const uint32_t is_false = jump_if_false(*call.condition);
+  plain_node(call, "group");
+  if (call.else_children) {
+    const uint32_t done = out_.emit(Op::kJump, call.place, 0);
+    out_.land(is_false);
+    begin_node(call, "group");
+    block(*call.else_children);
+    end_node(call);
+    out_.land(done);
+  } else {
+    out_.land(is_false);
+  }
+  out_.code().regions.push_back({region, out_.here(), "if", nullptr, call.place});
+}
+
+uint32_t CodeCompiler::add_node_site(const ModuleCall& call, std::string_view name) {
+  auto& sites = out_.code().node_sites;
+  NodeSite site;
+  site.name = name;
+  site.modifiers = call.modifiers;
+  if (call.name != kNoName) site.call_name = compiler_.names().text(call.name);
+  sites.push_back(site);
+  return static_cast<uint32_t>(sites.size() - 1);
+}
+
+void CodeCompiler::begin_node(const ModuleCall& call, std::string_view name) {
+  out_.emit(Op::kBeginNode, call.place, 0, add_node_site(call, name));
+}
+
+void CodeCompiler::end_node(const ModuleCall& call, bool drop_if_empty) {
+  out_.emit(Op::kEndNode, call.place, 0, 0, 0, drop_if_empty ? 1 : 0);
+}
+
+void CodeCompiler::plain_node(const ModuleCall& call, std::string_view name) {
+  begin_node(call, name);
+  block(*call.children);
+  end_node(call);
+}
+
+void CodeCompiler::node_if_children(const ModuleCall& call) {
+  begin_node(call, "group");
+  block(*call.children);
+  end_node(call, true);
+}
+
+}  // namespace language

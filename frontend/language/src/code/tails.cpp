@@ -1,0 +1,161 @@
+// The bodies of functions. A call in tail position of a function by its own name starts its frame
+// anew (LANGUAGE.md, "Scopes and calls").
+#include "code/code_compiler.hpp"
+#include "code/constants.hpp"
+
+namespace language {
+
+void CodeCompiler::compile_function(FunctionEntry& function) {
+  function_ = &function;
+  const auto& names = function.parameters.slot_names;
+  out_.code().slots = static_cast<uint32_t>(names.size());
+  out_.set_depth(out_.code().slots);
+  parameter_scope_ = &open_scope(contains_literal(*function.body), function.place);
+  body_start_ = out_.here();
+  for (uint32_t slot = 0; slot < names.size(); ++slot) {
+    ScopeVariable& variable = parameter_scope_->add(names[slot], slot);
+    variable.is_set = variable.is_always_set = slot < function.parameters.declared_slots;
+    variable.is_optional = !variable.is_set;
+    if (!parameter_scope_->is_in_heap) continue;
+    out_.emit(Op::kLocal, function.place, 1, slot);
+    out_.emit(Op::kStoreScoped, function.place, -1, slot, 0);
+  }
+  if (parameter_scope_->is_in_heap) set_scope_size(body_start_ - 1, *parameter_scope_);
+  tail(*function.body);
+}
+
+void CodeCompiler::compile_defaults(Callable& callable, bool is_module) {
+  finds_all_set_ = is_module;
+  const auto slots = static_cast<uint32_t>(callable.parameters.slot_names.size());
+  out_.code().slots = slots;
+  out_.set_depth(slots);
+  const auto& targets = callable.parameters.targets;
+  for (size_t number = 0; number < targets.size(); ++number) {
+    const Expression* value = callable.written_parameters[number].value;
+    const Target& target = targets[number];
+    if (!target.is_dynamic && (!value || constant_value(*value).is_set())) continue;
+    if (value) {
+      expression(*value);
+    } else {
+      out_.emit(Op::kUndef, callable.place, 1);
+    }
+    if (target.is_dynamic) {
+      out_.emit(Op::kBindDynamic, callable.place, -1, target.name);
+    } else {
+      out_.emit(Op::kStoreLocal, callable.place, -1, target.slot);
+    }
+  }
+  out_.emit(Op::kReturnDefaults, callable.place, 0);
+}
+
+void CodeCompiler::tail(const Expression& body) {
+  const uint32_t depth = out_.depth();
+  ScopeLayout* const scope = scope_;
+  switch (body.kind) {
+    case ExpressionKind::kTernary: {
+      const auto& ternary = as<TernaryExpression>(body);
+      const uint32_t is_false = jump_if_false(*ternary.condition);
+      tail(*ternary.then_value);
+      out_.land(is_false);
+      tail(*ternary.else_value);
+      break;
+    }
+    case ExpressionKind::kLet:
+    case ExpressionKind::kAssert:
+    case ExpressionKind::kEcho: {
+      const auto& inner = as<BodyExpression>(body);
+      if (body.kind == ExpressionKind::kLet) {
+        const bool is_in_heap = contains_literal(body);
+        open_scope(is_in_heap, body.place);
+        let_arguments(inner.arguments, is_in_heap);
+      } else if (body.kind == ExpressionKind::kAssert) {
+        assert_arguments(inner.arguments, body.place);
+      } else {
+        echo_arguments(inner.arguments, body.place);
+      }
+      if (inner.body) {
+        tail(*inner.body);
+      } else {
+        out_.emit(Op::kUndef, body.place, 1);
+        out_.emit(Op::kReturn, body.place, -1);
+      }
+      break;
+    }
+    case ExpressionKind::kCall:
+      tail_call(as<CallExpression>(body));
+      break;
+    default:
+      expression(body);
+      out_.emit(Op::kReturn, body.place, -1);
+  }
+  scope_ = scope;
+  out_.set_depth(depth);
+}
+
+void CodeCompiler::tail_call(const CallExpression& call) {
+  const bool is_named = call.callee->kind == ExpressionKind::kVariable;
+  const Name name = is_named ? as<VariableExpression>(*call.callee).name : kNoName;
+  const bool may_loop = is_named && (function_->literal || name == function_->name);
+  uint32_t is_other = 0;
+  if (may_loop) {
+    const uint32_t depth = out_.depth();
+    if (function_->literal) is_other = out_.emit(Op::kUnlessCalledAs, call.place, 0, 0, name);
+    const ArgumentPlan plan = compiler_.plan(*function_, call.arguments, call.place);
+    warn_of_arguments(plan, call.place, true);
+    std::vector<uint32_t> slots;  // where the values on the stack belong
+    tail_defaults(plan, slots, call.place);
+    for (const ArgumentPlan::Step& step : plan.steps) {
+      const Argument& argument = call.arguments[step.argument];
+      expression(*argument.value);
+      if (step.target.is_dynamic) {
+        out_.emit(Op::kBindDynamic, argument.place, -1, step.target.name);
+      } else {
+        slots.push_back(step.target.slot);
+      }
+    }
+    for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
+      out_.emit(Op::kStoreLocal, call.place, -1, *slot);
+    for (const ScopeLayout* scope = scope_; scope != parameter_scope_; scope = scope->parent)
+      if (scope->is_in_heap) out_.emit(Op::kPopScope, call.place, 0);
+    out_.emit(Op::kTailJump, call.place, 0, body_start_, out_.code().slots);
+    out_.set_depth(depth);
+    if (!function_->literal) return;
+    out_.land(is_other);
+  }
+  expression(call);
+  out_.emit(Op::kReturn, call.place, -1);
+}
+
+// Parameters that a tail call does not give. A default that is no constant is evaluated by the
+// first such call, among the variables that it sees there, and kept.
+void CodeCompiler::tail_defaults(const ArgumentPlan& plan, std::vector<uint32_t>& slots,
+                                 Place place) {
+  const auto& targets = function_->parameters.targets;
+  for (size_t number = 0; number < targets.size(); ++number) {
+    const Target& target = targets[number];
+    const auto is_given = [&](const ArgumentPlan::Step& step) {
+      return step.target.name == target.name;
+    };
+    if (std::any_of(plan.steps.begin(), plan.steps.end(), is_given)) continue;
+    const Expression* value = function_->written_parameters[number].value;
+    const Value constant = value ? constant_value(*value) : Value::undef();
+    if (constant.is_set()) {
+      out_.constant(constant, place);
+    } else {
+      auto& caches = out_.code().caches;
+      caches.push_back(Value::unset());
+      const auto cache = static_cast<uint32_t>(caches.size() - 1);
+      const uint32_t cached = out_.emit(Op::kCachedDefault, place, 0, 0, cache);
+      expression(*value);
+      out_.emit(Op::kStoreCache, place, 0, 0, cache);
+      out_.land(cached);
+    }
+    if (target.is_dynamic) {
+      out_.emit(Op::kBindDynamic, place, -1, target.name);
+    } else {
+      slots.push_back(target.slot);
+    }
+  }
+}
+
+}  // namespace language

@@ -1,0 +1,11 @@
+// What the compiler has to know of the builtin functions and modules.
+#pragma once
+
+#include "base/name_table.hpp"
+#include "code/builtins.hpp"
+
+namespace language {
+
+Builtins builtin_shapes(NameTable& names);
+
+}  // namespace language

@@ -1,0 +1,188 @@
+#include <algorithm>
+
+#include "base/with_deep_stack.hpp"
+#include "evaluation/builtin_shapes.hpp"
+#include "evaluation/machine.hpp"
+#include "language/evaluation.hpp"
+#include "syntax/parse_program.hpp"
+#include "values/make.hpp"
+#include "values/value_text.hpp"
+
+namespace language {
+namespace {
+
+// One evaluation, from text to nodes.
+class Session {
+ public:
+  Session(const std::string& path, const EvaluationOptions& options, const MessageSink& sink,
+          std::string_view standard_input)
+      : path_(path),
+        options_(options),
+        sink_(sink),
+        standard_input_(standard_input),
+        program_(std::make_shared<Program>()),
+        messages_(program_->files, [this](const Message& message) { take(message); }) {
+    result_.root = std::make_shared<Node>();
+    result_.files = std::shared_ptr<const SourceFiles>(program_, &program_->files);
+  }
+
+  Evaluation run();
+
+ private:
+  void take(const Message& message);
+  void evaluate_program();
+  void preset_names(Machine& machine) const;
+  void read_camera(const Machine& machine);
+  template <typename Converted>
+  void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
+                         Converted (*convert)(const Value&, bool&), Converted& target);
+  void say_root_modifiers();
+  void list_files(const ModuleEnvironment& modules);
+
+  const std::string& path_;
+  const EvaluationOptions& options_;
+  const MessageSink& sink_;
+  std::string_view standard_input_;
+  std::shared_ptr<Program> program_;
+  Messages messages_;
+  Machine* machine_ = nullptr;  // while it runs
+  bool has_camera_ = false;
+  Evaluation result_;
+};
+
+void Session::take(const Message& message) {
+  sink_(message.line);
+  if (!machine_) return;
+  machine_->count_message();
+  if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
+}
+
+Value numbers(std::initializer_list<double> list) {
+  Value vector = make_vector(list.size());
+  for (const double number : list) append_element(vector, number);
+  return vector;
+}
+
+void Session::preset_names(Machine& machine) const {
+  machine.preset("$fn", 0.0);
+  machine.preset("$fa", 12.0);
+  machine.preset("$fs", 2.0);
+  machine.preset("$t", options_.time);
+  machine.preset("$preview", Value::boolean(options_.is_preview));
+  machine.preset("$vpt", numbers({0, 0, 0}));
+  machine.preset("$vpr", numbers({0, 0, 0}));
+  machine.preset("$vpd", 500.0);
+  machine.preset("$vpf", 22.5);
+}
+
+// OpenSCAD takes vectors of two elements for points of z = 0, and leaves the view as it is where
+// these are no numbers.
+std::optional<std::array<double, 3>> three_numbers(const Value& value, bool& is_converted) {
+  const auto elements = value.is_vector() ? value.elements() : std::span<const Value>();
+  const bool are_numbers = std::all_of(elements.begin(), elements.end(),
+                                       [](const Value& element) { return element.is_number(); });
+  is_converted = elements.size() == 2 || (elements.size() == 3 && are_numbers);
+  if (!is_converted || !are_numbers) return std::nullopt;
+  std::array<double, 3> numbers{};
+  for (size_t axis = 0; axis < elements.size(); ++axis) numbers[axis] = elements[axis].number();
+  return numbers;
+}
+
+std::optional<double> one_number(const Value& value, bool& is_converted) {
+  is_converted = value.is_number();
+  return is_converted ? std::optional(value.number()) : std::nullopt;
+}
+
+template <typename Converted>
+void Session::read_camera_value(const Machine& machine, std::string_view name,
+                                std::string_view type, Converted (*convert)(const Value&, bool&),
+                                Converted& target) {
+  const Value value = machine.top_level_value(name);
+  if (!value.is_set() || value.is_undef()) return;
+  bool is_converted = false;
+  target = convert(value, is_converted);
+  has_camera_ = has_camera_ || is_converted;
+  if (is_converted) return;
+  messages_.say(MessageGroup::kWarning, "Unable to convert " + std::string(name) + "=" +
+                                            echo_text(value) + " to a " + std::string(type));
+}
+
+void Session::read_camera(const Machine& machine) {
+  constexpr std::string_view kVector = "vec3 or vec2 of numbers", kNumber = "number";
+  DesignCamera& camera = result_.camera;
+  read_camera_value(machine, "$vpr", kVector, three_numbers, camera.rotation_deg);
+  read_camera_value(machine, "$vpt", kVector, three_numbers, camera.translation);
+  read_camera_value(machine, "$vpd", kNumber, one_number, camera.distance);
+  read_camera_value(machine, "$vpf", kNumber, one_number, camera.field_of_view_deg);
+  if (has_camera_)
+    messages_.say(MessageGroup::kWarning, "Viewall and autocenter disabled in favor of $vp*");
+}
+
+void Session::say_root_modifiers() {
+  if (const auto other = root_modifiers(*result_.root).other)
+    messages_.warn("More than one Root Modifier (!)", *other);
+}
+
+void Session::evaluate_program() {
+  for (const std::string_view name :
+       {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
+    program_->names.intern(name);
+  Compiler compiler(*program_, builtin_shapes(program_->names), options_.check_parameters);
+  const std::string& folder = program_->units[0].folder;
+  ModuleEnvironment modules{messages_, folder, folder, options_.check_ranges};
+  Machine machine(compiler, messages_, modules, options_.stop);
+  machine_ = &machine;
+  preset_names(machine);
+  try {
+    machine.run_assignments();
+    machine.run_calls(result_.root);
+  } catch (const Aborted&) {
+    result_.outcome = Outcome::kAborted;
+    result_.root = std::make_shared<Node>();
+    machine.end_early();
+  } catch (const Unsupported& unsupported) {
+    result_.unknown = unsupported.what();
+    result_.root = std::make_shared<Node>();
+    return;
+  }
+  machine_ = nullptr;
+  read_camera(machine);
+  say_root_modifiers();
+  list_files(modules);
+}
+
+void Session::list_files(const ModuleEnvironment& modules) {
+  for (FileId file = 0; file < program_->files.size(); ++file)
+    result_.files_read.push_back(program_->files[file].path);
+  for (const Unit& unit : program_->units)
+    result_.files_read.insert(result_.files_read.end(), unit.fonts.begin(), unit.fonts.end());
+  result_.files_read.insert(result_.files_read.end(), modules.files_read.begin(),
+                            modules.files_read.end());
+  result_.lookups = program_->lookups;
+  result_.lookups.insert(result_.lookups.end(), modules.lookups.begin(), modules.lookups.end());
+}
+
+Evaluation Session::run() {
+  ParseOptions options;
+  options.definitions = options_.definitions;
+  options.hard_warnings = options_.hard_warnings;
+  options.stop = options_.stop;
+  options.standard_input = standard_input_;
+  const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
+  if (parsed == ParseOutcome::kParsed) {
+    with_deep_stack([&] { evaluate_program(); });
+  } else {
+    result_.outcome =
+        parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
+                    const MessageSink& sink, std::string_view standard_input) {
+  return Session(path, options, sink, standard_input).run();
+}
+
+}  // namespace language

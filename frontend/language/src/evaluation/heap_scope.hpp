@@ -1,0 +1,55 @@
+// Scopes whose variables outlive or are shared beyond a frame: those that function values, nested
+// definitions and child blocks refer to.
+#pragma once
+
+#include <cstdint>
+
+#include "language/value.hpp"
+
+namespace language {
+
+class HeapScopes;
+
+/// A scope with its variables behind it in the same block.
+struct HeapScope {
+  uint32_t references;
+  uint32_t size;
+  HeapScope* parent;  // counted; null for the top level of a file
+  HeapScopes* owner;
+  HeapScope *previous, *next;  // in the list of all scopes
+  Value* values() { return reinterpret_cast<Value*>(this + 1); }
+};
+static_assert(sizeof(HeapScope) % alignof(Value) == 0);
+
+/// Makes scopes, and knows all that exist: function values and the scopes that hold them refer to
+/// each other, so some are left when nothing else refers to them.
+class HeapScopes {
+ public:
+  HeapScopes() = default;
+  HeapScopes(const HeapScopes&) = delete;
+  HeapScopes& operator=(const HeapScopes&) = delete;
+  ~HeapScopes() { clear(); }
+
+  /// Returns a scope with one reference, whose variables are unset. Takes over a reference to
+  /// `parent`.
+  HeapScope* make(HeapScope* parent, uint32_t size);
+  static HeapScope* acquire(HeapScope* scope) {
+    if (scope) ++scope->references;
+    return scope;
+  }
+  static void release(HeapScope* scope) noexcept {
+    if (scope && --scope->references == 0) destroy(scope);
+  }
+  /// Releases a scope that its code leaves, where it is kept by nothing but functions that it
+  /// holds itself, too.
+  static void leave(HeapScope* scope) noexcept;
+  /// Empties all scopes that are left. Functions that refer to them may not be called any more.
+  void clear() noexcept;
+
+ private:
+  static void destroy(HeapScope* scope) noexcept;
+
+  HeapScope* first_ = nullptr;
+};
+
+}  // namespace language

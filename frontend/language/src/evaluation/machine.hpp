@@ -1,0 +1,228 @@
+// Runs compiled code (LANGUAGE.md, "Scopes and calls").
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "code/compiler.hpp"
+#include "evaluation/closure.hpp"
+#include "evaluation/dynamic_names.hpp"
+#include "evaluation/frame.hpp"
+#include "evaluation/unit_cache.hpp"
+#include "evaluation/value_stack.hpp"
+#include "functions/builtin_functions.hpp"
+#include "language/node.hpp"
+#include "messages/messages.hpp"
+#include "modules/builtin_modules.hpp"
+#include "values/operators.hpp"
+
+namespace language {
+
+// OpenSCAD ends at the size of its stack, after some 8,600 calls (LANGUAGE.md, "Differences").
+constexpr size_t kDepthLimit = 250000;
+
+/// Thrown where the evaluation of a design ends early; its error has been said.
+class Aborted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "aborted"; }
+};
+
+/// Thrown where a design uses what this evaluator does not know.
+class Unsupported : public std::exception {
+ public:
+  explicit Unsupported(std::string what) : what_(std::move(what)) {}
+  const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  std::string what_;
+};
+
+/// Thrown by the sink of messages at a warning, if warnings end the evaluation.
+class HardWarning : public std::exception {
+ public:
+  const char* what() const noexcept override { return "warning"; }
+};
+
+class Machine {
+ public:
+  Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, std::stop_token stop);
+  ~Machine();
+
+  /// Gives a `$` name its value before the program begins.
+  void preset(std::string_view name, Value value);
+  /// Evaluates the assignments of the main file's top level. Throws Aborted, after the error and
+  /// its traces, or Stopped.
+  void run_assignments();
+  /// Returns the value that the top level has assigned to a `$` name: unset if it has not.
+  Value top_level_value(std::string_view name) const;
+  /// Evaluates the module calls of the main file, whose nodes become children of `root`.
+  void run_calls(std::shared_ptr<Node> root);
+  /// Forgets the `$` names of calls that Aborted has ended.
+  void end_early();
+  /// How many messages have been said, which the sink counts.
+  void count_message() { ++messages_said_; }
+
+ private:
+  // machine.cpp
+  void run();  // until the first frame has ended
+  void run_guarded();
+
+  // variables.cpp
+  HeapScope* scope_at(uint32_t number) const;
+  void push_dynamic(Name name, bool silently);
+  void unknown_variable(Name name);
+  void push_scope(uint32_t size);
+  void pop_scope();
+  void store_scoped(const Instruction& step);
+  void note_read(Name name);
+
+  // operators.cpp
+  using Operator = Value (*)(const Value&, const Value&, OperatorProblem&);
+  /// Applies `of_numbers` where both operands are numbers, which the compiler inlines.
+  template <typename OfNumbers>
+  void binary(OfNumbers of_numbers, Operator of_values) {
+    const Value& left = stack_.top();
+    Value& right = stack_.below(1);
+    if (!are_numbers(left, right)) return binary_of_values(of_values);
+    right = of_numbers(left.number(), right.number());
+    stack_.drop();
+  }
+  void binary_of_values(Operator op);
+  void say_problem(const OperatorProblem& problem);
+  void negate_top();
+  void make_range(uint16_t flags);
+  void make_vector(uint32_t count);
+  void make_closure(uint32_t index);
+  void echo(const EchoSite& site);
+  void assert_top(const AssertSite& site, bool has_message);
+  void duplicate_let(Name name);
+  void unnamed_let();
+
+  // loops.cpp
+  void begin_loop(uint16_t kind);
+  bool next_round(uint32_t state);  // false: there is none
+  void append(uint32_t slot);
+  void append_each(uint32_t slot);
+  void append_each_of_all(uint32_t slot);
+  void append_expanded(Value& vector, const Value& value);
+  void count_round(uint32_t slot);
+  void too_many(uint32_t count);
+
+  // calls.cpp
+  void push_frame(const Code& code, uint32_t base, HeapScope* scope, FrameKind kind,
+                  uint32_t activation);
+  void pop_frame();
+  void begin_call(const CallSite& site);
+  void push_parameters(const Callable& callable, uint32_t slots);
+  void call_function(const CallSite& site);
+  void call_builtin(uint32_t index, uint32_t count);
+  void next_lazy(const LazyCall& site);
+  void keep_lazy(const LazyCall& site);
+  void return_value();
+  void return_defaults();
+  void tail_jump(uint32_t slots, uint32_t target);
+  void say_argument_warnings(uint32_t plan, bool once);
+  void warn_count(Name name);
+  void note_builtin(const BuiltinFunction& function);
+  void unknown_function(Name name);
+  [[noreturn]] void recursion_in_function(std::string_view name, Place place);
+
+  // dynamic_calls.cpp
+  void prepare_call(const DynamicCall& site);
+  void next_argument(const DynamicCall& site);
+  void call_dynamic(const DynamicCall& site);
+  void call_dynamic_function(const DynamicCall& site, FunctionEntry& function);
+  FunctionEntry* function_of(const DynamicCall& site);
+  HeapScope* scope_of(const DynamicCall& site);
+  bool refuse_callee(const DynamicCall& site);
+  void give_up_call(const DynamicCall& site);
+  void keep_defaults(uint32_t base);
+  [[noreturn]] void recursion_in_callee(const DynamicCall& site);
+  std::string callee_text(const Expression& callee) const;
+  const ArgumentPlan& plan_of(const DynamicCall& site, FunctionEntry& function);
+
+  // units.cpp
+  void enter_unit(uint32_t unit);
+  bool end_unit();  // true: of the main file
+  bool reuse_unit(uint32_t unit);
+  void keep_unit(const UnitRecord& record, HeapScope* scope);
+
+  // modules.cpp
+  void begin_node(const NodeSite& site);
+  void end_node(bool drop_if_empty);
+  void make_node(const NodeSite& site, uint32_t no_children, bool takes_children);
+  bool wants_first(const NodeSite& site);
+  Value dynamic_value(Name name) const;
+  BuiltinCall builtin_call(const NodeSite& site, bool has_first);
+  void call_module(const CallSite& site);
+  void return_module();
+  void say_successor(const NodeSite& site);
+  void refuse_children(const NodeSite& site);
+  void unknown_module(Name name);
+  void parameter_literal(Name parameter, Name module);
+
+  // children.cpp
+  void all_children(const NodeSite& site);
+  void say_child_is_deprecated();
+  bool select_children(const NodeSite& site, bool is_child);
+  bool is_child_number(int number, bool is_child);
+  Value next_selected(uint32_t state);
+  void next_child(uint32_t state, uint32_t after);
+  void end_selection();
+  bool end_child(bool is_last);  // true: of the frame that runs children
+  const Activation* activation() const;
+  uint32_t child_count() const;
+  void run_block(FrameKind kind, uint32_t child);
+
+  // tracing.cpp
+  Place place() const { return frames_.back().code->places[next_ - 1]; }
+  void warn(std::string text, PathBase base);
+  [[noreturn]] void fail(std::string text, Place place);
+  void say_traces();
+  void set_unit(uint32_t unit);
+  void check_limits();
+  void count_step() {
+    if (--steps_ == 0) check_limits();
+  }
+
+  Compiler& compiler_;
+  Messages& messages_;
+  ModuleEnvironment& modules_;
+  FunctionEnvironment functions_;
+  std::stop_token stop_;
+  std::span<const BuiltinFunction> builtin_functions_;
+  std::span<const BuiltinModule> builtin_modules_;
+
+  HeapScopes scopes_;
+  DynamicNames dynamic_;
+  ValueStack stack_;
+  std::vector<Frame> frames_;
+  std::vector<Activation> activations_;
+  std::vector<HeapScope*> unit_scopes_;   // of used files whose functions are about to be called
+  std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called
+  std::vector<std::shared_ptr<Node>> nodes_;
+  std::vector<std::string_view> module_names_;
+  std::vector<Value> parameters_;    // of the call that is being made
+  std::vector<UnitRecord> records_;  // of the top levels that are being evaluated
+  std::vector<KeptUnit> kept_units_;
+  uint32_t preset_trail_ = 0;  // the trail's length before the program begins
+  uint32_t main_trail_ = 0;    // and once the top level's assignments are evaluated
+
+  // The frame on top of frames_, as far as it changes.
+  const Instruction* code_ = nullptr;
+  uint32_t next_ = 0;
+  uint32_t base_ = 0;
+  HeapScope* scope_ = nullptr;
+  uint32_t unit_ = 0;  // whose code runs
+  HeapScope* main_scope_ = nullptr;
+  uint32_t steps_ = 1;
+  uint64_t messages_said_ = 0;
+  Name fragments_number_, fragments_angle_, fragments_size_, parent_modules_;
+};
+
+}  // namespace language

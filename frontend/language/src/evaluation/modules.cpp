@@ -1,0 +1,127 @@
+// Nodes, and the calls of modules.
+#include "evaluation/machine.hpp"
+
+namespace language {
+
+void Machine::begin_node(const NodeSite& site) {
+  auto node = std::make_shared<Node>();
+  node->name = site.name;
+  node->modifiers = site.modifiers;
+  node->place = place();
+  nodes_.push_back(std::move(node));
+}
+
+void Machine::end_node(bool drop_if_empty) {
+  std::shared_ptr<Node> node = std::move(nodes_.back());
+  nodes_.pop_back();
+  if (drop_if_empty && node->children.empty()) return;
+  nodes_.back()->children.push_back(std::move(node));
+}
+
+BuiltinCall Machine::builtin_call(const NodeSite& site, bool has_first) {
+  const uint32_t above = has_first ? 1 : 0;
+  const std::span<const Value> parameters(stack_.end() - above - site.parameters, site.parameters);
+  return {parameters,
+          has_first ? stack_.top() : Value::unset(),
+          dynamic_value(fragments_number_),
+          dynamic_value(fragments_angle_),
+          dynamic_value(fragments_size_),
+          place(),
+          modules_};
+}
+
+bool Machine::wants_first(const NodeSite& site) {
+  return builtin_modules_[site.module].wants_first(builtin_call(site, false));
+}
+
+Value Machine::dynamic_value(Name name) const {
+  const Value& value = dynamic_[name];
+  return value.is_set() ? value : Value::undef();
+}
+
+void Machine::make_node(const NodeSite& site, uint32_t no_children, bool takes_children) {
+  count_step();
+  auto node = std::make_shared<Node>();
+  node->modifiers = site.modifiers;
+  node->place = place();
+  const Made made = builtin_modules_[site.module].make(builtin_call(site, true), *node);
+  stack_.drop_to(stack_.size() - site.parameters - 1);
+  if (made == Made::kNode && takes_children) {
+    nodes_.push_back(std::move(node));
+    return;
+  }
+  next_ = no_children;
+  if (made != Made::kNothing) nodes_.back()->children.push_back(std::move(node));
+}
+
+void Machine::refuse_children(const NodeSite& site) {
+  warn("module " + std::string(site.call_name) + "() does not support child modules",
+       PathBase::kMainFile);
+}
+
+void Machine::say_successor(const NodeSite& site) {
+  messages_.say(MessageGroup::kDeprecated,
+                "The " + std::string(site.call_name) +
+                    "() module will be removed in future releases. Use " +
+                    std::string(site.successor) + " instead.",
+                place(), PathBase::kMainFile);
+}
+
+void Machine::unknown_module(Name name) {
+  warn("Ignoring unknown module '" + std::string(compiler_.names().text(name)) + "'",
+       PathBase::kMainFile);
+}
+
+void Machine::call_module(const CallSite& site) {
+  ModuleEntry& module = *site.module;
+  if (frames_.size() >= kDepthLimit) {
+    fail("Recursion detected calling module '" + std::string(compiler_.names().text(module.name)) +
+             "'",
+         module.place);
+  }
+  HeapScope* block_scope = nullptr;
+  if (site.block) {
+    block_scope = block_scopes_.back();
+    block_scopes_.pop_back();
+  }
+  HeapScope* scope;
+  if (site.is_in_unit) {
+    scope = unit_scopes_.back();
+    unit_scopes_.pop_back();
+  } else {
+    scope = HeapScopes::acquire(scope_at(site.scope));
+  }
+  activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
+  auto node = std::make_shared<Node>();
+  node->name = "group";
+  node->modifiers = site.modifiers;
+  node->place = place();
+  nodes_.push_back(std::move(node));
+  const Code& code = compiler_.code_of(module);
+  const uint32_t base = stack_.size() - site.slots;
+  push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));
+  for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.push(Value::unset());
+  module_names_.push_back(compiler_.names().text(module.name));
+  if (parent_modules_ != kNoName)
+    dynamic_.bind(parent_modules_, static_cast<double>(module_names_.size()));
+}
+
+void Machine::return_module() {
+  stack_.drop_to(base_);
+  dynamic_.undo(frames_.back().trail);
+  HeapScopes::release(activations_.back().block_scope);
+  activations_.pop_back();
+  module_names_.pop_back();
+  pop_frame();
+  end_node(false);
+}
+
+void Machine::parameter_literal(Name parameter, Name module) {
+  const Value value = stack_.pop();
+  if (!value.is_set()) return;
+  warn("Module " + std::string(compiler_.names().text(module)) + ": Parameter " +
+           std::string(compiler_.names().text(parameter)) + " is overwritten with a literal",
+       PathBase::kUnit);
+}
+
+}  // namespace language

@@ -1,0 +1,66 @@
+// Used files: each call of one of their functions or modules has their top level evaluated anew, as
+// far as that can be observed (LANGUAGE.md, "Scopes and calls").
+#include <algorithm>
+
+#include "evaluation/machine.hpp"
+
+namespace language {
+
+void Machine::enter_unit(uint32_t unit) {
+  if (reuse_unit(unit)) return;
+  UnitEntry& entry = compiler_.unit(unit);
+  if (frames_.size() >= kDepthLimit) fail("Recursion detected in a used file", place());
+  records_.push_back({unit, dynamic_.trail(), messages_said_ + messages_.warnings()});
+  push_frame(*entry.assignments, stack_.size(), scopes_.make(nullptr, entry.scope->size()),
+             FrameKind::kUnit, kNoActivation);
+}
+
+bool Machine::end_unit() {
+  if (frames_.back().kind == FrameKind::kMainUnit) {
+    pop_frame();
+    return true;
+  }
+  HeapScope* const scope = HeapScopes::acquire(scope_);
+  pop_frame();
+  const UnitRecord record = std::move(records_.back());
+  records_.pop_back();
+  keep_unit(record, scope);
+  unit_scopes_.push_back(scope);
+  return false;
+}
+
+void Machine::keep_unit(const UnitRecord& record, HeapScope* scope) {
+  if (!record.is_pure || record.messages != messages_said_ + messages_.warnings()) {
+    for (UnitRecord& outer : records_) outer.is_pure = false;
+    return;
+  }
+  KeptUnit& kept = kept_units_[record.unit];
+  HeapScopes::release(kept.scope);
+  kept.scope = HeapScopes::acquire(scope);
+  kept.reads = record.reads;
+  kept.bindings.clear();
+  for (const Name name : dynamic_.bound_since(record.trail))
+    kept.bindings.emplace_back(name, dynamic_[name]);
+}
+
+bool Machine::reuse_unit(uint32_t unit) {
+  const KeptUnit& kept = kept_units_[unit];
+  if (!kept.scope) return false;
+  const bool is_same = std::all_of(kept.reads.begin(), kept.reads.end(), [&](const auto& read) {
+    return is_identical(dynamic_[read.first], read.second);
+  });
+  if (!is_same) return false;
+  if (!records_.empty())
+    for (const auto& read : kept.reads) note_read(read.first);
+  for (const auto& [name, value] : kept.bindings) dynamic_.bind(name, value);
+  unit_scopes_.push_back(HeapScopes::acquire(kept.scope));
+  return true;
+}
+
+// Functions whose results differ from call to call.
+void Machine::note_builtin(const BuiltinFunction& function) {
+  if (function.name != "rands" && function.name != "parent_module") return;
+  for (UnitRecord& record : records_) record.is_pure = false;
+}
+
+}  // namespace language

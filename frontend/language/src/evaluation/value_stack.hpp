@@ -1,0 +1,68 @@
+// The machine's stack of values.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "language/value.hpp"
+
+namespace language {
+
+/// A growing block of values. What lies above top() is no object.
+class ValueStack {
+ public:
+  ValueStack() { reserve(kFirstSize); }
+  ValueStack(const ValueStack&) = delete;
+  ValueStack& operator=(const ValueStack&) = delete;
+  ~ValueStack() {
+    drop_to(0);
+    std::free(values_);
+  }
+
+  uint32_t size() const { return static_cast<uint32_t>(top_ - values_); }
+  Value& operator[](uint32_t index) { return values_[index]; }
+  Value& top() { return top_[-1]; }
+  Value& below(uint32_t depth) { return top_[-1 - static_cast<ptrdiff_t>(depth)]; }
+  Value* end() { return top_; }
+
+  // The next two need room that reserve() has made.
+  void push(Value value) { new (top_++) Value(std::move(value)); }
+  void push_copy(const Value& value) { new (top_++) Value(value); }
+  Value pop() {
+    Value value = std::move(*--top_);
+    std::destroy_at(top_);
+    return value;
+  }
+  void drop() { std::destroy_at(--top_); }
+  void drop_to(uint32_t size) {
+    while (top_ > values_ + size) std::destroy_at(--top_);
+  }
+  /// Makes room up to `size` values. They may move.
+  void reserve(uint32_t size) {
+    if (size > capacity_) grow(size);
+  }
+
+ private:
+  static constexpr uint32_t kFirstSize = 1024;
+
+  // Values may be moved as bytes: none refers to its own place.
+  void grow(uint32_t size) {
+    uint32_t capacity = capacity_ ? capacity_ : kFirstSize;
+    while (capacity < size) capacity *= 2;
+    const uint32_t used = values_ ? this->size() : 0;
+    void* block = std::realloc(static_cast<void*>(values_), capacity * sizeof(Value));
+    if (!block) throw std::bad_alloc();
+    values_ = static_cast<Value*>(block);
+    top_ = values_ + used;
+    capacity_ = capacity;
+  }
+
+  Value* values_ = nullptr;
+  Value* top_ = nullptr;
+  uint32_t capacity_ = 0;
+};
+
+}  // namespace language

@@ -1,0 +1,51 @@
+// Variables, scopes and `$` names.
+#include "evaluation/machine.hpp"
+
+namespace language {
+
+HeapScope* Machine::scope_at(uint32_t number) const {
+  HeapScope* scope = scope_;
+  for (; number; --number) scope = scope->parent;
+  return scope;
+}
+
+void Machine::push_dynamic(Name name, bool silently) {
+  const Value& value = dynamic_[name];
+  if (!records_.empty()) note_read(name);
+  if (value.is_set()) return stack_.push_copy(value);
+  if (!silently) {
+    warn("Ignoring unknown variable '" + std::string(compiler_.names().text(name)) + "'",
+         PathBase::kUnit);
+  }
+  stack_.push(Value::undef());
+}
+
+// What a top level reads of `$` names decides whether it can be kept.
+void Machine::note_read(Name name) {
+  for (UnitRecord& record : records_)
+    if (!dynamic_.is_bound_since(name, record.trail))
+      record.reads.emplace_back(name, dynamic_[name]);
+}
+
+void Machine::unknown_variable(Name name) {
+  warn("Ignoring unknown variable '" + std::string(compiler_.names().text(name)) + "'",
+       compiler_.names().is_dynamic(name) ? PathBase::kUnit : PathBase::kMainFile);
+  stack_.push(Value::undef());
+}
+
+void Machine::push_scope(uint32_t size) { scope_ = scopes_.make(scope_, size); }
+
+void Machine::pop_scope() {
+  HeapScope* const scope = scope_;
+  scope_ = HeapScopes::acquire(scope->parent);
+  HeapScopes::leave(scope);
+}
+
+// With the flag, a value that is not set leaves the variable as it is.
+void Machine::store_scoped(const Instruction& step) {
+  Value value = stack_.pop();
+  if (step.flag && !value.is_set()) return;
+  scope_at(step.a)->values()[step.b] = std::move(value);
+}
+
+}  // namespace language

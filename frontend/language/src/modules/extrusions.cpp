@@ -1,0 +1,134 @@
+// linear_extrude and rotate_extrude.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "modules/makers.hpp"
+#include "modules/named_file.hpp"
+#include "modules/node_values.hpp"
+
+namespace language {
+namespace {
+
+/// Reads `origin`; warns if it is given and is no vector of two finite numbers.
+void read_origin(const BuiltinCall& call, const Value& origin, const char* module, double& x,
+                 double& y) {
+  const bool is_good = read_vec2(origin, x, y) && std::isfinite(x) && std::isfinite(y);
+  if (is_given(origin) && !is_good) {
+    warn(call, std::string(module) + "(..., origin=" + shown(origin) + ") could not be converted");
+  }
+}
+
+void note_file(const BuiltinCall& call, const char* module) {
+  deprecate(call, "Support for reading files in " + std::string(module) +
+                      " will be removed in future releases. Use a child import() instead.");
+}
+
+/// The arguments of an extrusion that reads a file itself, up to `origin`.
+NamedFile add_file(const BuiltinCall& call, Node& node, const std::string& name, const Value& layer,
+                   double x, double y) {
+  const NamedFile file = find_named_file(call, name);
+  add_escaped(node, "file", file.path);
+  add_escaped(node, "layer", str_or_nothing(layer));
+  add(node, "origin", numbers({x, y}));
+  return file;
+}
+
+namespace linear {
+enum Parameter : size_t {
+  kFile,
+  kLayer,
+  kHeight,
+  kOrigin,
+  kScale,
+  kCenter,
+  kTwist,
+  kSlices,
+  kConvexity
+};
+
+/// Reads `scale`: negative factors count as 0, and what is no number as 1. A wrong one is told of
+/// only beside an `origin`.
+std::array<double, 2> read_scale(const BuiltinCall& call) {
+  const Value& scale = call.parameters[kScale];
+  std::array<double, 2> factors = {1, 1};
+  double x = 1, y = 1;
+  if (is_finite_number(scale)) {
+    factors.fill(scale.number());
+  } else if (read_vec2(scale, x, y) && std::isfinite(x) && std::isfinite(y)) {
+    factors = {x, y};
+  } else if (is_given(call.parameters[kOrigin])) {
+    warn(call, "linear_extrude(..., scale=" + shown(scale) + ") could not be converted");
+  }
+  for (double& factor : factors) factor = std::max(factor, 0.0);
+  return factors;
+}
+
+double read_height(const BuiltinCall& call) {
+  const Value& given = call.parameters[kHeight];
+  const Value& height = is_given(given) ? given : call.first;
+  constexpr double kDefault = 100;
+  if (!is_finite_number(height)) return kDefault;
+  return height.number() > 0 ? height.number() : 0;
+}
+}  // namespace linear
+
+/// Returns the angle of a rotate_extrude, from -360 to 360 degrees.
+double read_angle(const Value& angle) {
+  if (!is_finite_number(angle)) return 360;
+  return angle.number() <= -360 || angle.number() > 360 ? 360 : angle.number();
+}
+
+}  // namespace
+
+bool wants_height(const BuiltinCall& call) {
+  if (call.parameters[linear::kFile].is_string()) note_file(call, "linear_extrude");
+  return !is_given(call.parameters[linear::kHeight]);
+}
+
+Made make_linear_extrude(const BuiltinCall& call, Node& node) {
+  const auto& given = call.parameters;
+  node.name = "linear_extrude";
+  const std::string name(text_or(given[linear::kFile], ""));
+  if (given[linear::kFile].is_string()) note_file(call, "linear_extrude");
+  double x = 0, y = 0;
+  read_origin(call, given[linear::kOrigin], "linear_extrude", x, y);
+  const std::array<double, 2> scale = linear::read_scale(call);
+  if (!name.empty()) {
+    const NamedFile file = add_file(call, node, name, given[linear::kLayer], x, y);
+    add_integer(node, "timestamp", file.timestamp);
+  }
+  add(node, "height", linear::read_height(call));
+  add_bool(node, "center", is_true_bool(given[linear::kCenter]));
+  add_integer(node, "convexity", std::max(integer_or(given[linear::kConvexity], 0), 1));
+  const Value& twist = given[linear::kTwist];
+  if (is_finite_number(twist) && twist.number() != 0) add(node, "twist", twist);
+  const int slices = integer_or(given[linear::kSlices], 0);
+  if (slices >= 1) add_integer(node, "slices", slices);
+  add(node, "scale", numbers(scale));
+  if (slices < 1) add_fragments(node, fragments_of(call));
+  return name.empty() ? Made::kNode : Made::kLeaf;
+}
+
+Made make_rotate_extrude(const BuiltinCall& call, Node& node) {
+  enum : size_t { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
+  const auto& given = call.parameters;
+  node.name = "rotate_extrude";
+  const std::string name = str_or_nothing(given[kFile]);
+  if (is_given(given[kFile])) note_file(call, "rotate_extrude");
+  double x = 0, y = 0;
+  read_origin(call, given[kOrigin], "rotate_extrude", x, y);
+  if (!name.empty()) {
+    const NamedFile file = add_file(call, node, name, given[kLayer], x, y);
+    const double scale = number_or(given[kScale], 1);
+    add(node, "scale", scale <= 0 ? 1 : scale);
+    add_integer(node, "timestamp", file.timestamp);
+  }
+  const int convexity = integer_or(given[kConvexity], 0);
+  add(node, "angle", read_angle(given[kAngle]));
+  add_integer(node, "convexity", convexity <= 0 ? 2 : convexity);
+  add_fragments(node, fragments_of(call));
+  return name.empty() ? Made::kNode : Made::kLeaf;
+}
+
+}  // namespace language

@@ -1,0 +1,106 @@
+// import() and surface().
+#include <algorithm>
+#include <cmath>
+
+#include "modules/makers.hpp"
+#include "modules/named_file.hpp"
+#include "modules/node_values.hpp"
+
+namespace language {
+namespace {
+
+/// Returns a parameter's text, or that of its older name where only this is given.
+std::string text_of(const BuiltinCall& call, const Value& value, const Value& older,
+                    const char* name, const char* older_name) {
+  if (is_given(value) || !is_given(older)) return str_or_nothing(value);
+  deprecate(call, std::string(older_name) + "= is deprecated. Please use " + name + "=");
+  return str_or_nothing(older);
+}
+
+/// Returns whether a path ends in .svg, in any case.
+bool is_svg(std::string_view path) {
+  constexpr std::string_view kSuffix = ".svg";
+  if (path.size() < kSuffix.size()) return false;
+  const std::string_view suffix = path.substr(path.size() - kSuffix.size());
+  return std::equal(suffix.begin(), suffix.end(), kSuffix.begin(), [](char c, char wanted) {
+    return (c >= 'A' && c <= 'Z' ? c | 0x20 : c) == wanted;
+  });
+}
+
+/// Returns the path of the call's file, as messages show it.
+std::string file_of(const BuiltinCall& call) {
+  constexpr std::string_view kBefore = " in file ", kAfter = ", line ";
+  const std::string suffix =
+      call.environment.messages.place_suffix(call.place, PathBase::kMainFile);
+  return suffix.substr(kBefore.size(), suffix.rfind(kAfter) - kBefore.size());
+}
+
+/// Reads `dpi`. The message for a wrong one is OpenSCAD's: it names the origin for the default, and
+/// the file for the line.
+double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) {
+  constexpr double kDefault = 72, kLeast = 0.001;
+  const double value = number_or(dpi, kDefault);
+  if (!(value < kLeast)) return value;
+  const std::string file = file_of(call);
+  call.environment.messages.say(MessageGroup::kWarning,
+                                "Invalid dpi value giving, using default of " + shown(origin) +
+                                    " dpi. Value must be positive and >= 0.001, file " + file +
+                                    ", import() at line " + file);
+  return kDefault;
+}
+
+}  // namespace
+
+Made make_import(const BuiltinCall& call, Node& node) {
+  enum : size_t {
+    kFile,
+    kLayer,
+    kConvexity,
+    kOrigin,
+    kScale,
+    kWidth,
+    kHeight,
+    kFilename,
+    kLayername,
+    kCenter,
+    kDpi
+  };
+  const auto& given = call.parameters;
+  node.name = "import";
+  const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
+  const NamedFile file = find_named_file(call, name);
+  const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
+  double x = 0, y = 0;
+  const bool is_origin = read_vec2(given[kOrigin], x, y) && std::isfinite(x) && std::isfinite(y);
+  if (is_given(given[kOrigin]) && !is_origin) {
+    warn(call, "linear_extrude(..., origin=" + shown(given[kOrigin]) + ") could not be converted");
+  }
+  const double scale = number_or(given[kScale], 0);
+  const double dpi = read_dpi(call, given[kDpi], given[kOrigin]);
+  add_escaped(node, "file", file.path);
+  add_escaped(node, "layer", layer);
+  add(node, "origin", numbers({x, y}));
+  if (is_svg(file.path)) {
+    add_bool(node, "center", is_true_bool(given[kCenter]));
+    add(node, "dpi", dpi);
+  }
+  add(node, "scale", scale <= 0 ? 1 : scale);
+  add_integer(node, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
+  add_fragments(node, fragments_of(call));
+  add_integer(node, "timestamp", file.timestamp);
+  return Made::kNode;
+}
+
+Made make_surface(const BuiltinCall& call, Node& node) {
+  enum : size_t { kFile, kCenter, kConvexity, kInvert };
+  const auto& given = call.parameters;
+  node.name = "surface";
+  const NamedFile file = find_named_file(call, str_or_nothing(given[kFile]));
+  add_escaped(node, "file", file.path);
+  add_bool(node, "center", is_true_bool(given[kCenter]));
+  add_bool(node, "invert", is_true_bool(given[kInvert]));
+  add_integer(node, "timestamp", file.timestamp);
+  return Made::kNode;
+}
+
+}  // namespace language

@@ -1,0 +1,126 @@
+#include "modules/node_values.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "values/make.hpp"
+#include "values/value_text.hpp"
+
+namespace language {
+
+double number_or(const Value& value, double otherwise) {
+  return value.is_number() ? value.number() : otherwise;
+}
+
+int integer_or(const Value& value, int otherwise) {
+  if (!value.is_number()) return otherwise;
+  constexpr double kBeyond = 2147483648.0;  // 2^31
+  const double number = value.number();
+  const bool fits = number > -kBeyond - 1 && number < kBeyond;  // false for nan
+  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
+}
+
+std::string_view text_or(const Value& value, std::string_view otherwise) {
+  return value.is_string() ? value.text() : otherwise;
+}
+
+std::string str_or_nothing(const Value& value) {
+  std::string text;
+  if (is_given(value)) append_str_text(text, value);
+  return text;
+}
+
+bool is_true_bool(const Value& value) { return value.is_bool() && value.boolean(); }
+
+bool is_finite_number(const Value& value) {
+  return value.is_number() && std::isfinite(value.number());
+}
+
+bool read_vec2(const Value& value, double& x, double& y) {
+  if (!value.is_vector()) return false;
+  const std::span<const Value> elements = value.elements();
+  if (elements.size() != 2 || !elements[0].is_number() || !elements[1].is_number()) return false;
+  x = elements[0].number();
+  y = elements[1].number();
+  return true;
+}
+
+bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler) {
+  if (!value.is_vector()) return false;
+  const std::span<const Value> elements = value.elements();
+  if (elements.size() == 2) {
+    read_vec2(value, xyz[0], xyz[1]);
+    xyz[2] = filler;
+    return true;
+  }
+  if (elements.size() != 3) return false;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!elements[i].is_number()) return false;
+    xyz[i] = elements[i].number();
+  }
+  return true;
+}
+
+std::string shown(const Value& value) { return value.is_set() ? echo_text(value) : "undef"; }
+
+void warn(const BuiltinCall& call, std::string text) {
+  call.environment.messages.warn(std::move(text), call.place);
+}
+
+void deprecate(const BuiltinCall& call, std::string text) {
+  call.environment.messages.say(MessageGroup::kDeprecated, std::move(text));
+}
+
+Fragments fragments_of(const BuiltinCall& call) {
+  return {number_or(call.fragments_number, 0), number_or(call.fragments_angle, 0),
+          number_or(call.fragments_size, 0)};
+}
+
+Fragments clamped_fragments(const BuiltinCall& call) {
+  constexpr double kLeast = 0.01;
+  Fragments fragments = fragments_of(call);
+  const auto clamp = [&](double& setting, const char* name) {
+    if (!(setting < kLeast)) return;
+    warn(call, std::string(name) + " too small - clamping to 0.010000");
+    setting = kLeast;
+  };
+  clamp(fragments.size, "$fs");
+  clamp(fragments.angle, "$fa");
+  return fragments;
+}
+
+Value numbers(std::span<const double> list) {
+  Value vector = make_vector(list.size());
+  for (const double number : list) append_element(vector, number);
+  return vector;
+}
+
+void add(Node& node, std::string_view name, Value value, ArgumentStyle style) {
+  node.arguments.push_back({name, std::move(value), style});
+}
+
+void add_bool(Node& node, std::string_view name, bool value) {
+  add(node, name, Value::boolean(value));
+}
+
+void add_integer(Node& node, std::string_view name, int64_t value) {
+  add(node, name, static_cast<double>(value), ArgumentStyle::kInteger);
+}
+
+void add_raw(Node& node, std::string_view name, std::string_view text) {
+  add(node, name, make_string(text), ArgumentStyle::kRawString);
+}
+
+void add_escaped(Node& node, std::string_view name, std::string_view text) {
+  add(node, name, make_string(text), ArgumentStyle::kEscapedString);
+}
+
+void add_fragments(Node& node, const Fragments& fragments) {
+  add(node, "$fn", fragments.number);
+  add(node, "$fa", fragments.angle);
+  add(node, "$fs", fragments.size);
+}
+
+}  // namespace language

@@ -1,0 +1,66 @@
+// What the makers of nodes share: reading parameters, adding arguments, warning.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "modules/builtin_call.hpp"
+
+namespace language {
+
+/// Returns whether a parameter is given and is not undef.
+inline bool is_given(const Value& value) { return value.is_set() && !value.is_undef(); }
+
+/// Returns the number, or `otherwise` if the value is none.
+double number_or(const Value& value, double otherwise);
+/// Returns the number as C casts it to int, which yields the least int for all that does not fit;
+/// `otherwise` if the value is none.
+int integer_or(const Value& value, int otherwise);
+/// Returns the string, or `otherwise` if the value is none.
+std::string_view text_or(const Value& value, std::string_view otherwise);
+/// Returns the text of a value as str() makes it; nothing of one that is not given.
+std::string str_or_nothing(const Value& value);
+/// Returns whether the value is the boolean true.
+bool is_true_bool(const Value& value);
+/// Returns whether the value is a number, neither inf nor nan.
+bool is_finite_number(const Value& value);
+
+/// Reads a vector of two numbers. Returns false, and leaves x and y, if the value is none.
+bool read_vec2(const Value& value, double& x, double& y);
+/// Reads a vector of three numbers, or of two with `filler` as the third. Returns false if the
+/// value is neither; the numbers before the first wrong one are set then. Every vector of two
+/// elements counts as converted: if one of them is no number, only z is set.
+bool read_vec3(const Value& value, std::array<double, 3>& xyz, double filler);
+
+/// Returns a text with the value as echo() shows it: undef if it is not set.
+std::string shown(const Value& value);
+void warn(const BuiltinCall& call, std::string text);
+/// Says what is deprecated, without a place.
+void deprecate(const BuiltinCall& call, std::string text);
+
+/// $fn, $fa, $fs as numbers; what is no number is 0.
+struct Fragments {
+  double number, angle, size;
+};
+Fragments fragments_of(const BuiltinCall& call);
+/// The same as primitives take them: $fs and $fa are at least 0.01, with a warning for less.
+Fragments clamped_fragments(const BuiltinCall& call);
+
+/// Returns a vector value of numbers.
+Value numbers(std::span<const double> numbers);
+inline Value numbers(std::initializer_list<double> list) {
+  return numbers(std::span<const double>(list.begin(), list.size()));
+}
+
+void add(Node& node, std::string_view name, Value value,
+         ArgumentStyle style = ArgumentStyle::kGeneral);
+void add_bool(Node& node, std::string_view name, bool value);
+void add_integer(Node& node, std::string_view name, int64_t value);
+void add_raw(Node& node, std::string_view name, std::string_view text);
+void add_escaped(Node& node, std::string_view name, std::string_view text);
+void add_fragments(Node& node, const Fragments& fragments);
+
+}  // namespace language

@@ -1,0 +1,85 @@
+// projection, offset, hull, minkowski, render, resize.
+#include <algorithm>
+#include <array>
+
+#include "modules/makers.hpp"
+#include "modules/node_values.hpp"
+
+namespace language {
+namespace {
+
+/// The convexity of the nodes that write it without a sign.
+int64_t unsigned_convexity(const Value& value) {
+  return static_cast<uint32_t>(integer_or(value, 0));
+}
+
+/// Reads resize()'s `auto`: 0 or 1 for each axis.
+std::array<double, 3> read_auto(const Value& value) {
+  std::array<double, 3> is_auto = {0, 0, 0};
+  if (is_true_bool(value)) is_auto.fill(1);
+  if (value.is_vector()) {
+    const std::span<const Value> elements = value.elements();
+    for (size_t i = 0; i < std::min<size_t>(elements.size(), 3); ++i) {
+      is_auto[i] = elements[i].is_true() ? 1 : 0;
+    }
+  }
+  return is_auto;
+}
+
+}  // namespace
+
+Made make_projection(const BuiltinCall& call, Node& node) {
+  node.name = "projection";
+  add_bool(node, "cut", is_true_bool(call.parameters[0]));
+  add_integer(node, "convexity", integer_or(call.parameters[1], 0));
+  return Made::kNode;
+}
+
+Made make_offset(const BuiltinCall& call, Node& node) {
+  const Value& r = call.parameters[0];
+  const Value& delta = call.parameters[1];
+  node.name = "offset";
+  if (delta.is_number() && !r.is_number()) {
+    add(node, "delta", delta);
+    add_bool(node, "chamfer", is_true_bool(call.parameters[2]));
+  } else {
+    add(node, "r", number_or(r, 1));
+  }
+  add_fragments(node, fragments_of(call));
+  return Made::kNode;
+}
+
+Made make_hull(const BuiltinCall&, Node& node) {
+  node.name = "hull";
+  return Made::kNode;
+}
+
+Made make_minkowski(const BuiltinCall& call, Node& node) {
+  node.name = "minkowski";
+  add_integer(node, "convexity", unsigned_convexity(call.parameters[0]));
+  return Made::kNode;
+}
+
+Made make_render(const BuiltinCall& call, Node& node) {
+  node.name = "render";
+  add_integer(node, "convexity", integer_or(call.parameters[0], 1));
+  return Made::kNode;
+}
+
+Made make_resize(const BuiltinCall& call, Node& node) {
+  const Value& new_size = call.parameters[0];
+  node.name = "resize";
+  std::array<double, 3> sizes = {0, 0, 0};
+  if (new_size.is_vector()) {
+    const std::span<const Value> elements = new_size.elements();
+    for (size_t i = 0; i < std::min<size_t>(elements.size(), 3); ++i) {
+      sizes[i] = number_or(elements[i], 0);
+    }
+  }
+  add(node, "newsize", numbers(sizes), ArgumentStyle::kGeneralTight);
+  add(node, "auto", numbers(read_auto(call.parameters[1])), ArgumentStyle::kGeneralTight);
+  add_integer(node, "convexity", unsigned_convexity(call.parameters[2]));
+  return Made::kNode;
+}
+
+}  // namespace language

@@ -1,0 +1,187 @@
+#include "modules/scripts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "base/utf8.hpp"
+
+namespace language {
+namespace {
+
+struct ScriptRange {
+  uint32_t first, last;  // code points, both ends belong
+  std::string_view script;
+};
+
+// The property Script of Unicode 15, without Common and Inherited, in order. Code points that are
+// not assigned may lie within a range.
+constexpr ScriptRange kRanges[] = {
+    {0x41, 0x5a, "Latn"},       {0x61, 0x7a, "Latn"},       {0xaa, 0xaa, "Latn"},
+    {0xba, 0xba, "Latn"},       {0xc0, 0xd6, "Latn"},       {0xd8, 0xf6, "Latn"},
+    {0xf8, 0x2b8, "Latn"},      {0x2e0, 0x2e4, "Latn"},     {0x2ea, 0x2eb, "Bopo"},
+    {0x370, 0x373, "Grek"},     {0x375, 0x37d, "Grek"},     {0x37f, 0x384, "Grek"},
+    {0x386, 0x386, "Grek"},     {0x388, 0x3e1, "Grek"},     {0x3e2, 0x3ef, "Copt"},
+    {0x3f0, 0x3ff, "Grek"},     {0x400, 0x484, "Cyrl"},     {0x487, 0x52f, "Cyrl"},
+    {0x531, 0x58f, "Armn"},     {0x591, 0x5f4, "Hebr"},     {0x600, 0x604, "Arab"},
+    {0x606, 0x60b, "Arab"},     {0x60d, 0x61a, "Arab"},     {0x61c, 0x61e, "Arab"},
+    {0x620, 0x63f, "Arab"},     {0x641, 0x64a, "Arab"},     {0x656, 0x66f, "Arab"},
+    {0x671, 0x6dc, "Arab"},     {0x6de, 0x6ff, "Arab"},     {0x700, 0x74f, "Syrc"},
+    {0x750, 0x77f, "Arab"},     {0x780, 0x7b1, "Thaa"},     {0x7c0, 0x7ff, "Nkoo"},
+    {0x800, 0x83e, "Samr"},     {0x840, 0x85e, "Mand"},     {0x860, 0x86a, "Syrc"},
+    {0x870, 0x8e1, "Arab"},     {0x8e3, 0x8ff, "Arab"},     {0x900, 0x950, "Deva"},
+    {0x955, 0x963, "Deva"},     {0x966, 0x97f, "Deva"},     {0x980, 0x9fe, "Beng"},
+    {0xa01, 0xa76, "Guru"},     {0xa81, 0xaff, "Gujr"},     {0xb01, 0xb77, "Orya"},
+    {0xb82, 0xbfa, "Taml"},     {0xc00, 0xc7f, "Telu"},     {0xc80, 0xcf3, "Knda"},
+    {0xd00, 0xd7f, "Mlym"},     {0xd81, 0xdf4, "Sinh"},     {0xe01, 0xe3a, "Thai"},
+    {0xe40, 0xe5b, "Thai"},     {0xe81, 0xedf, "Laoo"},     {0xf00, 0xfd4, "Tibt"},
+    {0xfd9, 0xfda, "Tibt"},     {0x1000, 0x109f, "Mymr"},   {0x10a0, 0x10fa, "Geor"},
+    {0x10fc, 0x10ff, "Geor"},   {0x1100, 0x11ff, "Hang"},   {0x1200, 0x1399, "Ethi"},
+    {0x13a0, 0x13fd, "Cher"},   {0x1400, 0x167f, "Cans"},   {0x1680, 0x169c, "Ogam"},
+    {0x16a0, 0x16ea, "Runr"},   {0x16ee, 0x16f8, "Runr"},   {0x1700, 0x171f, "Tglg"},
+    {0x1720, 0x1734, "Hano"},   {0x1740, 0x1753, "Buhd"},   {0x1760, 0x1773, "Tagb"},
+    {0x1780, 0x17f9, "Khmr"},   {0x1800, 0x1801, "Mong"},   {0x1804, 0x1804, "Mong"},
+    {0x1806, 0x18aa, "Mong"},   {0x18b0, 0x18f5, "Cans"},   {0x1900, 0x194f, "Limb"},
+    {0x1950, 0x1974, "Tale"},   {0x1980, 0x19df, "Talu"},   {0x19e0, 0x19ff, "Khmr"},
+    {0x1a00, 0x1a1f, "Bugi"},   {0x1a20, 0x1aad, "Lana"},   {0x1b00, 0x1b7e, "Bali"},
+    {0x1b80, 0x1bbf, "Sund"},   {0x1bc0, 0x1bff, "Batk"},   {0x1c00, 0x1c4f, "Lepc"},
+    {0x1c50, 0x1c7f, "Olck"},   {0x1c80, 0x1c88, "Cyrl"},   {0x1c90, 0x1cbf, "Geor"},
+    {0x1cc0, 0x1cc7, "Sund"},   {0x1d00, 0x1d25, "Latn"},   {0x1d26, 0x1d2a, "Grek"},
+    {0x1d2b, 0x1d2b, "Cyrl"},   {0x1d2c, 0x1d5c, "Latn"},   {0x1d5d, 0x1d61, "Grek"},
+    {0x1d62, 0x1d65, "Latn"},   {0x1d66, 0x1d6a, "Grek"},   {0x1d6b, 0x1d77, "Latn"},
+    {0x1d78, 0x1d78, "Cyrl"},   {0x1d79, 0x1dbe, "Latn"},   {0x1dbf, 0x1dbf, "Grek"},
+    {0x1e00, 0x1eff, "Latn"},   {0x1f00, 0x1ffe, "Grek"},   {0x2071, 0x2071, "Latn"},
+    {0x207f, 0x207f, "Latn"},   {0x2090, 0x209c, "Latn"},   {0x2126, 0x2126, "Grek"},
+    {0x212a, 0x212b, "Latn"},   {0x2132, 0x2132, "Latn"},   {0x214e, 0x214e, "Latn"},
+    {0x2160, 0x2188, "Latn"},   {0x2800, 0x28ff, "Brai"},   {0x2c00, 0x2c5f, "Glag"},
+    {0x2c60, 0x2c7f, "Latn"},   {0x2c80, 0x2cff, "Copt"},   {0x2d00, 0x2d2d, "Geor"},
+    {0x2d30, 0x2d7f, "Tfng"},   {0x2d80, 0x2dde, "Ethi"},   {0x2de0, 0x2dff, "Cyrl"},
+    {0x2e80, 0x2fd5, "Hani"},   {0x3005, 0x3005, "Hani"},   {0x3007, 0x3007, "Hani"},
+    {0x3021, 0x3029, "Hani"},   {0x302e, 0x302f, "Hang"},   {0x3038, 0x303b, "Hani"},
+    {0x3041, 0x3096, "Hira"},   {0x309d, 0x309f, "Hira"},   {0x30a1, 0x30fa, "Kana"},
+    {0x30fd, 0x30ff, "Kana"},   {0x3105, 0x312f, "Bopo"},   {0x3131, 0x318e, "Hang"},
+    {0x31a0, 0x31bf, "Bopo"},   {0x31f0, 0x31ff, "Kana"},   {0x3200, 0x321e, "Hang"},
+    {0x3260, 0x327e, "Hang"},   {0x32d0, 0x32fe, "Kana"},   {0x3300, 0x3357, "Kana"},
+    {0x3400, 0x4dbf, "Hani"},   {0x4e00, 0x9fff, "Hani"},   {0xa000, 0xa4c6, "Yiii"},
+    {0xa4d0, 0xa4ff, "Lisu"},   {0xa500, 0xa62b, "Vaii"},   {0xa640, 0xa69f, "Cyrl"},
+    {0xa6a0, 0xa6f7, "Bamu"},   {0xa722, 0xa787, "Latn"},   {0xa78b, 0xa7ff, "Latn"},
+    {0xa800, 0xa82c, "Sylo"},   {0xa840, 0xa877, "Phag"},   {0xa880, 0xa8d9, "Saur"},
+    {0xa8e0, 0xa8ff, "Deva"},   {0xa900, 0xa92d, "Kali"},   {0xa92f, 0xa92f, "Kali"},
+    {0xa930, 0xa95f, "Rjng"},   {0xa960, 0xa97c, "Hang"},   {0xa980, 0xa9cd, "Java"},
+    {0xa9d0, 0xa9df, "Java"},   {0xa9e0, 0xa9fe, "Mymr"},   {0xaa00, 0xaa5f, "Cham"},
+    {0xaa60, 0xaa7f, "Mymr"},   {0xaa80, 0xaadf, "Tavt"},   {0xaae0, 0xaaf6, "Mtei"},
+    {0xab01, 0xab2e, "Ethi"},   {0xab30, 0xab5a, "Latn"},   {0xab5c, 0xab64, "Latn"},
+    {0xab65, 0xab65, "Grek"},   {0xab66, 0xab69, "Latn"},   {0xab70, 0xabbf, "Cher"},
+    {0xabc0, 0xabf9, "Mtei"},   {0xac00, 0xd7fb, "Hang"},   {0xf900, 0xfad9, "Hani"},
+    {0xfb00, 0xfb06, "Latn"},   {0xfb13, 0xfb17, "Armn"},   {0xfb1d, 0xfb4f, "Hebr"},
+    {0xfb50, 0xfd3d, "Arab"},   {0xfd40, 0xfdff, "Arab"},   {0xfe2e, 0xfe2f, "Cyrl"},
+    {0xfe70, 0xfefc, "Arab"},   {0xff21, 0xff3a, "Latn"},   {0xff41, 0xff5a, "Latn"},
+    {0xff66, 0xff6f, "Kana"},   {0xff71, 0xff9d, "Kana"},   {0xffa0, 0xffdc, "Hang"},
+    {0x10000, 0x100fa, "Linb"}, {0x10140, 0x1018e, "Grek"}, {0x101a0, 0x101a0, "Grek"},
+    {0x10280, 0x1029c, "Lyci"}, {0x102a0, 0x102d0, "Cari"}, {0x10300, 0x1032f, "Ital"},
+    {0x10330, 0x1034a, "Goth"}, {0x10350, 0x1037a, "Perm"}, {0x10380, 0x1039f, "Ugar"},
+    {0x103a0, 0x103d5, "Xpeo"}, {0x10400, 0x1044f, "Dsrt"}, {0x10450, 0x1047f, "Shaw"},
+    {0x10480, 0x104a9, "Osma"}, {0x104b0, 0x104fb, "Osge"}, {0x10500, 0x10527, "Elba"},
+    {0x10530, 0x1056f, "Aghb"}, {0x10570, 0x105bc, "Vith"}, {0x10600, 0x10767, "Lina"},
+    {0x10780, 0x107ba, "Latn"}, {0x10800, 0x1083f, "Cprt"}, {0x10840, 0x1085f, "Armi"},
+    {0x10860, 0x1087f, "Palm"}, {0x10880, 0x108af, "Nbat"}, {0x108e0, 0x108ff, "Hatr"},
+    {0x10900, 0x1091f, "Phnx"}, {0x10920, 0x1093f, "Lydi"}, {0x10980, 0x1099f, "Mero"},
+    {0x109a0, 0x109ff, "Merc"}, {0x10a00, 0x10a58, "Khar"}, {0x10a60, 0x10a7f, "Sarb"},
+    {0x10a80, 0x10a9f, "Narb"}, {0x10ac0, 0x10af6, "Mani"}, {0x10b00, 0x10b3f, "Avst"},
+    {0x10b40, 0x10b5f, "Prti"}, {0x10b60, 0x10b7f, "Phli"}, {0x10b80, 0x10baf, "Phlp"},
+    {0x10c00, 0x10c48, "Orkh"}, {0x10c80, 0x10cff, "Hung"}, {0x10d00, 0x10d39, "Rohg"},
+    {0x10e60, 0x10e7e, "Arab"}, {0x10e80, 0x10eb1, "Yezi"}, {0x10efd, 0x10eff, "Arab"},
+    {0x10f00, 0x10f27, "Sogo"}, {0x10f30, 0x10f59, "Sogd"}, {0x10f70, 0x10f89, "Ougr"},
+    {0x10fb0, 0x10fcb, "Chrs"}, {0x10fe0, 0x10ff6, "Elym"}, {0x11000, 0x1107f, "Brah"},
+    {0x11080, 0x110cd, "Kthi"}, {0x110d0, 0x110f9, "Sora"}, {0x11100, 0x11147, "Cakm"},
+    {0x11150, 0x11176, "Mahj"}, {0x11180, 0x111df, "Shrd"}, {0x111e1, 0x111f4, "Sinh"},
+    {0x11200, 0x11241, "Khoj"}, {0x11280, 0x112a9, "Mult"}, {0x112b0, 0x112f9, "Sind"},
+    {0x11300, 0x11339, "Gran"}, {0x1133c, 0x11374, "Gran"}, {0x11400, 0x11461, "Newa"},
+    {0x11480, 0x114d9, "Tirh"}, {0x11580, 0x115dd, "Sidd"}, {0x11600, 0x11659, "Modi"},
+    {0x11660, 0x1166c, "Mong"}, {0x11680, 0x116c9, "Takr"}, {0x11700, 0x11746, "Ahom"},
+    {0x11800, 0x1183b, "Dogr"}, {0x118a0, 0x118ff, "Wara"}, {0x11900, 0x11959, "Diak"},
+    {0x119a0, 0x119e4, "Nand"}, {0x11a00, 0x11a47, "Zanb"}, {0x11a50, 0x11aa2, "Soyo"},
+    {0x11ab0, 0x11abf, "Cans"}, {0x11ac0, 0x11af8, "Pauc"}, {0x11b00, 0x11b09, "Deva"},
+    {0x11c00, 0x11c6c, "Bhks"}, {0x11c70, 0x11cb6, "Marc"}, {0x11d00, 0x11d59, "Gonm"},
+    {0x11d60, 0x11da9, "Gong"}, {0x11ee0, 0x11ef8, "Maka"}, {0x11f00, 0x11f59, "Kawi"},
+    {0x11fb0, 0x11fb0, "Lisu"}, {0x11fc0, 0x11fff, "Taml"}, {0x12000, 0x12543, "Xsux"},
+    {0x12f90, 0x12ff2, "Cpmn"}, {0x13000, 0x13455, "Egyp"}, {0x14400, 0x14646, "Hluw"},
+    {0x16800, 0x16a38, "Bamu"}, {0x16a40, 0x16a6f, "Mroo"}, {0x16a70, 0x16ac9, "Tnsa"},
+    {0x16ad0, 0x16af5, "Bass"}, {0x16b00, 0x16b8f, "Hmng"}, {0x16e40, 0x16e9a, "Medf"},
+    {0x16f00, 0x16f9f, "Plrd"}, {0x16fe0, 0x16fe0, "Tang"}, {0x16fe1, 0x16fe1, "Nshu"},
+    {0x16fe2, 0x16fe3, "Hani"}, {0x16fe4, 0x16fe4, "Kits"}, {0x16ff0, 0x16ff1, "Hani"},
+    {0x17000, 0x18aff, "Tang"}, {0x18b00, 0x18cd5, "Kits"}, {0x18d00, 0x18d08, "Tang"},
+    {0x1aff0, 0x1b000, "Kana"}, {0x1b001, 0x1b11f, "Hira"}, {0x1b120, 0x1b122, "Kana"},
+    {0x1b132, 0x1b152, "Hira"}, {0x1b155, 0x1b167, "Kana"}, {0x1b170, 0x1b2fb, "Nshu"},
+    {0x1bc00, 0x1bc9f, "Dupl"}, {0x1d200, 0x1d245, "Grek"}, {0x1d800, 0x1daaf, "Sgnw"},
+    {0x1df00, 0x1df2a, "Latn"}, {0x1e000, 0x1e02a, "Glag"}, {0x1e030, 0x1e08f, "Cyrl"},
+    {0x1e100, 0x1e14f, "Hmnp"}, {0x1e290, 0x1e2ae, "Toto"}, {0x1e2c0, 0x1e2ff, "Wcho"},
+    {0x1e4d0, 0x1e4f9, "Nagm"}, {0x1e7e0, 0x1e7fe, "Ethi"}, {0x1e800, 0x1e8d6, "Mend"},
+    {0x1e900, 0x1e95f, "Adlm"}, {0x1ee00, 0x1eef1, "Arab"}, {0x1f200, 0x1f200, "Hira"},
+    {0x20000, 0x323af, "Hani"},
+};
+
+constexpr std::string_view kRightToLeft[] = {
+    "Adlm", "Arab", "Armi", "Avst", "Chrs", "Cprt", "Elym", "Hatr", "Hebr", "Khar", "Lydi", "Mand",
+    "Mani", "Mend", "Merc", "Mero", "Narb", "Nbat", "Nkoo", "Orkh", "Ougr", "Palm", "Phli", "Phlp",
+    "Phnx", "Prti", "Rohg", "Samr", "Sarb", "Sogd", "Sogo", "Syrc", "Thaa", "Yezi"};
+constexpr std::string_view kBothWays[] = {"Hung", "Ital", "Runr"};
+
+// Codes of variants, and older codes, with the script that they are variants of.
+constexpr std::pair<std::string_view, std::string_view> kVariants[] = {
+    {"Aran", "Arab"}, {"Cyrs", "Cyrl"}, {"Geok", "Geor"}, {"Hans", "Hani"}, {"Hant", "Hani"},
+    {"Jamo", "Hang"}, {"Latf", "Latn"}, {"Latg", "Latn"}, {"Qaac", "Copt"}, {"Qaai", "Zinh"},
+    {"Syre", "Syrc"}, {"Syrj", "Syrc"}, {"Syrn", "Syrc"},
+};
+
+/// Returns the script of a code point; empty for one of none.
+std::string_view script_at(uint32_t code_point) {
+  const auto found = std::upper_bound(
+      std::begin(kRanges), std::end(kRanges), code_point,
+      [](uint32_t wanted, const ScriptRange& range) { return wanted < range.first; });
+  if (found == std::begin(kRanges)) return {};
+  const ScriptRange& range = *std::prev(found);
+  return code_point <= range.last ? range.script : std::string_view();
+}
+
+}  // namespace
+
+std::string_view script_of(std::string_view text) {
+  std::string_view found;
+  while (!text.empty()) {
+    const size_t length = code_point_length(text);
+    const std::string_view bytes = text.substr(0, length);
+    text.remove_prefix(length);
+    if (!is_valid_utf8(bytes)) continue;
+    const std::string_view script = script_at(first_code_point(bytes));
+    if (script.empty() || script == found) continue;
+    if (!found.empty()) return {};
+    found = script;
+  }
+  return found;
+}
+
+std::string script_code(std::string_view name) {
+  constexpr size_t kLetters = 4;
+  std::string code(name.substr(0, kLetters));
+  if (code.size() < kLetters) return {};
+  for (size_t i = 0; i < kLetters; ++i) {
+    // Any byte that differs from a letter in its case bit alone is taken, as HarfBuzz does.
+    const auto byte = static_cast<unsigned char>(code[i] & 0xDF);
+    if ((byte & 0xE0) != 0x40) return {};
+    code[i] = static_cast<char>(i == 0 ? byte : byte | 0x20);
+  }
+  const auto variant = std::find_if(std::begin(kVariants), std::end(kVariants),
+                                    [&](const auto& entry) { return entry.first == code; });
+  if (variant != std::end(kVariants)) code = variant->second;
+  return code == "Zyyy" || code == "Zinh" || code == "Zzzz" ? std::string() : code;
+}
+
+std::string_view direction_of_script(std::string_view code) {
+  if (std::ranges::find(kRightToLeft, code) != std::end(kRightToLeft)) return "rtl";
+  return std::ranges::find(kBothWays, code) != std::end(kBothWays) ? "invalid" : "ltr";
+}
+
+}  // namespace language

@@ -1,0 +1,53 @@
+// text().
+#include <string>
+
+#include "modules/makers.hpp"
+#include "modules/node_values.hpp"
+#include "modules/scripts.hpp"
+
+namespace language {
+namespace {
+
+/// Returns the direction that a name's first letter means; empty for none.
+std::string_view direction_named(std::string_view name) {
+  switch (name.empty() ? '\0' : name.front() | 0x20) {
+    case 'l':
+      return "ltr";
+    case 'r':
+      return "rtl";
+    case 't':
+      return "ttb";
+    case 'b':
+      return "btt";
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Made make_text(const BuiltinCall& call, Node& node) {
+  enum : size_t { kText, kSize, kFont, kDirection, kLanguage, kScript, kHalign, kValign, kSpacing };
+  const auto& given = call.parameters;
+  const std::string_view text = text_or(given[kText], "");
+  const std::string_view script_name = text_or(given[kScript], "");
+  const std::string code =
+      script_name.empty() ? std::string(script_of(text)) : script_code(script_name);
+  const std::string_view script = code.empty() ? script_name : code;
+  std::string_view direction = direction_named(text_or(given[kDirection], ""));
+  if (direction.empty()) direction = direction_of_script(code);
+  node.name = "text";
+  add_raw(node, "text", text);
+  add(node, "size", number_or(given[kSize], 10));
+  add(node, "spacing", number_or(given[kSpacing], 1));
+  add_raw(node, "font", text_or(given[kFont], ""));
+  add_raw(node, "direction", direction);
+  add_raw(node, "language", text_or(given[kLanguage], "en"));
+  if (!script.empty()) add_raw(node, "script", script);
+  add_raw(node, "halign", text_or(given[kHalign], "left"));
+  add_raw(node, "valign", text_or(given[kValign], "baseline"));
+  add_fragments(node, fragments_of(call));
+  return Made::kNode;
+}
+
+}  // namespace language

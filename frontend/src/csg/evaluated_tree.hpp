@@ -1,0 +1,18 @@
+// The syntax tree of a design that frontend/language has evaluated.
+#pragma once
+
+#include <string>
+
+#include "frontend/syntax_tree.hpp"
+#include "language/node.hpp"
+#include "language/source_files.hpp"
+
+namespace frontend {
+
+/// Returns the tree that a .csg of the same design would have, with all digits of its numbers, and
+/// with places in the design's own files. `name` is what messages call the main file, the first of
+/// `files`. Values that no node takes, ranges and functions, become undef. Needs no recursion.
+SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& files,
+                   std::string name);
+
+}  // namespace frontend
