@@ -161,6 +161,7 @@ class DesignFollower::Follower {
     options.import = options_.import;
     options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
+    options.evaluator = options_.evaluator;
     return options;
   }
 
