@@ -112,14 +112,13 @@ TEST(ImporterOperations, AMillionLevelsDeep) {
 // --- What cannot be drawn -------------------------------------------------------------------
 
 TEST(ImporterUnsupported, IsLeftOutWithAWarningForEachKind) {
-  const ImportedDesign design = import_text(
-      "sphere();\nroof() { square(1); }\n import(\"a.nef3\");\nroof() { square(1); }");
+  const ImportedDesign design =
+      import_text("sphere();\nroof() { square(1); }\n import(\"a.nef3\");\nroof() { square(1); }");
   EXPECT_EQ(shape_of(design.scene.model, design.scene.primitives), "0");
   ASSERT_THAT(design.warnings, SizeIs(2));
   EXPECT_EQ(design.warnings[0].text,
             "a.csg:2:1: warning: roof is left out; the first of 2 (it cannot be drawn)");
-  EXPECT_EQ(design.warnings[1].text,
-            "a.csg:3:2: warning: import is left out (it cannot be drawn)");
+  EXPECT_EQ(design.warnings[1].text, "a.csg:3:2: warning: import is left out (it cannot be drawn)");
   EXPECT_STREQ(Error(design.warnings[1]).what(),
                "a.csg:3:2: error: import is left out (it cannot be drawn)");
 }
