@@ -49,6 +49,7 @@ std::string default_picture(const std::string& input) {
 frontend::FollowOptions follow_options(const frontend::Options& options) {
   frontend::FollowOptions result;
   result.openscad_arguments = options.openscad_arguments;
+  result.evaluator = options.evaluator;
   result.import = options.import;
   result.import.keeps_places = true;
   result.import.keeps_meshes = true;  // edges may be switched on at any time
@@ -167,7 +168,7 @@ void Application::take_version(frontend::DesignVersion version) {
   if (version.design) {
     if (state_.design != version.design) state_.points.clear();
     state_.design = version.design;
-    csg_ = version.csg;
+    texts_ = version.texts;
     if (!has_camera_ && !state_.bounds().empty()) {
       state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
                                      state_.navigation.projection());
@@ -340,7 +341,7 @@ void Application::probe(double x_px, double y_px, bool centers) {
   probe.order = wanted_picture();
   probe.x_px = x_px;
   probe.y_px = y_px;
-  probe.csg = csg_;
+  probe.texts = texts_;
   if (centers) centering_ = probe.number;
   painter_.probe(std::move(probe));
 }

@@ -70,9 +70,9 @@ class Application final : private WindowEvents {
   Painter painter_;
   frontend::DesignFollower follower_;
 
-  std::shared_ptr<const frontend::FileText> csg_;  // text of the design that is shown
-  PaintOrder ordered_;                             // the last order
-  uint64_t centering_ = 0;  // number of the probe at whose finding the camera will look
+  frontend::DesignTexts texts_;  // of the design that is shown
+  PaintOrder ordered_;           // the last order
+  uint64_t centering_ = 0;       // number of the probe at whose finding the camera will look
   uint64_t probes_ = 0;
   bool is_moving_ = false;   // the mouse has moved the camera since the last order
   bool has_camera_ = false;  // the command line or the first design has chosen the camera

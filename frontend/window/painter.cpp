@@ -30,14 +30,15 @@ constexpr double kLeastShare = 1.0 / 6;
 constexpr double kWholeShare = 0.85;
 
 /// Returns "line 12: sphere(…)" of the primitive at that place.
-std::string line_of(std::string_view csg, const frontend::PrimitivePlace& place) {
+std::string line_of(const frontend::DesignTexts& texts, const frontend::PrimitivePlace& place) {
+  const std::string_view csg = texts.text(place.file);
   std::size_t start = csg.rfind('\n', place.offset) + 1;  // npos + 1 = 0 on the first line
   start = csg.find_first_not_of(" \t", start);
   std::string text = "line " + std::to_string(place.line) + ": " +
                      std::string(csg.substr(
                          start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
   if (place.leaf_line == 0) return text;
-  const std::string_view leaf = csg.substr(place.leaf_offset);
+  const std::string_view leaf = texts.text(place.leaf_file).substr(place.leaf_offset);
   return text + " in " + std::string(leaf.substr(0, leaf.find('('))) + "() of line " +
          std::to_string(place.leaf_line);
 }
@@ -212,7 +213,7 @@ Finding Painter::find(const Probe& probe) {
     finding.id = scene_->primitives[hits.primitive[0]].id;
     finding.line = finding.id == kSectionId
                        ? "section plane"
-                       : line_of(probe.csg->view(), probe.order.design->places.at(finding.id));
+                       : line_of(probe.texts, probe.order.design->places.at(finding.id));
   } catch (const std::exception&) {
     // There is no picture either in this case, and its error is shown.
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "csgcore/image.hpp"
+#include "frontend/design_version.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/overlays.hpp"
@@ -50,7 +51,7 @@ struct Probe {
   PaintOrder order;
   double x_px = 0;
   double y_px = 0;
-  std::shared_ptr<const frontend::FileText> csg;  // the text for the places in the design
+  frontend::DesignTexts texts;  // for the places in the design
 };
 
 /// The point that is seen at a probe's place.

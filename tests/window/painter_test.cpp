@@ -317,7 +317,7 @@ class ProbeTest : public PainterTest {
     probe.order.navigation = {{Vec3(0), Vec3(0), 100}, Projection::kOrthographic};
     probe.x_px = x_px;
     probe.y_px = y_px;
-    probe.csg = std::make_shared<frontend::FileText>(
+    probe.texts.csg = std::make_shared<frontend::FileText>(
         frontend::read_file(folder_.write("probed.csg", text)));
     return probe;
   }
@@ -371,7 +371,7 @@ TEST_F(ProbeTest, NoClickParsesTheDesign) {
   Painter& painter = this->painter();
   Probe probe = probe_of("\n" + window_test::kBall, 80, 60);
   // The text continues as no .csg does: only the primitive's own line may be read.
-  probe.csg = std::make_shared<frontend::FileText>(
+  probe.texts.csg = std::make_shared<frontend::FileText>(
       frontend::read_file(folder_.write("broken.csg", "\n" + window_test::kBall + "}} (")));
   painter.probe(probe);
   EXPECT_EQ(next_finding().line, "line 2: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");

@@ -20,6 +20,13 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// The camera that a .scad sets by its own $vpt, $vpr and $vpd.
+struct DesignCamera {
+  std::optional<csgcore::Vec3> target{};
+  std::optional<csgcore::Vec3> rotation_deg{};
+  std::optional<double> distance{};
+};
+
 /// The largest width and height of a picture; larger ones are refused. GL drivers commonly have no
 /// larger textures and viewports (GL_MAX_TEXTURE_SIZE of llvmpipe and of most hardware).
 constexpr uint32_t kMaxPictureSide_px = 16384;
@@ -33,6 +40,9 @@ struct CameraOptions {
   uint32_t width_px = 512;  // 1…kMaxPictureSide_px
   uint32_t height_px = 512;
 };
+
+/// Returns the options with the design's camera, unless they have one.
+CameraOptions with_camera_of(const DesignCamera& design, CameraOptions options);
 
 /// Returns the camera of `--camera`: 7 numbers (target, rotation, distance) or 6 (eye, target).
 /// Throws Error for any other count.

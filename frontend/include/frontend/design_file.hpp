@@ -3,24 +3,32 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "frontend/camera.hpp"
+#include "frontend/evaluator.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 
+namespace language {
+struct Evaluation;
+}
+
 namespace frontend {
 
-/// The text of a design, ready to be parsed.
+/// A design, ready to be parsed or, where it is evaluated already, to be imported.
 struct DesignText {
   FileText csg;
-  std::string name;                // for the parser's messages
-  bool is_exported = false;        // openscad made it from a .scad
+  std::shared_ptr<const language::Evaluation> evaluation{};  // in place of a text, if not null
+  std::string name;                                          // for the parser's messages
+  bool is_exported = false;        // it was made from a .scad, by scadray or openscad
   std::vector<std::string> files;  // files it was read from, the design last; empty unless wanted
                                    // and known
-  double export_ms = 0;            // time that openscad took for a .scad
+  double export_ms = 0;            // time that the evaluation of a .scad took
   double read_ms = 0;
 };
 
@@ -28,18 +36,20 @@ struct DesignFile {
   std::string name{};                // as messages show it
   std::size_t file_bytes = 0;        // size of the .csg text that was parsed
   TextImport import;                 // import_design() finishes it
-  bool is_exported = false;          // openscad made it from a .scad
+  DesignCamera camera{};             // that the design asks for
+  bool is_exported = false;          // it was made from a .scad, by scadray or openscad
   std::vector<std::string> files{};  // files it was read from, the design last; empty unless wanted
-  double export_ms = 0;              // time that openscad took for a .scad
+  double export_ms = 0;              // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
 };
 
 struct DesignFileOptions {
   ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
+  Evaluator evaluator = kDefaultEvaluator;
   bool wants_files = false;
-  /// Called with each line that openscad prints.
+  /// Called with each line that the evaluation prints.
   std::function<void(const std::string& line)> message;
   /// Called with the name of the current stage; during a .scad's export, many times.
   std::function<void(const char* stage)> progress;
@@ -71,6 +81,14 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 /// .scad. Throws Error, also if `files` are wanted and openscad does not name them, and if memory
 /// runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
+
+/// Starts the import of what was read. Throws what TextImport throws.
+TextImport start_import(const DesignText& text, const ImportOptions& options,
+                        const std::stop_token& stop = {});
+/// The same of the parts of a DesignText; the text of `csg` counts if `evaluation` is null.
+TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const ImportOptions& options,
+                        const std::stop_token& stop = {});
 
 /// Finishes `file.import`; may be called once. Throws what TextImport throws, and Error if memory
 /// runs out.

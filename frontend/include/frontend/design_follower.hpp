@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "frontend/design_version.hpp"
+#include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
 
 namespace frontend {
 
 struct FollowOptions {
-  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
+  Evaluator evaluator = kDefaultEvaluator;
   ImportOptions import;
   /// Look at the files at intervals only, as if the system could not watch them. By default only
   /// those are looked at that the system cannot watch: missing files, and files on file systems

@@ -6,12 +6,27 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frontend/file_text.hpp"
 #include "frontend/imported_design.hpp"
 
+namespace language {
+struct Evaluation;
+}
+
 namespace frontend {
+
+/// The texts that the places of a design's primitives are in: of a .csg, or of the files of an
+/// evaluated .scad.
+struct DesignTexts {
+  std::shared_ptr<const FileText> csg;
+  std::shared_ptr<const language::Evaluation> evaluation;  // counts where it is not null
+
+  /// Returns the text of a file, as PrimitivePlace::file counts them.
+  std::string_view text(uint32_t file) const;
+};
 
 /// One reading of a design: at the start, or after a save.
 struct DesignVersion {
@@ -28,9 +43,9 @@ struct DesignVersion {
   /// The .csg is byte for byte that of the last version that could be read, and `design` is that
   /// version's pointer. The messages may differ.
   bool unchanged = false;
-  std::shared_ptr<const FileText> csg;  // the text that `design` was made from
-  std::size_t nodes = 0;                // of the .csg; those of the last version if it is unchanged
-  double export_ms = 0;                 // time that openscad took for a .scad
+  DesignTexts texts;      // that `design` was made from
+  std::size_t nodes = 0;  // of the .csg; those of the last version if it is unchanged
+  double export_ms = 0;   // time that openscad took for a .scad
   double read_ms = 0;
   double parse_ms = 0;
   double import_ms = 0;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "frontend/rendering_options.hpp"
 
 namespace frontend {
+
+class HullPool;
 
 /// Which round primitives become the polyhedra that OpenSCAD makes of them (frontend/OPENSCAD.md,
 /// "Facets"); the others are exact quadrics.
@@ -55,6 +58,9 @@ struct ImportOptions {
   RenderingOptions rendering{};
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
+  /// The hulls of solids of the design's last version, of which those that are the same are not
+  /// made anew. Null: the design has no version before.
+  std::shared_ptr<HullPool> hulls{};
 };
 
 }  // namespace frontend

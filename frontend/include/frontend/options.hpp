@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
+#include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/overlays.hpp"
@@ -19,22 +20,35 @@ struct Output {
   PictureFormat format;
 };
 
+/// What `openscad -o` writes of a design as text.
+enum class TextKind : uint8_t {
+  kCsg,   // its tree
+  kEcho,  // the messages of its evaluation
+};
+
+struct TextOutput {
+  std::string path;  // "-": standard output
+  TextKind kind;
+};
+
 /// The action that a command line asks for.
 enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kVersion, kInfo };
 
 /// The whole command line, checked: every value is in its documented range.
 struct Options {
   Action action = Action::kDraw;
-  std::string input;            // "-": a .csg from standard input
-  std::vector<Output> outputs;  // kDraw: at least one, at most one of them "-"
-  std::string stats_path;       // empty: none; "-": standard output
-  std::string rule_path;        // the rule for make that lists the outputs' sources; empty: none
+  std::string input;              // "-": a .csg from standard input
+  std::vector<Output> outputs;    // kDraw: these or `texts` are at least one; one of all may be "-"
+  std::vector<TextOutput> texts;  // written before the pictures
+  Evaluator evaluator = kDefaultEvaluator;
+  std::string stats_path;  // empty: none; "-": standard output
+  std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given
   Overlays overlays;
   ImportOptions import;
   RenderSettings render;
-  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
   std::vector<std::string> warnings;            // ignored options, without the word "warning"
   uint32_t frames = 0;  // frames of an animation, each in files of its own; 0: a single picture
   bool quiet = false;

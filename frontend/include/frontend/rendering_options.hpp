@@ -20,6 +20,8 @@ struct RenderingOptions {
   /// Otherwise only what was rendered before is taken, and the rest is left for later
   /// (ImportedDesign::lines_to_render).
   bool waits = true;
+  /// openscad gets the time that nothing else on the machine wants.
+  bool is_in_background = false;
   /// Called about ten times a second while openscad runs; may be empty.
   std::function<void(const RenderingProgress&)> progress{};
 };

@@ -6,7 +6,8 @@
 
 namespace frontend {
 
-/// The exit codes of frontend/OPTIONS.md. Only `scadray validate` has kDisagreement.
+/// The exit codes of frontend/OPTIONS.md. Only `scadray validate` and `scadray check` have
+/// kDisagreement.
 enum class ExitCode : int { kDone = 0, kFailure = 1, kDisagreement = 2 };
 
 /// Runs a program, flushes its output, and reports any exception on stderr; nothing is thrown.

@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "base/elapsed.hpp"
+#include "command/check.hpp"
+#include "command/text_outputs.hpp"
 #include "csgcore/workers.hpp"
 #include "follow/make_rule.hpp"
 #include "frontend/channel_picture.hpp"
@@ -106,8 +108,9 @@ class Run {
     if (frame_ == 0 || is_exported_) {
       design_ = import();
     }
-    const Camera camera = choose_camera(options_.camera, design_.view_box);
-    const csgcore::View view = make_view(camera, options_.camera);
+    const CameraOptions camera_options = with_camera_of(design_camera_, options_.camera);
+    const Camera camera = choose_camera(camera_options, design_.view_box);
+    const csgcore::View view = make_view(camera, camera_options);
     if (!design_.flat_outlines.empty()) {
       color_flat_figure(design_.scene, view, options_.render.scheme);
     }
@@ -179,6 +182,7 @@ class Run {
                     -1);
     };
     reading.openscad_arguments = options_.openscad_arguments;
+    reading.evaluator = options_.evaluator;
     if (options_.frames > 0) {
       reading.openscad_arguments.insert(reading.openscad_arguments.end(),
                                         {"-D", time_assignment(frame_, options_.frames)});
@@ -203,6 +207,7 @@ class Run {
     stats_.parse_ms = file.parse_ms;
     stats_.nodes = file.import.nodes();
     is_exported_ = file.is_exported;
+    design_camera_ = file.camera;
     show_progress("importing", -1);
     const Clock::time_point import_start = Clock::now();
     ImportedDesign design = import_design(file);
@@ -317,6 +322,7 @@ class Run {
   Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
   ImportedDesign design_;
+  DesignCamera design_camera_;
   bool is_exported_ = false;           // set anew for every frame
   std::vector<std::string> files_;     // files that the design was read from, for all frames
   std::vector<std::string> imported_;  // those that its nodes name, whether or not all are wanted
@@ -327,10 +333,14 @@ class Run {
 
 void print_info() {
   std::printf("scadray %s\npictures: PNG (ISA-L), EXR (OpenEXR)\nrenderers: %s\n.scad by: %s\n",
-              SCADRAY_VERSION, SCADRAY_RENDERERS, "openscad on PATH, or $OPENSCAD");
+              SCADRAY_VERSION, SCADRAY_RENDERERS,
+              "scadray itself, or openscad (on PATH, or $OPENSCAD)");
 }
 
-void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+  if (!arguments.empty() && arguments[0] == "check") {
+    return check_designs({arguments.begin() + 1, arguments.end()});
+  }
   if (!arguments.empty() && arguments[0] == "bench") {
     run_subcommand(arguments[0], {arguments.begin() + 1, arguments.end()},
                    "install scadray as a whole: its programs belong into one folder");
@@ -357,18 +367,17 @@ void run(const std::vector<std::string>& arguments, const Renderer& renderer) {
                      "SCADRAY_WINDOW=ON where GLFW and Dear ImGui are installed (libglfw3-dev, "
                      "libimgui-dev)");
     case Action::kDraw:
-      Run(options, renderer).execute();
+      if (const ExitCode code = write_texts(options); code != ExitCode::kDone) return code;
+      if (!options.outputs.empty()) Run(options, renderer).execute();
       break;
   }
+  return ExitCode::kDone;
 }
 
 }  // namespace
 
 ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
-  const auto program = [&] {
-    run(arguments, renderer);
-    return ExitCode::kDone;
-  };
+  const auto program = [&] { return run(arguments, renderer); };
   return run_program(program, "a smaller --imgsize or design");
 }
 

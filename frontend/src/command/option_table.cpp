@@ -12,17 +12,26 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
+std::vector<std::string> format_names() {
+  std::vector<std::string> names = names_of<kFormats>();
+  for (const auto& word : kTextKinds) names.emplace_back(word.first);
+  return names;
+}
+
 constexpr Completion kAnyScheme{Completion::Kind::kWord, scheme_names};
 constexpr Completion kViewList{Completion::Kind::kWordList, names_of<kViews>};
 
 // Where OpenSCAD has a long name of one letter for a short option, so have we.
 constexpr OptionRow kOpenScadOptions[] = {
     {"o,o", Takes::kTexts, "OUT",
-     "picture to write: .png or .exr; - is standard output, with --export-format; may be given "
-     "more than once",
+     "picture to write: .png or .exr; or the evaluated design's tree (.csg) or messages (.echo); - "
+     "is standard output, with --export-format; may be given more than once",
      kAnyFile},
-    {"export-format", Takes::kText, "FORMAT", "png or exr, whatever OUT's suffix is",
-     kOneOf<kFormats>},
+    {"export-format",
+     Takes::kText,
+     "FORMAT",
+     "png, exr, csg or echo, whatever OUT's suffix is",
+     {Completion::Kind::kWord, format_names}},
     {"imgsize", Takes::kText, "W,H", "size of the picture in pixels; default 512,512"},
     {"camera", Takes::kText, "NUMBERS",
      "translation x,y,z, rotation x,y,z in degrees, distance; or eye x,y,z, centre x,y,z; default: "
@@ -78,6 +87,9 @@ constexpr OptionRow kOwnOptions[] = {
      "a cell is a leaf once at most K primitives' surfaces cross it; default 8"},
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
+    {"evaluator", Takes::kText, "WHO",
+     "what evaluates a .scad: own (scadray itself) or openscad; default openscad",
+     kOneOf<kEvaluators>},
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",

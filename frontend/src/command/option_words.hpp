@@ -8,7 +8,9 @@
 
 #include "command/option_row.hpp"
 #include "csgcore/view.hpp"
+#include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
+#include "frontend/options.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
@@ -20,6 +22,10 @@ using Word = std::pair<const char*, Value>;
 
 constexpr Word<PictureFormat> kFormats[] = {{"png", PictureFormat::kPng},
                                             {"exr", PictureFormat::kExr}};
+/// Formats of texts, beside those of pictures.
+constexpr Word<TextKind> kTextKinds[] = {{"csg", TextKind::kCsg}, {"echo", TextKind::kEcho}};
+constexpr Word<Evaluator> kEvaluators[] = {{"own", Evaluator::kOwn},
+                                           {"openscad", Evaluator::kOpenScad}};
 constexpr Word<csgcore::Projection> kProjections[] = {
     {"o", csgcore::Projection::kOrthographic},
     {"ortho", csgcore::Projection::kOrthographic},

@@ -145,43 +145,55 @@ void read_view(const Arguments& arguments, Options& options) {
 
 }  // namespace
 
-PictureFormat picture_format(const std::string& path) {
+namespace {
+
+/// Returns a path's suffix in lower case, without the dot; empty if it has none.
+std::string suffix_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   const std::size_t slash = path.rfind('/');
   const bool has_suffix = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const PictureFormat* format =
-      has_suffix ? find_word(kFormats, lower_case(path.substr(dot + 1))) : nullptr;
+  return has_suffix ? lower_case(path.substr(dot + 1)) : std::string();
+}
+
+}  // namespace
+
+PictureFormat picture_format(const std::string& path) {
+  const PictureFormat* format = find_word(kFormats, suffix_of(path));
   if (!format) {
-    throw Error(
-        path, {}, "is no picture",
-        "end it in .png or .exr, or give --export-format=png or exr; whatever else a design "
-        "is exported to, openscad writes");
+    throw Error(path, {}, "is no picture",
+                "end it in .png or .exr (or in .csg or .echo, for the evaluated design), or give "
+                "--export-format; whatever else a design is exported to, openscad writes");
   }
   return *format;
 }
 
 namespace {
 
-Output make_output(const std::string& path, const PictureFormat* given) {
-  return {path, given ? *given : picture_format(path)};
+/// Adds an output in the given format, or else in that of its suffix.
+void add_output(const std::string& path, const std::string& given, Options& options) {
+  const std::string word = given.empty() ? suffix_of(path) : given;
+  if (const TextKind* kind = find_word(kTextKinds, word)) {
+    options.texts.push_back({path, *kind});
+  } else {
+    const PictureFormat* format = find_word(kFormats, word);
+    options.outputs.push_back({path, format ? *format : picture_format(path)});
+  }
 }
 
 void read_outputs(const Arguments& arguments, Options& options) {
-  const PictureFormat* given = nullptr;
-  if (arguments.has("export-format")) {
-    const std::string& value = arguments.text("export-format");
-    given = find_word(kFormats, lower_case(value));
-    if (!given) bad_value("export-format", value, "scadray writes png and exr; the rest openscad");
+  const std::string given = lower_case(arguments.text_or_empty("export-format"));
+  if (!given.empty() && !find_word(kFormats, given) && !find_word(kTextKinds, given)) {
+    bad_value("export-format", arguments.text("export-format"),
+              "scadray writes png, exr, csg and echo; the rest openscad");
   }
   arguments.for_each([&](const std::string& option, const std::string& value) {
-    if (option == "o" || option == "s" || option == "x") {
-      options.outputs.push_back(make_output(value, given));
-    }
+    if (option == "o" || option == "s" || option == "x") add_output(value, given, options);
   });
   if (arguments.has("stats")) options.stats_path = arguments.text("stats");
   if (arguments.has("d")) options.rule_path = arguments.text("d");
-  const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(),
-                                       [](const Output& output) { return output.path == "-"; });
+  const auto is_stdout = [](const auto& output) { return output.path == "-"; };
+  const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(), is_stdout) +
+                         std::count_if(options.texts.begin(), options.texts.end(), is_stdout);
   if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
@@ -238,7 +250,7 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   if (const std::string list = given(kNeverUsed); !list.empty()) {
     options.warnings.push_back("without effect in this version: " + list);
   }
-  if (options.outputs.empty()) {
+  if (options.action == Action::kOpenWindow) {
     constexpr const char* kForPictures[] = {"d", "animate", "export-format"};
     if (const std::string list = given(kForPictures); !list.empty()) {
       options.warnings.push_back("without effect in a window, which needs no -o: " + list);
@@ -305,14 +317,11 @@ Options parse_options(const std::vector<std::string>& words) {
   read_render(arguments, options.render);
   read_view(arguments, options);
   read_outputs(arguments, options);
-  if (options.outputs.empty()) options.action = Action::kOpenWindow;
+  if (options.outputs.empty() && options.texts.empty()) options.action = Action::kOpenWindow;
   leave_out_crosshairs(options);
   settle_edges(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
-  if (options.import.picture == PictureKind::kRendered) {
-    // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
-    options.openscad_arguments.insert(options.openscad_arguments.begin(), {"-D", "$preview=false"});
-  }
+  options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
   options.has_hard_warnings = arguments.has("hardwarnings");
   warn_of_what_is_ignored(arguments, options);
   return options;
@@ -324,9 +333,10 @@ std::string help_text() {
       "       scadray -o OUT [options] FILE\n"
       "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
+      "       scadray check [options] FILE...    (scadray check --help)\n"
       "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
       ".csg from standard input. `bench` measures how long that takes, `validate` compares\n"
-      "it with exact arithmetic",
+      "it with exact arithmetic, `check` compares evaluations with openscad's",
       kHelpColumns);
   all.add(openscad_table()).add(own_table());
   std::ostringstream text;

@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "base/elapsed.hpp"
+#include "csg/evaluated_tree.hpp"
+#include "follow/evaluated_design.hpp"
 #include "follow/included_files.hpp"
 #include "frontend/error.hpp"
 #include "frontend/openscad_export.hpp"
@@ -31,13 +33,13 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
 TextImport parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
   try {
-    return TextImport(text.csg.view(), text.name, beside(path, text, options.import));
+    return start_import(text, beside(path, text, options.import));
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
   }
   export_design_text(path, options, text);
   options.progress("parsing");
-  return TextImport(text.csg.view(), text.name, beside(path, text, options.import));
+  return start_import(text, beside(path, text, options.import));
 }
 
 DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
@@ -57,6 +59,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   design.export_ms = text.export_ms;
   design.read_ms = text.read_ms;
   design.file_bytes = text.csg.view().size();
+  if (text.evaluation) design.camera = camera_of(*text.evaluation);
   return design;
 }
 
@@ -82,7 +85,11 @@ bool may_be_scad(const std::string& path) {
 
 ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options) {
   options.folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
-  if (text.is_exported) options.font_files = [path] { return IncludedFiles().fonts_of(path); };
+  if (text.evaluation) {
+    options.font_files = [fonts = fonts_of(*text.evaluation)] { return fonts; };
+  } else if (text.is_exported) {
+    options.font_files = [path] { return IncludedFiles().fonts_of(path); };
+  }
   return options;
 }
 
@@ -115,11 +122,26 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 void export_design_text(const std::string& path, const DesignFileOptions& options, DesignText& text,
                         const std::stop_token& stop) {
   text.is_exported = true;
+  const Clock::time_point start = Clock::now();
+  if (options.evaluator == Evaluator::kOwn) {
+    options.progress("evaluating");
+    text.evaluation = evaluate_design(path, options, stop);
+    text.name = path;
+    text.export_ms = ms_since(start);
+    if (text.evaluation) {
+      text.files = files_of(*text.evaluation, path);
+      return;
+    }
+  }
   // Places in the exported text must not look like places in the .scad.
   text.name = path + " (its .csg)";
-  const Clock::time_point start = Clock::now();
+  std::vector<std::string> arguments = options.openscad_arguments;
+  if (options.import.picture == PictureKind::kRendered) {
+    // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
+    arguments.insert(arguments.begin(), {"-D", "$preview=false"});
+  }
   OpenScadExport result = export_with_openscad(
-      path, options.openscad_arguments, options.wants_files, options.message,
+      path, arguments, options.wants_files, options.message,
       [&options] { options.progress("openscad"); }, stop);
   text.csg = std::move(result.csg);
   text.files = std::move(result.files);
@@ -145,6 +167,18 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
 
 DesignFile read_design(const std::string& path, const DesignFileOptions& options) {
   return within_memory(path, [&] { return read_and_parse(path, options); });
+}
+
+TextImport start_import(const DesignText& text, const ImportOptions& options,
+                        const std::stop_token& stop) {
+  return start_import(text.csg, text.evaluation.get(), text.name, options, stop);
+}
+
+TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const ImportOptions& options,
+                        const std::stop_token& stop) {
+  if (evaluation == nullptr) return TextImport(csg.view(), name, options, stop);
+  return TextImport(tree_of(*evaluation->root, *evaluation->files, name), options, stop);
 }
 
 ImportedDesign import_design(DesignFile& file) {

@@ -18,6 +18,7 @@
 #include "follow/included_files.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/stop.hpp"
+#include "lower/hull_pool.hpp"
 
 namespace frontend {
 namespace {
@@ -158,7 +159,9 @@ class DesignFollower::Follower {
   DesignFileOptions file_options() const {
     DesignFileOptions options;
     options.import = options_.import;
+    options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
+    options.evaluator = options_.evaluator;
     return options;
   }
 
@@ -228,7 +231,9 @@ class DesignFollower::Follower {
   // Used by the watching thread alone.
   FileWatch watch_;
   IncludedFiles included_;
-  std::vector<std::string> files_;    // watched files, by their names
+  std::vector<std::string> files_;  // watched files, by their names
+  /// Of the last version that was read to its end.
+  const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
   std::vector<std::string> imports_;  // files imported by the last version that could be read
   GoodVersion good_;
   bool is_scad_ = is_scad(path_);

@@ -9,6 +9,7 @@
 #include "base/elapsed.hpp"
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
+#include "language/evaluation.hpp"
 
 namespace frontend {
 namespace {
@@ -25,17 +26,23 @@ std::function<void(const std::string&)> keeping_messages(DesignVersion& version)
   };
 }
 
+/// Returns whether the design is, byte for byte or node for node, that of a version.
+bool is_same(const DesignTexts& before, const DesignText& now) {
+  if ((before.evaluation == nullptr) != (now.evaluation == nullptr)) return false;
+  if (!now.evaluation) return before.csg->view() == now.csg.view();
+  return language::are_same(*before.evaluation->root, *now.evaluation->root);
+}
+
 /// Returns nothing if the text is that of the version before, and neither names files nor has text,
 /// whose fonts may have changed.
 std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions& options,
                                      DesignReading& reading, const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
-                              before->lines_to_render.empty() &&
-                              reading.good.csg->view() == text.csg.view();
+                              before->lines_to_render.empty() && is_same(reading.good.texts, text);
   if (reading.version.unchanged) return std::nullopt;
   const Clock::time_point start = Clock::now();
-  TextImport import(text.csg.view(), text.name, options, stop);
+  TextImport import = start_import(text, options, stop);
   reading.version.parse_ms = ms_since(start);
   return import;
 }
@@ -45,8 +52,8 @@ GoodVersion finish_import(TextImport& import, DesignText& text, DesignVersion& v
   const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
   version.import_ms = ms_since(start) - design->rendering_ms;
-  return {std::make_shared<const FileText>(std::move(text.csg)), std::move(design), import.nodes(),
-          text.name, text.is_exported};
+  DesignTexts texts{std::make_shared<const FileText>(std::move(text.csg)), text.evaluation};
+  return {std::move(texts), std::move(design), import.nodes(), text.name, text.is_exported};
 }
 
 void read_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
@@ -75,7 +82,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   version.files = std::move(text.files);
   version.design = reading.good.design;
   add_imported_files(*version.design, version.files);
-  version.csg = reading.good.csg;
+  version.texts = reading.good.texts;
   version.nodes = reading.good.nodes;
   for (const Warning& warning : version.design->warnings) {
     version.messages.push_back(warning.text);
@@ -103,8 +110,11 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   version.messages.resize(version.messages.size() - version.design->warnings.size());
   DesignText text;
   text.is_exported = reading.good.is_exported;
-  TextImport import(reading.good.csg->view(), reading.good.text_name,
-                    beside(path, text, options.import), stop);
+  ImportOptions import_options = beside(path, text, options.import);
+  import_options.rendering.is_in_background = true;
+  const GoodVersion& good = reading.good;
+  TextImport import = start_import(*good.texts.csg, good.texts.evaluation.get(), good.text_name,
+                                   import_options, stop);
   reading.good.design = std::make_shared<const ImportedDesign>(import.finish(stop));
   version.design = reading.good.design;
   version.unchanged = false;
@@ -114,6 +124,11 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
 }
 
 }  // namespace
+
+std::string_view DesignTexts::text(uint32_t file) const {
+  if (!evaluation) return csg->view();
+  return file < evaluation->files->size() ? (*evaluation->files)[file].text : std::string_view();
+}
 
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop) {

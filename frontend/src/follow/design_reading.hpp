@@ -12,7 +12,7 @@ namespace frontend {
 
 /// The last version that could be read; null, empty and 0 before there is one.
 struct GoodVersion {
-  std::shared_ptr<const FileText> csg;
+  DesignTexts texts;
   std::shared_ptr<const ImportedDesign> design;
   std::size_t nodes = 0;
   std::string text_name;     // of the text, for messages
@@ -28,8 +28,9 @@ struct DesignReading {
 };
 
 /// Reads the design. What openscad has to render of it, and has not rendered before, is missing
-/// (ImportedDesign::lines_to_render). Of `options` only `import` and `openscad_arguments` are used.
-/// Every failure is reported in version.error; only Stopped (stop.hpp) is thrown.
+/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator` and
+/// `openscad_arguments` are used. Every failure is reported in version.error; only Stopped
+/// (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
 

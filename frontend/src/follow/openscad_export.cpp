@@ -18,6 +18,7 @@
 #include "base/descriptor.hpp"
 #include "base/growing_text.hpp"
 #include "follow/make_rule.hpp"
+#include "follow/openscad_messages.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/parser.hpp"
@@ -41,71 +42,6 @@ Error cannot_run(const std::string& program, int error_number) {
                "check $OPENSCAD and PATH");
 }
 
-/// An ERROR after which OpenSCAD goes on: another font stands in.
-constexpr std::string_view kMissingFont = "ERROR: Can't read font with path";
-
-/// Collects openscad's messages line by line. The first ERROR is kept, to be thrown.
-class Messages {
- public:
-  explicit Messages(const std::function<void(const std::string&)>& message) : message_(message) {}
-  void add(std::string_view text) {
-    pending_ += text;
-    std::size_t start = 0;
-    for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos;
-         start = end + 1) {
-      line(pending_.substr(start, end - start));
-    }
-    pending_.erase(0, start);
-    if (pending_.size() > kLongestLine) finish();
-  }
-  void finish() {
-    if (!pending_.empty()) line(pending_);
-    pending_.clear();
-  }
-  const std::optional<std::string>& first_error() const { return first_error_; }
-
- private:
-  /// A longer line is shown in pieces, so that it is shown even if it never ends.
-  static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
-
-  void line(const std::string& text) {
-    if (text.empty()) return;
-    if (text.starts_with("ERROR: ") && !text.starts_with(kMissingFont) && !first_error_) {
-      first_error_ = text.substr(std::strlen("ERROR: "));
-    } else {
-      message_(text);
-    }
-  }
-  const std::function<void(const std::string&)>& message_;
-  std::string pending_;
-  std::optional<std::string> first_error_;
-};
-
-/// Returns whether openscad means `scad_path` by `name`: it shortens a path to the file's name, or
-/// makes it relative to the working folder.
-bool is_same_file(const std::string& name, const std::string& scad_path) {
-  const std::filesystem::path path(scad_path);
-  std::error_code missing;
-  return name == path.filename() || std::filesystem::equivalent(name, path, missing);
-}
-
-/// Turns "what in file NAME, line N" into an Error with that place.
-Error openscad_error(const std::string& scad_path, const std::string& text) {
-  constexpr const char* kTodo = "correct the design; this is what openscad reports";
-  constexpr std::string_view kFile = " in file ", kLine = ", line ";
-  const std::size_t file_at = text.rfind(kFile);
-  const std::size_t line_at = text.rfind(kLine);
-  if (file_at == std::string::npos || line_at == std::string::npos || line_at < file_at) {
-    return Error(scad_path, {}, text, kTodo);
-  }
-  std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
-  if (is_same_file(file, scad_path)) file = scad_path;
-  Location location;
-  const char* digits = text.data() + line_at + kLine.size();
-  std::from_chars(digits, text.data() + text.size(), location.line);
-  return Error(file, location, text.substr(0, file_at), kTodo);
-}
-
 /// OpenSCAD 2021.01 prints on standard output, before the .csg, the characters of a .scad that no
 /// token has: backslashes outside of strings, as in MCAD's fonts.scad. Makes them blanks; returns
 /// whether the text holds nothing else.
@@ -121,8 +57,8 @@ bool blank_echoes(std::span<char> text) {
 /// Reads what the running openscad writes and prints.
 class Listener {
  public:
-  Listener(const ChildProcess& openscad, const Pipe& out, const Pipe& err, Messages& messages,
-           const std::string& scad_path)
+  Listener(const ChildProcess& openscad, const Pipe& out, const Pipe& err,
+           OpenScadMessages& messages, const std::string& scad_path)
       : openscad_(openscad),
         pipes_{out.read_end(), err.read_end()},
         messages_(messages),
@@ -199,7 +135,7 @@ class Listener {
 
   const ChildProcess& openscad_;
   std::array<int, 2> pipes_;  // standard output and standard error; -1: at its end
-  Messages& messages_;
+  OpenScadMessages& messages_;
   const std::string& scad_path_;
   GrowingText csg_{0};
   bool is_start_ = true;  // nothing of the .csg was read yet
@@ -241,7 +177,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
       start({command, out.write_end(), err.write_end(), rule ? rule->descriptor() : -1});
   out.close_write_end();
   err.close_write_end();
-  Messages messages(message);
+  OpenScadMessages messages(message);
   Listener listener(openscad, out, err, messages, scad_path);
   listener.listen(waiting, stop_descriptor, stop);
   throw_if_stopped(stop);

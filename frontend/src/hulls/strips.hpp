@@ -22,8 +22,8 @@ namespace frontend {
 /// is thinner than 2^-49.
 constexpr double kLeastStrip = 0x1p-23;
 
-/// Pairs that are looked at, and planes that are compared with a third body: so many take a third of
-/// a second.
+/// Pairs that are looked at, and planes that are compared with a third body: so many take a third
+/// of a second.
 constexpr uint64_t kMostStripSteps = uint64_t{1} << 22;
 
 /// Looks for the strips of bodies in classes.

@@ -96,12 +96,13 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 }  // namespace
 
 Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text)
-    : polyhedra(options.keeps_meshes),
+    : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra),
       fonts(options.font_files),
       tree_(tree),
       options_(options),
-      text_(text) {
+      text_(text),
+      hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -279,10 +280,10 @@ void Collector::leave_leaf(uint32_t node) {
   contexts_.push_back(context);
 }
 
-/// The node as a primitive under the matrices around it, without colour and id. False: it is the
-/// empty set, or left out.
+/// The node as a primitive under the matrices around it, without colour and id, and the faces that
+/// it is made of. False: it is the empty set, or left out.
 bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets,
-                           bool& is_inside_out) {
+                           const SolidOfFaces*& faces) {
   const SyntaxNode& node = tree_.nodes[index];
   const Affine& to_world = frames[contexts_.back().frame].to_world;
   if (node.kind == NodeKind::kCube) {
@@ -298,7 +299,7 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
       node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
   if (solid == nullptr || solid->is_empty()) return false;
   primitive = solid->under(to_world);
-  is_inside_out = options_.picture == PictureKind::kThrownTogether && solid->is_inside_out;
+  faces = solid;
   if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, problems);
   return true;
 }
@@ -343,14 +344,19 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   note_leaf_place(context);
   Primitive primitive;
   csgcore::FacetSettings facets;
-  bool is_inside_out = false;
-  if (!read_solid(index, primitive, facets, is_inside_out) || context.flattened) return;
+  const SolidOfFaces* faces = nullptr;
+  if (!read_solid(index, primitive, facets, faces) || context.flattened) return;
   primitive.id = id;
+  if (faces != nullptr && faces->inner_faces && !context.in_leaf) {
+    return add_sides(index, primitive, *faces, context);
+  }
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
   primitive_of[index] = add_primitive(std::move(primitive), index, context,
                                       typed_frame(index, context.frame), box, count);
+  const bool is_inside_out =
+      options_.picture == PictureKind::kThrownTogether && faces != nullptr && faces->is_inside_out;
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
@@ -362,6 +368,24 @@ uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
   if (!tree_.has_all_digits) return frame;
   const HealedMatrix typed = typed_numbers(tree_, node);
   return typed.exact ? frame : frames.add(frame, typed);
+}
+
+/// Makes one leaf of the faces of a solid that are seen from outside, and of those that are not.
+void Collector::add_sides(uint32_t node, const Primitive& solid, const SolidOfFaces& faces,
+                          const Context& context) {
+  const Affine& to_world = frames[context.frame].to_world;
+  const csgcore::Box box = faceted_box(solid, {});
+  csgcore::CsgTreeBuilder builder;
+  for (const bool is_inner : {false, true}) {
+    Primitive side = faces.under(is_inner ? faces.inner_faces : faces.outer_faces, to_world);
+    side.id = solid.id;
+    const uint32_t primitive = add_primitive(std::move(side), node, context, context.frame, box, 0);
+    if (primitive == kNoPrimitive) return;
+    if (is_inner) primitives.back().color = kSeenFromWithin;
+    builder.primitive(primitive);
+  }
+  plane_leaves.push_back(
+      {node, context.frame, Presence::kSolid, builder.finish(), box, false, box});
 }
 
 uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
@@ -448,7 +472,10 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
 void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const NodeKind kind = tree_.nodes[node].kind;
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
-  const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
+  std::optional<uint32_t>& background = candidate_->background;
+  const bool is_in_background = background && is_within(node, *background);
+  const bool is_part = !is_in_background && (tree_.nodes[node].modifiers & kBackground) == 0;
+  if (!is_part && !is_in_background) background = node;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
   const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
                          (is_drawing && !is_extrusion(kind));
@@ -620,8 +647,9 @@ RenderRequest Collector::request_for(uint32_t node, const TextPlace& place, bool
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
+  hulls_->end_version();
   if (pending_.empty()) return;
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
   const std::vector<Rendering> renderings = render_pending(stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});

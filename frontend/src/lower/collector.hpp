@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -67,7 +68,8 @@ class Collector final : public NodeSink {
     uint32_t frame;
   };
   std::vector<CompoundLeaf> compound_leaves;
-  /// What has become of a 2D subtree that is a leaf as a whole, and of its root.
+  /// What has become of a node that is a leaf as a whole, of several primitives: a 2D subtree, a
+  /// hull, or a polyhedron whose faces run both ways.
   struct PlaneLeaf {
     uint32_t node;
     uint32_t frame;
@@ -132,7 +134,9 @@ class Collector final : public NodeSink {
                          uint32_t frame, const csgcore::Box& box, int fragments);
   void note_leaf_place(const Context& context);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
-                  bool& is_inside_out);
+                  const SolidOfFaces*& faces);
+  void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
+                 const Context& context);
   void enter_plane(uint32_t node, uint32_t offset);
   void leave_plane();
   bool may_be_plane(uint32_t node);
@@ -192,7 +196,8 @@ class Collector final : public NodeSink {
     Context context;
     NodeProblems problems;  // those of the nodes are told already
     size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills, pending;  // before it
-    bool is_plane;  // its first geometry is a plane figure's
+    bool is_plane;                         // its first geometry is a plane figure's
+    std::optional<uint32_t> background{};  // the last `%` node that stands in no other one
   };
   void forget_since(const Candidate& candidate);
   std::optional<Candidate> candidate_;
@@ -201,7 +206,7 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
-  HullPool hulls_;
+  const std::shared_ptr<HullPool> hulls_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter

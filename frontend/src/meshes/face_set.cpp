@@ -1,9 +1,12 @@
 #include "meshes/face_set.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+#include <vector>
 
 #include "meshes/triangulation.hpp"
 
@@ -91,6 +94,43 @@ Vec3 area_vector(std::span<const Vec3> points, std::span<const uint32_t> ring) {
   return sum;
 }
 
+int longest_axis(const Vec3& v) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
+  }
+  return axis;
+}
+
+/// Returns the axis that OpenSCAD looks along: the one nearest to the normal of a triangle in the
+/// face. That has the two corners that are furthest apart along the axis where the face is longest,
+/// and the corner with which they make the largest triangle.
+int axis_of_view(std::span<const Vec3> points, std::span<const uint32_t> face_from_outside) {
+  // Of several the first one counts, in the order of a design, where faces run clockwise.
+  std::vector<uint32_t> face(face_from_outside.begin(), face_from_outside.end());
+  std::reverse(face.begin() + 1, face.end());
+  const auto at = [&](uint32_t corner) -> const Vec3& { return points[corner]; };
+  std::array<uint32_t, 3> least, most;
+  least.fill(face[0]);
+  most.fill(face[0]);
+  Vec3 size(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const uint32_t corner : face) {
+      if (at(corner)[axis] < at(least[axis])[axis]) least[axis] = corner;
+      if (at(corner)[axis] > at(most[axis])[axis]) most[axis] = corner;
+    }
+    size[axis] = at(most[axis])[axis] - at(least[axis])[axis];
+  }
+  const int along = longest_axis(size);
+  const Vec3 base = at(least[along]) - at(most[along]);
+  Vec3 normal(0.0);
+  for (const uint32_t corner : face) {
+    const Vec3 candidate = glm::cross(base, at(corner) - at(most[along]));
+    if (glm::dot(candidate, candidate) > glm::dot(normal, normal)) normal = candidate;
+  }
+  return longest_axis(normal);
+}
+
 Vec3 area_vector(std::span<const Vec3> points, std::span<const uint32_t> corners,
                  std::span<const uint32_t> ends) {
   Vec3 sum(0.0);
@@ -112,13 +152,9 @@ std::span<const uint32_t> FaceSet::face(size_t index) const {
 
 void project(std::span<const Vec3> points, std::span<const uint32_t> corners,
              std::span<const uint32_t> ends, std::vector<glm::dvec2>& places) {
-  const Vec3 normal = area_vector(points, corners, ends);
-  int axis = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
-  }
+  const int axis = axis_of_view(points, corners);
   const int right = (axis + 1) % 3, up = (axis + 2) % 3;
-  const double sign = normal[axis] > 0 ? 1 : -1;
+  const double sign = area_vector(points, corners, ends)[axis] > 0 ? 1 : -1;
   places.clear();
   for (const uint32_t corner : corners) {
     places.emplace_back(points[corner][right], sign * points[corner][up]);

@@ -32,7 +32,7 @@ struct FaceSet {
 /// were not finite.
 uint64_t tidy(FaceSet& faces);
 
-/// Projects a face along the axis that its normal, by Newell's sum, is nearest to. `places` becomes
+/// Projects a face along an axis (frontend/OPENSCAD.md, "Polyhedra"). `places` becomes
 /// the places of its corners in that plane, in which it runs counterclockwise. `ends` has one past
 /// the last corner of each of its rings.
 void project(std::span<const csgcore::Vec3> points, std::span<const uint32_t> corners,
@@ -45,8 +45,8 @@ double enclosed_volume(const FaceSet& faces);
 /// Returns the faces as csgcore has them.
 csgcore::Mesh to_mesh(const FaceSet& faces);
 
-/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along the axis that
-/// its normal is nearest to, and triangulates it there (triangulation.hpp).
+/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along an axis
+/// (frontend/OPENSCAD.md, "Polyhedra"), and triangulates it there (triangulation.hpp).
 std::vector<csgcore::TriangleMesh::Triangle> triangles_of(const FaceSet& faces);
 
 }  // namespace frontend

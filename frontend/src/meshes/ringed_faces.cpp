@@ -27,6 +27,7 @@ FaceSet face_set_of(RingedFaces faces) {
       result.end_face();
       continue;
     }
+    if (corners.empty()) continue;
     triangles.clear();
     project(result.points, corners, ends, places);
     triangulate_all(corners, ends, places, triangles);

@@ -76,6 +76,16 @@ Camera camera_from_numbers(std::span<const double> numbers) {
   return camera;
 }
 
+CameraOptions with_camera_of(const DesignCamera& design, CameraOptions options) {
+  const bool is_set = design.target || design.rotation_deg || design.distance;
+  if (options.camera || !is_set) return options;
+  const Camera standard;
+  options.camera = Camera{design.target.value_or(standard.target),
+                          design.rotation_deg.value_or(standard.rotation_deg),
+                          design.distance.value_or(standard.distance)};
+  return options;
+}
+
 Camera choose_camera(const CameraOptions& options, const Box& view_box) {
   Camera camera = options.camera.value_or(Camera{});
   const bool view_all = sees_all(options);

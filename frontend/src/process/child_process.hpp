@@ -43,6 +43,7 @@ struct ChildSetup {
   int errors = -1;                   // its standard error
   int kept = -1;                     // one more descriptor that it inherits, with the same number;
                                      // -1: none
+  bool is_in_background = false;     // it gets the processors that nothing else wants
 };
 
 /// A running program. It and everything that it starts are in a process group of their own. The

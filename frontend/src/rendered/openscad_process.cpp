@@ -116,8 +116,8 @@ std::string cannot_run(const std::string& program, int error_number) {
 
 }  // namespace
 
-OpenScadResult evaluate_by_openscad(std::string_view design, Clock::time_point deadline,
-                                    const std::stop_token& stop) {
+OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_background,
+                                    Clock::time_point deadline, const std::stop_token& stop) {
   const MemoryFile input(design);
   Pipe out, err;
   std::optional<ChildProcess> openscad;
@@ -125,7 +125,8 @@ OpenScadResult evaluate_by_openscad(std::string_view design, Clock::time_point d
       {openscad_program(), "-o", "-", "--export-format=nef3", "--", input.path()},
       out.write_end(),
       err.write_end(),
-      input.descriptor()};
+      input.descriptor(),
+      is_in_background};
   try {
     openscad.emplace(setup);
   } catch (const std::system_error& error) {

@@ -21,7 +21,7 @@ struct OpenScadResult {
 /// digits. Where the design is empty, there are no faces in it. Throws Stopped (stop.hpp) as soon
 /// as `stop` is requested. In every case openscad and everything that it has started have ended
 /// when this returns or throws; they also end if this program is killed.
-OpenScadResult evaluate_by_openscad(std::string_view design,
+OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_background,
                                     std::chrono::steady_clock::time_point deadline,
                                     const std::stop_token& stop);
 

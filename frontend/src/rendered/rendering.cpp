@@ -63,7 +63,10 @@ class RenderThreads {
     is_finished_.assign(missing_.size(), false);
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> threads(std::min({missing_.size(), processors, kMostProcesses}));
-    for (std::jthread& thread : threads) thread = std::jthread([&] { work(stop); });
+    const bool is_in_background = options.is_in_background;
+    for (std::jthread& thread : threads) {
+      thread = std::jthread([&stop, is_in_background, this] { work(is_in_background, stop); });
+    }
     std::unique_lock lock(mutex_);
     while (
         !changed_.wait_for(lock, kProgressInterval, [&] { return finished_ == missing_.size(); })) {
@@ -78,9 +81,9 @@ class RenderThreads {
   }
 
  private:
-  void work(const std::stop_token& stop) {
+  void work(bool is_in_background, const std::stop_token& stop) {
     for (std::size_t i; (i = next_++) < missing_.size();) {
-      Rendering rendering = render(*requests_[missing_[i]], stop);
+      Rendering rendering = render(*requests_[missing_[i]], is_in_background, stop);
       const std::lock_guard lock(mutex_);
       renderings_[missing_[i]] = std::move(rendering);
       is_finished_[i] = true;
@@ -90,9 +93,10 @@ class RenderThreads {
   }
 
   /// Returns nothing if it is stopped.
-  Rendering render(const RenderRequest& request, const std::stop_token& stop) const {
+  Rendering render(const RenderRequest& request, bool is_in_background,
+                   const std::stop_token& stop) const {
     try {
-      OpenScadResult result = evaluate_by_openscad(request.text, deadline_, stop);
+      OpenScadResult result = evaluate_by_openscad(request.text, is_in_background, deadline_, stop);
       if (!result.faces) return {nullptr, std::move(result.problem)};
       cache_.keep(key_of(request), *result.faces);
       return {std::make_shared<const RingedFaces>(std::move(*result.faces)), {}};

@@ -335,8 +335,10 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
   EXPECT_THAT(keys(json["primitives_skipped"]),
               ElementsAre("cancelled", "hidden", "inside", "off_screen", "sub_pixel"));
   EXPECT_THAT(keys(json["times_ms"]),
-              ElementsAre("context", "cull", "encode", "export", "import", "parse", "prepare",
-                          "read", "render", "subdivide", "total", "trace", "traverse"));
+              ElementsAre("context", "cull", "encode", "export", "import", "openscad", "parse",
+                          "prepare", "read", "render", "subdivide", "total", "trace", "traverse"));
+  EXPECT_THAT(keys(json["design_leaves"]),
+              ElementsAre("compound", "exact", "faceted", "left_out", "openscad", "total"));
   EXPECT_THAT(keys(json["paper_ms"]), ElementsAre("S", "S_R", "T_R", "T_S"));
 }
 

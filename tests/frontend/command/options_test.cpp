@@ -186,12 +186,6 @@ TEST(Options, ACameraMayBeInfinitelyFar) {
   EXPECT_TRUE(std::isnan(parse_drawing({"--camera=nan,2,3,4,5,6,1"}).camera.camera->target.x));
 }
 
-TEST(Options, AFinalRenderIsNoPreviewForTheDesign) {
-  EXPECT_THAT(parse_drawing({"--render", "-q", "-D", "a=1"}).openscad_arguments,
-              ElementsAre("-D", "$preview=false", "-D", "a=1"));
-  EXPECT_THAT(parse_drawing({"--preview"}).openscad_arguments, IsEmpty());
-}
-
 TEST(Options, AutoCenterAloneIsSaidToDoNothing) {
   EXPECT_THAT(parse_drawing({"--camera=1,2,3,4,5,6,7", "--autocenter"}).warnings,
               ElementsAre(HasSubstr("--autocenter")));

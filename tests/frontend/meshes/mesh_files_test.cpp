@@ -190,6 +190,14 @@ TEST(FaceSets, AreCutAsTheyAreSeenFromOutside) {
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4}}, 1, 3)) << "along x";
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}, 1, 3)) << "along y";
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {9, 1, 1}, {90, 2, 0}, {9, 1, -3}}, 1, 3)) << "aslant";
+  // Its Newell sum is nearest to x, and the triangle of its furthest corners to z.
+  EXPECT_TRUE(has_diagonal({{-3.48892, 5.42115, 6},
+                            {-4.21311, 5.51058, 3},
+                            {-1.87866, -4.21311, 3},
+                            {1.05099, -3.48892, 6}},
+                           0, 2))
+      << "between axes";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}, 0, 2)) << "crossed";
 }
 
 TEST(FaceSets, LoseWhatIsNoFace) {

@@ -270,7 +270,7 @@ TEST_F(FakeRenderer, RendersSeveralPartsAtOnce) {
 }
 
 TEST_F(FakeRenderer, APlaneFigureIsItsOutlineAtTheBottom) {
-  const std::string section = "projection(cut = true) { difference() { cube(1); sphere(0.5); } }";
+  const std::string section = "projection(cut = true) { " + sum() + " }";
   const ImportedDesign design = import(section);
   EXPECT_THAT(design.warnings, IsEmpty());
   ASSERT_THAT(design.scene.primitives, SizeIs(1));

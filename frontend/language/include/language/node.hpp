@@ -53,4 +53,7 @@ struct RootModifiers {
 /// Finds the nodes with root modifiers below `root`.
 RootModifiers root_modifiers(const Node& root);
 
+/// Returns whether two trees are the same to the last bit, their places among it.
+bool are_same(const Node& a, const Node& b);
+
 }  // namespace language

@@ -19,8 +19,8 @@ namespace language {
 
 struct Code;
 
-/// A function, by definition or by literal, or a module. Its code is compiled at the first call, and
-/// anew where a call passes a name that it does not declare: then that is one of its variables.
+/// A function, by definition or by literal, or a module. Its code is compiled at the first call,
+/// and anew where a call passes a name that it does not declare: then that is one of its variables.
 struct Callable {
   Name name;  // kNoName: a literal
   Place place;
@@ -66,23 +66,33 @@ struct CallSite {
 /// steps done, the trail's mark, the arguments in their order, the evaluated defaults.
 struct DynamicCall {
   const Expression* callee;
-  Name name;               // kNoName: the callee is no variable
+  Name name;  // kNoName: the callee is no variable
   std::span<const Argument> arguments;
   uint32_t slot = 0;                  // of the callee
   FunctionEntry* function = nullptr;  // what the name means if its variable holds no function …
   uint32_t function_scope = 0;
   bool is_in_unit = false;
   uint32_t unit = 0;
-  std::optional<uint32_t> builtin;  // … or a builtin function
+  std::optional<uint32_t> builtin;      // … or a builtin function
   std::vector<uint32_t> argument_code;  // where the code of each argument begins
   uint32_t next = 0;                    // where kNextArgument stands
   uint32_t end = 0;                     // behind the call
   mutable std::unordered_map<FunctionEntry*, ArgumentPlan> plans{};
 };
 
+/// A call of a builtin function that decides which of its arguments are evaluated. Its slots are:
+/// how many values there are, and room for them.
+struct LazyCall {
+  uint32_t builtin;
+  uint32_t written;  // arguments
+  uint32_t slot;
+  uint32_t room;
+  std::vector<uint32_t> argument_code{};
+};
+
 struct NodeSite {
-  std::string_view name;       // static storage; empty: a builtin module makes the node
-  uint32_t module = 0;         // of builtin_modules()
+  std::string_view name;  // static storage; empty: a builtin module makes the node
+  uint32_t module = 0;    // of builtin_modules()
   uint8_t modifiers = 0;
   uint32_t parameters = 0;     // how many values kMakeNode pops
   std::string_view call_name;  // of the module, for messages
@@ -100,7 +110,7 @@ struct AssertSite {
 /// Which code runs within a call, for traces; inner calls stand before outer ones.
 struct TraceRegion {
   uint32_t begin, end;
-  std::string_view name;     // empty: the callee's text
+  std::string_view name;  // empty: the callee's text
   const Expression* callee;
   Place place;
 };
@@ -113,6 +123,7 @@ struct Code {
   std::vector<FunctionEntry*> functions;
   std::vector<CallSite> calls;
   std::vector<DynamicCall> dynamic_calls;
+  std::vector<LazyCall> lazy_calls;
   std::vector<ArgumentPlan> plans;
   std::vector<NodeSite> node_sites;
   std::vector<EchoSite> echoes;

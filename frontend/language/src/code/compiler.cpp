@@ -159,8 +159,8 @@ Found<ModuleEntry> Compiler::find_module(const ScopeLayout& from, Name name) {
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {
-  return functions_.emplace_back(FunctionEntry{
-      {kNoName, literal.place, literal.parameters, &scope}, literal.body, &literal});
+  return functions_.emplace_back(
+      FunctionEntry{{kNoName, literal.place, literal.parameters, &scope}, literal.body, &literal});
 }
 
 BlockEntry& Compiler::add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope) {
@@ -180,9 +180,8 @@ void Compiler::define(ScopeLayout& layout, const Scope& scope) {
                       nullptr});
   }
   for (const ModuleDefinition& definition : scope.modules) {
-    layout.modules[definition.name] = &modules_.emplace_back(
-        ModuleEntry{{definition.name, definition.place, definition.parameters, &layout},
-                    definition.body});
+    layout.modules[definition.name] = &modules_.emplace_back(ModuleEntry{
+        {definition.name, definition.place, definition.parameters, &layout}, definition.body});
   }
 }
 

@@ -22,7 +22,7 @@ struct UnitEntry {
 /// A function that a name means.
 template <typename Entry>
 struct Found {
-  Entry* entry = nullptr;       // null: none has that name
+  Entry* entry = nullptr;         // null: none has that name
   bool is_in_other_unit = false;  // it belongs to a file that the code's own file uses
 };
 

@@ -10,12 +10,12 @@ namespace language {
 /// innermost heap scope, which is number 0.
 enum class Op : uint8_t {
   // Values
-  kConstant,         // push constants[b]
-  kUndef,            // push undef
-  kFalse,            // push false
-  kPop,              // pop
-  kSlide,            // drop the b values below the top
-  kToBool,           // replace the top by its truth
+  kConstant,  // push constants[b]
+  kUndef,     // push undef
+  kFalse,     // push false
+  kPop,       // pop
+  kSlide,     // drop the b values below the top
+  kToBool,    // replace the top by its truth
   // Variables. A `try` pushes a variable that is set and then skips `flag` instructions.
   kLocal,            // push slot b
   kTryLocal,         // the same, if it is set
@@ -48,19 +48,19 @@ enum class Op : uint8_t {
   kEqual,
   kNotEqual,
   kIndex,
-  kMember,           // replace the top by its member named b
-  kRange,            // pop begin, end and perhaps step, as RangeFlag says; push a range
-  kUnlessNumber,     // go to b unless the top is a number
-  kVector,           // pop b values into a vector
-  kFunction,         // push a function value of functions[b]
+  kMember,        // replace the top by its member named b
+  kRange,         // pop begin, end and perhaps step, as RangeFlag says; push a range
+  kUnlessNumber,  // go to b unless the top is a number
+  kVector,        // pop b values into a vector
+  kFunction,      // push a function value of functions[b]
   kIsUndef,
   // Control
-  kJump,             // go to b
-  kJumpIfFalse,      // pop; go to b if it is not true
-  kAssert,           // b: asserts[b]; pops the message if flag, then the condition
-  kEcho,             // b: echoes[b]; pops its values
-  kDuplicateLet,     // pop a value and warn that the name b has one already
-  kUnnamedLet,       // pop a value and warn that it has no name
+  kJump,          // go to b
+  kJumpIfFalse,   // pop; go to b if it is not true
+  kAssert,        // b: asserts[b]; pops the message if flag, then the condition
+  kEcho,          // b: echoes[b]; pops its values
+  kDuplicateLet,  // pop a value and warn that the name b has one already
+  kUnnamedLet,    // pop a value and warn that it has no name
   // Comprehensions and loops
   kBeginVector,      // push an empty vector
   kAppend,           // pop, and append to the vector in slot b
@@ -70,45 +70,48 @@ enum class Op : uint8_t {
   kNextRound,        // push the next element, or go to b; the loop's two values are in slot a
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
-  kEnterUnit,        // make the top level of unit b ready for a call
-  kBeginCall,        // push the parameters of calls[b], with their defaults
-  kCall,             // call the function of calls[b], whose parameters are on top
-  kCallBuiltin,      // call builtin function b with the a values on top
-  kWarnCount,        // say that builtin function b got a wrong number of arguments; push undef
-  kUnknownFunction,  // warn of the name b; push undef
-  kArgumentWarnings, // say the warnings of plans[b]; once if flag
-  kIfFunction,       // go to b if the top is a function value
-  kPrepareCall,      // begin dynamic_calls[b], whose callee is on top
-  kNextArgument,     // go to the next argument of dynamic_calls[b]
-  kCallDynamic,      // call it
-  kUnlessCalledAs,   // go to b unless the running function value was called by the name a
-  kCachedDefault,    // push caches[a] and go to b if it is set
-  kStoreCache,       // store the top in caches[a]
-  kTailJump,         // drop all above the first a values of the frame, start anew at b
-  kReturn,           // return the top from a function
-  kReturnDefaults,   // the parameters have their defaults
+  kEnterUnit,         // make the top level of unit b ready for a call
+  kBeginCall,         // push the parameters of calls[b], with their defaults
+  kCall,              // call the function of calls[b], whose parameters are on top
+  kCallBuiltin,       // call builtin function b with the a values on top
+  kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
+  kKeepLazy,          // pop a value and add it to the arguments of lazy_calls[b]
+  kUnsupported,       // end the evaluation at the function named b, which only OpenSCAD knows
+  kWarnCount,         // say that builtin function b got a wrong number of arguments; push undef
+  kUnknownFunction,   // warn of the name b; push undef
+  kArgumentWarnings,  // say the warnings of plans[b]; once if flag
+  kIfFunction,        // go to b if the top is a function value
+  kPrepareCall,       // begin dynamic_calls[b], whose callee is on top
+  kNextArgument,      // go to the next argument of dynamic_calls[b]
+  kCallDynamic,       // call it
+  kUnlessCalledAs,    // go to b unless the running function value was called by the name a
+  kCachedDefault,     // push caches[a] and go to b if it is set
+  kStoreCache,        // store the top in caches[a]
+  kTailJump,          // drop all above the first a values of the frame, start anew at b
+  kReturn,            // return the top from a function
+  kReturnDefaults,    // the parameters have their defaults
   // Modules
-  kUnknownModule,    // warn of the name b
-  kBeginNode,        // begin a node: node_sites[b]
-  kEndNode,          // end it; flag: leave it out if it has no children
-  kSuccessor,        // say that a builtin module is deprecated: node_sites[b]
-  kRefuseChildren,   // say that a builtin module takes no children: node_sites[b]
-  kWantsFirst,       // go to b unless the module of node_sites[a] wants its first argument again
-  kMakeNode,         // pop the parameters, make a builtin module's node, go to b if it is no parent
-  kSaveBlock,        // remember the scope of the block of calls[b]
-  kCallModule,       // call the user module of calls[b], whose parameters are on top
-  kChildCount,       // push $children
-  kParameterLiteral, // if the value on top is set, say that the name b, a parameter, is overwritten
-                     // with a literal; pop
+  kUnknownModule,   // warn of the name b
+  kBeginNode,       // begin a node: node_sites[b]
+  kEndNode,         // end it; flag: leave it out if it has no children
+  kSuccessor,       // say that a builtin module is deprecated: node_sites[b]
+  kRefuseChildren,  // say that a builtin module takes no children: node_sites[b]
+  kWantsFirst,      // go to b unless the module of node_sites[a] wants its first argument again
+  kMakeNode,        // pop the parameters, make a builtin module's node, go to b if it is no parent
+  kSaveBlock,       // remember the scope of the block of calls[b]
+  kCallModule,      // call the user module of calls[b], whose parameters are on top
+  kChildCount,      // push $children
+  kParameterLiteral,  // if the value on top is set, say that the name b, a parameter, is
+                      // overwritten
+                      // with a literal; pop
   kReturnModule,
   kUnlessInModule,   // go to b if the code is not within a user module
   kAllChildren,      // begin a group, run all children in it
   kDeprecatedChild,  // say that child() is deprecated
-  kSelectChildren,   // replace the top by the numbers of the children that it selects, 0, and
+  kSelectChildren,   // check the selection of children on top; push how many are done, 0, and
                      // whether they go into a group, which is begun; flag: of child(). Goes to b,
-                     // without these, if it selects none
-  kNextChild,        // run the next of the children whose numbers are on top, whose count done is
-                     // in slot a; go to b after the last
+                     // and drops the selection, if there is nothing to run
+  kNextChild,        // run the next child of the selection in slot a; go to b after the last
   kEndSelection,     // end the group, if there is one; drop what kSelectChildren pushed
   kEndChild,         // a statement of a block has ended
   kEndUnit,          // the assignments of a top level have been evaluated

@@ -20,9 +20,9 @@ struct Target {
 
 /// Parameters in their slots. A name that is listed twice has one slot, and the last default wins.
 struct ParameterList {
-  std::vector<Target> targets;           // of each parameter, in order
+  std::vector<Target> targets;              // of each parameter, in order
   std::vector<const Expression*> defaults;  // per slot; null: none
-  std::vector<Name> slot_names;          // parameters first, then what calls pass undeclared
+  std::vector<Name> slot_names;             // parameters first, then what calls pass undeclared
   uint32_t declared_slots = 0;
 
   ParameterList() = default;

@@ -1,4 +1,5 @@
-// Where the variables, functions and modules of a scope are found (LANGUAGE.md, "Scopes and calls").
+// Where the variables, functions and modules of a scope are found (LANGUAGE.md, "Scopes and
+// calls").
 #pragma once
 
 #include <cstdint>

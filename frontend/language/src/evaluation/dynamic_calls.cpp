@@ -103,7 +103,8 @@ void Machine::next_argument(const DynamicCall& site) {
 }
 
 void Machine::call_dynamic(const DynamicCall& site) {
-  if (FunctionEntry* const function = function_of(site)) return call_dynamic_function(site, *function);
+  if (FunctionEntry* const function = function_of(site))
+    return call_dynamic_function(site, *function);
   const uint32_t base = base_ + site.slot;
   stack_.drop();
   call_builtin(*site.builtin, static_cast<uint32_t>(site.arguments.size()));
@@ -147,8 +148,7 @@ void Machine::call_dynamic_function(const DynamicCall& site, FunctionEntry& func
 }
 
 void Machine::recursion_in_callee(const DynamicCall& site) {
-  if (site.name != kNoName)
-    recursion_in_function(compiler_.names().text(site.name), place());
+  if (site.name != kNoName) recursion_in_function(compiler_.names().text(site.name), place());
   recursion_in_function(callee_text(*site.callee), place());
 }
 

@@ -14,9 +14,9 @@ enum class FrameKind : uint8_t {
   kDefaults,         // the defaults of a call, which are left in its slots
   kDynamicDefaults,  // … or packed into a vector, in the slot below
   kModule,
-  kBlock,  // all children of a block
-  kChild,  // one of them
-  kUnit,   // the assignments of a used file's top level
+  kBlock,     // all children of a block
+  kChild,     // one of them
+  kUnit,      // the assignments of a used file's top level
   kMainUnit,  // … of the main file's
 };
 

@@ -38,9 +38,8 @@ void Machine::say_traces() {
     for (const TraceRegion& region : frame->code->regions) {
       if (frame->next <= region.begin || frame->next > region.end) continue;
       if (++count > kTraceLimit) return;
-      const std::string name =
-          region.callee && region.name.empty() ? callee_text(*region.callee)
-                                               : std::string(region.name);
+      const std::string name = region.callee && region.name.empty() ? callee_text(*region.callee)
+                                                                    : std::string(region.name);
       messages_.say(MessageGroup::kTrace, "called by '" + name + "'", region.place,
                     PathBase::kUnit);
     }

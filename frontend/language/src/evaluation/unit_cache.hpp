@@ -19,7 +19,7 @@ struct UnitRecord {
   uint32_t trail;       // when it began
   uint64_t messages;    // that had been said when it began
   bool is_pure = true;  // it has called no rands() or parent_module() and made no function value
-  NamedValues reads;    // `$` names that others had bound; unset: not bound
+  NamedValues reads{};  // `$` names that others had bound; unset: not bound
 };
 
 /// A top level that can be used again while the `$` names that it read have the same values.

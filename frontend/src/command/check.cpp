@@ -1,0 +1,154 @@
+#include "command/check.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "base/descriptor.hpp"
+#include "follow/evaluated_design.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/openscad_export.hpp"
+#include "language/csg_writer.hpp"
+#include "process/child_process.hpp"
+#include "process/openscad_program.hpp"
+
+namespace frontend {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kUsage =
+    "Usage: scadray check [options] FILE...\n"
+    "Evaluates each FILE (.scad) by scadray and by openscad, and shows the first difference of\n"
+    "their trees and of their messages. Options: -D VAR=VALUE, -p FILE, -P SET, --hardwarnings,\n"
+    "--check-parameters=BOOL, --check-parameter-ranges=BOOL. Exit status: 0 if all are the same,\n"
+    "2 if any differs, 1 after a failure.\n";
+
+/// What an evaluation gives.
+struct Result {
+  std::string tree;      // the text of the .csg; empty if there is none
+  std::string messages;  // a line each
+};
+
+/// A folder of its own, removed at the end.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::string pattern = (fs::temp_directory_path() / "scadray-check-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw Error(pattern, {}, "cannot be made", "check $TMPDIR");
+    }
+    path_ = pattern;
+  }
+  ~WorkFolder() {
+    std::error_code failed;
+    fs::remove_all(path_, failed);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::string text_of(const std::string& path) {
+  std::error_code failed;
+  return fs::exists(path, failed) ? std::string(read_regular_file(path).view()) : std::string();
+}
+
+Result by_openscad(const std::string& file, const std::vector<std::string>& options) {
+  const WorkFolder folder;
+  const std::string tree = folder.file("tree.csg"), messages = folder.file("messages");
+  std::vector<std::string> command = {openscad_program(), "-o", tree};
+  command.insert(command.end(), options.begin(), options.end());
+  command.insert(command.end(), {"--", file});
+  std::FILE* const errors = std::fopen(messages.c_str(), "we");
+  if (errors == nullptr) throw Error(messages, {}, "cannot be written", "check $TMPDIR");
+  ChildProcess({command, fileno(errors), fileno(errors)}).wait();
+  std::fclose(errors);
+  return {text_of(tree), text_of(messages)};
+}
+
+std::optional<Result> by_scadray(const std::string& file, const std::vector<std::string>& options) {
+  const std::optional<language::EvaluationOptions> known = evaluation_options(options);
+  if (!known) throw Error("", {}, "an option of check is not known", "see scadray check --help");
+  Result result;
+  const language::Evaluation evaluation = language::evaluate(
+      file, *known, [&](std::string_view line) { result.messages.append(line) += '\n'; });
+  if (!evaluation.unknown.empty()) {
+    std::printf("%s: not compared, since scadray does not know %s\n", file.c_str(),
+                evaluation.unknown.c_str());
+    return std::nullopt;
+  }
+  const bool is_read = evaluation.outcome == language::Outcome::kDone ||
+                       evaluation.outcome == language::Outcome::kAborted;
+  if (is_read) result.tree = language::csg_text(*evaluation.root);
+  return result;
+}
+
+/// Removes and returns the first line.
+std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
+}
+
+/// Says where two texts differ first. Returns whether they do.
+bool show_difference(const std::string& file, const char* what, std::string_view own,
+                     std::string_view openscad) {
+  if (own == openscad) return false;
+  std::size_t number = 0;
+  std::string_view ours, theirs;
+  do {
+    ++number;
+    ours = take_line(own);
+    theirs = take_line(openscad);
+  } while (ours == theirs && !(own.empty() && openscad.empty()));
+  std::printf("%s: the %s differ in line %zu:\n  scadray:  %.*s\n  openscad: %.*s\n", file.c_str(),
+              what, number, static_cast<int>(ours.size()), ours.data(),
+              static_cast<int>(theirs.size()), theirs.data());
+  return true;
+}
+
+bool check_design(const std::string& file, const std::vector<std::string>& options) {
+  check_input(file);
+  const std::optional<Result> own = by_scadray(file, options);
+  if (!own) return true;
+  const Result openscad = by_openscad(file, options);
+  const bool trees = show_difference(file, "trees", own->tree, openscad.tree);
+  const bool messages = show_difference(file, "messages", own->messages, openscad.messages);
+  if (!trees && !messages) std::printf("%s: the same\n", file.c_str());
+  return !trees && !messages;
+}
+
+}  // namespace
+
+ExitCode check_designs(const std::vector<std::string>& arguments) {
+  std::vector<std::string> options, files;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word == "--help" || word == "-h") {
+      std::fputs(kUsage, stdout);
+      return ExitCode::kDone;
+    }
+    if (!word.starts_with('-')) {
+      files.push_back(word);
+      continue;
+    }
+    options.push_back(word);
+    const bool has_value = word == "-D" || word == "-p" || word == "-P";
+    if (has_value && i + 1 < arguments.size()) options.push_back(arguments[++i]);
+  }
+  if (files.empty()) throw Error("", {}, "no file to check", "see scadray check --help");
+  bool are_same = true;
+  for (const std::string& file : files) are_same = check_design(file, options) && are_same;
+  return are_same ? ExitCode::kDone : ExitCode::kDisagreement;
+}
+
+}  // namespace frontend

@@ -1,0 +1,128 @@
+#include "command/text_outputs.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "follow/evaluated_design.hpp"
+#include "follow/make_rule.hpp"
+#include "frontend/error.hpp"
+#include "frontend/files.hpp"
+#include "frontend/openscad_export.hpp"
+#include "language/csg_writer.hpp"
+#include "language/evaluation.hpp"
+#include "process/child_process.hpp"
+#include "process/openscad_program.hpp"
+
+namespace frontend {
+namespace {
+
+const char* word_of(TextKind kind) { return kind == TextKind::kCsg ? "csg" : "echo"; }
+
+/// Returns the command of openscad that writes the output.
+std::vector<std::string> openscad_command(const Options& options, const TextOutput& output) {
+  std::vector<std::string> command = {openscad_program(), "-o", output.path,
+                                      "--export-format=" + std::string(word_of(output.kind))};
+  if (options.quiet) command.push_back("-q");
+  if (options.import.picture == PictureKind::kRendered) command.push_back("--render");
+  if (!options.rule_path.empty()) command.insert(command.end(), {"-d", options.rule_path});
+  command.insert(command.end(), options.openscad_arguments.begin(),
+                 options.openscad_arguments.end());
+  command.insert(command.end(), {"--", options.input});
+  return command;
+}
+
+ExitCode write_by_openscad(const Options& options, const TextOutput& output) {
+  std::fflush(stdout);
+  ChildProcess openscad({openscad_command(options, output), STDOUT_FILENO, STDERR_FILENO});
+  return openscad.wait() == 0 ? ExitCode::kDone : ExitCode::kFailure;
+}
+
+/// One evaluation, and where its messages go.
+class TextRun {
+ public:
+  TextRun(const Options& options, const TextOutput& output) : options_(options), output_(output) {}
+
+  ExitCode run() {
+    std::optional<language::EvaluationOptions> known =
+        evaluation_options(options_.openscad_arguments);
+    if (!known || options_.evaluator == Evaluator::kOpenScad) {
+      return write_by_openscad(options_, output_);
+    }
+    known->is_preview = options_.import.picture != PictureKind::kRendered;
+    const FileText input = options_.input == "-" ? read_file("-") : FileText();
+    language::Evaluation evaluation = language::evaluate(
+        options_.input, *known, [&](std::string_view line) { add(line); }, input.view());
+    if (!evaluation.unknown.empty()) {
+      std::fprintf(stderr, "openscad evaluates the design, since scadray does not know %s\n",
+                   evaluation.unknown.c_str());
+      return write_by_openscad(options_, output_);
+    }
+    pass_on();
+    return write(evaluation);
+  }
+
+ private:
+  void add(std::string_view line) {
+    if (options_.quiet && !line.starts_with("ERROR")) return;
+    messages_.append(line) += '\n';
+    constexpr std::size_t kMostHeldBytes = std::size_t{1} << 20;
+    if (output_.kind == TextKind::kCsg && messages_.size() > kMostHeldBytes) pass_on();
+  }
+
+  /// The messages of a tree go to stderr; they are held as long as openscad may say them.
+  void pass_on() {
+    if (output_.kind != TextKind::kCsg) return;
+    std::fwrite(messages_.data(), 1, messages_.size(), stderr);
+    messages_.clear();
+  }
+
+  ExitCode write(const language::Evaluation& evaluation) {
+    const bool is_read = evaluation.outcome != language::Outcome::kNotParsed &&
+                         evaluation.outcome != language::Outcome::kUnreadable;
+    std::vector<PendingOutput> outputs;
+    if (output_.kind == TextKind::kEcho) {
+      outputs.push_back({output_.path, bytes_of(messages_)});
+    } else if (is_read) {
+      outputs.push_back({output_.path, bytes_of(language::csg_text(*evaluation.root))});
+    }
+    if (is_read && !options_.rule_path.empty() && options_.outputs.empty()) {
+      outputs.push_back({options_.rule_path, bytes_of(rule(evaluation))});
+    }
+    write_outputs(outputs);
+    return is_read ? ExitCode::kDone : ExitCode::kFailure;
+  }
+
+  std::string rule(const language::Evaluation& evaluation) const {
+    std::vector<std::string> targets;
+    for (const TextOutput& output : options_.texts) {
+      targets.push_back(output.path == "-" ? "<stdout>" : output.path);
+    }
+    return make_rule(targets, files_of(evaluation, options_.input));
+  }
+
+  const Options& options_;
+  const TextOutput& output_;
+  std::string messages_;
+};
+
+}  // namespace
+
+ExitCode write_texts(const Options& options) {
+  std::vector<NamedPath> paths;
+  for (const TextOutput& output : options.texts) paths.push_back({"-o", output.path});
+  if (!options.rule_path.empty()) paths.push_back({"-d", options.rule_path});
+  for (const NamedPath& path : paths) check_output(path.path);
+  check_outputs_differ(paths, design_inputs(options.input, options.openscad_arguments));
+  for (const TextOutput& output : options.texts) {
+    const ExitCode code = TextRun(options, output).run();
+    if (code != ExitCode::kDone) return code;
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace frontend

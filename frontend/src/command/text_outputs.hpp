@@ -1,0 +1,14 @@
+// Writes what `openscad -o` writes of a design as text: its tree, or its messages.
+#pragma once
+
+#include "frontend/options.hpp"
+#include "frontend/run_program.hpp"
+
+namespace frontend {
+
+/// Writes options.texts, and the rule for make where there are no pictures. Each is evaluated by
+/// itself, as by OpenSCAD, whose exit codes and messages these are. Throws Error for what cannot be
+/// read or written.
+ExitCode write_texts(const Options& options);
+
+}  // namespace frontend

@@ -1,0 +1,135 @@
+#include "follow/evaluated_design.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "follow/included_files.hpp"
+#include "follow/openscad_messages.hpp"
+#include "frontend/error.hpp"
+#include "frontend/stop.hpp"
+#include "language/stopped.hpp"
+
+namespace frontend {
+namespace {
+
+/// Keeps messages until it is known that the evaluation counts, or until they are many.
+class HeldMessages {
+ public:
+  explicit HeldMessages(OpenScadMessages& messages) : messages_(messages) {}
+
+  void add(std::string_view line) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+    held_.append(line) += '\n';
+    if (is_through_ || held_.size() > kMostBytes) pass_on();
+  }
+  void pass_on() {
+    is_through_ = true;
+    messages_.add(held_);
+    held_.clear();
+  }
+
+ private:
+  OpenScadMessages& messages_;
+  std::string held_;
+  bool is_through_ = false;
+};
+
+bool is_yes(std::string_view value) { return value == "true" || value == "1"; }
+
+/// Reads an option that has its value in the same word. Returns whether it is one.
+bool read_word(std::string_view word, language::EvaluationOptions& options) {
+  constexpr std::string_view kParameters = "--check-parameters=";
+  constexpr std::string_view kRanges = "--check-parameter-ranges=";
+  if (word == "--hardwarnings") {
+    options.hard_warnings = true;
+  } else if (word.starts_with(kParameters)) {
+    options.check_parameters = is_yes(word.substr(kParameters.size()));
+  } else if (word.starts_with(kRanges)) {
+    options.check_ranges = is_yes(word.substr(kRanges.size()));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<language::EvaluationOptions> evaluation_options(
+    const std::vector<std::string>& openscad_arguments) {
+  language::EvaluationOptions options;
+  for (std::size_t i = 0; i < openscad_arguments.size(); ++i) {
+    const std::string& word = openscad_arguments[i];
+    if (read_word(word, options)) continue;
+    if (i + 1 == openscad_arguments.size()) return std::nullopt;
+    const std::string& value = openscad_arguments[++i];
+    if (word == "-D") {
+      options.definitions.push_back(value);
+    } else if (word == "-p") {
+      options.parameter_file = value;
+    } else if (word == "-P") {
+      options.parameter_set = value;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return options;
+}
+
+std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const DesignFileOptions& options,
+                                                            const std::stop_token& stop) {
+  std::optional<language::EvaluationOptions> known = evaluation_options(options.openscad_arguments);
+  if (!known) return nullptr;
+  known->is_preview = options.import.picture != PictureKind::kRendered;
+  known->stop = stop;
+  OpenScadMessages messages(options.message);
+  HeldMessages held(messages);
+  language::Evaluation evaluation;
+  try {
+    evaluation = language::evaluate(path, *known, [&](std::string_view line) { held.add(line); });
+  } catch (const language::Stopped&) {
+    throw Stopped{};
+  }
+  if (!evaluation.unknown.empty()) {
+    options.message("openscad evaluates the design, since scadray does not know " +
+                    evaluation.unknown);
+    return nullptr;
+  }
+  held.pass_on();
+  messages.finish();
+  if (messages.first_error()) throw openscad_error(path, *messages.first_error());
+  if (evaluation.outcome != language::Outcome::kDone) {
+    throw Error(path, {}, "the design cannot be evaluated", "see what is said above");
+  }
+  return std::make_shared<const language::Evaluation>(std::move(evaluation));
+}
+
+std::vector<std::string> files_of(const language::Evaluation& evaluation, const std::string& path) {
+  std::vector<std::string> files;
+  for (std::size_t i = 1; i < evaluation.files_read.size(); ++i) {
+    const std::string& file = evaluation.files_read[i];
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  }
+  files.push_back(path);
+  return files;
+}
+
+std::vector<std::string> fonts_of(const language::Evaluation& evaluation) {
+  std::vector<std::string> fonts;
+  std::copy_if(evaluation.files_read.begin(), evaluation.files_read.end(),
+               std::back_inserter(fonts),
+               [](const std::string& file) { return is_font_name(file); });
+  return fonts;
+}
+
+DesignCamera camera_of(const language::Evaluation& evaluation) {
+  const auto vector = [](const std::optional<std::array<double, 3>>& numbers) {
+    return numbers ? std::optional(csgcore::Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]))
+                   : std::nullopt;
+  };
+  return {vector(evaluation.camera.translation), vector(evaluation.camera.rotation_deg),
+          evaluation.camera.distance};
+}
+
+}  // namespace frontend

@@ -1,0 +1,49 @@
+#include "follow/openscad_messages.hpp"
+
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+namespace frontend {
+namespace {
+
+/// An ERROR after which OpenSCAD goes on: another font stands in.
+constexpr std::string_view kMissingFont = "ERROR: Can't read font with path";
+
+/// Returns whether openscad means `scad_path` by `name`: it shortens a path to the file's name, or
+/// makes it relative to the working folder.
+bool is_same_file(const std::string& name, const std::string& scad_path) {
+  const std::filesystem::path path(scad_path);
+  std::error_code missing;
+  return name == path.filename() || std::filesystem::equivalent(name, path, missing);
+}
+
+}  // namespace
+
+void OpenScadMessages::line(const std::string& text) {
+  constexpr std::string_view kError = "ERROR: ";
+  if (text.empty()) return;
+  if (text.starts_with(kError) && !text.starts_with(kMissingFont) && !first_error_) {
+    first_error_ = text.substr(kError.size());
+  } else {
+    message_(text);
+  }
+}
+
+Error openscad_error(const std::string& scad_path, const std::string& text) {
+  constexpr const char* kTodo = "correct the design; this is what openscad reports";
+  constexpr std::string_view kFile = " in file ", kLine = ", line ";
+  const std::size_t file_at = text.rfind(kFile);
+  const std::size_t line_at = text.rfind(kLine);
+  if (file_at == std::string::npos || line_at == std::string::npos || line_at < file_at) {
+    return Error(scad_path, {}, text, kTodo);
+  }
+  std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
+  if (is_same_file(file, scad_path)) file = scad_path;
+  Location location;
+  const char* digits = text.data() + line_at + kLine.size();
+  std::from_chars(digits, text.data() + text.size(), location.line);
+  return Error(file, location, text.substr(0, file_at), kTodo);
+}
+
+}  // namespace frontend

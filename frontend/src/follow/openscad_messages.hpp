@@ -1,0 +1,49 @@
+// The messages of an evaluation, by openscad or in its words: the first ERROR ends the reading.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "frontend/error.hpp"
+
+namespace frontend {
+
+/// Collects openscad's messages line by line. The first ERROR is kept, to be thrown.
+class OpenScadMessages {
+ public:
+  explicit OpenScadMessages(const std::function<void(const std::string&)>& message)
+      : message_(message) {}
+  void add(std::string_view text) {
+    pending_ += text;
+    std::size_t start = 0;
+    for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos;
+         start = end + 1) {
+      line(pending_.substr(start, end - start));
+    }
+    pending_.erase(0, start);
+    if (pending_.size() > kLongestLine) finish();
+  }
+  void finish() {
+    if (!pending_.empty()) line(pending_);
+    pending_.clear();
+  }
+  const std::optional<std::string>& first_error() const { return first_error_; }
+
+ private:
+  /// A longer line is shown in pieces, so that it is shown even if it never ends.
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
+
+  void line(const std::string& text);
+
+  const std::function<void(const std::string&)>& message_;
+  std::string pending_;
+  std::optional<std::string> first_error_;
+};
+
+/// Turns "what in file NAME, line N" into an Error with that place.
+Error openscad_error(const std::string& scad_path, const std::string& text);
+
+}  // namespace frontend
