@@ -27,7 +27,7 @@ class Lexer {
   /// Lexes a file. `names` must begin with kFirstNames. Texts
   /// of tokens lie in the arena.
   Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
-        FileLookup& lookup, FileId main, std::string folder);
+        FileLookup& lookup, const Main& main);
 
   /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
   Token next();
