@@ -45,8 +45,8 @@ void Machine::begin_loop(uint16_t kind) {
     append_element(single, std::move(source));
     source = std::move(single);
   }
-  const double rounds = source.is_vector() ? static_cast<double>(source.elements().size())
-                                           : source.range().steps();
+  const double rounds =
+      source.is_vector() ? static_cast<double>(source.elements().size()) : source.range().steps();
   stack_.push(0.0);
   stack_.push(rounds);
 }
