@@ -112,8 +112,4 @@ void Machine::unnamed_let() {
   stack_.drop();
 }
 
-void Closure::append_text(std::string& out) const {
-  append_expression_text(out, *function.literal, names);
-}
-
 }  // namespace language
