@@ -70,6 +70,7 @@ constexpr OptionRow kOpenScadOptions[] = {
      "draw with color(), # and %, the default; =throwntogether: every part whole, no operation"},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
+    {"enable", Takes::kTexts, "FEATURE", "accepted, without effect"},
     {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
     {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
 };
