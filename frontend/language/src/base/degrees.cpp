@@ -16,8 +16,8 @@ constexpr double kRootOfThree = 1.73205080756887729353;
 // Beyond so many periods a double has no fraction of a period left.
 constexpr double kMostPeriods = 4503599627370496.0;  // 2^52
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 // Returns the sine of an angle in [0, 90].
 double acute_sine(double angle) {
@@ -74,13 +74,13 @@ double cosine_of_degrees(double angle) {
 }
 
 double tangent_of_degrees(double angle) {
-  const double periods = std::floor(angle / 180);
-  if (angle < 0 || angle >= 180) {
-    if (!(std::abs(angle) < kMostPeriods * 360)) return kNotANumber;
-    angle -= 180 * periods;
-  }
-  if (std::isnan(angle)) return angle;
-  const bool is_odd = std::fmod(periods, 2) != 0;
+  if (!(std::abs(angle) < kMostPeriods * 360)) return kNotANumber;
+  // OpenSCAD counts the half turns in 32 bits: what does not fit becomes the least integer.
+  constexpr double kLeastInteger = -2147483648.0;
+  double half_turns = std::floor(angle / 180);
+  if (!(std::abs(half_turns + 0.5) < -kLeastInteger)) half_turns = kLeastInteger;
+  angle -= 180 * half_turns;
+  const bool is_odd = std::fmod(half_turns, 2) != 0;
   if (angle == 0) return is_odd ? -0.0 : 0.0;
   if (angle == 90)
     return is_odd ? -std::numeric_limits<double>::infinity()

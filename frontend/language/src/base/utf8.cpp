@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace language {
 namespace {
@@ -16,29 +15,30 @@ size_t announced_length(char first_byte) {
   return ones < 2 || ones > 6 ? 1 : static_cast<size_t>(ones);
 }
 
+// Returns the least code point that needs so many bytes.
 uint32_t least_of_length(size_t length) {
-  constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000, 0x200000, 0x4000000};
   return kLeast[length];
 }
 
 }  // namespace
 
 size_t code_point_length(std::string_view text) {
-  return std::min(announced_length(text.front()), text.size());
+  if (text.empty()) return 0;
+  const size_t length = announced_length(text.front());
+  return length <= text.size() ? length : 0;
 }
 
 size_t code_point_offset(std::string_view text, size_t index) {
   size_t offset = 0;
-  for (; index > 0 && offset < text.size(); --index)
-    offset += code_point_length(text.substr(offset));
+  for (; index > 0; --index) offset += code_point_length(text.substr(offset));
   return offset;
 }
 
 size_t count_code_points(std::string_view text) {
   if (std::all_of(text.begin(), text.end(), is_ascii)) return text.size();
   size_t count = 0;
-  for (size_t offset = 0; offset < text.size(); ++count)
-    offset += code_point_length(text.substr(offset));
+  for (; const size_t length = code_point_length(text); text.remove_prefix(length)) ++count;
   return count;
 }
 
@@ -48,27 +48,23 @@ bool is_code_point(uint32_t number) {
 
 uint32_t first_code_point(std::string_view text) {
   const size_t length = code_point_length(text);
-  auto code_point = static_cast<uint32_t>(static_cast<unsigned char>(text.front()));
-  if (length == 1) return code_point;
-  code_point &= 0x7Fu >> length;
-  for (const char byte : text.substr(1, length - 1))
+  if (length == 0) return kNoCodePoint;
+  const auto first = static_cast<unsigned char>(text.front());
+  if (length == 1) return is_ascii(text.front()) ? first : kNoCodePoint;
+  uint32_t code_point = first & 0x7Fu >> length;
+  for (const char byte : text.substr(1, length - 1)) {
+    if ((byte & 0xC0) != 0x80) return kNoCodePoint;
     code_point = code_point << 6 | (static_cast<unsigned char>(byte) & 0x3Fu);
+  }
   return code_point;
 }
 
 bool is_valid_utf8(std::string_view text) {
-  for (size_t offset = 0; offset < text.size();) {
-    const std::string_view rest = text.substr(offset);
-    const size_t length = announced_length(rest.front());
-    if (length == 1 && !is_ascii(rest.front())) return false;
-    if (length > 4 || length > rest.size()) return false;
-    const auto is_continuation = [](char byte) { return (byte & 0xC0) == 0x80; };
-    if (!std::all_of(rest.begin() + 1, rest.begin() + static_cast<std::ptrdiff_t>(length),
-                     is_continuation))
-      return false;
-    const uint32_t code_point = first_code_point(rest);
-    if (code_point < least_of_length(length) || !is_code_point(code_point)) return false;
-    offset += length;
+  while (!text.empty()) {
+    const size_t length = code_point_length(text);
+    const uint32_t code_point = first_code_point(text);
+    if (!is_code_point(code_point) || code_point < least_of_length(length)) return false;
+    text.remove_prefix(length);
   }
   return true;
 }

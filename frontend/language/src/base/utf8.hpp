@@ -1,4 +1,5 @@
-// UTF-8, as OpenSCAD steps through it: bytes that are no UTF-8 are not refused.
+// UTF-8, as OpenSCAD steps through it: bytes that are no UTF-8 are not refused (LANGUAGE.md,
+// "Values").
 #pragma once
 
 #include <cstddef>
@@ -8,21 +9,25 @@
 
 namespace language {
 
-/// Returns the length in bytes, at least 1, of the code point that begins at the front of a text
-/// that is not empty: what its first byte announces, cut at the text's end.
+/// Returns how many bytes the code point at the front of a text has: as many as its first byte
+/// announces, whatever follows. 0: the text ends before.
 size_t code_point_length(std::string_view text);
 
-/// Returns how many code points a text has, when stepped through by code_point_length.
+/// Returns how many code points a text has. What is cut off at its end is none.
 size_t count_code_points(std::string_view text);
 
-/// Returns the offset of code point `index`, or the text's size if it has fewer.
+/// Returns the offset of a code point below count_code_points(text).
 size_t code_point_offset(std::string_view text, size_t index);
 
-/// Returns whether a text is valid UTF-8, of code points up to 10FFFF without surrogates.
-bool is_valid_utf8(std::string_view text);
+/// What stands for bytes that are no UTF-8: they are all alike.
+constexpr uint32_t kNoCodePoint = 0xFFFFFFFFu;
 
-/// Returns the code point at the front of a valid text that is not empty.
+/// Returns the code point at the front of a text, or kNoCodePoint. Surrogates, and code points that
+/// are written longer than needed, are not refused.
 uint32_t first_code_point(std::string_view text);
+
+/// Returns whether a text is valid UTF-8 throughout.
+bool is_valid_utf8(std::string_view text);
 
 /// Returns whether a number may be encoded: up to 10FFFF, no surrogate.
 bool is_code_point(uint32_t number);

@@ -13,6 +13,7 @@ namespace language {
 struct FunctionShape {
   uint32_t index;  // in builtin_functions()
   uint16_t least_arguments, most_arguments;
+  bool is_lazy;  // it decides which arguments are evaluated
 };
 
 struct ModuleShape {

@@ -25,6 +25,10 @@ void CodeCompiler::named_call(const CallExpression& call, Name name) {
   if (const auto found = compiler_.find_function(*scope_, name); found.entry)
     return static_call(call, found);
   if (name == compiler_.known().is_undef) return is_undef_call(call);
+  if (name == compiler_.known().dxf_dim || name == compiler_.known().dxf_cross) {
+    out_.emit(Op::kUnsupported, call.place, 1, name);
+    return;
+  }
   if (compiler_.builtins().functions.count(name)) return builtin_call(call, name);
   out_.emit(Op::kUnknownFunction, call.place, 1, name);
 }
@@ -36,9 +40,33 @@ void CodeCompiler::builtin_call(const CallExpression& call, Name name) {
     out_.emit(Op::kWarnCount, call.place, 1, name);
     return;
   }
+  if (shape.is_lazy) return lazy_call(call, shape.index);
   for (const Argument& argument : call.arguments) expression(*argument.value);
   out_.emit(Op::kCallBuiltin, call.place, 1 - static_cast<int>(count), shape.index,
             static_cast<uint32_t>(count));
+}
+
+void CodeCompiler::lazy_call(const CallExpression& call, uint32_t builtin) {
+  constexpr uint32_t kMostRepeated = 2;  // arguments that are evaluated once more
+  const auto written = static_cast<uint32_t>(call.arguments.size());
+  LazyCall site{builtin, written, out_.depth(), written + kMostRepeated};
+  const auto number = static_cast<uint32_t>(out_.code().lazy_calls.size());
+  out_.code().lazy_calls.push_back(site);
+  out_.constant(0.0, call.place);
+  for (uint32_t slot = 0; slot < site.room; ++slot) out_.constant(Value::unset(), call.place);
+  const uint32_t full = out_.depth();
+  const uint32_t next = out_.emit(Op::kNextLazy, call.place, 0, number);
+  const uint32_t done = out_.emit(Op::kJump, call.place, 0);
+  for (const Argument& argument : call.arguments) {
+    out_.set_depth(full);
+    site.argument_code.push_back(out_.here());
+    expression(*argument.value);
+    out_.emit(Op::kKeepLazy, argument.place, -1, number);
+    out_.emit(Op::kJump, argument.place, 0, next);
+  }
+  out_.land(done);
+  out_.code().lazy_calls[number] = std::move(site);
+  out_.set_depth(full - site.room);
 }
 
 void CodeCompiler::is_undef_call(const CallExpression& call) {

@@ -80,6 +80,16 @@ struct DynamicCall {
   mutable std::unordered_map<FunctionEntry*, ArgumentPlan> plans{};
 };
 
+/// A call of a builtin function that decides which of its arguments are evaluated. Its slots are:
+/// how many values there are, and room for them.
+struct LazyCall {
+  uint32_t builtin;
+  uint32_t written;  // arguments
+  uint32_t slot;
+  uint32_t room;
+  std::vector<uint32_t> argument_code{};
+};
+
 struct NodeSite {
   std::string_view name;  // static storage; empty: a builtin module makes the node
   uint32_t module = 0;    // of builtin_modules()
@@ -113,6 +123,7 @@ struct Code {
   std::vector<FunctionEntry*> functions;
   std::vector<CallSite> calls;
   std::vector<DynamicCall> dynamic_calls;
+  std::vector<LazyCall> lazy_calls;
   std::vector<ArgumentPlan> plans;
   std::vector<NodeSite> node_sites;
   std::vector<EchoSite> echoes;

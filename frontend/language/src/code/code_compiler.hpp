@@ -10,6 +10,13 @@
 
 namespace language {
 
+/// The `$` names that hide those of a block, which are older although they are assigned later.
+struct Hiding {
+  std::span<const Argument> arguments{};  // of the call around the block
+  const Scope* unit = nullptr;            // the file of the module that is called
+  bool hides(Name name) const;
+};
+
 class CodeCompiler {
  public:
   /// `scope` is the one around the code.
@@ -64,6 +71,7 @@ class CodeCompiler {
   void call(const CallExpression& call);
   void named_call(const CallExpression& call, Name name);
   void builtin_call(const CallExpression& call, Name name);
+  void lazy_call(const CallExpression& call, uint32_t builtin);
   void static_call(const CallExpression& call, Found<FunctionEntry> found);
   void dynamic_call(const CallExpression& call);
   void is_undef_call(const CallExpression& call);
@@ -92,7 +100,7 @@ class CodeCompiler {
   void drop_to(uint32_t depth, Place place);  // drops values until `depth` slots are in use
 
   // statements.cpp
-  void assign(const Scope& scope, const ModuleEntry* module, std::span<const Argument> hiding);
+  void assign(const Scope& scope, const ModuleEntry* module, const Hiding& hiding);
   void parameter_warning(const Assignment& assignment, const ModuleEntry& module);
   void statements(std::span<const ModuleCall> calls);
   void block(const Scope& scope);  // within the node that is begun
@@ -111,7 +119,7 @@ class CodeCompiler {
   void builtin_module(const ModuleCall& call, const ModuleShape& module);
   void builtin_arguments(const ModuleCall& call, const ModuleShape& module, uint32_t site);
   void builtin_node(const ModuleCall& call, uint32_t site);
-  BlockEntry* save_block(const ModuleCall& call);
+  BlockEntry* save_block(const ModuleCall& call, const Hiding& hiding);
   void children_call(const ModuleCall& call, bool is_child);
 
   // loops.cpp

@@ -74,6 +74,9 @@ enum class Op : uint8_t {
   kBeginCall,         // push the parameters of calls[b], with their defaults
   kCall,              // call the function of calls[b], whose parameters are on top
   kCallBuiltin,       // call builtin function b with the a values on top
+  kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
+  kKeepLazy,          // pop a value and add it to the arguments of lazy_calls[b]
+  kUnsupported,       // end the evaluation at the function named b, which only OpenSCAD knows
   kWarnCount,         // say that builtin function b got a wrong number of arguments; push undef
   kUnknownFunction,   // warn of the name b; push undef
   kArgumentWarnings,  // say the warnings of plans[b]; once if flag
@@ -105,11 +108,10 @@ enum class Op : uint8_t {
   kUnlessInModule,   // go to b if the code is not within a user module
   kAllChildren,      // begin a group, run all children in it
   kDeprecatedChild,  // say that child() is deprecated
-  kSelectChildren,   // replace the top by the numbers of the children that it selects, 0, and
+  kSelectChildren,   // check the selection of children on top; push how many are done, 0, and
                      // whether they go into a group, which is begun; flag: of child(). Goes to b,
-                     // without these, if it selects none
-  kNextChild,        // run the next of the children whose numbers are on top, whose count done is
-                     // in slot a; go to b after the last
+                     // and drops the selection, if there is nothing to run
+  kNextChild,        // run the next child of the selection in slot a; go to b after the last
   kEndSelection,     // end the group, if there is one; drop what kSelectChildren pushed
   kEndChild,         // a statement of a block has ended
   kEndUnit,          // the assignments of a top level have been evaluated

@@ -5,7 +5,7 @@ namespace language {
 
 // The assignments of the children's block are evaluated before the call, in a scope that the
 // children then run in.
-BlockEntry* CodeCompiler::save_block(const ModuleCall& call) {
+BlockEntry* CodeCompiler::save_block(const ModuleCall& call, const Hiding& hiding) {
   const Scope& scope = *call.children;
   if (scope.assignments.empty() && scope.calls.empty()) return nullptr;
   ScopeLayout* const outer = scope_;
@@ -15,7 +15,7 @@ BlockEntry* CodeCompiler::save_block(const ModuleCall& call) {
     for (const Assignment& assignment : scope.assignments)
       if (!is_dynamic_name(assignment.name, compiler_.names())) layout.declare(assignment.name);
     set_scope_size(open, layout);
-    assign(scope, nullptr, {});
+    assign(scope, nullptr, hiding);
   }
   BlockEntry& block = compiler_.add_block(scope.calls, *scope_);
   out_.emit(Op::kSaveBlock, call.place, 0);
@@ -34,11 +34,13 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   CallSite site;
   site.module = &module;
   site.modifiers = call.modifiers;
-  site.block = save_block(call);
+  if (found.is_in_other_unit) out_.emit(Op::kEnterUnit, call.place, 0, unit);
+  const Scope* const used =
+      found.is_in_other_unit ? compiler_.program().units[unit].scope : nullptr;
+  site.block = save_block(call, {{}, used});
   site.is_in_unit = found.is_in_other_unit;
   site.scope = found.is_in_other_unit ? 0 : scope_number(*module.scope);
   site.slots = static_cast<uint32_t>(module.parameters.slot_names.size());
-  if (found.is_in_other_unit) out_.emit(Op::kEnterUnit, call.place, 0, unit);
   auto& calls = out_.code().calls;
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
@@ -75,7 +77,7 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
     for (const Assignment& assignment : children.assignments)
       if (!is_dynamic_name(assignment.name, compiler_.names())) layout.declare(assignment.name);
     set_scope_size(open, layout);
-    assign(children, nullptr, call.arguments);
+    assign(children, nullptr, {call.arguments, nullptr});
   }
   const auto popped = static_cast<int>(module.parameters.size()) + 1;
   const uint32_t made =
@@ -122,7 +124,8 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
 
 void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   if (is_child) out_.emit(Op::kDeprecatedChild, call.place, 0);
-  const uint32_t outside = out_.emit(Op::kUnlessInModule, call.place, 0);
+  // child() looks at its argument anywhere, children() within modules only.
+  const uint32_t outside = is_child ? 0 : out_.emit(Op::kUnlessInModule, call.place, 0);
   if (call.arguments.empty() && !is_child) {
     out_.emit(Op::kAllChildren, call.place, 0, add_node_site(call, "group"));
     end_node(call);
@@ -141,7 +144,7 @@ void CodeCompiler::children_call(const ModuleCall& call, bool is_child) {
   out_.land(next);
   out_.emit(Op::kEndSelection, call.place, -3);
   out_.land(none);
-  out_.land(outside);
+  if (!is_child) out_.land(outside);
 }
 
 }  // namespace language

@@ -64,16 +64,18 @@ bool CodeCompiler::assigns_dynamic(const Scope& scope) const {
                      });
 }
 
-// `hiding` are the arguments of the call around a block, whose `$` names hide those of the block.
-void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module,
-                          std::span<const Argument> hiding) {
+bool Hiding::hides(Name name) const {
+  const auto has_name = [&](const auto& binding) { return binding.name == name; };
+  return std::any_of(arguments.begin(), arguments.end(), has_name) ||
+         (unit && std::any_of(unit->assignments.begin(), unit->assignments.end(), has_name));
+}
+
+void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const Hiding& hiding) {
   for (const Assignment& assignment : scope.assignments) {
     if (module) parameter_warning(assignment, *module);
     expression(*assignment.value);
-    const bool is_hidden = is_dynamic_name(assignment.name, compiler_.names()) &&
-                           std::any_of(hiding.begin(), hiding.end(), [&](const Argument& argument) {
-                             return argument.name == assignment.name;
-                           });
+    const bool is_hidden =
+        is_dynamic_name(assignment.name, compiler_.names()) && hiding.hides(assignment.name);
     if (is_hidden) {
       out_.emit(Op::kPop, assignment.place, -1);
     } else {

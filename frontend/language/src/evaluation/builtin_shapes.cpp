@@ -26,7 +26,8 @@ Builtins builtin_shapes(NameTable& names) {
   uint32_t index = 0;
   for (const BuiltinFunction& function : builtin_functions()) {
     builtins.functions[names.intern(function.name)] = {index++, function.least_arguments,
-                                                       function.most_arguments};
+                                                       function.most_arguments,
+                                                       function.next_argument != nullptr};
   }
   index = 0;
   for (const BuiltinModule& module : builtin_modules()) {

@@ -116,9 +116,35 @@ void Machine::call_builtin(uint32_t index, uint32_t count) {
   if (!records_.empty()) note_builtin(function);
   functions_.module_names = module_names_;
   const std::span<Value> arguments(stack_.end() - count, count);
-  Value value = function.call({function.name, arguments, place(), functions_});
+  Value value = function.call({function.name, count, arguments, place(), functions_});
   stack_.drop_to(stack_.size() - count);
   stack_.push(std::move(value));
+}
+
+void Machine::next_lazy(const LazyCall& site) {
+  const BuiltinFunction& function = builtin_functions_[site.builtin];
+  if (!records_.empty()) note_builtin(function);
+  const uint32_t base = base_ + site.slot;
+  const auto count = static_cast<uint32_t>(stack_[base].number());
+  const std::span<Value> arguments(&stack_[base + 1], count);
+  const FunctionCall call{function.name, site.written, arguments, place(), functions_};
+  const size_t next = count == site.room ? kNoArgument : function.next_argument(call);
+  if (next != kNoArgument) {
+    next_ = site.argument_code[next];
+    return;
+  }
+  functions_.module_names = module_names_;
+  Value value = function.call(call);
+  stack_.drop_to(base);
+  stack_.push(std::move(value));
+}
+
+void Machine::keep_lazy(const LazyCall& site) {
+  Value value = stack_.pop();
+  Value& count = stack_[base_ + site.slot];
+  const auto number = static_cast<uint32_t>(count.number());
+  stack_[base_ + site.slot + 1 + number] = std::move(value);
+  count = number + 1.0;
 }
 
 void Machine::warn_count(Name name) {

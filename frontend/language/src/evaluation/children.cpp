@@ -1,4 +1,6 @@
 // children() and child().
+#include <limits>
+
 #include "evaluation/machine.hpp"
 #include "values/make.hpp"
 #include "values/range.hpp"
@@ -9,8 +11,11 @@ namespace {
 
 constexpr uint32_t kRangeLimit = 10000;  // of a range of this count and more nothing is selected
 
-// OpenSCAD cuts an index to a whole number.
-double whole(double number) { return std::trunc(number); }
+// Cuts to a whole number as C does on this processor: the least one for all that does not fit.
+int whole(double number) {
+  const bool fits = number > -2147483649.0 && number < 2147483648.0;
+  return fits ? static_cast<int>(number) : std::numeric_limits<int>::min();
+}
 
 }  // namespace
 
@@ -55,86 +60,83 @@ bool Machine::end_child(bool is_last) {
   return true;
 }
 
-// Appends a child's number if there is such a child.
-void Machine::select_child(double index, bool is_child, Value& numbers) {
-  const double number = whole(index);
-  const std::string text = std::to_string(static_cast<int>(number));
-  const uint32_t count = child_count();
-  if (number >= 0 && number < count) return append_element(numbers, number);
+// Returns whether there is a child of that number, and says if not.
+bool Machine::is_child_number(int number, bool is_child) {
+  if (number >= 0 && static_cast<uint32_t>(number) < child_count()) return true;
+  if (number >= 0 && !activation()) return false;
+  const std::string text = std::to_string(number);
+  const std::string count = std::to_string(child_count());
   if (is_child) {
-    const std::string problem = number < 0 ? "Negative child index (" + text + ") not allowed"
-                                           : "Child index (" + text + ") out of bounds (" +
-                                                 std::to_string(count) + " children)";
-    return warn(problem, PathBase::kMainFile);
-  }
-  messages_.say(MessageGroup::kWarning, number < 0
-                                            ? "Negative children index (" + text + ") not allowed"
-                                            : "Children index (" + text + ") out of bounds (" +
-                                                  std::to_string(count) + " children)");
-}
-
-void Machine::select_from_vector(const Value& indices, Value& numbers) {
-  for (const Value& index : indices.elements()) {
-    if (index.is_number()) {
-      select_child(index.number(), false, numbers);
-      continue;
-    }
-    std::string text;
-    append_str_text(text, index);
-    messages_.say(MessageGroup::kWarning,
-                  "Bad parameter type (" + text +
-                      ") for children, only accept: empty, number, vector, range.");
-  }
-}
-
-bool Machine::select_from_range(const Value& value, Value& numbers) {
-  const RangeObject& range = value.range();
-  const uint32_t count = range.count();
-  if (count >= kRangeLimit) {
-    warn("Bad range parameter for children: too many elements (" + std::to_string(count) + ")",
+    warn(number < 0 ? "Negative child index (" + text + ") not allowed"
+                    : "Child index (" + text + ") out of bounds (" + count + " children)",
          PathBase::kMainFile);
-    return false;
+  } else {
+    messages_.say(MessageGroup::kWarning,
+                  number < 0
+                      ? "Negative children index (" + text + ") not allowed"
+                      : "Children index (" + text + ") out of bounds (" + count + " children)");
   }
-  for (uint32_t number = 0; number < range.steps(); ++number)
-    select_child(range.value(number), false, numbers);
-  return true;
+  return false;
 }
 
 bool Machine::select_children(const NodeSite& site, bool is_child) {
-  const Value selection = stack_.pop();
-  Value numbers = language::make_vector();
+  Value selection = stack_.pop();
   bool is_group = false;
   if (selection.is_number() || is_child) {
-    select_child(selection.is_number() ? selection.number() : 0, is_child, numbers);
-  } else if (selection.is_vector()) {
-    select_from_vector(selection, numbers);
+    const int number = whole(selection.is_number() ? selection.number() : 0);
+    if (!is_child_number(number, is_child)) return false;
+    selection = language::make_vector(1);
+    append_element(selection, static_cast<double>(number));
+  } else if (selection.is_vector() || selection.is_range()) {
     is_group = true;
-  } else if (selection.is_range()) {
-    is_group = select_from_range(selection, numbers);
-    if (!is_group) return false;
   } else {
     warn("Bad parameter type (" + echo_text(selection) +
              ") for children, only accept: empty, number, vector, range",
          PathBase::kMainFile);
     return false;
   }
-  if (!is_group && numbers.elements().empty()) return false;
+  if (selection.is_range() && selection.range().count() >= kRangeLimit) {
+    warn("Bad range parameter for children: too many elements (" +
+             std::to_string(selection.range().count()) + ")",
+         PathBase::kMainFile);
+    return false;
+  }
   if (is_group) begin_node(site);
-  stack_.push(std::move(numbers));
+  stack_.push(std::move(selection));
   stack_.push(0.0);
   stack_.push(Value::boolean(is_group));
   return true;
 }
 
-void Machine::next_child(uint32_t state, uint32_t after) {
-  const auto numbers = stack_[state].elements();
-  const auto done = static_cast<size_t>(stack_[state + 1].number());
-  if (done == numbers.size()) {
-    next_ = after;
-    return;
-  }
+// The number of the next child; unset after the last.
+Value Machine::next_selected(uint32_t state) {
+  const Value& selection = stack_[state];
+  const auto done = static_cast<uint32_t>(stack_[state + 1].number());
   stack_[state + 1] = done + 1.0;
-  run_block(FrameKind::kChild, static_cast<uint32_t>(numbers[done].number()));
+  if (selection.is_range()) {
+    if (done >= selection.range().steps()) return Value::unset();
+    return selection.range().value(done);
+  }
+  return done < selection.elements().size() ? selection.elements()[done] : Value::unset();
+}
+
+void Machine::next_child(uint32_t state, uint32_t after) {
+  for (;;) {
+    const Value index = next_selected(state);
+    if (!index.is_set()) {
+      next_ = after;
+      return;
+    }
+    if (!index.is_number()) {
+      std::string text;
+      append_str_text(text, index);
+      messages_.say(MessageGroup::kWarning,
+                    "Bad parameter type (" + text +
+                        ") for children, only accept: empty, number, vector, range.");
+    } else if (is_child_number(whole(index.number()), false)) {
+      return run_block(FrameKind::kChild, static_cast<uint32_t>(index.number()));
+    }
+  }
 }
 
 void Machine::end_selection() {

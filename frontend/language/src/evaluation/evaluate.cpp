@@ -1,9 +1,12 @@
+#include <algorithm>
+
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/machine.hpp"
 #include "language/evaluation.hpp"
 #include "syntax/parse_program.hpp"
 #include "values/make.hpp"
+#include "values/value_text.hpp"
 
 namespace language {
 namespace {
@@ -30,6 +33,9 @@ class Session {
   void evaluate_program();
   void preset_names(Machine& machine) const;
   void read_camera(const Machine& machine);
+  template <typename Converted>
+  void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
+                         Converted (*convert)(const Value&, bool&), Converted& target);
   void say_root_modifiers();
   void list_files(const ModuleEnvironment& modules);
 
@@ -39,7 +45,8 @@ class Session {
   std::string_view standard_input_;
   std::shared_ptr<Program> program_;
   Messages messages_;
-  Machine* machine_ = nullptr;
+  Machine* machine_ = nullptr;  // while it runs
+  bool has_camera_ = false;
   Evaluation result_;
 };
 
@@ -68,36 +75,47 @@ void Session::preset_names(Machine& machine) const {
   machine.preset("$vpf", 22.5);
 }
 
-bool assigns(const Scope& scope, Name name) {
-  for (const Assignment& assignment : scope.assignments)
-    if (assignment.name == name) return true;
-  return false;
-}
-
-std::optional<std::array<double, 3>> three_numbers(const Value& value) {
-  if (!value.is_vector() || value.elements().size() != 3) return std::nullopt;
-  std::array<double, 3> numbers;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    if (!value.elements()[axis].is_number()) return std::nullopt;
-    numbers[axis] = value.elements()[axis].number();
-  }
+// OpenSCAD takes vectors of two elements for points of z = 0, and leaves the view as it is where
+// these are no numbers.
+std::optional<std::array<double, 3>> three_numbers(const Value& value, bool& is_converted) {
+  const auto elements = value.is_vector() ? value.elements() : std::span<const Value>();
+  const bool are_numbers = std::all_of(elements.begin(), elements.end(),
+                                       [](const Value& element) { return element.is_number(); });
+  is_converted = elements.size() == 2 || (elements.size() == 3 && are_numbers);
+  if (!is_converted || !are_numbers) return std::nullopt;
+  std::array<double, 3> numbers{};
+  for (size_t axis = 0; axis < elements.size(); ++axis) numbers[axis] = elements[axis].number();
   return numbers;
 }
 
-std::optional<double> one_number(const Value& value) {
-  return value.is_number() ? std::optional(value.number()) : std::nullopt;
+std::optional<double> one_number(const Value& value, bool& is_converted) {
+  is_converted = value.is_number();
+  return is_converted ? std::optional(value.number()) : std::nullopt;
+}
+
+template <typename Converted>
+void Session::read_camera_value(const Machine& machine, std::string_view name,
+                                std::string_view type, Converted (*convert)(const Value&, bool&),
+                                Converted& target) {
+  const Value value = machine.top_level_value(name);
+  if (!value.is_set() || value.is_undef()) return;
+  bool is_converted = false;
+  target = convert(value, is_converted);
+  has_camera_ = has_camera_ || is_converted;
+  if (is_converted) return;
+  messages_.say(MessageGroup::kWarning, "Unable to convert " + std::string(name) + "=" +
+                                            echo_text(value) + " to a " + std::string(type));
 }
 
 void Session::read_camera(const Machine& machine) {
-  const Scope& scope = *program_->units[0].scope;
-  const auto value_of = [&](std::string_view name) {
-    return assigns(scope, program_->names.find(name)) ? machine.top_level_value(name)
-                                                      : Value::undef();
-  };
-  result_.camera.translation = three_numbers(value_of("$vpt"));
-  result_.camera.rotation_deg = three_numbers(value_of("$vpr"));
-  result_.camera.distance = one_number(value_of("$vpd"));
-  result_.camera.field_of_view_deg = one_number(value_of("$vpf"));
+  constexpr std::string_view kVector = "vec3 or vec2 of numbers", kNumber = "number";
+  DesignCamera& camera = result_.camera;
+  read_camera_value(machine, "$vpr", kVector, three_numbers, camera.rotation_deg);
+  read_camera_value(machine, "$vpt", kVector, three_numbers, camera.translation);
+  read_camera_value(machine, "$vpd", kNumber, one_number, camera.distance);
+  read_camera_value(machine, "$vpf", kNumber, one_number, camera.field_of_view_deg);
+  if (has_camera_)
+    messages_.say(MessageGroup::kWarning, "Viewall and autocenter disabled in favor of $vp*");
 }
 
 void Session::say_root_modifiers() {
@@ -117,13 +135,18 @@ void Session::evaluate_program() {
   preset_names(machine);
   try {
     machine.run_assignments();
-    read_camera(machine);
     machine.run_calls(result_.root);
   } catch (const Aborted&) {
     result_.outcome = Outcome::kAborted;
     result_.root = std::make_shared<Node>();
+    machine.end_early();
+  } catch (const Unsupported& unsupported) {
+    result_.unknown = unsupported.what();
+    result_.root = std::make_shared<Node>();
+    return;
   }
   machine_ = nullptr;
+  read_camera(machine);
   say_root_modifiers();
   list_files(modules);
 }

@@ -51,8 +51,9 @@ void Machine::preset(std::string_view name, Value value) {
   dynamic_.bind(compiler_.names().find(name), std::move(value));
 }
 
-Value Machine::top_level_value(std::string_view name) const {
-  return dynamic_[compiler_.names().find(name)];
+Value Machine::top_level_value(std::string_view text) const {
+  const Name name = compiler_.names().find(text);
+  return dynamic_.is_bound_since(name, preset_trail_) ? dynamic_[name] : Value::unset();
 }
 
 void Machine::run_assignments() {
@@ -60,7 +61,9 @@ void Machine::run_assignments() {
   main_scope_ = scopes_.make(nullptr, main.scope->size());
   push_frame(*main.assignments, stack_.size(), HeapScopes::acquire(main_scope_),
              FrameKind::kMainUnit, kNoActivation);
+  preset_trail_ = dynamic_.trail();
   run_guarded();
+  main_trail_ = dynamic_.trail();
 }
 
 void Machine::run_calls(std::shared_ptr<Node> root) {
@@ -70,6 +73,10 @@ void Machine::run_calls(std::shared_ptr<Node> root) {
              kNoActivation);
   run_guarded();
   nodes_.pop_back();
+}
+
+void Machine::end_early() {
+  if (main_trail_) dynamic_.undo(main_trail_);
 }
 
 void Machine::run_guarded() {
@@ -283,6 +290,15 @@ void Machine::run() {
       case Op::kCallBuiltin:
         call_builtin(step.b, step.a);
         break;
+      case Op::kNextLazy:
+        next_lazy(frames_.back().code->lazy_calls[step.b]);
+        break;
+      case Op::kKeepLazy:
+        keep_lazy(frames_.back().code->lazy_calls[step.b]);
+        break;
+      case Op::kUnsupported:
+        throw Unsupported(std::string(compiler_.names().text(step.b)) + "()" +
+                          messages_.place_suffix(place(), PathBase::kMainFile));
       case Op::kWarnCount:
         warn_count(step.b);
         break;

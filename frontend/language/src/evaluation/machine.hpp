@@ -32,6 +32,16 @@ class Aborted : public std::exception {
   const char* what() const noexcept override { return "aborted"; }
 };
 
+/// Thrown where a design uses what this evaluator does not know.
+class Unsupported : public std::exception {
+ public:
+  explicit Unsupported(std::string what) : what_(std::move(what)) {}
+  const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  std::string what_;
+};
+
 /// Thrown by the sink of messages at a warning, if warnings end the evaluation.
 class HardWarning : public std::exception {
  public:
@@ -48,10 +58,12 @@ class Machine {
   /// Evaluates the assignments of the main file's top level. Throws Aborted, after the error and
   /// its traces, or Stopped.
   void run_assignments();
-  /// Returns the value of a `$` name at the top level: unset if it has none.
+  /// Returns the value that the top level has assigned to a `$` name: unset if it has not.
   Value top_level_value(std::string_view name) const;
   /// Evaluates the module calls of the main file, whose nodes become children of `root`.
   void run_calls(std::shared_ptr<Node> root);
+  /// Forgets the `$` names of calls that Aborted has ended.
+  void end_early();
   /// How many messages have been said, which the sink counts.
   void count_message() { ++messages_said_; }
 
@@ -109,6 +121,8 @@ class Machine {
   void push_parameters(const Callable& callable, uint32_t slots);
   void call_function(const CallSite& site);
   void call_builtin(uint32_t index, uint32_t count);
+  void next_lazy(const LazyCall& site);
+  void keep_lazy(const LazyCall& site);
   void return_value();
   void return_defaults();
   void tail_jump(uint32_t slots, uint32_t target);
@@ -156,9 +170,8 @@ class Machine {
   void all_children(const NodeSite& site);
   void say_child_is_deprecated();
   bool select_children(const NodeSite& site, bool is_child);
-  void select_child(double index, bool is_child, Value& numbers);
-  void select_from_vector(const Value& indices, Value& numbers);
-  bool select_from_range(const Value& value, Value& numbers);
+  bool is_child_number(int number, bool is_child);
+  Value next_selected(uint32_t state);
   void next_child(uint32_t state, uint32_t after);
   void end_selection();
   bool end_child(bool is_last);  // true: of the frame that runs children
@@ -197,6 +210,8 @@ class Machine {
   std::vector<Value> parameters_;    // of the call that is being made
   std::vector<UnitRecord> records_;  // of the top levels that are being evaluated
   std::vector<KeptUnit> kept_units_;
+  uint32_t preset_trail_ = 0;  // the trail's length before the program begins
+  uint32_t main_trail_ = 0;    // and once the top level's assignments are evaluated
 
   // The frame on top of frames_, as far as it changes.
   const Instruction* code_ = nullptr;

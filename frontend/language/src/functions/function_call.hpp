@@ -1,10 +1,13 @@
 // A call of a builtin function.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "language/place.hpp"
 #include "language/value.hpp"
@@ -21,9 +24,11 @@ struct FunctionEnvironment {
 };
 
 struct FunctionCall {
-  std::string_view name;       // of the function
-  std::span<Value> arguments;  // evaluated left to right, names ignored; a call may move them away
-  Place place;                 // of the call
+  std::string_view name;  // of the function
+  size_t written;         // arguments that the call has; names of arguments are ignored
+  /// The arguments that have been evaluated, in that order. A call may move them away.
+  std::span<Value> arguments;
+  Place place;  // of the call
   FunctionEnvironment& environment;
 
   /// Says a warning at the call.
@@ -31,12 +36,18 @@ struct FunctionCall {
 };
 
 constexpr uint16_t kAnyCount = 0xFFFF;
+constexpr size_t kNoArgument = SIZE_MAX;
 
 struct BuiltinFunction {
   std::string_view name;
   uint16_t least_arguments;  // fewer or more: "‹f›() number of parameters does not match", undef,
   uint16_t most_arguments;  // and no argument is evaluated
   Value (*call)(const FunctionCall& call);
+  /// Of the functions that do not evaluate all their arguments: returns which of the written
+  /// arguments is evaluated next, given those that have been, or kNoArgument. Each value is added
+  /// to the call's arguments, also where an argument is evaluated for a second time. Null: all are
+  /// evaluated, in the order in which they are written.
+  size_t (*next_argument)(const FunctionCall& call) = nullptr;
 };
 
 }  // namespace language

@@ -52,6 +52,21 @@ Value is_string(const FunctionCall& call);
 Value is_function(const FunctionCall& call);
 Value parent_module(const FunctionCall& call);
 
+/// The rules by which arguments are evaluated: until one is no number; none; the first alone; the
+/// first four; all if there are as many as the function takes, else none; lookup()'s key, which is
+/// evaluated twice if it is no finite number, and then its table if it is.
+size_t next_while_numbers(const FunctionCall& call);
+size_t next_of_none(const FunctionCall& call);
+size_t next_of_one(const FunctionCall& call);
+size_t next_of_four(const FunctionCall& call);
+size_t next_of_exactly_one(const FunctionCall& call);
+size_t next_of_exactly_two(const FunctionCall& call);
+size_t next_of_lookup(const FunctionCall& call);
+
+/// The same of chr() and rands(), which warn of an argument before the next one is evaluated.
+size_t next_of_characters(const FunctionCall& call);
+size_t next_of_random_numbers(const FunctionCall& call);
+
 /// Warns that an argument has the wrong type, and returns undef.
 Value not_converted(const FunctionCall& call);
 

@@ -24,6 +24,11 @@ Value of_numbers(const FunctionCall& call, Operation operation) {
 
 double sign_of(double number) { return number > 0 ? 1 : number < 0 ? -1 : 0; }
 
+bool are_all_numbers(std::span<const Value> values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](const Value& value) { return value.is_number(); });
+}
+
 // Returns whether an element comes before another; those that cannot be compared do not.
 bool is_before(const Value& left, const Value& right) {
   OperatorProblem ignored;
@@ -33,11 +38,9 @@ bool is_before(const Value& left, const Value& right) {
 // Calls `select` with what min() and max() choose from: numbers, or the elements of one vector.
 template <typename Select>
 Value extreme(const FunctionCall& call, Select select) {
-  const auto is_number = [](const Value& value) { return value.is_number(); };
-  const std::span<const Value> arguments = call.arguments;
-  if (std::all_of(arguments.begin(), arguments.end(), is_number)) return select(arguments);
-  if (arguments.size() > 1 || !arguments[0].is_vector()) return not_converted(call);
-  const auto elements = arguments[0].elements();
+  if (are_all_numbers(call.arguments)) return select(call.arguments);
+  if (call.written > 1 || !call.arguments[0].is_vector()) return not_converted(call);
+  const auto elements = call.arguments[0].elements();
   return elements.empty() ? not_converted(call) : select(elements);
 }
 

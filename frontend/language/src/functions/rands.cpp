@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "functions/functions.hpp"
 #include "values/make.hpp"
@@ -8,26 +9,31 @@
 namespace language::functions {
 namespace {
 
-// Says that a bound is infinite, and returns the bound that is used in its place.
-double reset_bound(const FunctionCall& call, std::string_view which, double bound) {
-  call.warn("rands() range " + std::string(which) + " cannot be infinite");
-  call.environment.messages.say(MessageGroup::kWarning, "resetting to " + std::to_string(bound));
-  return bound;
+constexpr double kMostBound = std::numeric_limits<double>::max() / 2;
+
+// Warns that an argument cannot be used, and says by what it is replaced.
+void warn_of_reset(const FunctionCall& call, std::string_view problem, const std::string& reset) {
+  call.warn("rands() " + std::string(problem));
+  call.environment.messages.say(MessageGroup::kWarning, "resetting " + reset);
 }
 
-double bound_of(const FunctionCall& call, size_t index, std::string_view which, double otherwise) {
-  const double bound = call.arguments[index].number();
-  return std::isfinite(bound) ? bound : reset_bound(call, which, otherwise);
+void warn_of_infinite(const FunctionCall& call, size_t index) {
+  if (index == 0)
+    warn_of_reset(call, "range min cannot be infinite", "to " + std::to_string(-kMostBound));
+  else if (index == 1)
+    warn_of_reset(call, "range max cannot be infinite", "to " + std::to_string(kMostBound));
+  else if (index == 2)
+    warn_of_reset(call, "cannot create an infinite number of results", "number of results to 1");
 }
 
-size_t count_of(const FunctionCall& call) {
-  const double count = std::trunc(std::abs(call.arguments[2].number()));
+double finite_or(const Value& argument, double otherwise) {
+  return std::isfinite(argument.number()) ? argument.number() : otherwise;
+}
+
+size_t count_of(const Value& argument) {
+  const double count = std::trunc(std::abs(finite_or(argument, 1)));
   constexpr double kEnd = 18446744073709551616.0;  // 2^64
-  if (count < kEnd) return static_cast<size_t>(count);
-  if (std::isfinite(count)) return std::numeric_limits<size_t>::max();
-  call.warn("rands() cannot create an infinite number of results");
-  call.environment.messages.say(MessageGroup::kWarning, "resetting number of results to 1");
-  return 1;
+  return count < kEnd ? static_cast<size_t>(count) : std::numeric_limits<size_t>::max();
 }
 
 // Returns the seed that a number stands for: its remainder modulo the prime 2^31 - 1, where a
@@ -59,21 +65,22 @@ double draw(std::mt19937& random) {
 
 }  // namespace
 
-Value random_numbers(const FunctionCall& call) {
-  constexpr double kMostBound = std::numeric_limits<double>::max() / 2;
+size_t next_of_random_numbers(const FunctionCall& call) {
   const auto arguments = call.arguments;
-  if (!arguments[0].is_number()) return Value::undef();
-  double least = bound_of(call, 0, "min", -kMostBound);
-  if (!arguments[1].is_number()) return Value::undef();
-  double most = bound_of(call, 1, "max", kMostBound);
+  if (!arguments.empty() && arguments.back().is_number() &&
+      !std::isfinite(arguments.back().number()))
+    warn_of_infinite(call, arguments.size() - 1);
+  return next_while_numbers(call);
+}
+
+Value random_numbers(const FunctionCall& call) {
+  const auto arguments = call.arguments;
+  if (arguments.size() < call.written || !arguments.back().is_number()) return Value::undef();
+  double least = finite_or(arguments[0], -kMostBound), most = finite_or(arguments[1], kMostBound);
   if (most < least) std::swap(least, most);
-  if (!arguments[2].is_number()) return Value::undef();
-  const size_t count = count_of(call);
   std::mt19937& random = call.environment.random;
-  if (arguments.size() > 3) {
-    if (!arguments[3].is_number()) return Value::undef();
-    random.seed(seed_of(arguments[3].number()));
-  }
+  if (arguments.size() > 3) random.seed(seed_of(arguments[3].number()));
+  const size_t count = count_of(arguments[2]);
   Value result = make_vector(count);
   for (size_t i = 0; i < count; ++i)
     append_element(result, least == most ? least : draw(random) * (most - least) + least);

@@ -49,9 +49,8 @@ class Search {
   // Returns a list with an element for each code point.
   Value indices_of_characters(std::string_view wanted) const {
     Value result = make_vector();
-    while (!wanted.empty()) {
-      const std::string_view character = wanted.substr(0, code_point_length(wanted));
-      wanted.remove_prefix(character.size());
+    for (; const size_t length = code_point_length(wanted); wanted.remove_prefix(length)) {
+      const std::string_view character = wanted.substr(0, length);
       const auto indices =
           table_.is_string() ? indices_in_string(character) : indices_in_entries(character);
       if (!indices) return make_vector();
@@ -84,10 +83,12 @@ class Search {
 
   Value indices_in_string(std::string_view character) const {
     Value indices = make_vector();
+    const uint32_t code_point = first_code_point(character);
     std::string_view rest = table_.text();
-    for (double i = 0; !rest.empty() && !has_enough(indices); ++i) {
+    for (double i = 0; !has_enough(indices); ++i) {
       const size_t length = code_point_length(rest);
-      if (rest.substr(0, length) == character) append_element(indices, i);
+      if (length == 0) break;
+      if (first_code_point(rest) == code_point) append_element(indices, i);
       rest.remove_prefix(length);
     }
     return indices;
@@ -113,7 +114,7 @@ class Search {
   static bool begins_with(const Value& value, std::string_view character) {
     std::string text;
     append_str_text(text, value);
-    return !text.empty() && std::string_view(text).substr(0, code_point_length(text)) == character;
+    return !text.empty() && first_code_point(text) == first_code_point(character);
   }
 
   void warn_of_entry(size_t index, const Value& entry) const {

@@ -1,4 +1,7 @@
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/number_conversions.hpp"
 #include "base/utf8.hpp"
@@ -18,19 +21,16 @@ void append_character(std::string& out, double number) {
   if (code_point != 0 && is_code_point(code_point)) append_code_point(out, code_point);
 }
 
-void append_range_characters(std::string& out, const RangeObject& range, const FunctionCall& call) {
-  if (range.count() >= kMostRangeValues) {
-    call.environment.messages.say(MessageGroup::kWarning,
-                                  "Bad range parameter in for statement: too many elements (" +
-                                      std::to_string(range.count()) + ").");
-    return;
-  }
+void append_range_characters(std::string& out, const RangeObject& range) {
+  if (range.count() >= kMostRangeValues) return;
   const uint32_t steps = range.steps();
   for (uint32_t i = 0; i < steps; ++i) append_character(out, range.value(i));
 }
 
-// Appends the characters of a number, a range or a vector, which may nest deeply.
-void append_characters(std::string& out, const Value& value, const FunctionCall& call) {
+// Calls `visit` for the elements of a vector that are no vectors, or for the one value. Vectors may
+// nest deeply.
+template <typename Visit>
+void visit_leaves(const Value& value, Visit visit) {
   std::vector<std::span<const Value>> rests{{&value, 1}};
   while (!rests.empty()) {
     auto& rest = rests.back();
@@ -40,14 +40,28 @@ void append_characters(std::string& out, const Value& value, const FunctionCall&
     }
     const Value& element = rest.front();
     rest = rest.subspan(1);
-    if (element.is_number())
-      append_character(out, element.number());
-    else if (element.is_range())
-      append_range_characters(out, element.range(), call);
-    else if (element.is_vector())
+    if (element.is_vector())
       rests.push_back(element.elements());
-    check_text_size(out.size());
+    else
+      visit(element);
   }
+}
+
+void append_characters(std::string& out, const Value& value) {
+  visit_leaves(value, [&](const Value& leaf) {
+    if (leaf.is_number()) append_character(out, leaf.number());
+    if (leaf.is_range()) append_range_characters(out, leaf.range());
+    check_text_size(out.size());
+  });
+}
+
+void warn_of_long_ranges(const Value& value, Messages& messages) {
+  visit_leaves(value, [&](const Value& leaf) {
+    if (!leaf.is_range() || leaf.range().count() < kMostRangeValues) return;
+    messages.say(MessageGroup::kWarning,
+                 "Bad range parameter in for statement: too many elements (" +
+                     std::to_string(leaf.range().count()) + ").");
+  });
 }
 
 }  // namespace
@@ -61,25 +75,31 @@ Value string(const FunctionCall& call) {
   return make_string(text);
 }
 
+size_t next_of_characters(const FunctionCall& call) {
+  const auto arguments = call.arguments;
+  if (!arguments.empty()) warn_of_long_ranges(arguments.back(), call.environment.messages);
+  return arguments.size() < call.written ? arguments.size() : kNoArgument;
+}
+
 Value characters(const FunctionCall& call) {
   std::string text;
-  for (const Value& argument : call.arguments) append_characters(text, argument, call);
+  for (const Value& argument : call.arguments) append_characters(text, argument);
   return make_string(text);
 }
 
 Value code_point(const FunctionCall& call) {
-  const auto arguments = call.arguments;
-  if (arguments.empty()) return Value::undef();
+  if (call.written == 0) return Value::undef();
   const auto refuse = [&](std::string text) {
     call.warn("ord() " + std::move(text));
     return Value::undef();
   };
-  if (arguments.size() > 1)
-    return refuse("called with " + std::to_string(arguments.size()) +
+  if (call.written > 1)
+    return refuse("called with " + std::to_string(call.written) +
                   " arguments, only 1 argument expected");
-  if (!arguments[0].is_string())
-    return refuse("argument " + echo_text(arguments[0]) + " is not of type string");
-  const std::string_view text = arguments[0].text();
+  const Value& argument = call.arguments[0];
+  if (!argument.is_string())
+    return refuse("argument " + echo_text(argument) + " is not of type string");
+  const std::string_view text = argument.text();
   if (!is_valid_utf8(text))
     return refuse("argument '" + std::string(text) + "' is not a valid utf8 string");
   return text.empty() ? Value::undef() : Value(first_code_point(text));

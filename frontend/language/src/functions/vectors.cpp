@@ -53,7 +53,7 @@ Value norm(const FunctionCall& call) {
 
 Value cross(const FunctionCall& call) {
   const auto arguments = call.arguments;
-  if (arguments.size() != 2) return refuse_cross(call, "Invalid number of parameters");
+  if (call.written != 2) return refuse_cross(call, "Invalid number of parameters");
   if (!arguments[0].is_vector() || !arguments[1].is_vector())
     return refuse_cross(call, "Invalid type of parameters");
   const auto a = arguments[0].elements(), b = arguments[1].elements();

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 
+#include "base/number_conversions.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {
@@ -16,8 +17,7 @@ uint32_t RangeObject::count() const {
   if (std::isinf(begin) || std::isinf(end) || step == 0) return kMost;
   // A quotient that rounding has put just below an integer counts as that integer.
   const double steps = std::nextafter((end - begin) / step, double{kMost});
-  const double low_bits = std::fmod(std::trunc(steps), 4294967296.0);
-  const auto whole = static_cast<uint32_t>(low_bits);
+  const uint32_t whole = low_bits(steps);
   return whole == kMost ? kMost : whole + 1;
 }
 

@@ -16,7 +16,7 @@ struct RangeObject : SharedObject {
   /// Returns how many values a loop over it sees.
   uint32_t steps() const { return step == 0 ? 0 : count(); }
   /// Returns a value, of those below steps().
-  double value(uint32_t number) const { return begin + step * number; }
+  double value(uint32_t number) const { return number ? begin + step * number : begin; }
 };
 
 Value make_range(double begin, double step, double end);
