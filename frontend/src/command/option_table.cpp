@@ -89,7 +89,7 @@ constexpr OptionRow kOwnOptions[] = {
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
     {"evaluator", Takes::kText, "WHO",
-     "what evaluates a .scad: own (scadray itself) or openscad; default openscad",
+     "what evaluates a .scad: own (scadray itself) or openscad; default own",
      kOneOf<kEvaluators>},
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
@@ -97,7 +97,7 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kFacets>},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
-    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad", kOneOf<kShadings>},
+    {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
