@@ -89,8 +89,7 @@ constexpr OptionRow kOwnOptions[] = {
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
     {"evaluator", Takes::kText, "WHO",
-     "what evaluates a .scad: own (scadray itself) or openscad; default own",
-     kOneOf<kEvaluators>},
+     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>},
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",
