@@ -17,6 +17,7 @@ std::optional<std::string> read_file(const std::string& path) {
     bytes.resize(size + kBlock);
     count = std::fread(bytes.data() + size, 1, kBlock, file.get());
     bytes.resize(size + count);
+    if (bytes.size() > kMostFileBytes) return std::nullopt;
   } while (count > 0);
   if (std::ferror(file.get())) return std::nullopt;  // a folder can be opened, but not read
   return bytes;

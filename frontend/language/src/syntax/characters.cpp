@@ -19,6 +19,32 @@ size_t exponent_length(const char* text) {
   return digits > 0 ? mark + digits : 0;
 }
 
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+/// Returns the length of a character of several bytes at the start of a text; 0: there is none.
+/// OpenSCAD lets overlong ones and surrogates pass.
+size_t wide_character_length(const char* text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  for (size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  return length;
+}
+
+size_t wide_characters_length(const char* text) {
+  size_t length = 0;
+  while (const size_t next = wide_character_length(text + length)) length += next;
+  return length;
+}
+
+/// No token begins with such a sign; what is no character ends the text for OpenSCAD.
+TokenKind unknown_kind(const char* text) {
+  const bool is_ascii = static_cast<unsigned char>(text[0]) < 0x80;
+  return is_ascii || wide_character_length(text) > 0 ? TokenKind::kUnknown : TokenKind::kEnd;
+}
+
 }  // namespace
 
 size_t number_length(const char* text) {
@@ -35,6 +61,14 @@ size_t path_part_length(const char* text, const char* end) {
   const char* at = text;
   while (at < end && *at != '>' && *at != '\n' && *at != '\r' && *at != '\t') ++at;
   return static_cast<size_t>(at - text);
+}
+
+/// OpenSCAD takes any run of a no-break space's two bytes for blanks, but prefers a longer
+/// character.
+size_t wide_blank_length(const char* text) {
+  if (text[0] == '\xEF') return text[1] == '\xBB' && text[2] == '\xBF' ? 3 : 0;
+  const size_t length = std::strspn(text, "\xC2\xA0");
+  return wide_characters_length(text) > length ? 0 : length;
 }
 
 TokenKind sign_kind(const char* text) {
@@ -57,8 +91,10 @@ TokenKind sign_kind(const char* text) {
     case '\x03':
       return TokenKind::kFileEnd;
     default:
-      return std::strchr("()[]{};,:?+-*/%^#.~", text[0]) ? TokenKind::kSign : TokenKind::kUnknown;
+      break;
   }
+  const bool is_known = std::strchr("()[]{};,:?+-*/%^#.~", text[0]) != nullptr;
+  return is_known ? TokenKind::kSign : unknown_kind(text);
 }
 
 }  // namespace language

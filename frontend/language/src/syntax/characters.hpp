@@ -14,8 +14,7 @@ enum CharacterClass : uint8_t { kBlankByte = 1, kWordByte = 2, kDigitByte = 4, k
 
 constexpr std::array<uint8_t, 256> kCharacterClasses = [] {
   std::array<uint8_t, 256> classes{};
-  // The two bytes of a no-break space count as blanks one by one.
-  for (const unsigned char c : std::string_view(" \t\n\r\xC2\xA0")) classes[c] |= kBlankByte;
+  for (const unsigned char c : std::string_view(" \t\n\r")) classes[c] |= kBlankByte;
   for (int c = 0; c < 256; ++c) {
     const bool is_digit = '0' <= c && c <= '9';
     const bool is_letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
@@ -34,8 +33,6 @@ inline bool is_word(char c) { return is_of(c, kWordByte); }
 inline bool is_digit(char c) { return is_of(c, kDigitByte); }
 /// Returns whether a byte within a string is not simply a part of its value.
 inline bool ends_plain_text(char c) { return !is_of(c, kStringByte); }
-/// Returns whether a byte may stand between `include` or `use` and `<`.
-inline bool is_blank_before_path(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 // The following read a text that ends with a NUL.
 
@@ -44,6 +41,10 @@ size_t number_length(const char* text);
 
 /// Returns the length of a path's part: up to `>`, a line end, a tab or the text's end.
 size_t path_part_length(const char* text, const char* end);
+
+/// Returns the length of the no-break spaces, or of the byte order mark, at the start of a text; 0:
+/// there is none.
+size_t wide_blank_length(const char* text);
 
 /// Returns the kind of the sign at the start of a text.
 TokenKind sign_kind(const char* text);

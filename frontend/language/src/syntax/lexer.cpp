@@ -10,14 +10,6 @@
 
 namespace language {
 
-namespace {
-
-bool begins_byte_order_mark(const char* text) {
-  return text[0] == '\xEF' && text[1] == '\xBB' && text[2] == '\xBF';
-}
-
-}  // namespace
-
 Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena,
              Messages& messages, FileLookup& lookup, FileId main, std::string folder)
     : files_(files),
@@ -82,8 +74,8 @@ bool Lexer::skip_blank() {
       skip_line_comment();
     } else if (c == '/' && cursor_[1] == '*') {
       if (!skip_block_comment()) return false;
-    } else if (begins_byte_order_mark(cursor_)) {
-      cursor_ += 3;
+    } else if (const size_t length = wide_blank_length(cursor_); length > 0) {
+      cursor_ += length;
     } else {
       return true;
     }
@@ -154,6 +146,7 @@ bool Lexer::lex_number(Token& token, size_t length) {
 void Lexer::lex_sign(Token& token) {
   token.kind = sign_kind(cursor_);
   if (token.kind == TokenKind::kSign) token.sign = *cursor_;
+  if (token.kind == TokenKind::kEnd) return;
   cursor_ += is_one_byte(token.kind) ? 1 : 2;
 }
 
@@ -187,7 +180,7 @@ void Lexer::lex_string(Token& token) {
 /// Returns whether `<` stands at the cursor, perhaps behind blanks.
 bool Lexer::begins_path() const {
   const char* at = cursor_;
-  while (is_blank_before_path(*at)) ++at;
+  while (is_blank(*at)) ++at;
   return *at == '<';
 }
 
@@ -240,7 +233,7 @@ void Lexer::lex_use(Token& token) {
   }
   if (cursor_ == end_) return lex_unterminated(token, "use statement");
   ++cursor_;
-  token.text = store(last_path_name_);
+  lookup_.use(named_file(last_path_name_));
 }
 
 std::string_view Lexer::store(std::string_view text) {

@@ -24,8 +24,6 @@ class Lexer {
   Token next();
   /// Says a parser error about the last token.
   void say_error(const std::string& text) const;
-  /// Returns a path that stands in the file of the last token. Valid until next() is called.
-  NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
 
  private:
   /// How lines are counted in parser errors: `first`, plus the line feeds from `offset` on.
@@ -41,6 +39,7 @@ class Lexer {
   };
 
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
+  NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();

@@ -68,8 +68,7 @@ const Scope* Parser::parse_file() {
   ScopeBuilder scope(scopes_);
   while (!peek().is(TokenKind::kEnd)) {
     if (peek().is(TokenKind::kUse)) {
-      lookup_.use(lexer_.named_file(take().text));
-      check_hard_warnings();
+      consume();  // the lexer has looked the file up
     } else {
       parse_statement(scope);
     }

@@ -25,14 +25,12 @@ class Parser {
   };
 
   Parser(Lexer& lexer, const SourceFiles& files, const NameTable& names,
-         std::pmr::memory_resource& arena, Messages& messages, FileLookup& lookup,
-         const Settings& settings)
+         std::pmr::memory_resource& arena, Messages& messages, const Settings& settings)
       : lexer_(lexer),
         files_(files),
         names_(names),
         arena_(arena),
         messages_(messages),
-        lookup_(lookup),
         settings_(settings) {}
 
   const Scope* parse_file();
@@ -121,7 +119,6 @@ class Parser {
   const NameTable& names_;
   std::pmr::memory_resource& arena_;
   Messages& messages_;
-  FileLookup& lookup_;
   Settings settings_;
 
   Token tokens_[2];

@@ -68,7 +68,7 @@ bool ProgramReader::parse(uint32_t unit_number) {
   Unit& unit = program_.units[unit_number];
   Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this, unit.file,
               unit.folder);
-  Parser parser(lexer, program_.files, program_.names, program_.arena, messages_, *this,
+  Parser parser(lexer, program_.files, program_.names, program_.arena, messages_,
                 {program_.units[0].file, options_.hard_warnings, options_.stop});
   try {
     unit.scope = parser.parse_file();

@@ -62,7 +62,7 @@ struct Token {
   Name name = kNoName;
   Place place;  // of its first byte
   double number = 0;
-  std::string_view text;  // of a string, escapes replaced; of `use`, the path
+  std::string_view text;  // of a string, escapes replaced
 
   bool is(TokenKind wanted) const { return kind == wanted; }
   bool is(char wanted) const { return sign == wanted; }

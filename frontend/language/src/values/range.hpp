@@ -15,8 +15,9 @@ struct RangeObject : SharedObject {
   uint32_t count() const;
   /// Returns how many values a loop over it sees.
   uint32_t steps() const { return step == 0 ? 0 : count(); }
-  /// Returns a value, of those below steps().
-  double value(uint32_t number) const { return number ? begin + step * number : begin; }
+  /// Returns a value, of those below steps(). The first one is `begin` also where the step is
+  /// infinite, or the sum would lose the sign of zero.
+  double value(uint32_t number) const { return number == 0 ? begin : begin + step * number; }
 };
 
 Value make_range(double begin, double step, double end);
