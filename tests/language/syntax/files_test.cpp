@@ -167,6 +167,42 @@ TEST(Calls, AreKeptWithTheirModifiers) {
   EXPECT_TRUE(scope.modules[0].body->calls.empty());
 }
 
+TEST(Links, AreFollowedToLibrariesAndTheMainFolderOnly) {
+  const DesignFolder folder;
+  folder.write("real/main.scad", "x=1;x=2;include <linked.scad>");
+  folder.write("other/library.scad", "y=1;\ny=2;include <near.scad>");
+  folder.write("other/near.scad", "z=1;");
+  std::filesystem::create_symlink("../other/library.scad", "real/linked.scad");
+  std::filesystem::create_symlink("real", "link");
+  const ParsedDesign design("link/main.scad");
+  EXPECT_EQ(design.lines,
+            (Lines{"WARNING: x was assigned on line 1 but was overwritten in file "
+                   "../real/main.scad, line 1",
+                   "WARNING: y was assigned on line 1 of \"../other/library.scad\" but was "
+                   "overwritten in file ../other/library.scad, line 2"}));
+  EXPECT_EQ(design.assignments().back(), "z = 1");
+  std::filesystem::create_symlink("real/main.scad", "main.scad");
+  EXPECT_EQ(ParsedDesign("main.scad").lines[0],
+            "WARNING: x was assigned on line 1 but was overwritten in file main.scad, line 1");
+}
+
+TEST(HardWarnings, EndTheParsingOfEachFile) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <a.scad>\nuse <b.scad>");
+  folder.write("a.scad", "\ninclude <no.scad>\n include <no.scad>\n cube();");
+  folder.write("b.scad", "x=1;\nx=2\n;\ny=1;");
+  ParseOptions options;
+  options.hard_warnings = true;
+  const ParsedDesign design("main.scad", options);
+  EXPECT_EQ(design.outcome, ParseOutcome::kParsed);
+  EXPECT_EQ(design.lines,
+            (Lines{"WARNING: x was assigned on line 1 of \"b.scad\" but was overwritten in file "
+                   "b.scad, line 2",
+                   "ERROR: Parser error: stop on first warning in file b.scad, line 3",
+                   "WARNING: Can't open include file 'no.scad'.",
+                   "ERROR: Parser error: stop on first warning in file a.scad, line 2"}));
+}
+
 TEST(HardWarnings, EndTheParsing) {
   ParseOptions options;
   options.hard_warnings = true;
