@@ -84,7 +84,7 @@ class EndingDuringAnExport : public LiveWindow {
         "OPENSCAD", folder_.script("openscad", "sleep 1000 & echo $! >'" + (folder_ / "new") +
                                                    "'; mv '" + (folder_ / "new") + "' '" +
                                                    (folder_ / "running") + "'; wait"));
-    open(folder_.write("a.scad", "cube(1);\n"));
+    open(folder_.write("a.scad", "cube(1);\n"), {"--evaluator=openscad"});
     ASSERT_TRUE(wait_until([this] { return folder_.has("running"); }));
     exporting_ = std::stoi(folder_.read("running"));
     EXPECT_TRUE(is_running(exporting_));

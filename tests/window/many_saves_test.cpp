@@ -73,7 +73,7 @@ TEST_F(ManySaves, LeaveNoExportBehind) {
   const int saves = test_support::full_run() ? kSaves : kSaves / 5;
   std::cout << saves << " saves\n";
   const std::string design = folder_.write("a.scad", row_of(1));
-  open(design, {"--camera=10,0,0,55,0,25,100"});
+  open(design, {"--camera=10,0,0,55,0,25,100", "--evaluator=openscad"});
   next();
   for (int i = 1; i <= saves; ++i) {
     const int count = 1 + i % 50;

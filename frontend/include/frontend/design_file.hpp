@@ -47,7 +47,7 @@ struct DesignFile {
 struct DesignFileOptions {
   ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
-  Evaluator evaluator = kDefaultEvaluator;
+  Evaluator evaluator = Evaluator::kOpenScad;
   bool wants_files = false;
   /// Called with each line that the evaluation prints.
   std::function<void(const std::string& line)> message;

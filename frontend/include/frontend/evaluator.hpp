@@ -10,7 +10,7 @@ enum class Evaluator : uint8_t {
   kOpenScad,  // the installed openscad
 };
 
-/// What a design is evaluated by unless --evaluator says otherwise.
-constexpr Evaluator kDefaultEvaluator = Evaluator::kOpenScad;
+/// What the command has a design evaluated by unless --evaluator says otherwise.
+constexpr Evaluator kDefaultEvaluator = Evaluator::kOwn;
 
 }  // namespace frontend

@@ -12,18 +12,13 @@
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
+#include "frontend/text_kind.hpp"
 
 namespace frontend {
 
 struct Output {
   std::string path;  // "-": standard output
   PictureFormat format;
-};
-
-/// What `openscad -o` writes of a design as text.
-enum class TextKind : uint8_t {
-  kCsg,   // its tree
-  kEcho,  // the messages of its evaluation
 };
 
 struct TextOutput {

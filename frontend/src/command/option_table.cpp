@@ -70,6 +70,7 @@ constexpr OptionRow kOpenScadOptions[] = {
      "draw with color(), # and %, the default; =throwntogether: every part whole, no operation"},
     {"csglimit", Takes::kCount, "N", "accepted, without effect: there is no limit"},
     {"debug", Takes::kText, "WHAT", "accepted, without effect"},
+    {"enable", Takes::kTexts, "FEATURE", "accepted, without effect"},
     {"s,s", Takes::kText, "OUT", "the same as -o", kAnyFile},
     {"x,x", Takes::kText, "OUT", "the same as -o", kAnyFile},
 };
@@ -88,15 +89,14 @@ constexpr OptionRow kOwnOptions[] = {
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
     {"evaluator", Takes::kText, "WHO",
-     "what evaluates a .scad: own (scadray itself) or openscad; default openscad",
-     kOneOf<kEvaluators>},
+     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>},
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",
      kOneOf<kFacets>},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
-    {"shading", Takes::kText, "HOW", "openscad or phong; default openscad", kOneOf<kShadings>},
+    {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"openscad-timeout", Takes::kText, "SECONDS",
      "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "

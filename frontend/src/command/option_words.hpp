@@ -10,10 +10,10 @@
 #include "csgcore/view.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
-#include "frontend/options.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
+#include "frontend/text_kind.hpp"
 
 namespace frontend {
 

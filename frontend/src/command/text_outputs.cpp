@@ -10,6 +10,7 @@
 
 #include "follow/evaluated_design.hpp"
 #include "follow/make_rule.hpp"
+#include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"

@@ -165,6 +165,7 @@ SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& file
   TreeBuilder builder(files, tree);
   if (const language::Node* const shown = language::root_modifiers(root).shown) {
     builder.add(*shown);
+    tree.nodes.front().modifiers = 0;
   } else {
     for (const std::shared_ptr<language::Node>& node : root.children) builder.add(*node);
   }

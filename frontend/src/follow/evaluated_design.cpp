@@ -1,6 +1,7 @@
 #include "follow/evaluated_design.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -35,7 +36,13 @@ class HeldMessages {
   bool is_through_ = false;
 };
 
-bool is_yes(std::string_view value) { return value == "true" || value == "1"; }
+/// Sets a flag by OpenSCAD's words for true and false, in any case; any other word leaves it.
+void read_flag(std::string_view value, bool& flag) {
+  std::string lower(value);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (lower == "true" || lower == "on" || lower == "1") flag = true;
+  if (lower == "false" || lower == "off" || lower == "0") flag = false;
+}
 
 /// Reads an option that has its value in the same word. Returns whether it is one.
 bool read_word(std::string_view word, language::EvaluationOptions& options) {
@@ -44,9 +51,9 @@ bool read_word(std::string_view word, language::EvaluationOptions& options) {
   if (word == "--hardwarnings") {
     options.hard_warnings = true;
   } else if (word.starts_with(kParameters)) {
-    options.check_parameters = is_yes(word.substr(kParameters.size()));
+    read_flag(word.substr(kParameters.size()), options.check_parameters);
   } else if (word.starts_with(kRanges)) {
-    options.check_ranges = is_yes(word.substr(kRanges.size()));
+    read_flag(word.substr(kRanges.size()), options.check_ranges);
   } else {
     return false;
   }
@@ -76,14 +83,14 @@ std::optional<language::EvaluationOptions> evaluation_options(
   return options;
 }
 
-std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
-                                                            const DesignFileOptions& options,
-                                                            const std::stop_token& stop) {
-  std::optional<language::EvaluationOptions> known = evaluation_options(options.openscad_arguments);
+std::shared_ptr<const language::Evaluation> evaluate_design(
+    const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
+    const std::function<void(const std::string& line)>& message, const std::stop_token& stop) {
+  std::optional<language::EvaluationOptions> known = evaluation_options(openscad_arguments);
   if (!known) return nullptr;
-  known->is_preview = options.import.picture != PictureKind::kRendered;
+  known->is_preview = is_preview;
   known->stop = stop;
-  OpenScadMessages messages(options.message);
+  OpenScadMessages messages(message);
   HeldMessages held(messages);
   language::Evaluation evaluation;
   try {
@@ -92,8 +99,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
     throw Stopped{};
   }
   if (!evaluation.unknown.empty()) {
-    options.message("openscad evaluates the design, since scadray does not know " +
-                    evaluation.unknown);
+    message("openscad evaluates the design, since scadray does not know " + evaluation.unknown);
     return nullptr;
   }
   held.pass_on();

@@ -33,6 +33,8 @@ using testing::StartsWith;
 
 constexpr const char* kSphere = "sphere($fn = 0, $fa = 12, $fs = 2, r = 1);\n";
 
+constexpr const char* kByOpenScad = "--evaluator=openscad";
+
 using Pixel = std::array<uint8_t, 3>;
 
 struct Outcome {
@@ -77,7 +79,9 @@ class Command : public testing::Test {
     return image;
   }
 
-  Outcome run(const std::vector<std::string>& arguments) {
+  /// Where a test plays openscad, that program evaluates the designs.
+  Outcome run(std::vector<std::string> arguments) {
+    if (std::getenv("OPENSCAD") != nullptr) arguments.insert(arguments.begin(), kByOpenScad);
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     const ExitCode code = run_command(arguments, renderer_);

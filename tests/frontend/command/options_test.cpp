@@ -86,7 +86,8 @@ TEST(Options, ExportFormatStandsAboveTheSuffix) {
   EXPECT_EQ(parse_options({"-o", "a.exr", "--export-format", "PNG", "a"}).outputs[0].format,
             PictureFormat::kPng);
   EXPECT_THAT(error_of({"-o", "-", "a"}), HasSubstr("--export-format"));
-  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=stl", "a"}), HasSubstr("png and exr"));
+  EXPECT_THAT(error_of({"-o", "x.png", "--export-format=stl", "a"}),
+              HasSubstr("png, exr, csg and echo"));
 }
 
 TEST(Options, OutputsThatCannotBe) {

@@ -199,7 +199,7 @@ TEST_P(Follow, ASaveThatChangesNothingSaysSo) {
   EXPECT_FALSE(first.unchanged);
   EXPECT_EQ(first.number, 1u);
   EXPECT_EQ(first.nodes, 2u);
-  EXPECT_EQ(first.csg->view(), spheres(2));
+  EXPECT_EQ(first.texts.csg->view(), spheres(2));
   fs::rename(folder_.write("new", spheres(2)), folder_ / "a.csg");
   const DesignVersion second = design.next();
   EXPECT_TRUE(second.unchanged);

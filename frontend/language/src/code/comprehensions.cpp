@@ -75,7 +75,7 @@ void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExp
   if (is_dynamic) out_.emit(Op::kMarkTrail, source.place, 1);
   expression(*source.value);
   const uint32_t state = out_.depth() - 1;
-  out_.emit(Op::kBeginLoop, loop.place, 1, 0, 0, kElementLoop);
+  out_.emit(Op::kBeginLoop, loop.place, 2, 0, 0, kElementLoop);
   ScopeLayout& scope = open_scope(is_in_heap && has_name && !is_dynamic, source.place);
   const uint32_t open = out_.here() - 1;
   const uint32_t next = out_.emit(Op::kNextRound, loop.place, 1, 0, state);
@@ -90,7 +90,7 @@ void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExp
     scope.add(has_name ? source.name : kNoName, out_.depth() - 1).is_set = true;
   }
   for_elements(sources.subspan(1), loop, is_in_heap, vector);
-  drop_to(state + 2, source.place);
+  drop_to(state + 3, source.place);
   out_.emit(Op::kJump, loop.place, 0, next);
   out_.land(next);
   close_scope(source.place);

@@ -66,8 +66,9 @@ enum class Op : uint8_t {
   kAppend,           // pop, and append to the vector in slot b
   kAppendEach,       // the same with each element of the value
   kAppendEachOfAll,  // pop a vector, and do so with each of its elements
-  kBeginLoop,        // replace the top by what it iterates over, push the state of the loop
-  kNextRound,        // push the next element, or go to b; the loop's two values are in slot a
+  kBeginLoop,        // replace the top by what it iterates over, push how many rounds are done (0)
+                     // and how many there are
+  kNextRound,        // push the next element, or go to b; the loop's three values begin in slot a
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
   kEnterUnit,         // make the top level of unit b ready for a call

@@ -26,7 +26,7 @@ void CodeCompiler::for_rounds(std::span<const Argument> sources, const ModuleCal
   if (is_dynamic) out_.emit(Op::kMarkTrail, source.place, 1);
   expression(*source.value);
   const uint32_t state = out_.depth() - 1;
-  out_.emit(Op::kBeginLoop, call.place, 1, 0, 0, kStatementLoop);
+  out_.emit(Op::kBeginLoop, call.place, 2, 0, 0, kStatementLoop);
   const uint32_t next = out_.emit(Op::kNextRound, call.place, 1, 0, state);
   if (is_dynamic) {
     out_.emit(Op::kUndoTrail, source.place, 0, base);

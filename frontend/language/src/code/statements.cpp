@@ -88,15 +88,11 @@ void CodeCompiler::assign(const Scope& scope, const ModuleEntry* module, const H
 void CodeCompiler::parameter_warning(const Assignment& assignment, const ModuleEntry& module) {
   if (!is_literal(*assignment.value)) return;
   const ScopeVariable* variable = scope_->find(assignment.name);
-  const bool is_parameter = module.parameters.declares(assignment.name) ||
-                            (variable && variable->is_optional) ||
+  if (!variable) return;  // a `$` name
+  const bool is_parameter = module.parameters.declares(assignment.name) || variable->is_optional ||
                             assignment.name == compiler_.known().child_count;
   if (!is_parameter) return;
-  if (variable) {
-    out_.emit(Op::kScoped, assignment.place, 1, variable->slot, 0);
-  } else {
-    out_.emit(Op::kUndef, assignment.place, 1);
-  }
+  out_.emit(Op::kScoped, assignment.place, 1, variable->slot, 0);
   out_.emit(Op::kParameterLiteral, assignment.place, -1, assignment.name, module.name);
 }
 

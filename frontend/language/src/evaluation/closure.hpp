@@ -25,4 +25,8 @@ inline const Closure& closure_of(const Value& function) {
   return static_cast<const Closure&>(*function.object());
 }
 
+/// Releases a scope that its code leaves, also where nothing but functions that it holds itself
+/// keep it.
+void leave_scope(HeapScope* scope) noexcept;
+
 }  // namespace language

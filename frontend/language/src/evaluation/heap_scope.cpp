@@ -3,7 +3,6 @@
 #include <memory>
 #include <new>
 
-#include "evaluation/closure.hpp"
 #include "values/object_memory.hpp"
 
 namespace language {
@@ -32,17 +31,6 @@ void HeapScopes::destroy(HeapScope* scope) noexcept {
     if (!parent || --parent->references) return;
     scope = parent;
   }
-}
-
-void HeapScopes::leave(HeapScope* scope) noexcept {
-  uint32_t own = 1;
-  for (uint32_t slot = 0; slot < scope->size; ++slot) {
-    const Value& value = scope->values()[slot];
-    if (value.is_function() && value.is_unique() && closure_of(value).scope == scope) ++own;
-  }
-  if (own > 1 && own == scope->references)
-    for (uint32_t slot = 0; slot < scope->size; ++slot) scope->values()[slot] = Value::unset();
-  release(scope);
 }
 
 void HeapScopes::clear() noexcept {

@@ -40,9 +40,6 @@ class HeapScopes {
   static void release(HeapScope* scope) noexcept {
     if (scope && --scope->references == 0) destroy(scope);
   }
-  /// Releases a scope that its code leaves, where it is kept by nothing but functions that it
-  /// holds itself, too.
-  static void leave(HeapScope* scope) noexcept;
   /// Empties all scopes that are left. Functions that refer to them may not be called any more.
   void clear() noexcept;
 

@@ -20,6 +20,17 @@ std::mt19937 seeded_generator() {
   return std::mt19937(static_cast<uint32_t>(time ^ getpid()));
 }
 
+// fmod, which is slow, where whole numbers do not tell the same.
+double remainder_of(double left, double right) {
+  constexpr double kLimit = 4294967296.0;
+  if (left >= 0 && left < kLimit && right >= 1 && right < kLimit) {
+    const auto whole_left = static_cast<uint32_t>(left), whole_right = static_cast<uint32_t>(right);
+    if (whole_left == left && whole_right == right && !std::signbit(left))
+      return whole_left % whole_right;
+  }
+  return std::fmod(left, right);
+}
+
 }  // namespace
 
 Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules,
@@ -190,7 +201,7 @@ void Machine::run() {
         binary([](double a, double b) { return Value(a / b); }, operators::divide);
         break;
       case Op::kModulo:
-        binary([](double a, double b) { return Value(std::fmod(a, b)); }, operators::modulo);
+        binary([](double a, double b) { return Value(remainder_of(a, b)); }, operators::modulo);
         break;
       case Op::kAdd:
         binary([](double a, double b) { return Value(a + b); }, operators::add);
@@ -261,7 +272,7 @@ void Machine::run() {
         stack_.push(language::make_vector());
         break;
       case Op::kAppend:
-        append_element(stack_[base_ + step.b], stack_.pop());
+        append(stack_[base_ + step.b]);
         break;
       case Op::kAppendEach:
         append_each(step.b);

@@ -19,6 +19,7 @@
 #include "language/node.hpp"
 #include "messages/messages.hpp"
 #include "modules/builtin_modules.hpp"
+#include "values/make.hpp"
 #include "values/operators.hpp"
 
 namespace language {
@@ -106,7 +107,15 @@ class Machine {
   // loops.cpp
   void begin_loop(uint16_t kind);
   bool next_round(uint32_t state);  // false: there is none
-  void append(uint32_t slot);
+  /// Pops a value and appends it to a vector, which mostly has room.
+  void append(Value& target) {
+    auto& vector = static_cast<VectorObject&>(*target.object());
+    if (vector.references == 1 && vector.size < vector.capacity) {
+      new (vector.elements() + vector.size++) Value(stack_.pop());
+    } else {
+      append_element(target, stack_.pop());
+    }
+  }
   void append_each(uint32_t slot);
   void append_each_of_all(uint32_t slot);
   void append_expanded(Value& vector, const Value& value);

@@ -38,7 +38,7 @@ void Machine::push_scope(uint32_t size) { scope_ = scopes_.make(scope_, size); }
 void Machine::pop_scope() {
   HeapScope* const scope = scope_;
   scope_ = HeapScopes::acquire(scope->parent);
-  HeapScopes::leave(scope);
+  leave_scope(scope);
 }
 
 // With the flag, a value that is not set leaves the variable as it is.

@@ -66,10 +66,11 @@ void append_value(std::string& out, const NodeArgument& argument) {
   }
 }
 
-/// Appends modifiers, indentation, name and arguments.
+/// Appends modifiers, indentation, name and arguments. A root (!) has lost its other modifiers.
 void append_head(std::string& out, const Node& node, size_t depth) {
-  if ((node.modifiers & kBackgroundModifier) != 0) out += '%';
-  if ((node.modifiers & kHighlightModifier) != 0) out += '#';
+  const bool is_root = depth == 0 && (node.modifiers & kRootModifier) != 0;
+  if (!is_root && (node.modifiers & kBackgroundModifier) != 0) out += '%';
+  if (!is_root && (node.modifiers & kHighlightModifier) != 0) out += '#';
   out.append(depth, '\t');
   out += node.name;
   out += '(';

@@ -19,6 +19,13 @@ fs::path resolved(const fs::path& path) {
   return failed ? path.lexically_normal() : result;
 }
 
+/// The same, but a file that is a link itself keeps its name.
+fs::path resolved_file(const fs::path& path) {
+  const fs::path name = path.filename();
+  if (name.empty() || name == "." || name == "..") return resolved(path);
+  return resolved(path.parent_path()) / name;
+}
+
 /// Returns the path as seen from a folder, both resolved. Each step upwards is written "../", even
 /// where nothing follows it.
 std::string relative_to(const fs::path& folder, const fs::path& path) {
@@ -68,7 +75,7 @@ fs::path find(const BuiltinCall& call, const std::string& name) {
 
 NamedFile find_named_file(const BuiltinCall& call, const std::string& name) {
   if (name.empty()) return {};
-  const fs::path path = resolved(find(call, name));
+  const fs::path path = resolved_file(find(call, name));
   if (is_there(path)) call.environment.files_read.push_back(path.string());
   return {relative_to(resolved(call.environment.main_folder), path), seconds_of_last_change(path)};
 }

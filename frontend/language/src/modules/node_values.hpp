@@ -48,6 +48,8 @@ struct Fragments {
 Fragments fragments_of(const BuiltinCall& call);
 /// The same as primitives take them: $fs and $fa are at least 0.01, with a warning for less.
 Fragments clamped_fragments(const BuiltinCall& call);
+/// Says what clamped_fragments() would: primitives without fragments check these, too.
+inline void check_fragments(const BuiltinCall& call) { clamped_fragments(call); }
 
 /// Returns a vector value of numbers.
 Value numbers(std::span<const double> numbers);

@@ -21,6 +21,7 @@ Made make_polyhedron(const BuiltinCall& call, Node& node) {
   enum : size_t { kPoints, kFaces, kConvexity, kTriangles };
   const auto& given = call.parameters;
   node.name = "polyhedron";
+  check_fragments(call);
   const bool has_triangles = !is_given(given[kFaces]) && is_given(given[kTriangles]);
   if (has_triangles) {
     deprecate(call,
@@ -35,6 +36,7 @@ Made make_polyhedron(const BuiltinCall& call, Node& node) {
 
 Made make_polygon(const BuiltinCall& call, Node& node) {
   node.name = "polygon";
+  check_fragments(call);
   add_list(node, "points", call.parameters[0]);
   add_list(node, "paths", call.parameters[1]);
   add_convexity(node, call.parameters[2]);

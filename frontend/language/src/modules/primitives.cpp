@@ -48,6 +48,7 @@ Made make_round(const BuiltinCall& call, Node& node, std::string_view name) {
 
 Made make_cube(const BuiltinCall& call, Node& node) {
   node.name = "cube";
+  check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 3> sizes = {1, 1, 1};
   if (is_given(size)) {
@@ -69,6 +70,7 @@ Made make_cube(const BuiltinCall& call, Node& node) {
 
 Made make_square(const BuiltinCall& call, Node& node) {
   node.name = "square";
+  check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 2> sizes = {1, 1};
   if (is_given(size)) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/degrees.hpp"
@@ -58,6 +59,20 @@ Matrix rotation_about(double angle_deg, const Vec3& axis) {
            {0, 0, 0, 1}}};
 }
 
+/// Returns the matrix as a product with the identity leaves it: an entry that is not finite spoils
+/// its column.
+Matrix times_identity(Matrix matrix) {
+  for (size_t column = 0; column < 3; ++column) {
+    for (size_t row = 0; row < 3; ++row) {
+      if (std::isfinite(matrix[row][column])) continue;
+      for (size_t other = 0; other < 3; ++other) {
+        if (other != row) matrix[other][column] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  return matrix;
+}
+
 /// Reads rotate([x, y, z]) into `angles_deg`. Returns false where something is wrong. Angles are
 /// read from the last to the first; what is no number counts as the angle read before it.
 bool read_angles(std::span<const Value> elements, Vec3& angles_deg) {
@@ -83,7 +98,7 @@ Made rotate_by_vector(const BuiltinCall& call, Node& node) {
   } else if (is_given(v)) {
     warn(call, "When parameter a is supplied as vector, v is ignored " + arguments);
   }
-  return finish(node, rotation(angles_deg));
+  return finish(node, times_identity(rotation(angles_deg)));
 }
 
 }  // namespace
@@ -135,7 +150,7 @@ Made make_rotate(const BuiltinCall& call, Node& node) {
   } else if (!is_axis) {
     warn(call, "Problem converting rotate(..., v=" + shown(v) + ") parameter");
   }
-  return finish(node, rotation_about(is_angle ? a.number() : 0, axis));
+  return finish(node, times_identity(rotation_about(is_angle ? a.number() : 0, axis)));
 }
 
 Made make_mirror(const BuiltinCall& call, Node& node) {

@@ -45,21 +45,22 @@ void Machine::begin_loop(uint16_t kind) {
     append_element(single, std::move(source));
     source = std::move(single);
   }
+  const double rounds =
+      source.is_vector() ? static_cast<double>(source.elements().size()) : source.range().steps();
   stack_.push(0.0);
+  stack_.push(rounds);
 }
 
 bool Machine::next_round(uint32_t state) {
   count_step();
   const Value& source = stack_[state];
   Value& done = stack_[state + 1];
+  if (!(done.number() < stack_[state + 2].number())) return false;
   const auto number = static_cast<uint32_t>(done.number());
   if (source.is_vector()) {
-    if (number >= source.elements().size()) return false;
     stack_.push_copy(source.elements()[number]);
   } else {
-    const RangeObject& range = source.range();
-    if (number >= range.steps()) return false;
-    stack_.push(range.value(number));
+    stack_.push(source.range().value(number));
   }
   done = number + 1.0;
   return true;

@@ -1,9 +1,10 @@
+#include "language/evaluation.hpp"
+
 #include <algorithm>
 
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/machine.hpp"
-#include "language/evaluation.hpp"
 #include "syntax/parse_program.hpp"
 #include "values/make.hpp"
 #include "values/value_text.hpp"

@@ -1,4 +1,6 @@
 // Operators, and what let, assert and echo say.
+#include <memory>
+
 #include "evaluation/machine.hpp"
 #include "syntax/expression_text.hpp"
 #include "values/make.hpp"
@@ -55,8 +57,9 @@ void Machine::make_range(uint16_t flags) {
 
 void Machine::make_vector(uint32_t count) {
   Value vector = language::make_vector(count);
-  for (uint32_t number = 0; number < count; ++number)
-    append_element(vector, std::move(stack_.below(count - 1 - number)));
+  auto& object = static_cast<VectorObject&>(*vector.object());
+  std::uninitialized_move_n(stack_.end() - count, count, object.elements());
+  object.size = count;
   stack_.drop_to(stack_.size() - count);
   stack_.push(std::move(vector));
 }
@@ -107,10 +110,6 @@ void Machine::duplicate_let(Name name) {
 void Machine::unnamed_let() {
   warn("Assignment without variable name " + echo_text(stack_.top()), PathBase::kUnit);
   stack_.drop();
-}
-
-void Closure::append_text(std::string& out) const {
-  append_expression_text(out, *function.literal, names);
 }
 
 }  // namespace language

@@ -1,0 +1,121 @@
+#include "evaluation/evaluated.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "language/csg_writer.hpp"
+#include "language/stopped.hpp"
+
+namespace language {
+namespace {
+
+// A used file that speaks when its top level is evaluated.
+constexpr const char* kLibrary = R"(echo("not called");
+libv = echo("library") 3;
+$lv = 7;
+function lf(a = echo("default") 1, b) = [a, b, libv, $lv, $z];
+module lm(a = 1) { echo("body", a, $lv, $z); children(); }
+function gf() = function() libv;
+)";
+
+// A used file whose top level can be kept while $q stays.
+constexpr const char* kQuiet = R"(q = $q * 10;
+list = [for (i = [0:3]) i];
+function value() = q;
+function constant() = list;
+module quiet() { echo(q, $q); }
+)";
+
+class Folder {
+ public:
+  Folder() { std::filesystem::create_directories(path_); }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const auto file = path_ / name;
+    std::ofstream(file) << text;
+    return file;
+  }
+
+ private:
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("language-test-" + std::to_string(getpid()));
+};
+
+}  // namespace
+
+Evaluated evaluated(const std::string& program, const Options& options) {
+  const Folder folder;
+  folder.write("library.scad", kLibrary);
+  folder.write("quiet.scad", kQuiet);
+  EvaluationOptions evaluation;
+  evaluation.hard_warnings = options.hard_warnings;
+  evaluation.check_parameters = options.check_parameters;
+  Evaluated result;
+  const auto sink = [&](std::string_view line) { (result.messages += line) += "\n"; };
+  result.evaluation = evaluate(folder.write("design.scad", program), evaluation, sink);
+  result.tree = csg_text(*result.evaluation.root);
+  return result;
+}
+
+TEST(Evaluation, TellsOutcomeAndFiles) {
+  const Evaluated result = evaluated("use <quiet.scad>\nuse <none.scad>\ncube(1);\n");
+  EXPECT_EQ(result.evaluation.outcome, Outcome::kDone);
+  ASSERT_EQ(result.evaluation.files_read.size(), 2u);
+  EXPECT_TRUE(result.evaluation.files_read[1].ends_with("/quiet.scad"));
+  EXPECT_FALSE(result.evaluation.lookups.empty());
+  EXPECT_EQ(result.evaluation.unknown, "");
+  EXPECT_EQ(evaluated("cube(").evaluation.outcome, Outcome::kNotParsed);
+  EXPECT_EQ(evaluated("assert(false);").evaluation.outcome, Outcome::kAborted);
+}
+
+TEST(Evaluation, ReadsTheCamera) {
+  const Evaluated result = evaluated("$vpt = [1, 2, 3];\n$vpr = [1, 2, 3, 4];\n$vpd = 70;\n");
+  const DesignCamera& camera = result.evaluation.camera;
+  EXPECT_EQ(camera.translation, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_FALSE(camera.rotation_deg);
+  EXPECT_EQ(camera.distance, 70);
+  EXPECT_FALSE(camera.field_of_view_deg);
+  EXPECT_EQ(result.messages,
+            "WARNING: Unable to convert $vpr=[1, 2, 3, 4] to a vec3 or vec2 of numbers\n"
+            "WARNING: Viewall and autocenter disabled in favor of $vp*\n");
+}
+
+TEST(Evaluation, NamesWhatItDoesNotKnow) {
+  const Evaluated result = evaluated("cube(1);\nx = dxf_dim(file = \"a.dxf\");\n");
+  EXPECT_EQ(result.evaluation.unknown, "dxf_dim() in file design.scad, line 2");
+}
+
+TEST(Evaluation, NestsDeeplyAndEnds) {
+  const Evaluated deep =
+      evaluated("function r(n) = n == 0 ? 0 : 1 + r(n - 1);\necho(r(100000));\n");
+  EXPECT_EQ(deep.messages, "ECHO: 100000\n");
+  const Evaluated endless = evaluated("function r(n) = 1 +\nr(n + 1);\necho(r(0));\n");
+  EXPECT_EQ(endless.evaluation.outcome, Outcome::kAborted);
+  EXPECT_TRUE(endless.messages.starts_with(
+      "ERROR: Recursion detected calling function 'r' in file design.scad, line 2\n"
+      "TRACE: called by 'r' in file design.scad, line 2\n"));
+}
+
+TEST(Evaluation, StopsWhenAsked) {
+  std::stop_source source;
+  EvaluationOptions options;
+  options.stop = source.get_token();
+  const auto sink = [&](std::string_view) { source.request_stop(); };
+  const Folder folder;
+  const std::string file = folder.write(
+      "endless.scad", "echo(1);\nfor (i = [0:9998], j = [0:9998], k = [0:9998]) let (a = i) { }\n");
+  EXPECT_THROW(evaluate(file, options, sink), Stopped);
+}
+
+// Function values that hold themselves are no leak: the address sanitizer would say so.
+TEST(Evaluation, FreesFunctionsThatHoldThemselves) {
+  const Evaluated result = evaluated(
+      "x = [for (i = [0:99]) let (f = function(n) n == 0 ? 0 : 1 + f(n - 1)) f(i)];\n"
+      "g = function() h;\nh = [g, function() g];\necho(x[99], len(g()));\n");
+  EXPECT_EQ(result.messages, "ECHO: 99, 2\n");
+}
+
+}  // namespace language
