@@ -121,6 +121,13 @@ TEST(Overwriting, IsWarnedOfDependingOnTheFiles) {
   EXPECT_EQ(design.assignments(), (Lines{"a = 2", "b = 2", "c = 2", "d = 3"}));
 }
 
+TEST(Overwriting, NamesTheAssignmentBefore) {
+  const ParsedDesign design = parse_text("x=1;\nx=2;\nx=3;");
+  ASSERT_EQ(design.lines.size(), 2u);
+  EXPECT_EQ(design.lines[1],
+            "WARNING: x was assigned on line 2 but was overwritten in file <stdin>, line 3");
+}
+
 TEST(Overwriting, HoldsForBlocksAndManyNames) {
   const ParsedDesign blocks = parse_text("module m() {x=1;x=2;for(i=1){y=1;{y=2;}}}\n{z=1;}z=2;");
   EXPECT_EQ(blocks.lines.size(), 3u);
