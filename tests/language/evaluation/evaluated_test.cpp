@@ -83,6 +83,19 @@ TEST(Evaluation, ReadsTheCamera) {
             "WARNING: Viewall and autocenter disabled in favor of $vp*\n");
 }
 
+TEST(Evaluation, AppliesParameterSets) {
+  const Folder folder;
+  EvaluationOptions options;
+  options.parameter_file = folder.write(
+      "sets.json", R"({"parameterSets": {"one": {"a": "5", "b": "hi", "c": "x", "d": "7"}}})");
+  options.parameter_set = "one";
+  std::string messages;
+  const auto sink = [&](std::string_view line) { (messages += line) += "\n"; };
+  evaluate(folder.write("design.scad", "a = 1; b = \"x\"; c = 3; d = 1 + 1; echo(a, b, c, d);\n"),
+           options, sink);
+  EXPECT_EQ(messages, "ECHO: 5, \"hi\", 3, 7\n");
+}
+
 TEST(Evaluation, NamesWhatItDoesNotKnow) {
   const Evaluated result = evaluated("cube(1);\nx = dxf_dim(file = \"a.dxf\");\n");
   EXPECT_EQ(result.evaluation.unknown, "dxf_dim() in file design.scad, line 2");

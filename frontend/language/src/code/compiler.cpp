@@ -101,6 +101,12 @@ FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const Sc
       FunctionEntry{{kNoName, literal.place, literal.parameters, &scope}, literal.body, &literal});
 }
 
+FunctionEntry& Compiler::add_expression(const Expression& body) {
+  const ScopeLayout& nothing = add_scope(nullptr, 0, nullptr, true);
+  return functions_.emplace_back(
+      FunctionEntry{{kNoName, body.place, {}, &nothing}, &body, nullptr});
+}
+
 BlockEntry& Compiler::add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope) {
   return blocks_.emplace_back(BlockEntry{calls, &scope});
 }

@@ -51,6 +51,8 @@ class Compiler {
   Found<ModuleEntry> find_module(const ScopeLayout& from, Name name);
 
   FunctionEntry& add_literal(const FunctionExpression& literal, const ScopeLayout& scope);
+  /// Returns a function whose body is an expression that no scope surrounds.
+  FunctionEntry& add_expression(const Expression& body);
   BlockEntry& add_block(std::span<const ModuleCall> calls, const ScopeLayout& scope);
   ScopeLayout& add_scope(const ScopeLayout* parent, uint32_t unit, const Code* code,
                          bool is_in_heap);

@@ -5,6 +5,7 @@
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/machine.hpp"
+#include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
 #include "values/make.hpp"
 #include "values/value_text.hpp"
@@ -135,6 +136,10 @@ void Session::evaluate_program() {
   machine_ = &machine;
   preset_names(machine);
   try {
+    if (!options_.parameter_file.empty()) {
+      apply_parameter_set(*program_, messages_, options_.parameter_file, options_.parameter_set,
+                          [&](const Expression& value) { return machine.type_of(value); });
+    }
     machine.run_assignments();
     machine.run_calls(result_.root);
   } catch (const Aborted&) {

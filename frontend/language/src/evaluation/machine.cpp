@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "code/constants.hpp"
 #include "values/make.hpp"
 #include "values/object_memory.hpp"
 
@@ -65,6 +66,17 @@ void Machine::preset(std::string_view name, Value value) {
 Value Machine::top_level_value(std::string_view text) const {
   const Name name = compiler_.names().find(text);
   return dynamic_.is_bound_since(name, preset_trail_) ? dynamic_[name] : Value::unset();
+}
+
+ValueType Machine::type_of(const Expression& expression) {
+  const Value constant = constant_value(expression);
+  if (constant.is_set()) return constant.type();
+  FunctionEntry& function = compiler_.add_expression(expression);
+  push_frame(compiler_.code_of(function), stack_.size(), scopes_.make(nullptr, 0),
+             FrameKind::kFunction, kNoActivation);
+  frames_.back().function = &function;
+  run_guarded();
+  return stack_.pop().type();
 }
 
 void Machine::run_assignments() {
@@ -349,6 +361,7 @@ void Machine::run() {
         break;
       case Op::kReturn:
         return_value();
+        if (frames_.empty()) return;
         break;
       case Op::kReturnDefaults:
         return_defaults();

@@ -56,6 +56,9 @@ class Machine {
 
   /// Gives a `$` name its value before the program begins.
   void preset(std::string_view name, Value value);
+  /// Evaluates an expression where no variable is known, and returns the type of its value. Throws
+  /// like run_assignments().
+  ValueType type_of(const Expression& expression);
   /// Evaluates the assignments of the main file's top level. Throws Aborted, after the error and
   /// its traces, or Stopped.
   void run_assignments();
