@@ -28,7 +28,10 @@ constexpr OptionRow kOptions[] = {
     {"time", Takes::kText, "SECONDS", "and until it took so long in all; default 1"},
     {"json", Takes::kNothing, "", "JSON instead of tables"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
-    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
+    {"openscad-timeout", Takes::kText, "SECONDS",
+     "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
+     "0: it is left out"},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what is not drawn is left out"},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", frontend::kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},

@@ -51,6 +51,7 @@ Options parse_options(const std::vector<std::string>& words) {
   frontend::read_image_size(arguments, options.camera);
   const std::string warning = frontend::read_camera(arguments, options.camera);
   if (!warning.empty()) frontend::fail(warning, {});
+  options.import.rendering.timeout_s = frontend::read_openscad_timeout(arguments);
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
   frontend::RenderSettings render;
   frontend::read_cells_and_threads(arguments, render);

@@ -42,6 +42,7 @@ class Run {
       result.notes.push_back("the design was scaled by 2^" + std::to_string(exponent) +
                              ": its volume and all coordinates are so, too");
     }
+    result.notes.insert(result.notes.end(), not_judged_.begin(), not_judged_.end());
     if (!options_.report.empty()) write_report(result, exponent);
     if (!options_.quiet && options_.report != "-") std::fputs(table_of(result).c_str(), stdout);
     return result.agrees() ? ExitCode::kDone : ExitCode::kDisagreement;
@@ -68,8 +69,22 @@ class Run {
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
+    note_what_is_not_judged(design);
     design.scene.layers.clear();
     return std::move(design.scene);
+  }
+
+  void note_what_is_not_judged(const frontend::ImportedDesign& design) {
+    const auto note = [this](uint32_t count, const std::string& of_one,
+                             const std::string& of_many) {
+      if (count == 1) not_judged_.push_back("1 " + of_one);
+      if (count > 1) not_judged_.push_back(std::to_string(count) + ' ' + of_many);
+    };
+    note(design.rendered_leaves,
+         "part is a mesh by openscad: whether that is the part was not judged",
+         "parts are meshes by openscad: whether these are the parts was not judged");
+    note(design.left_out, "node is left out, and was not judged",
+         "nodes are left out, and were not judged");
   }
 
   void check_report() const {
@@ -87,6 +102,7 @@ class Run {
 
   const Options& options_;
   std::string name_;
+  std::vector<std::string> not_judged_;
   frontend::ProgressLine progress_;
 };
 

@@ -204,6 +204,12 @@ struct StatusPart {
 /// The most characters of a driver's name, which may be as long as all the rest.
 constexpr size_t kShortName = 12;
 
+std::string rendering_words(const std::vector<uint32_t>& lines) {
+  std::string words = "openscad renders line " + std::to_string(lines.front());
+  if (lines.size() > 1) words += " and " + std::to_string(lines.size() - 1) + " more";
+  return words;
+}
+
 std::vector<StatusPart> status_parts(const State& state) {
   if (!state.version) return {{"reading " + state.name, 0}};
   std::vector<StatusPart> parts;
@@ -234,6 +240,9 @@ std::vector<StatusPart> status_parts(const State& state) {
                      4});
   }
   if (state.is_reading) parts.push_back({"reading", 0});
+  if (state.design && !state.design->lines_to_render.empty()) {
+    parts.push_back({rendering_words(state.design->lines_to_render), 0});
+  }
   return parts;
 }
 

@@ -78,7 +78,7 @@ void expect_agreement(const Scene& scene, const View& view, Agreement& sum) {
 
 TEST(ExactAgreement, WithTheReferenceOnRandomTrees) {
   Agreement sum;
-  const uint32_t seeds = test_support::full_run() ? 200 : 25;
+  const uint32_t seeds = test_support::full_run() ? 200 : 10;
   for (uint32_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = test_support::random_tree_of_all_kinds(3 + seed % 40, seed);

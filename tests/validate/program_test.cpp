@@ -286,12 +286,25 @@ TEST_F(Validate, Failures) {
 }
 
 TEST_F(Validate, WhatCannotBeDrawnIsLeftOut) {
-  const std::string flat = folder_.write("flat.csg", "import(\"a.nef3\");");
+  const std::string flat = folder_.write("flat.csg", "roof() { square(); }");
   for (const char* option : {"--skip-unsupported", "--seed=1"}) {
     const Outcome outcome = run({option, "--renderer=cpu", "--time-limit=0", flat});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: import is left out"));
+    EXPECT_THAT(outcome.err, HasSubstr("flat.csg:1:1: warning: roof is left out"));
   }
+}
+
+TEST_F(Validate, SaysWhatItDoesNotJudge) {
+  const Environment cache("XDG_CACHE_HOME", folder_ / "cache");
+  const Environment openscad("OPENSCAD",
+                             folder_.script("openscad", "cat " SCADRAY_MESH_FILES "/frame.nef3"));
+  const Outcome outcome =
+      run_few({folder_.write("a.csg",
+                             "cube(1); roof() { square(); } minkowski() { difference() { cube(1); "
+                             "sphere(0.5); } difference() { cube(1); sphere(0.5); } }")});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 part is a mesh by openscad: "),
+                                 HasSubstr("1 node is left out, and was not judged\n")));
 }
 
 TEST_F(Validate, ReportToStandardOutputAndQuiet) {

@@ -59,6 +59,28 @@ TEST_F(Following, ASaveThatChangesNothing) {
   expect_shown(before);
 }
 
+/// What openscad has to render is waited for beside the picture of all else.
+TEST_F(Following, APartThatOpenscadRenders) {
+  const std::string in = "'" + folder_.path() + "'";
+  ProcessSetup setup;
+  setup.environment["XDG_CACHE_HOME"] = folder_ / "cache";
+  setup.environment["OPENSCAD"] = folder_.script(
+      "openscad",
+      "while [ ! -e " + in + "/go ]; do sleep 0.01; done; cat " SCADRAY_MESH_FILES "/frame.nef3");
+  const std::string part =
+      "minkowski() { difference() { cube(1); sphere(0.5); } difference() { cube(1); sphere(0.5); "
+      "} }\n";
+  open(folder_.write("a.csg", kBlock + part), {"--imgsize=800,300"}, setup);
+  const json without = next();
+  EXPECT_EQ(without["primitives"], 2);
+  EXPECT_EQ(without["messages"], json::array());
+  EXPECT_THAT(without["status"].get<std::string>(), HasSubstr("openscad renders line 7"));
+  folder_.write("go", "");
+  const json with = next_of(3);
+  EXPECT_THAT(with["status"].get<std::string>(), testing::Not(HasSubstr("openscad renders")));
+  EXPECT_EQ(with["camera"], without["camera"]);
+}
+
 /// The error is shown over the last good picture.
 constexpr Area kAboveTheError{0, 30, kWidth, 120};
 

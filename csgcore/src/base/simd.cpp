@@ -1,9 +1,17 @@
 #include "base/simd.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 namespace csgcore {
 namespace {
+
+/// Whether all levels are compiled (CSGCORE_DISABLED_TARGETS).
+#ifdef CSGCORE_SANITIZED
+constexpr bool kCompilesAll = false;
+#else
+constexpr bool kCompilesAll = true;
+#endif
 
 /// Asks for the features that Highway compiles its targets for (its set_macros-inl.h), except F16C:
 /// clang 14 cannot ask for it, and every processor with AVX2 has it.
@@ -16,9 +24,9 @@ SimdLevel widest_supported() {
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
                       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512bw");
-  if (avx512) return SimdLevel::kAvx512;
+  if (kCompilesAll && avx512) return SimdLevel::kAvx512;
   if (avx2) return SimdLevel::kAvx2;
-  if (sse4) return SimdLevel::kSse4;
+  if (kCompilesAll && sse4) return SimdLevel::kSse4;
 #endif
   return SimdLevel::kBaseline;
 }
@@ -34,7 +42,8 @@ SimdLevel simd_level() { return current().load(std::memory_order_relaxed); }
 
 void limit_simd_level(SimdLevel widest) {
   const SimdLevel supported = widest_supported();
-  current() = widest > supported ? widest : supported;
+  const bool is_left_out = !kCompilesAll && widest == SimdLevel::kSse4;
+  current() = std::max(is_left_out ? SimdLevel::kBaseline : widest, supported);
 }
 
 }  // namespace csgcore

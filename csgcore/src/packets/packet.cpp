@@ -9,9 +9,7 @@
 
 #include "base/simd.hpp"
 
-// Vectors whose length is not known to the compiler cannot be put into arrays.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "packets/packet.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for every instruction set

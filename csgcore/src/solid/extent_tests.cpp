@@ -9,8 +9,7 @@
 
 // The instruction sets that are left out would save little and cost compile time. Vectors whose
 // length is not known to the compiler cannot be put into arrays.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_DISABLED_TARGETS CSGCORE_DISABLED_TARGETS
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solid/extent_tests.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for every instruction set

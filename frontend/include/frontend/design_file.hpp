@@ -85,6 +85,10 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
 /// Starts the import of what was read. Throws what TextImport throws.
 TextImport start_import(const DesignText& text, const ImportOptions& options,
                         const std::stop_token& stop = {});
+/// The same of the parts of a DesignText; the text of `csg` counts if `evaluation` is null.
+TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const ImportOptions& options,
+                        const std::stop_token& stop = {});
 
 /// Finishes `file.import`; may be called once. Throws what TextImport throws, and Error if memory
 /// runs out.

@@ -3,13 +3,17 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "csgcore/primitive.hpp"
+#include "frontend/rendering_options.hpp"
 
 namespace frontend {
+
+class HullPool;
 
 /// Which round primitives become the polyhedra that OpenSCAD makes of them (frontend/OPENSCAD.md,
 /// "Facets"); the others are exact quadrics.
@@ -50,8 +54,13 @@ struct ImportOptions {
   bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone, and trees that have offsets.
   bool keeps_places = false;
+  /// How openscad is asked for what scadray does not draw itself; by default it is not.
+  RenderingOptions rendering{};
   /// Fill ImportedDesign::meshes, which pictures with edges need.
   bool keeps_meshes = false;
+  /// The hulls of solids of the design's last version, of which those that are the same are not
+  /// made anew. Null: the design has no version before.
+  std::shared_ptr<HullPool> hulls{};
 };
 
 }  // namespace frontend

@@ -37,6 +37,14 @@ struct ImportedDesign {
   /// The hulls and Minkowski sums in which facets, finer than a pixel, stand for what is round and
   /// has no exact form.
   uint32_t faceted_leaves = 0;
+  /// The leaves that openscad has rendered, and the nodes that are left out.
+  uint32_t rendered_leaves = 0;
+  uint32_t left_out = 0;
+  /// The lines of the leaves that openscad still has to render (RenderingOptions::waits): these are
+  /// missing.
+  std::vector<uint32_t> lines_to_render;
+  /// The time that openscad took, or the search for what it has rendered before.
+  double rendering_ms = 0;
   /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;

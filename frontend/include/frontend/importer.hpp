@@ -13,7 +13,7 @@
 
 namespace frontend {
 
-/// A node that cannot be drawn is left out, and an argument of the wrong type counts as missing,
+/// A node that is not drawn is left out, and an argument of the wrong type counts as missing,
 /// as in OpenSCAD: there is one warning for each kind of node and reason, which names the first
 /// with its place and says how many there are. A round primitive whose facets would take too much
 /// memory stays smooth, with one warning for all. Throws nothing but Stopped (stop.hpp), where

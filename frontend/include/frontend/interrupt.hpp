@@ -9,7 +9,7 @@
 namespace frontend {
 
 /// Installs the handlers. From then on no signal but SIGKILL ends the program before the registered
-/// files are removed and the registered process group is killed. A signal that asks for the end
+/// files are removed and the registered process groups are killed. A signal that asks for the end
 /// (SIGINT, SIGTERM, SIGHUP, SIGXCPU, …) then gives exit code 1; one that dumps core (SIGQUIT, a
 /// crash) still does so. SIGPIPE and SIGXFSZ are ignored, so that writing fails with an error.
 /// Signals that the parent process has set to be ignored stay ignored. To be called once, by a
@@ -33,8 +33,23 @@ class RemoveOnInterrupt {
   std::size_t slot_;
 };
 
-/// Registers the process group that an interruption kills; 0: none. There is one at a time.
-void set_child_group(pid_t group);
+/// The most process groups that can be registered at once.
+constexpr std::size_t kMaxChildGroups = 64;
+
+/// While this object lives, an interruption kills the process group that it is given. Throws Error
+/// if too many are registered.
+class KillOnInterrupt {
+ public:
+  KillOnInterrupt();
+  ~KillOnInterrupt();
+  KillOnInterrupt(const KillOnInterrupt&) = delete;
+  KillOnInterrupt& operator=(const KillOnInterrupt&) = delete;
+  /// 0 means no group.
+  void set(pid_t group);
+
+ private:
+  std::size_t slot_;
+};
 
 /// Guards work that must not be left half done. While this object lives, an interruption waits for
 /// its end, for some seconds at most, and this thread takes no signal. Crashes and SIGKILL do not

@@ -10,9 +10,6 @@
 
 namespace frontend {
 
-/// Returns the program that $OPENSCAD names, or else "openscad".
-std::string openscad_name();
-
 struct OpenScadExport {
   FileText csg;
   std::vector<std::string> files;  // files the design reads, as openscad names them; if wanted

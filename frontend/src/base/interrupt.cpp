@@ -16,7 +16,9 @@ namespace {
 // A handler may run on any thread, between any two instructions. So it may only use lock-free
 // atomics, and call only what POSIX lists as async-signal-safe.
 std::array<std::atomic<const char*>, kMaxRemovedFiles> files_to_remove;
-std::atomic<pid_t> child_group{0};
+std::array<std::atomic<pid_t>, kMaxChildGroups> child_groups;
+/// In `child_groups`: the place is taken, but has no group now. A free place has 0.
+constexpr pid_t kNoGroup = -1;
 std::atomic<int> holders{0};  // HoldInterrupts that exist now
 static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<pid_t>::is_always_lock_free);
@@ -32,7 +34,9 @@ constexpr int kInterruptions[] = {SIGINT,  SIGTERM, SIGHUP,  SIGALRM, SIGVTALRM,
 constexpr int kCrashes[] = {SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
 
 void clean_up() {
-  if (const pid_t group = child_group.load(); group > 0) kill(-group, SIGKILL);
+  for (const std::atomic<pid_t>& slot : child_groups) {
+    if (const pid_t group = slot.load(); group > 0) kill(-group, SIGKILL);
+  }
   for (std::atomic<const char*>& slot : files_to_remove) {
     if (const char* path = slot.exchange(nullptr)) unlink(path);
   }
@@ -86,7 +90,17 @@ RemoveOnInterrupt::RemoveOnInterrupt(const char* path) : slot_(0) {
 
 RemoveOnInterrupt::~RemoveOnInterrupt() { files_to_remove[slot_].store(nullptr); }
 
-void set_child_group(pid_t group) { child_group.store(group); }
+KillOnInterrupt::KillOnInterrupt() : slot_(0) {
+  for (; slot_ < kMaxChildGroups; ++slot_) {
+    pid_t none = 0;
+    if (child_groups[slot_].compare_exchange_strong(none, kNoGroup)) return;
+  }
+  throw Error("", {}, "too many programs at once", "start fewer");
+}
+
+KillOnInterrupt::~KillOnInterrupt() { child_groups[slot_].store(0); }
+
+void KillOnInterrupt::set(pid_t group) { child_groups[slot_].store(group > 0 ? group : kNoGroup); }
 
 HoldInterrupts::HoldInterrupts() {
   // The signals are blocked first: a handler on this thread would wait for itself.

@@ -9,12 +9,13 @@
 #include <string_view>
 
 #include "base/descriptor.hpp"
-#include "follow/child_process.hpp"
 #include "follow/evaluated_design.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
 #include "language/csg_writer.hpp"
+#include "process/child_process.hpp"
+#include "process/openscad_program.hpp"
 
 namespace frontend {
 namespace {
@@ -64,7 +65,7 @@ std::string text_of(const std::string& path) {
 Result by_openscad(const std::string& file, const std::vector<std::string>& options) {
   const WorkFolder folder;
   const std::string tree = folder.file("tree.csg"), messages = folder.file("messages");
-  std::vector<std::string> command = {openscad_name(), "-o", tree};
+  std::vector<std::string> command = {openscad_program(), "-o", tree};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--", file});
   std::FILE* const errors = std::fopen(messages.c_str(), "we");

@@ -98,7 +98,10 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
-    {"skip-unsupported", Takes::kNothing, "", "without effect: what cannot be drawn is left out"},
+    {"openscad-timeout", Takes::kText, "SECONDS",
+     "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
+     "0: it is left out"},
+    {"skip-unsupported", Takes::kNothing, "", "without effect: what is not drawn is left out"},
     {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
 };
 

@@ -1,8 +1,18 @@
 #include "frontend/statistics.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace frontend {
+
+namespace {
+
+/// A leaf that is not drawn may be among the others.
+uint64_t exact_leaves(const RunStats& stats) {
+  return stats.leaves - std::min(stats.leaves, stats.faceted_leaves + stats.rendered_leaves);
+}
+
+}  // namespace
 
 std::string to_json(const RunStats& stats) {
   const RenderStats& render = stats.render;
@@ -19,7 +29,10 @@ std::string to_json(const RunStats& stats) {
       {"design_leaves",
        {{"total", stats.leaves},
         {"compound", stats.compound_leaves},
-        {"faceted", stats.faceted_leaves}}},
+        {"exact", exact_leaves(stats)},
+        {"faceted", stats.faceted_leaves},
+        {"openscad", stats.rendered_leaves},
+        {"left_out", stats.left_out}}},
       {"layers", stats.layers},
       {"primitives", render.primitives},
       {"cells", render.cells},
@@ -53,6 +66,7 @@ std::string to_json(const RunStats& stats) {
         {"read", stats.read_ms},
         {"parse", stats.parse_ms},
         {"import", stats.import_ms},
+        {"openscad", stats.rendering_ms},
         {"prepare", render.prepare_ms},
         {"context", render.context_ms},
         {"subdivide", render.subdivide_ms},

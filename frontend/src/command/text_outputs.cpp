@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "follow/child_process.hpp"
 #include "follow/evaluated_design.hpp"
 #include "follow/make_rule.hpp"
 #include "frontend/design_file.hpp"
@@ -17,6 +16,8 @@
 #include "frontend/openscad_export.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
+#include "process/child_process.hpp"
+#include "process/openscad_program.hpp"
 
 namespace frontend {
 namespace {
@@ -25,7 +26,7 @@ const char* word_of(TextKind kind) { return kind == TextKind::kCsg ? "csg" : "ec
 
 /// Returns the command of openscad that writes the output.
 std::vector<std::string> openscad_command(const Options& options, const TextOutput& output) {
-  std::vector<std::string> command = {openscad_name(), "-o", output.path,
+  std::vector<std::string> command = {openscad_program(), "-o", output.path,
                                       "--export-format=" + std::string(word_of(output.kind))};
   if (options.quiet) command.push_back("-q");
   if (options.import.picture == PictureKind::kRendered) command.push_back("--render");

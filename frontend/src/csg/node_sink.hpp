@@ -26,4 +26,8 @@ constexpr uint32_t kOpenSubtree = 0xFFFFFFFFu;
 void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,
                  const std::stop_token& stop);
 
+/// Returns the tree of the node alone whose name is at `offset` of a text that parse_nodes() has
+/// taken, with all arguments. Its places are those in the text from there on.
+SyntaxTree parse_subtree(std::string_view text, uint32_t offset);
+
 }  // namespace frontend

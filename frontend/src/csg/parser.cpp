@@ -85,9 +85,12 @@ class Parser {
   /// `tree` has a file name and nothing else. Without a sink the tree keeps all arguments.
   Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink);
   void run(const std::stop_token& stop);
+  /// Ends after the first node.
+  void run_one_node();
   const Lexer& lexer() const { return lexer_; }
 
  private:
+  bool step();
   uint8_t modifiers();
   void node(uint8_t modifiers);
   NodeKind node_kind();
@@ -138,25 +141,36 @@ Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
 }
 
 void Parser::run(const std::stop_token& stop) {
-  for (;;) {
+  do {
     throw_if_stopped(stop);
-    const uint8_t found = modifiers();
-    if (lexer_.at_word()) {
-      node(found);
-      continue;
-    }
-    if (found != 0) lexer_.fail_expected("a node after its modifier", "remove the modifier");
-    if (lexer_.take(';')) continue;
-    if (lexer_.at_end()) break;
-    if (lexer_.peek() != '}') {
-      lexer_.fail_expected("a node", "a .csg holds nodes such as sphere(r = 1);");
-    }
-    if (open_.empty()) lexer_.fail("'}' without a '{'", "remove it");
-    lexer_.advance();
-    close_node();
-  }
+  } while (step());
   if (!open_.empty()) fail_unclosed();
   give_names();
+}
+
+void Parser::run_one_node() {
+  while (step() && !open_.empty()) {
+  }
+  give_names();
+}
+
+/// Parses the next node up to its children, or an end. Returns false at the end of the text.
+bool Parser::step() {
+  const uint8_t found = modifiers();
+  if (lexer_.at_word()) {
+    node(found);
+    return true;
+  }
+  if (found != 0) lexer_.fail_expected("a node after its modifier", "remove the modifier");
+  if (lexer_.take(';')) return true;
+  if (lexer_.at_end()) return false;
+  if (lexer_.peek() != '}') {
+    lexer_.fail_expected("a node", "a .csg holds nodes such as sphere(r = 1);");
+  }
+  if (open_.empty()) lexer_.fail("'}' without a '{'", "remove it");
+  lexer_.advance();
+  close_node();
+  return true;
 }
 
 /// Sets the argument names that are not in the table, once tree_.strings does not move any more.
@@ -466,6 +480,12 @@ void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,
                  const std::stop_token& stop) {
   check_size(text, tree.file_name);
   Parser(text, tree, &sink).run(stop);
+}
+
+SyntaxTree parse_subtree(std::string_view text, uint32_t offset) {
+  SyntaxTree tree;
+  Parser(text.substr(offset), tree, nullptr).run_one_node();
+  return tree;
 }
 
 }  // namespace frontend

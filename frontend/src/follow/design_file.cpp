@@ -173,9 +173,14 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
 
 TextImport start_import(const DesignText& text, const ImportOptions& options,
                         const std::stop_token& stop) {
-  if (!text.evaluation) return TextImport(text.csg.view(), text.name, options, stop);
-  const language::Evaluation& evaluation = *text.evaluation;
-  return TextImport(tree_of(*evaluation.root, *evaluation.files, text.name), options, stop);
+  return start_import(text.csg, text.evaluation.get(), text.name, options, stop);
+}
+
+TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const ImportOptions& options,
+                        const std::stop_token& stop) {
+  if (evaluation == nullptr) return TextImport(csg.view(), name, options, stop);
+  return TextImport(tree_of(*evaluation->root, *evaluation->files, name), options, stop);
 }
 
 ImportedDesign import_design(DesignFile& file) {

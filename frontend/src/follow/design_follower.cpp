@@ -18,6 +18,7 @@
 #include "follow/included_files.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/stop.hpp"
+#include "lower/hull_pool.hpp"
 
 namespace frontend {
 namespace {
@@ -122,16 +123,12 @@ class DesignFollower::Follower {
     set_state(State::kReading);
   }
 
-  void start_reading() {
-    const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
-    watch_.forget_changes();
-    if (is_followed_) watch_.set_files(paths_to_watch());
-    reading_since_ns_ = system_time_ns();
-    set_state(State::kReading);
-    reading_ = std::jthread([this, noticed, before = good_](const std::stop_token& stop) {
+  /// Runs `read`, which returns a DesignReading, in a thread of its own.
+  template <typename Read>
+  void start(const Read& read) {
+    reading_ = std::jthread([this, read](const std::stop_token& stop) {
       try {
-        result_ = read_anew(path_, file_options(), before, stop);
-        result_.version.noticed = noticed;
+        result_ = read(stop);
         has_read_ = true;
         wake_.raise();
       } catch (const Stopped&) {
@@ -139,9 +136,30 @@ class DesignFollower::Follower {
     });
   }
 
+  void start_reading() {
+    const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
+    watch_.forget_changes();
+    if (is_followed_) watch_.set_files(paths_to_watch());
+    reading_since_ns_ = system_time_ns();
+    set_state(State::kReading);
+    start([this, noticed, before = good_](const std::stop_token& stop) {
+      DesignReading reading = read_anew(path_, file_options(), before, stop);
+      reading.version.noticed = noticed;
+      return reading;
+    });
+  }
+
+  /// After a reading that lacks what openscad still has to render.
+  void start_rendering(DesignReading before) {
+    start([this, before = std::move(before)](const std::stop_token& stop) {
+      return render_missing(path_, file_options(), before, stop);
+    });
+  }
+
   DesignFileOptions file_options() const {
     DesignFileOptions options;
     options.import = options_.import;
+    options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
     return options;
@@ -156,6 +174,7 @@ class DesignFollower::Follower {
 
   void finish_reading() {
     reading_.join();
+    DesignReading reading = result_;
     good_ = std::move(result_.good);
     is_scad_ = is_scad(path_) || result_.is_scad;
     DesignVersion version = std::move(result_.version);
@@ -169,6 +188,8 @@ class DesignFollower::Follower {
     }
     state_ = State::kIdle;
     on_news_();
+    const ImportedDesign* const design = reading.version.design.get();
+    if (design && !design->lines_to_render.empty()) start_rendering(std::move(reading));
   }
 
   void set_state(State state) {
@@ -210,7 +231,9 @@ class DesignFollower::Follower {
   // Used by the watching thread alone.
   FileWatch watch_;
   IncludedFiles included_;
-  std::vector<std::string> files_;    // watched files, by their names
+  std::vector<std::string> files_;  // watched files, by their names
+  /// Of the last version that was read to its end.
+  const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
   std::vector<std::string> imports_;  // files imported by the last version that could be read
   GoodVersion good_;
   bool is_scad_ = is_scad(path_);

@@ -39,7 +39,7 @@ std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions
                                      DesignReading& reading, const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
-                              is_same(reading.good.texts, text);
+                              before->lines_to_render.empty() && is_same(reading.good.texts, text);
   if (reading.version.unchanged) return std::nullopt;
   const Clock::time_point start = Clock::now();
   TextImport import = start_import(text, options, stop);
@@ -51,9 +51,9 @@ GoodVersion finish_import(TextImport& import, DesignText& text, DesignVersion& v
                           const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
-  version.import_ms = ms_since(start);
+  version.import_ms = ms_since(start) - design->rendering_ms;
   DesignTexts texts{std::make_shared<const FileText>(std::move(text.csg)), text.evaluation};
-  return {std::move(texts), std::move(design), import.nodes()};
+  return {std::move(texts), std::move(design), import.nodes(), text.name, text.is_exported};
 }
 
 void read_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
@@ -61,19 +61,20 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   DesignVersion& version = reading.version;
   DesignFileOptions file_options = options;
   file_options.wants_files = true;
+  file_options.import.rendering.waits = false;
   file_options.message = keeping_messages(version);
   file_options.progress = [](const char*) {};
   DesignText text = read_design_text(path, file_options, stop);
   std::optional<TextImport> import;
   try {
-    import = parse_text(text, beside(path, text, options.import), reading, stop);
+    import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
     reading.is_scad = true;
   }
   if (reading.is_scad) {
     export_design_text(path, file_options, text, stop);
-    import = parse_text(text, beside(path, text, options.import), reading, stop);
+    import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   }
   if (import) reading.good = finish_import(*import, text, version, stop);
   version.export_ms = text.export_ms;
@@ -83,6 +84,40 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   add_imported_files(*version.design, version.files);
   version.texts = reading.good.texts;
   version.nodes = reading.good.nodes;
+  for (const Warning& warning : version.design->warnings) {
+    version.messages.push_back(warning.text);
+  }
+}
+
+/// Does the work, and reports in the version why it fails.
+template <typename Work>
+void report_failures(const std::string& path, DesignReading& reading, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    reading.version.error = error.what();
+  } catch (const std::bad_alloc&) {
+    reading.version.error = path + ": error: out of memory (try a smaller design)";
+  } catch (const std::exception& error) {
+    reading.version.error = path + ": error: " + error.what();
+  }
+}
+
+/// Imports the text of the good version again. The messages before the importer's stay.
+void render_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
+                 const std::stop_token& stop) {
+  DesignVersion& version = reading.version;
+  version.messages.resize(version.messages.size() - version.design->warnings.size());
+  DesignText text;
+  text.is_exported = reading.good.is_exported;
+  ImportOptions import_options = beside(path, text, options.import);
+  import_options.rendering.is_in_background = true;
+  const GoodVersion& good = reading.good;
+  TextImport import = start_import(*good.texts.csg, good.texts.evaluation.get(), good.text_name,
+                                   import_options, stop);
+  reading.good.design = std::make_shared<const ImportedDesign>(import.finish(stop));
+  version.design = reading.good.design;
+  version.unchanged = false;
   for (const Warning& warning : version.design->warnings) {
     version.messages.push_back(warning.text);
   }
@@ -99,15 +134,14 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
                         const GoodVersion& before, const std::stop_token& stop) {
   DesignReading reading;
   reading.good = before;
-  try {
-    read_into(reading, path, options, stop);
-  } catch (const Error& error) {
-    reading.version.error = error.what();
-  } catch (const std::bad_alloc&) {
-    reading.version.error = path + ": error: out of memory (try a smaller design)";
-  } catch (const std::exception& error) {
-    reading.version.error = path + ": error: " + error.what();
-  }
+  report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
+  return reading;
+}
+
+DesignReading render_missing(const std::string& path, const DesignFileOptions& options,
+                             const DesignReading& before, const std::stop_token& stop) {
+  DesignReading reading = before;
+  report_failures(path, reading, [&] { render_into(reading, path, options, stop); });
   return reading;
 }
 

@@ -10,11 +10,13 @@
 
 namespace frontend {
 
-/// The last version that could be read; null and 0 before there is one.
+/// The last version that could be read; null, empty and 0 before there is one.
 struct GoodVersion {
   DesignTexts texts;
   std::shared_ptr<const ImportedDesign> design;
   std::size_t nodes = 0;
+  std::string text_name;     // of the text, for messages
+  bool is_exported = false;  // openscad made the text
 };
 
 struct DesignReading {
@@ -25,10 +27,16 @@ struct DesignReading {
   bool is_scad = false;  // told by the text, where the name does not tell
 };
 
-/// Reads the design. Of `options` only `import`, `evaluator` and `openscad_arguments`
-/// are used. Every failure is
-/// reported in version.error; only Stopped (stop.hpp) is thrown.
+/// Reads the design. What openscad has to render of it, and has not rendered before, is missing
+/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator` and
+/// `openscad_arguments` are used. Every failure is reported in version.error; only Stopped
+/// (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
+
+/// Returns the good version of a reading again, with all that openscad renders of it. Throws
+/// Stopped (stop.hpp) alone.
+DesignReading render_missing(const std::string& path, const DesignFileOptions& options,
+                             const DesignReading& before, const std::stop_token& stop);
 
 }  // namespace frontend

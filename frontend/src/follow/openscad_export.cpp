@@ -2,14 +2,12 @@
 
 #include <poll.h>
 #include <sys/ioctl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -19,13 +17,15 @@
 
 #include "base/descriptor.hpp"
 #include "base/growing_text.hpp"
-#include "follow/child_process.hpp"
 #include "follow/make_rule.hpp"
 #include "follow/openscad_messages.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/stop.hpp"
+#include "process/child_process.hpp"
+#include "process/memory_file.hpp"
+#include "process/openscad_program.hpp"
 
 namespace frontend {
 namespace {
@@ -41,25 +41,6 @@ Error cannot_run(const std::string& program, int error_number) {
   return Error("", {}, program + " cannot be run: " + std::strerror(error_number),
                "check $OPENSCAD and PATH");
 }
-
-/// A file in memory, without a name.
-class MemoryFile {
- public:
-  MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
-    if (file_ < 0) throw std::system_error(errno, std::generic_category(), "a file in memory");
-  }
-  ~MemoryFile() { close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  int descriptor() const { return file_; }
-  /// A path by which a child that inherits the file can open it.
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-  /// Returns the contents; may be called once.
-  FileText text() const { return read_descriptor(file_, "a file in memory"); }
-
- private:
-  int file_;
-};
 
 /// OpenSCAD 2021.01 prints on standard output, before the .csg, the characters of a .scad that no
 /// token has: backslashes outside of strings, as in MCAD's fonts.scad. Makes them blanks; returns
@@ -172,11 +153,6 @@ ChildProcess start(const ChildSetup& setup) {
 
 }  // namespace
 
-std::string openscad_name() {
-  const char* name = std::getenv("OPENSCAD");
-  return name && *name ? name : "openscad";
-}
-
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,
@@ -186,7 +162,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   if (stop.stop_possible()) stop_event.emplace(stop);
   const int stop_descriptor = stop_event ? stop_event->descriptor() : -1;
   throw_if_stopped(stop);
-  std::vector<std::string> command = {openscad_name(), "-o", "-", "--export-format=csg"};
+  std::vector<std::string> command = {openscad_program(), "-o", "-", "--export-format=csg"};
   std::optional<MemoryFile> rule;
   if (wants_files) {
     rule.emplace();
@@ -222,7 +198,8 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   if (result.csg.view().empty()) {
     throw Error(scad_path, {}, "openscad wrote no .csg", "see what it says above");
   }
-  if (rule) result.files = prerequisites_of(rule->text().view());
+  if (rule)
+    result.files = prerequisites_of(read_descriptor(rule->descriptor(), "a file in memory").view());
   return result;
 }
 

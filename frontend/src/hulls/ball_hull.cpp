@@ -26,10 +26,10 @@ class BallHull {
         tangents_(balls_.bodies.size()),
         shows_(balls_.bodies.size()) {}
 
-  void add_pieces() {
+  bool add_pieces() {
     const auto visit = [this](uint32_t i, uint32_t j, const Circle& circle,
                               const CircleArcs& arcs) { add_strip(i, j, circle, arcs); };
-    visit_strips(*this, balls_, visit);
+    if (!visit_strips(*this, balls_, visit)) return false;
     add_polyhedron();
     for (size_t i = 0; i < size(); ++i) {
       if (is_round(i) && (shows_[i] || size() == 1)) {
@@ -37,6 +37,7 @@ class BallHull {
             csgcore::make_sphere(ball(i).radius, {csgcore::Mat3(1.0), ball(i).center}));
       }
     }
+    return true;
   }
 
   // What strips.hpp asks for.
@@ -114,9 +115,9 @@ class BallHull {
 
 }  // namespace
 
-void add_ball_hull(std::vector<RoundBody> balls, double least_strip,
+bool add_ball_hull(std::vector<RoundBody> balls, double least_strip,
                    std::vector<Primitive>& pieces) {
-  BallHull(without_inner_bodies(std::move(balls), BodyKind::kBalls), least_strip, pieces)
+  return BallHull(without_inner_bodies(std::move(balls), BodyKind::kBalls), least_strip, pieces)
       .add_pieces();
 }
 

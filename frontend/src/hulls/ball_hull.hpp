@@ -12,8 +12,9 @@ namespace frontend {
 /// balls from outside, the frusta that touch two balls, and balls. Each lies within the hull, up to
 /// rounding, so that one too many does no harm. Nothing if all are points on a line; of points in a
 /// plane a thin sheet. Where the arc at which a plane rolls around two balls is below
-/// `least_strip` (radians), there is no frustum.
-void add_ball_hull(std::vector<RoundBody> balls, double least_strip,
-                   std::vector<csgcore::Primitive>& pieces);
+/// `least_strip` (radians), there is no frustum. Returns false, and adds some pieces only, if the
+/// search for them takes too long (kMostStripSteps).
+[[nodiscard]] bool add_ball_hull(std::vector<RoundBody> balls, double least_strip,
+                                 std::vector<csgcore::Primitive>& pieces);
 
 }  // namespace frontend

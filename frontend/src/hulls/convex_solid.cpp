@@ -61,20 +61,23 @@ class RoundSolid {
     size_ = box.diagonal();
   }
 
-  ConvexSolid lower() {
+  /// Returns nothing if the search for its pieces takes too long.
+  std::optional<ConvexSolid> lower() {
     ConvexSolid result;
     const auto with_disc = std::find_if(generators_.begin(), generators_.end(),
                                         [](const auto& g) { return g.disc_radius > 0; });
     if (with_disc == generators_.end()) {
-      add_ball_hull(bodies(&RoundGenerator::ball_radius), kLeastStrip, result.pieces);
-      return result;
+      if (add_ball_hull(bodies(&RoundGenerator::ball_radius), kLeastStrip, result.pieces)) {
+        return result;
+      }
+      return std::nullopt;
     }
     const Vec3 normal = with_disc->normal;
     const Affine to_axis{axes_along(normal).matrix(), with_disc->center};
-    if (!has_parallel_discs(normal) || !lower_parallel(to_axis, result)) {
-      lower_facets(result);
-    }
-    return result;
+    if (has_parallel_discs(normal) && lower_parallel(to_axis, result)) return result;
+    result = {};
+    if (lower_facets(result)) return result;
+    return std::nullopt;
   }
 
  private:
@@ -128,8 +131,7 @@ class RoundSolid {
                                             [&](const auto& g) { return g.ball_radius == ball; });
     if (has_same_balls && ball == 0) {
       if (are_at_one_height()) return false;
-      add_disc_hull(bodies(&RoundGenerator::disc_radius), result.pieces);
-      return true;
+      return add_disc_hull(bodies(&RoundGenerator::disc_radius), result.pieces);
     }
     if (all_on_axis()) {
       if (const auto revolved = revolved_hull(generators_)) result.pieces.push_back(*revolved);
@@ -140,20 +142,20 @@ class RoundSolid {
 
   /// The hull of discs, and a ball around each of its points: sums distribute over unions.
   bool lower_rounded_discs(double ball, ConvexSolid& result) const {
-    const DiscHull hull = disc_hull(bodies(&RoundGenerator::disc_radius));
+    const std::optional<DiscHull> hull = disc_hull(bodies(&RoundGenerator::disc_radius));
+    if (!hull) return false;
     // Each oblique frustum would be made of facets by itself.
     constexpr auto kMostOblique = 8;
     const auto oblique =
-        std::count_if(hull.frusta.begin(), hull.frusta.end(),
-                      [&](const DiscHull::Pair& pair) { return is_oblique(hull, pair); });
+        std::count_if(hull->frusta.begin(), hull->frusta.end(),
+                      [&](const DiscHull::Pair& pair) { return is_oblique(*hull, pair); });
     if (oblique > kMostOblique) return false;
     std::vector<RoundBody> balls;
-    for (const Vec3& point : hull.points) balls.push_back({point, ball});
-    add_ball_hull(std::move(balls), kLeastStrip, result.pieces);
-    for (const DiscHull::Pair& pair : hull.frusta) {
-      add_rounded_frustum(hull.discs[pair.lower], hull.discs[pair.upper], ball, result);
-    }
-    return true;
+    for (const Vec3& point : hull->points) balls.push_back({point, ball});
+    if (!add_ball_hull(std::move(balls), kLeastStrip, result.pieces)) return false;
+    return std::all_of(hull->frusta.begin(), hull->frusta.end(), [&](const DiscHull::Pair& pair) {
+      return add_rounded_frustum(hull->discs[pair.lower], hull->discs[pair.upper], ball, result);
+    });
   }
 
   bool is_oblique(const RoundBody& lower, const RoundBody& upper) const {
@@ -163,25 +165,25 @@ class RoundSolid {
     return is_oblique(hull.discs[pair.lower], hull.discs[pair.upper]);
   }
 
-  void add_rounded_frustum(const RoundBody& lower, const RoundBody& upper, double ball,
+  bool add_rounded_frustum(const RoundBody& lower, const RoundBody& upper, double ball,
                            ConvexSolid& result) const {
     const Vec3 across(0, 0, 1);
     if (!is_oblique(lower, upper)) {
       const Vec3 center(lower.center.x, lower.center.y, 0);
       auto revolved = revolved_hull({{lower.center - center, across, lower.radius, ball},
                                      {upper.center - center, across, upper.radius, ball}});
-      if (!revolved) return;
+      if (!revolved) return true;
       revolved->local_to_world.translation += center;
       result.pieces.push_back(std::move(*revolved));
-      return;
+      return true;
     }
     result.is_faceted = true;
     RoundSolid facets(
         {{lower.center, across, lower.radius, ball}, {upper.center, across, upper.radius, ball}});
-    facets.lower_facets(result);
+    return facets.lower_facets(result);
   }
 
-  void lower_facets(ConvexSolid& result) const {
+  bool lower_facets(ConvexSolid& result) const {
     result.is_faceted = true;
     std::vector<RoundGenerator> parts;
     const int chords = affordable_chords();
@@ -196,7 +198,7 @@ class RoundSolid {
     constexpr double kFacetStrip = 4 * 3.14 / kChordsOfDisc;
     std::vector<RoundBody> balls;
     for (const RoundGenerator& part : parts) balls.push_back({part.center, part.ball_radius});
-    add_ball_hull(std::move(balls), kFacetStrip, result.pieces);
+    return add_ball_hull(std::move(balls), kFacetStrip, result.pieces);
   }
 
   /// Balls at the corners of chords have frusta between them, which are primitives.
@@ -216,21 +218,6 @@ class RoundSolid {
   std::vector<RoundGenerator> generators_;
   double size_ = 0;
 };
-
-/// Balls and discs of different sizes are compared in pairs: more take seconds.
-constexpr size_t kMostRoundParts = 4000;
-
-bool has_too_many_round_parts(const std::vector<RoundGenerator>& generators) {
-  size_t count = 0;
-  bool are_same = true;
-  const RoundGenerator& first = generators.front();
-  for (const RoundGenerator& generator : generators) {
-    count += generator.disc_radius > 0 || generator.ball_radius > 0;
-    are_same = are_same && generator.disc_radius == first.disc_radius &&
-               generator.ball_radius == first.ball_radius;
-  }
-  return !are_same && count > kMostRoundParts;
-}
 
 /// The hull with facets for all that is round.
 ConvexSolid faceted_solid(const Generators& generators) {
@@ -253,14 +240,14 @@ ConvexSolid faceted_solid(const Generators& generators) {
 ConvexSolid convex_solid(const Generators& generators) {
   RoundedGenerators round = rounded(generators);
   if (round.generators.empty()) return {};
-  if (has_too_many_round_parts(round.generators)) return faceted_solid(generators);
-  ConvexSolid result = RoundSolid(std::move(round.generators)).lower();
-  result.is_faceted = result.is_faceted || round.is_faceted;
-  if (round.frame == csgcore::Mat3(1.0)) return result;
-  for (Primitive& piece : result.pieces) {
+  std::optional<ConvexSolid> result = RoundSolid(std::move(round.generators)).lower();
+  if (!result) return faceted_solid(generators);
+  result->is_faceted = result->is_faceted || round.is_faceted;
+  if (round.frame == csgcore::Mat3(1.0)) return std::move(*result);
+  for (Primitive& piece : result->pieces) {
     piece.local_to_world = compose({round.frame, Vec3(0.0)}, piece.local_to_world);
   }
-  return result;
+  return std::move(*result);
 }
 
 }  // namespace frontend

@@ -25,7 +25,7 @@ class DiscStrips {
   explicit DiscStrips(RoundBodies discs)
       : discs_(std::move(discs)), slack_(discs_.slack()), tangents_(discs_.bodies.size()) {}
 
-  DiscHull hull() {
+  std::optional<DiscHull> hull() {
     DiscHull result;
     const auto visit = [&](uint32_t i, uint32_t j, const Circle& circle, const CircleArcs& arcs) {
       for (const CircleArcs::Arc& arc : arcs.arcs()) {
@@ -38,7 +38,7 @@ class DiscStrips {
       if (arcs.length() < kLeastStrip) return;
       result.frusta.push_back(circle.growth > 0 ? DiscHull::Pair{i, j} : DiscHull::Pair{j, i});
     };
-    visit_strips(*this, discs_, visit);
+    if (!visit_strips(*this, discs_, visit)) return std::nullopt;
     for (size_t i = 0; i < size(); ++i) {
       if (!is_round(i)) result.points.push_back(disc(i).center);
       for (const Vec3& direction : tangents_[i]) {
@@ -92,16 +92,18 @@ Primitive DiscHull::frustum(const Pair& pair) const {
   return result;
 }
 
-DiscHull disc_hull(std::vector<RoundBody> discs) {
+std::optional<DiscHull> disc_hull(std::vector<RoundBody> discs) {
   return DiscStrips(without_inner_bodies(std::move(discs), BodyKind::kDiscs)).hull();
 }
 
-void add_disc_hull(std::vector<RoundBody> discs, std::vector<Primitive>& pieces) {
-  const DiscHull hull = disc_hull(std::move(discs));
-  const std::optional<PointSolid> solid = solid_of_points(hull.points);
+bool add_disc_hull(std::vector<RoundBody> discs, std::vector<Primitive>& pieces) {
+  const std::optional<DiscHull> hull = disc_hull(std::move(discs));
+  if (!hull) return false;
+  const std::optional<PointSolid> solid = solid_of_points(hull->points);
   // A sheet within a thick hull adds nothing.
   if (solid && !solid->is_sheet) pieces.push_back(solid->primitive);
-  for (const DiscHull::Pair& pair : hull.frusta) pieces.push_back(hull.frustum(pair));
+  for (const DiscHull::Pair& pair : hull->frusta) pieces.push_back(hull->frustum(pair));
+  return true;
 }
 
 }  // namespace frontend

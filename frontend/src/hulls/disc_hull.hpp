@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csgcore/primitive.hpp"
@@ -25,10 +26,11 @@ struct DiscHull {
 };
 
 /// The discs are parallel to the plane z = 0. Their hull must be a solid: they are not all at one
-/// height.
-DiscHull disc_hull(std::vector<RoundBody> discs);
+/// height. Returns nothing if the search takes too long (kMostStripSteps).
+std::optional<DiscHull> disc_hull(std::vector<RoundBody> discs);
 
 /// Adds primitives whose union is the hull, as add_ball_hull() does.
-void add_disc_hull(std::vector<RoundBody> discs, std::vector<csgcore::Primitive>& pieces);
+[[nodiscard]] bool add_disc_hull(std::vector<RoundBody> discs,
+                                 std::vector<csgcore::Primitive>& pieces);
 
 }  // namespace frontend

@@ -15,10 +15,12 @@ using Triangle = PointHull::Triangle;
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 
-Vec3 vector_of(const GridPoint& from, const GridPoint& to) {
-  return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y),
-          static_cast<double>(to.z - from.z)};
+/// Exact, and so are the differences of places.
+Vec3 place_of(const GridPoint& point) {
+  return {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)};
 }
+
+Vec3 vector_of(const GridPoint& from, const GridPoint& to) { return place_of(to) - place_of(from); }
 
 /// Points that span the hull's dimension: at most four.
 struct Simplex {
@@ -30,7 +32,10 @@ struct Simplex {
 /// that lie beyond it, and the furthest of them becomes a corner.
 class Quickhull {
  public:
-  explicit Quickhull(const std::vector<GridPoint>& points) : points_(points) {}
+  explicit Quickhull(const std::vector<GridPoint>& points) : points_(points) {
+    places_.reserve(points.size());
+    for (const GridPoint& point : points) places_.push_back(place_of(point));
+  }
 
   void run(const Simplex& simplex) {
     start(simplex);
@@ -80,8 +85,8 @@ class Quickhull {
   Face face_of(const Triangle& corners) const {
     Face face;
     face.corners = corners;
-    const Vec3 u = vector_of(points_[corners[0]], points_[corners[1]]);
-    const Vec3 v = vector_of(points_[corners[0]], points_[corners[2]]);
+    const Vec3 u = places_[corners[1]] - places_[corners[0]];
+    const Vec3 v = places_[corners[2]] - places_[corners[0]];
     face.normal = glm::cross(u, v);
     const Vec3 a = glm::abs(u), b = glm::abs(v);
     face.bound = Vec3(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
@@ -89,11 +94,11 @@ class Quickhull {
   }
 
   double height(const Face& face, uint32_t point) const {
-    return glm::dot(face.normal, vector_of(points_[face.corners[0]], points_[point]));
+    return glm::dot(face.normal, places_[point] - places_[face.corners[0]]);
   }
 
   bool sees(uint32_t point, const Face& face) const {
-    const Vec3 offset = vector_of(points_[face.corners[0]], points_[point]);
+    const Vec3 offset = places_[point] - places_[face.corners[0]];
     const double height = glm::dot(face.normal, offset);
     // Six roundings of 2^-53 each, and some room.
     constexpr double kRounding = 0x1p-49;
@@ -197,6 +202,7 @@ class Quickhull {
   }
 
   const std::vector<GridPoint>& points_;
+  std::vector<Vec3> places_;  // of the points
   std::vector<Face> faces_;
   std::vector<uint32_t> next_;  // by point: the next one beyond the same face
   // Buffers of add_corner().

@@ -1,11 +1,14 @@
 #include "hulls/round_bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "hulls/point_hull.hpp"
+#include "hulls/point_solid.hpp"
 
 namespace frontend {
 namespace {
@@ -24,6 +27,57 @@ PointHull hull_of_centers(const std::vector<RoundBody>& bodies) {
   centers.reserve(bodies.size());
   for (const RoundBody& body : bodies) centers.push_back(body.center);
   return point_hull(on_grid(centers));
+}
+
+/// Directions that are spread evenly over the sphere.
+std::vector<Vec3> spread_directions(int count) {
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> result;
+  for (int i = 0; i < count; ++i) {
+    const double z = (2 * i + 1.0) / count - 1;
+    const double across = std::sqrt(1 - z * z);
+    result.emplace_back(across * std::cos(golden_angle * i), across * std::sin(golden_angle * i),
+                        z);
+  }
+  return result;
+}
+
+/// How far the body reaches from its centre along a direction of unit length.
+double reach_along(const Vec3& direction, const RoundBody& body, BodyKind kind) {
+  return kind == BodyKind::kBalls ? body.radius
+                                  : body.radius * std::hypot(direction.x, direction.y);
+}
+
+Vec3 furthest_point(const Vec3& direction, const RoundBody& body, BodyKind kind) {
+  if (kind == BodyKind::kBalls) return body.center + body.radius * direction;
+  const double across = std::hypot(direction.x, direction.y);
+  return body.center + body.radius / across * Vec3(direction.x, direction.y, 0);
+}
+
+/// Leaves out bodies that lie within a polyhedron whose corners are points of some of them.
+void leave_out_inner(std::vector<RoundBody>& bodies, BodyKind kind, double size) {
+  constexpr size_t kManyBodies = 64;  // to compare fewer with each other takes no longer
+  constexpr int kDirections = 128;
+  constexpr double kRoom = 0x1p-40;  // more than the rounding of the polyhedron's faces
+  if (bodies.size() < kManyBodies) return;
+  std::vector<Vec3> corners;
+  for (const Vec3& direction : spread_directions(kDirections)) {
+    const auto reach = [&](const RoundBody& body) {
+      return glm::dot(direction, body.center) + reach_along(direction, body, kind);
+    };
+    const auto furthest = std::max_element(
+        bodies.begin(), bodies.end(),
+        [&](const RoundBody& a, const RoundBody& b) { return reach(a) < reach(b); });
+    corners.push_back(furthest_point(direction, *furthest, kind));
+  }
+  const std::vector<csgcore::HalfSpace> faces = faces_of(corners);
+  if (faces.empty()) return;
+  std::erase_if(bodies, [&](const RoundBody& body) {
+    return std::all_of(faces.begin(), faces.end(), [&](const csgcore::HalfSpace& face) {
+      return glm::dot(face.normal, body.center) + reach_along(face.normal, body, kind) <
+             face.offset - kRoom * size;
+    });
+  });
 }
 
 /// Leaves out balls that lie within a larger one. They are in the order of their radii.
@@ -104,6 +158,7 @@ RoundBodies without_inner_bodies(std::vector<RoundBody> bodies, BodyKind kind) {
     return key_of(a) == key_of(b);
   };
   bodies.erase(std::unique(bodies.begin(), bodies.end(), is_same), bodies.end());
+  leave_out_inner(bodies, kind, result.size);
   if (kind == BodyKind::kBalls) leave_out_contained(bodies, result.slack());
   for (auto first = bodies.begin(); first != bodies.end();) {
     const auto end = std::find_if(first, bodies.end(), [first](const RoundBody& body) {

@@ -22,6 +22,10 @@ namespace frontend {
 /// is thinner than 2^-49.
 constexpr double kLeastStrip = 0x1p-23;
 
+/// Pairs that are looked at, and planes that are compared with a third body: so many take a third
+/// of a second.
+constexpr uint64_t kMostStripSteps = uint64_t{1} << 22;
+
 /// Looks for the strips of bodies in classes.
 template <typename Bodies, typename Visit>
 class StripSearch {
@@ -34,7 +38,7 @@ class StripSearch {
     }
   }
 
-  void run() {
+  bool run() {
     const std::vector<uint32_t>& ends = classes_.ends;
     for (size_t a = 0; a < ends.size(); ++a) {
       for (uint32_t i = begin(a); i < ends[a]; ++i) {
@@ -46,9 +50,11 @@ class StripSearch {
       for (size_t b = a + 1; b < ends.size(); ++b) {
         for (uint32_t i = begin(a); i < ends[a]; ++i) {
           for (uint32_t j = begin(b); j < ends[b]; ++j) look_between(i, j);
+          if (steps_ > kMostStripSteps) return false;
         }
       }
     }
+    return steps_ <= kMostStripSteps;
   }
 
  private:
@@ -56,10 +62,12 @@ class StripSearch {
 
   void look_between(uint32_t i, uint32_t j) {
     if (!bodies_.is_round(i) && !bodies_.is_round(j)) return;
+    ++steps_;
     const auto circle = bodies_.circle(i, j);
     if (!circle) return;
     arcs_.reset();
     const auto cut = [&](uint32_t k) {
+      ++steps_;
       if (k != i && k != j) bodies_.cut(*circle, i, j, k, arcs_);
       return !arcs_.is_empty();
     };
@@ -83,13 +91,16 @@ class StripSearch {
   std::vector<uint32_t> order_;  // of bodies: those that lately left nothing come first
   std::vector<uint32_t> class_of_;
   CircleArcs arcs_;
+  uint64_t steps_ = 0;
 };
 
 /// Calls visit(i, j, circle, arcs) for the pairs that have arcs. `Bodies` has is_round(i),
 /// circle(i, j) → an optional, and cut(circle, i, j, k, arcs). Pairs of points are left out.
+/// Returns false if it has taken kMostStripSteps, and has not ended.
 template <typename Bodies, typename Visit>
-void visit_strips(const Bodies& bodies, const RoundBodies& classes, const Visit& visit) {
-  StripSearch(bodies, classes, visit).run();
+[[nodiscard]] bool visit_strips(const Bodies& bodies, const RoundBodies& classes,
+                                const Visit& visit) {
+  return StripSearch(bodies, classes, visit).run();
 }
 
 }  // namespace frontend

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/elapsed.hpp"
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
 #include "lower/faceted_box.hpp"
@@ -15,6 +16,8 @@
 #include "lower/plane_evaluation.hpp"
 #include "lower/plane_lowering.hpp"
 #include "lower/read_drawing.hpp"
+#include "lower/render_text.hpp"
+#include "lower/rendered_lowering.hpp"
 #include "lower/solid_evaluation.hpp"
 #include "lower/solid_lowering.hpp"
 #include "lower/typed_numbers.hpp"
@@ -92,12 +95,14 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 
 }  // namespace
 
-Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
-    : polyhedra(options.keeps_meshes),
+Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text)
+    : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra),
       fonts(options.font_files),
       tree_(tree),
-      options_(options) {
+      options_(options),
+      text_(text),
+      hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
 }
 
@@ -134,9 +139,12 @@ void Collector::take(uint32_t index, uint32_t offset) {
   if (is_disabled || !visit(index, id, offset)) skipped_ = index;
 }
 
-void Collector::finish(const std::stop_token& stop) {
+void Collector::end_of_nodes() {
   if (plane_) leave_plane();
   if (candidate_) leave_candidate();
+}
+
+void Collector::finish(const std::stop_token& stop) {
   add_pending(stop);
   std::sort(plane_leaves.begin(), plane_leaves.end(),
             [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
@@ -220,7 +228,7 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
     case Role::kUnsupportedOperation:
       break;
   }
-  leave_out(index, kBecauseUnsupported, true);
+  leave_out(index, kBecauseUnknown, true);
   return false;
 }
 
@@ -272,10 +280,10 @@ void Collector::leave_leaf(uint32_t node) {
   contexts_.push_back(context);
 }
 
-/// The node as a primitive under the matrices around it, without colour and id. False: it is the
-/// empty set, or left out.
+/// The node as a primitive under the matrices around it, without colour and id, and the faces that
+/// it is made of. False: it is the empty set, or left out.
 bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetSettings& facets,
-                           bool& is_inside_out) {
+                           const SolidOfFaces*& faces) {
   const SyntaxNode& node = tree_.nodes[index];
   const Affine& to_world = frames[contexts_.back().frame].to_world;
   if (node.kind == NodeKind::kCube) {
@@ -291,7 +299,7 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
       node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
   if (solid == nullptr || solid->is_empty()) return false;
   primitive = solid->under(to_world);
-  is_inside_out = options_.picture == PictureKind::kThrownTogether && solid->is_inside_out;
+  faces = solid;
   if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, problems);
   return true;
 }
@@ -316,7 +324,6 @@ const SolidOfFaces* Collector::read_file(uint32_t index) {
   const FileArguments arguments = read_file_arguments(tree_, node, problems);
   const ImportedFile& file =
       node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
-  if (file.is_unsupported) leave_out(index, kBecauseUnsupported);
   if (!file.problem.empty()) {
     problems.add(node, "a file", [&] {
       return NodeProblems::Description{": " + file.problem, file.todo};
@@ -337,14 +344,19 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   note_leaf_place(context);
   Primitive primitive;
   csgcore::FacetSettings facets;
-  bool is_inside_out = false;
-  if (!read_solid(index, primitive, facets, is_inside_out) || context.flattened) return;
+  const SolidOfFaces* faces = nullptr;
+  if (!read_solid(index, primitive, facets, faces) || context.flattened) return;
   primitive.id = id;
+  if (faces != nullptr && faces->inner_faces && !context.in_leaf) {
+    return add_sides(index, primitive, *faces, context);
+  }
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
   primitive_of[index] = add_primitive(std::move(primitive), index, context,
                                       typed_frame(index, context.frame), box, count);
+  const bool is_inside_out =
+      options_.picture == PictureKind::kThrownTogether && faces != nullptr && faces->is_inside_out;
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
@@ -356,6 +368,24 @@ uint32_t Collector::typed_frame(uint32_t node, uint32_t frame) {
   if (!tree_.has_all_digits) return frame;
   const HealedMatrix typed = typed_numbers(tree_, node);
   return typed.exact ? frame : frames.add(frame, typed);
+}
+
+/// Makes one leaf of the faces of a solid that are seen from outside, and of those that are not.
+void Collector::add_sides(uint32_t node, const Primitive& solid, const SolidOfFaces& faces,
+                          const Context& context) {
+  const Affine& to_world = frames[context.frame].to_world;
+  const csgcore::Box box = faceted_box(solid, {});
+  csgcore::CsgTreeBuilder builder;
+  for (const bool is_inner : {false, true}) {
+    Primitive side = faces.under(is_inner ? faces.inner_faces : faces.outer_faces, to_world);
+    side.id = solid.id;
+    const uint32_t primitive = add_primitive(std::move(side), node, context, context.frame, box, 0);
+    if (primitive == kNoPrimitive) return;
+    if (is_inner) primitives.back().color = kSeenFromWithin;
+    builder.primitive(primitive);
+  }
+  plane_leaves.push_back(
+      {node, context.frame, Presence::kSolid, builder.finish(), box, false, box});
 }
 
 uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Context& context,
@@ -383,6 +413,7 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
 void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_.emplace(tree_, node);
   plane_context_ = contexts_.back();
+  plane_place_ = {node, offset};
   const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
   if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
     plane_context_.set_leaf_place(tree_.nodes[node].location, offset);
@@ -393,15 +424,19 @@ void Collector::enter_plane(uint32_t node, uint32_t offset) {
 /// After the last node of the subtree.
 void Collector::leave_plane() {
   plane_context_.frame = typed_frame(plane_->root(), plane_context_.frame);
-  add_plane_leaf(*plane_, plane_context_, problems);
+  add_plane_leaf(*plane_, plane_place_, plane_context_, problems);
   // A plane figure among solids is ignored; what stands at the top is a candidate, too.
   PlaneLeaf& leaf = plane_leaves.back();
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
     leaf.solid = {};
     leaf.figures.clear();
+    if (!pending_.empty() && pending_.back().node == leaf.node) {
+      pending_.pop_back();
+      pending_contexts_.pop_back();
+    }
   }
-  if (any_modifiers) add_inner_parts(*plane_, plane_context_);
+  if (any_modifiers) add_inner_parts(*plane_, plane_place_, plane_context_);
   plane_.reset();
 }
 
@@ -422,6 +457,7 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
     context.set_leaf_place(tree_.nodes[node].location, offset);
   }
   candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
+                               {node, offset},
                                context,
                                {},
                                primitives.size(),
@@ -436,7 +472,10 @@ void Collector::enter_candidate(uint32_t node, uint32_t offset) {
 void Collector::take_into_candidate(uint32_t node, uint32_t id) {
   const NodeKind kind = tree_.nodes[node].kind;
   const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
-  const bool is_part = (tree_.nodes[node].modifiers & kBackground) == 0;
+  std::optional<uint32_t>& background = candidate_->background;
+  const bool is_in_background = background && is_within(node, *background);
+  const bool is_part = !is_in_background && (tree_.nodes[node].modifiers & kBackground) == 0;
+  if (!is_part && !is_in_background) background = node;
   const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
   const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
                          (is_drawing && !is_extrusion(kind));
@@ -459,7 +498,7 @@ void Collector::leave_candidate() {
   if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
   Context context = candidate.context;
   context.frame = typed_frame(candidate.subtree.root(), context.frame);
-  add_plane_leaf(candidate.subtree, context, told);
+  add_plane_leaf(candidate.subtree, candidate.place, context, told);
 }
 
 bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
@@ -488,15 +527,25 @@ void Collector::forget_since(const Candidate& candidate) {
   std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
 }
 
-void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
-                               NodeProblems& told) {
+void Collector::add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place,
+                               const Context& context, NodeProblems& told) {
   PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
-  leaf.presence = lower_plane(subtree, context, told, leaf);
+  Missing missing;
+  leaf.presence = lower_plane(subtree, context, told, leaf, missing);
+  if (!missing.nodes.empty() && !context.flattened && asks_for(subtree)) {
+    leaf.figures.clear();
+    leaf.is_plate = missing.is_of_plane;
+    leaf.presence =
+        ask_for(subtree, place, missing.is_of_plane, missing.nodes.front().why, context);
+  } else {
+    for (const Missing::Node& node : missing.nodes) leave_out(node.node, node.why);
+  }
   plane_leaves.push_back(std::move(leaf));
 }
 
 /// Gives each part inside that is drawn by itself a leaf of its own.
-void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& context) {
+void Collector::add_inner_parts(const PlaneSubtree& subtree, const TextPlace& place,
+                                const Context& context) {
   if (context.in_leaf || options_.picture == PictureKind::kRendered) return;
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
@@ -510,25 +559,31 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& cont
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
-    add_plane_leaf(subtree.part(part.node), inner, told);
+    add_plane_leaf(subtree.part(part.node), place, inner, told);
     plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
 
+/// Adds nodes to `missing` that are not lowered; the rest is, as if they were not there.
 Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& context,
-                                NodeProblems& told, PlaneLeaf& leaf) {
+                                NodeProblems& told, PlaneLeaf& leaf, Missing& missing) {
   const uint32_t root = subtree.root();
+  const auto miss = [&](uint32_t node, std::string_view why) {
+    missing.nodes.push_back({node, why});
+  };
   PlaneEvaluation evaluation(
-      subtree, told, [&](uint32_t left, std::string_view why) { leave_out(left, why); },
-      [&](const PlaneEvaluation& planes, uint32_t node) {
+      subtree, told, miss, [&](const PlaneEvaluation& planes, uint32_t node) {
         SolidEvaluation solids(subtree, planes, options_, {polyhedra, files, figure_solids_}, told);
         std::optional<FigureOperations> result = solids.projection(node);
-        if (!result) leave_out(node, solids.failure());
+        if (!result) miss(node, solids.failure());
         return result;
       });
+  missing.is_of_plane = !evaluation.is_solid() && !is_extrusion(subtree.syntax(root).kind);
+  const auto is_put_off = [&] { return !missing.nodes.empty() && asks_for(subtree); };
+  if (is_put_off()) return Presence::kLeftOut;
   if (evaluation.presence(root) != Presence::kSolid) return evaluation.presence(root);
   if (context.flattened) return Presence::kEmpty;
-  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told);
+  if (evaluation.is_solid()) return evaluate_solids(subtree, evaluation, context, told, missing);
   const bool is_rendered = options_.picture == PictureKind::kRendered;
   const Plate plate = is_rendered ? Plate::kFlat : Plate::kPreview;
   LoweredSubtree lowered =
@@ -538,16 +593,17 @@ Presence Collector::lower_plane(const PlaneSubtree& subtree, const Context& cont
     const std::span<const Figure> figures = evaluation.figures(root);
     leaf.figures.assign(figures.begin(), figures.end());
   }
+  if (is_put_off()) return Presence::kLeftOut;
   return take_lowered(std::move(lowered), context, leaf);
 }
 
 Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                                    const Context& context, NodeProblems& told) {
+                                    const Context& context, NodeProblems& told, Missing& missing) {
   const uint32_t root = subtree.root();
   SolidEvaluation solids(subtree, evaluation, options_, {polyhedra, files, figure_solids_}, told);
   std::optional<SolidValue> value = solids.run();
   if (!value) {
-    leave_out(root, solids.failure());
+    missing.nodes.push_back({root, solids.failure()});
     return Presence::kLeftOut;
   }
   if (value->is_empty()) return Presence::kEmpty;
@@ -557,15 +613,54 @@ Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEval
   return Presence::kSolid;
 }
 
+bool Collector::asks_for(const PlaneSubtree& subtree) const {
+  return options_.rendering.timeout_s > 0 && may_be_rendered(tree_, subtree.root());
+}
+
+/// Puts off the subtree until openscad has rendered it.
+Presence Collector::ask_for(const PlaneSubtree& subtree, const TextPlace& place, bool is_plane,
+                            std::string_view why, const Context& context) {
+  const uint32_t root = subtree.root();
+  pending_.push_back({root,
+                      context.frame,
+                      frames[context.frame].to_world,
+                      subtree.first_id(root),
+                      primitives.size(),
+                      {},
+                      PendingRendering{request_for(root, place, is_plane), is_plane, why}});
+  pending_contexts_.push_back(context);
+  return Presence::kSolid;
+}
+
+RenderRequest Collector::request_for(uint32_t node, const TextPlace& place, bool is_plane) const {
+  RenderRequest request;
+  if (text_.empty()) {
+    request = render_request(tree_, node, is_plane, options_, fonts.files());
+  } else {
+    const SyntaxTree part = parse_subtree(text_, place.offset);
+    request = render_request(part, node - place.node, is_plane, options_, fonts.files());
+  }
+  request.line = tree_.nodes[node].location.line;
+  return request;
+}
+
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
 /// others.
 void Collector::add_pending(const std::stop_token& stop) {
+  std::vector<LoweredSubtree> lowered = lower_all(pending_, *hulls_, stop);
+  hulls_->end_version();
   if (pending_.empty()) return;
-  std::vector<LoweredSubtree> lowered = lower_all(pending_, hulls_, stop);
+  const std::vector<Rendering> renderings = render_pending(stop);
   std::vector<Primitive> old_primitives = std::exchange(primitives, {});
   std::vector<csgcore::Box> old_boxes = std::exchange(boxes, {});
   std::vector<uint32_t> old_frame_of = std::exchange(frame_of, {});
   std::vector<int> old_fragments = std::exchange(fragments, {});
+  size_t count = old_primitives.size();
+  for (const LoweredSubtree& solid : lowered) count += solid.parts.size();
+  primitives.reserve(count);
+  boxes.reserve(count);
+  frame_of.reserve(count);
+  fragments.reserve(count);
   std::vector<uint32_t> place(old_primitives.size());  // by primitive, of those that are there
   const auto add_old = [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
@@ -576,14 +671,17 @@ void Collector::add_pending(const std::stop_token& stop) {
       fragments.push_back(old_fragments[i]);
     }
   };
-  size_t done = 0;
+  size_t done = 0, rendered = 0;
   std::vector<PlaneLeaf> leaves;
   for (size_t i = 0; i < pending_.size(); ++i) {
     add_old(done, pending_[i].primitives_before);
     done = pending_[i].primitives_before;
     PlaneLeaf& leaf = leaves.emplace_back(
         PlaneLeaf{pending_[i].node, pending_[i].frame, Presence::kEmpty, {}, {}, false});
-    leaf.presence = take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
+    leaf.presence =
+        pending_[i].rendering
+            ? take_rendering(pending_[i], renderings[rendered++], pending_contexts_[i], leaf)
+            : take_lowered(std::exchange(lowered[i], {}), pending_contexts_[i], leaf);
   }
   add_old(done, old_primitives.size());
   for (uint32_t& primitive : primitive_of) {
@@ -598,6 +696,46 @@ void Collector::add_pending(const std::stop_token& stop) {
       leaf.solid = renamed(leaf.solid, [&](uint32_t primitive) { return place[primitive]; });
     }
   }
+}
+
+/// Returns the renderings of those that have a request, in their order.
+std::vector<Rendering> Collector::render_pending(const std::stop_token& stop) {
+  std::vector<RenderRequest> requests;
+  for (const PendingSolid& solid : pending_) {
+    if (solid.rendering) requests.push_back(solid.rendering->request);
+  }
+  if (requests.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  std::vector<Rendering> renderings = render_all(requests, options_.rendering, stop);
+  rendering_ms = ms_since(start);
+  return renderings;
+}
+
+Presence Collector::take_rendering(const PendingSolid& pending, const Rendering& rendering,
+                                   const Context& context, PlaneLeaf& leaf) {
+  if (!rendering.faces && rendering.problem.empty()) {
+    lines_to_render.push_back(pending.rendering->request.line);
+    left_out.push_back(pending.node);
+    return Presence::kLeftOut;
+  }
+  if (!rendering.faces) {
+    leave_out(pending.node, explanations_.emplace_back(std::string(pending.rendering->why) + "; " +
+                                                       rendering.problem));
+    return Presence::kLeftOut;
+  }
+  leaf.is_rendered = true;
+  if (!pending.rendering->is_plane) {
+    return take_lowered(lower_rendered_solid(*rendering.faces, pending.to_world, pending.frame,
+                                             pending.id, polyhedra),
+                        context, leaf);
+  }
+  const std::optional<Figure> figure = rendered_figure(*rendering.faces);
+  if (!figure) return Presence::kEmpty;
+  const bool is_final = options_.picture == PictureKind::kRendered;
+  if (is_final) leaf.figures.push_back(*figure);
+  return take_lowered(lower_figure(*figure, is_final ? Plate::kFlat : Plate::kPreview, pending.id,
+                                   pending.frame, frames, figure_solids_),
+                      context, leaf);
 }
 
 Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {

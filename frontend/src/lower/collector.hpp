@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,12 +36,16 @@ namespace frontend {
 /// node decides is put right when it comes: `!` makes all before it void.
 class Collector final : public NodeSink {
  public:
-  Collector(const SyntaxTree& tree, const ImportOptions& options);
+  /// `text`, which must live until end_of_nodes(), is what the nodes are parsed from; if it is
+  /// empty, the tree keeps all arguments.
+  Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text = {});
 
   /// Makes room: growing by doubling would copy, and touch, twice the memory.
   void reserve(size_t nodes, size_t solids, size_t matrices);
   void take(uint32_t node, uint32_t offset) override;
-  /// After the last node. Throws if it is stopped (throw_if_stopped).
+  /// After the last node.
+  void end_of_nodes();
+  /// After end_of_nodes(). Throws if it is stopped (throw_if_stopped).
   void finish(const std::stop_token& stop);
 
   static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
@@ -61,7 +68,8 @@ class Collector final : public NodeSink {
     uint32_t frame;
   };
   std::vector<CompoundLeaf> compound_leaves;
-  /// What has become of a 2D subtree that is a leaf as a whole, and of its root.
+  /// What has become of a node that is a leaf as a whole, of several primitives: a 2D subtree, a
+  /// hull, or a polyhedron whose faces run both ways.
   struct PlaneLeaf {
     uint32_t node;
     uint32_t frame;
@@ -73,13 +81,17 @@ class Collector final : public NodeSink {
     std::vector<Figure> figures{};            // of a plate in a final render
     bool is_faceted = false;                  // facets stand for something round
     uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
+    bool is_rendered = false;                 // by openscad
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
   const PlaneLeaf* plane_leaf(uint32_t node) const;
   // After finish():
   NodeRange selected;
-  std::vector<uint32_t> left_out;  // nodes that cannot be drawn, which are among the problems
+  /// Nodes that are missing: those among the problems, and those that openscad has still to render.
+  std::vector<uint32_t> left_out;
+  std::vector<uint32_t> lines_to_render;
+  double rendering_ms = 0;
 
  private:
   /// What a node hands down to its children.
@@ -122,7 +134,9 @@ class Collector final : public NodeSink {
                          uint32_t frame, const csgcore::Box& box, int fragments);
   void note_leaf_place(const Context& context);
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
-                  bool& is_inside_out);
+                  const SolidOfFaces*& faces);
+  void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
+                 const Context& context);
   void enter_plane(uint32_t node, uint32_t offset);
   void leave_plane();
   bool may_be_plane(uint32_t node);
@@ -132,13 +146,35 @@ class Collector final : public NodeSink {
   /// Returns whether a final render keeps a part of that dimension; one that it does not is empty,
   /// and told of.
   bool take_rendered_dimension(uint32_t root, int dimension);
-  void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
+  /// Where an ancestor of a 2D subtree, or its root, is in the text.
+  struct TextPlace {
+    uint32_t node;
+    uint32_t offset;
+  };
+  void add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place, const Context& context,
+                      NodeProblems& told);
+  /// The nodes of a 2D subtree that are not lowered.
+  struct Missing {
+    struct Node {
+      uint32_t node;
+      std::string_view why;
+    };
+    std::vector<Node> nodes;
+    bool is_of_plane = false;  // the root is a plane figure
+  };
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
-                       PlaneLeaf& leaf);
-  void add_inner_parts(const PlaneSubtree& subtree, const Context& context);
+                       PlaneLeaf& leaf, Missing& missing);
+  Presence ask_for(const PlaneSubtree& subtree, const TextPlace& place, bool is_plane,
+                   std::string_view why, const Context& context);
+  RenderRequest request_for(uint32_t node, const TextPlace& place, bool is_plane) const;
+  bool asks_for(const PlaneSubtree& subtree) const;
+  void add_inner_parts(const PlaneSubtree& subtree, const TextPlace& place, const Context& context);
   Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
-                           const Context& context, NodeProblems& told);
+                           const Context& context, NodeProblems& told, Missing& missing);
   void add_pending(const std::stop_token& stop);
+  std::vector<Rendering> render_pending(const std::stop_token& stop);
+  Presence take_rendering(const PendingSolid& pending, const Rendering& rendering,
+                          const Context& context, PlaneLeaf& leaf);
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
@@ -146,18 +182,22 @@ class Collector final : public NodeSink {
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;
+  const std::string_view text_;
   std::vector<Context> contexts_;
   /// The 2D subtree that is being taken, and what its root is handed down.
   std::optional<PlaneSubtree> plane_;
   Context plane_context_{};
+  TextPlace plane_place_{};
   /// A subtree of operations that is one plane figure if its first child is one: it is collected as
   /// a solid's until its end.
   struct Candidate {
     PlaneSubtree subtree;
+    TextPlace place;
     Context context;
     NodeProblems problems;  // those of the nodes are told already
     size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills, pending;  // before it
-    bool is_plane;  // its first geometry is a plane figure's
+    bool is_plane;                         // its first geometry is a plane figure's
+    std::optional<uint32_t> background{};  // the last `%` node that stands in no other one
   };
   void forget_since(const Candidate& candidate);
   std::optional<Candidate> candidate_;
@@ -166,7 +206,7 @@ class Collector final : public NodeSink {
   std::optional<uint32_t> top_node_;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
-  HullPool hulls_;
+  const std::shared_ptr<HullPool> hulls_;
   std::optional<uint32_t> root_;      // the node with `!`
   std::optional<uint32_t> disabled_;  // the last node with `*`
   std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
@@ -175,6 +215,7 @@ class Collector final : public NodeSink {
   /// Hulls of solids, in file order, and what their roots are handed down.
   std::vector<PendingSolid> pending_;
   std::vector<Context> pending_contexts_;
+  std::deque<std::string> explanations_;  // of nodes that are left out
 };
 
 }  // namespace frontend

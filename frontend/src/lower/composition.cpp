@@ -41,12 +41,14 @@ class Composer {
       layers.push_back({Layer::Kind::kModel, false, leaves_.expanded(union_of(opaque))});
       opaque.clear();
     };
-    bool has_translucent = false;
+    bool has_translucent = false, has_model = false;
     for (const LeafUse& use : leaves_of_products(design.model)) {
       set_cut_faces(use);
       all.push_back(use.leaf);
+      if (use.is_subtracted && is_plate(use.leaf)) hidden_.insert(use.leaf);
       const bool is_highlighted = design.is_highlighted(use.leaf);
       const Layer::Kind kind = is_highlighted ? Layer::Kind::kHighlight : Layer::Kind::kModel;
+      has_model = has_model || kind == Layer::Kind::kModel;
       if (is_opaque_leaf(use.leaf, kind)) {
         opaque.push_back(use.leaf);
         continue;
@@ -57,6 +59,8 @@ class Composer {
     }
     end_opaque();
     scene_.model = leaves_.expanded(union_of(all));
+    // Without a layer of the model, all of it would be drawn before the others.
+    if (has_translucent && !has_model) layers.insert(layers.begin(), Layer{});
     if (has_translucent) scene_.layers = std::move(layers);
     for (const LeafTree& part : design.background) {
       add_leaves(design, part, Layer::Kind::kBackground);
@@ -138,10 +142,16 @@ class Composer {
 
   void add_leaves(const Design& design, const LeafTree& part, Layer::Kind kind) {
     for (const LeafUse& use : leaves_of_products(part)) {
+      if (hidden_.contains(use.leaf)) continue;
       const Layer::Kind own = design.is_highlighted(use.leaf) ? Layer::Kind::kHighlight : kind;
-      scene_.layers.push_back({own, false, leaves_.expanded(union_of({&use.leaf, 1}))});
+      // OpenSCAD draws the faces of these parts in their order: those of a plate from below.
+      scene_.layers.push_back(
+          {own, is_plate(use.leaf), leaves_.expanded(union_of({&use.leaf, 1}))});
     }
   }
+
+  /// Whether the leaf is a plane figure that is seen from above, or a flat solid.
+  bool is_plate(uint32_t leaf) const { return boxes_[leaf].size().z == 0; }
 
   static LeafTree union_of(std::span<const uint32_t> leaves) {
     csgcore::CsgTreeBuilder builder;
@@ -153,6 +163,8 @@ class Composer {
   std::span<const Box> boxes_;
   Scene& scene_;
   bool has_all_layers_ = true;
+  /// Plates that are subtracted, which are thicker as such than as what is drawn over them.
+  std::unordered_set<uint32_t> hidden_;
 };
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace {
 using csgcore::Affine;
 using csgcore::Vec3;
 
-/// Larger sets are not kept: their keys take more than they save.
-constexpr size_t kMostShared = 1024;
+/// Larger sets are not kept: their keys take more than they save within a design, or some MB each
+/// from version to version.
+constexpr size_t kMostShared = 1 << 10, kMostKept = 1 << 16;
 
 void add_numbers(const Vec3& v, std::vector<double>& key) {
   for (int axis = 0; axis < 3; ++axis) key.push_back(v[axis]);
@@ -38,15 +39,31 @@ ConvexSolid HullPool::shared(const Generators& generators) {
                                key.size() * sizeof(double));
   {
     const std::lock_guard lock(mutex_);
-    if (seen_.insert(std::hash<std::string_view>()(bytes)).second) key.clear();
     const auto found = solids_.find(key);
-    if (found != solids_.end()) return found->second;
+    if (found != solids_.end()) {
+      found->second.is_used = true;
+      return found->second.solid;
+    }
+    const bool is_kept =
+        keeps_ == Keeps::kAll || !seen_.insert(std::hash<std::string_view>()(bytes)).second;
+    if (!is_kept) key.clear();
   }
   // Made without the lock: threads that want the same solid at once make it once each.
-  ConvexSolid result = convex_solid(generators);
+  ConvexSolid result = made_of(generators);
   if (key.empty()) return result;
   const std::lock_guard lock(mutex_);
-  return solids_.try_emplace(std::move(key), std::move(result)).first->second;
+  return solids_.try_emplace(std::move(key), Kept{std::move(result)}).first->second.solid;
+}
+
+ConvexSolid HullPool::made_of(const Generators& generators) {
+  ++made_;
+  return convex_solid(generators);
+}
+
+void HullPool::end_version() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(solids_, [](const auto& entry) { return !entry.second.is_used; });
+  for (auto& [key, kept] : solids_) kept.is_used = false;
 }
 
 ConvexSolid HullPool::solid(const Generators& generators) {
@@ -54,7 +71,8 @@ ConvexSolid HullPool::solid(const Generators& generators) {
   const Vec3 origin = generators.front().center;
   Generators moved = generators;
   map_all({csgcore::Mat3(1.0), -origin}, moved);
-  ConvexSolid result = moved.size() > kMostShared ? convex_solid(moved) : shared(moved);
+  const size_t most = keeps_ == Keeps::kAll ? kMostKept : kMostShared;
+  ConvexSolid result = moved.size() > most ? made_of(moved) : shared(moved);
   for (csgcore::Primitive& piece : result.pieces) piece.local_to_world.translation += origin;
   return result;
 }

@@ -222,8 +222,11 @@ class FaceReader {
       }
       const size_t begin = faces_.corners.size();
       const bool goes_on = read_face(tree_.elements_of(faces[i]), i);
-      std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin),
-                   faces_.corners.end());
+      // The first corner stays the first: one that crosses itself is cut into triangles there.
+      if (begin < faces_.corners.size()) {
+        std::reverse(faces_.corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
+                     faces_.corners.end());
+      }
       faces_.end_face();
       if (!goes_on) break;
     }

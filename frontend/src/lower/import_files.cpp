@@ -20,9 +20,11 @@ struct Format {
   std::string_view suffix;
   SolidFile (*read)(std::string_view bytes, const std::string& name);
 };
-constexpr std::array<Format, 4> kFormats{
-    {{".stl", read_stl}, {".off", read_off}, {".amf", read_amf}, {".3mf", read_3mf}}};
-constexpr std::string_view kUndrawnFormat = ".nef3";
+constexpr std::array<Format, 5> kFormats{{{".stl", read_stl},
+                                          {".off", read_off},
+                                          {".amf", read_amf},
+                                          {".3mf", read_3mf},
+                                          {".nef3", read_nef3}}};
 
 std::string suffix_of(const std::string& name) {
   std::string suffix = std::filesystem::path(name).extension().string();
@@ -99,12 +101,10 @@ ImportedFile FileImports::read_import(const std::string& name) {
   ImportedFile file;
   const std::string path = path_of(name);
   const std::string suffix = suffix_of(name);
-  file.is_unsupported = suffix == kUndrawnFormat;
-  if (file.is_unsupported) return file;
   const auto format = std::ranges::find(kFormats, suffix, &Format::suffix);
   if (format == kFormats.end()) {
     file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
-    file.todo = "convert it to .stl, .off, .amf, .3mf, .svg or .dxf";
+    file.todo = "convert it to .stl, .off, .amf, .3mf, .nef3, .svg or .dxf";
     return file;
   }
   const std::optional<FileText> bytes = bytes_of_file(path);

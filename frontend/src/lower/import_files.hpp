@@ -19,8 +19,6 @@ struct ImportedFile {
   const SolidOfFaces* solid = nullptr;  // null: the empty set
   std::string problem;                  // empty: none
   std::string todo;
-  /// The file is of a kind that is not drawn.
-  bool is_unsupported = false;
 };
 
 /// A file's figures, and what is wrong with it.

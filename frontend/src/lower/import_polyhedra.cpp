@@ -5,7 +5,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
+#include <span>
 #include <utility>
+#include <vector>
+
+#include "base/hashes.hpp"
 
 namespace frontend {
 namespace {
@@ -43,29 +48,71 @@ int scale_to_unit(FaceSet& faces) {
   return exponent;
 }
 
-/// Two hashes of a sequence of words.
-class Hashes {
- public:
-  void add(uint64_t word) {
-    first_ = (std::rotl(first_, 23) ^ word) * 0x9E3779B97F4A7C15u;
-    second_ = (std::rotl(second_, 29) + word) * 0xD6E8FEB86659FD93u;
-    second_ ^= second_ >> 32;
+using Triangle = csgcore::TriangleMesh::Triangle;
+using SharedMesh = std::shared_ptr<const csgcore::TriangleMesh>;
+
+/// Returns the first one of all triangles that have the same corners.
+std::vector<Triangle> without_twins(std::span<const Triangle> triangles) {
+  std::set<Triangle> seen;
+  std::vector<Triangle> result;
+  for (const Triangle& triangle : triangles) {
+    Triangle corners = triangle;
+    std::sort(corners.begin(), corners.end());
+    if (seen.insert(corners).second) result.push_back(triangle);
   }
-  uint64_t first() const { return first_; }
-  uint64_t second() const { return second_; }
-
- private:
-  uint64_t first_ = 1, second_ = 2;
-};
-
-std::shared_ptr<const csgcore::TriangleMesh> mesh_of(FaceSet faces) {
-  std::vector<csgcore::TriangleMesh::Triangle> triangles = triangles_of(faces);
-  auto mesh =
-      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
-  return mesh->triangles().empty() ? nullptr : mesh;
+  return result;
 }
 
-std::shared_ptr<const csgcore::TriangleMesh> mesh_of(RevolvedFaces revolved) {
+SharedMesh mesh_of(FaceSet faces) {
+  std::vector<Triangle> triangles = triangles_of(faces);
+  auto mesh =
+      std::make_shared<const csgcore::TriangleMesh>(std::move(faces.points), std::move(triangles));
+  if (mesh->triangles().empty()) return nullptr;
+  if (mesh->is_closed()) return mesh;
+  // Two sheets that run both ways at one place would leave nothing.
+  std::vector<Triangle> single = without_twins(mesh->triangles());
+  if (single.size() == mesh->triangles().size()) return mesh;
+  return std::make_shared<const csgcore::TriangleMesh>(
+      std::vector<Vec3>(mesh->vertices().begin(), mesh->vertices().end()), std::move(single));
+}
+
+/// Returns the triangle with its least corner first.
+Triangle rotated(Triangle triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
+}
+
+double volume_of(const csgcore::TriangleMesh& mesh) {
+  double volume = 0;
+  const Vec3& origin = mesh.vertices().front();
+  for (const Triangle& t : mesh.triangles()) {
+    const auto at = [&](size_t i) { return mesh.vertices()[t[i]] - origin; };
+    volume += glm::dot(at(0), glm::cross(at(1), at(2))) / 6;
+  }
+  return volume;
+}
+
+/// Tells faces that run the other way apart, once neighbours across edges agree.
+void find_inner_faces(const FaceSet& faces, SolidOfFaces& solid) {
+  const std::vector<Triangle> triangles = triangles_of(faces);
+  const csgcore::TriangleMesh turned(faces.points, triangles);
+  if (!turned.is_closed() || turned.triangles().empty()) return;
+  std::set<Triangle> outward;  // counterclockwise, seen from outside
+  const bool is_inverted = volume_of(turned) < 0;
+  for (Triangle triangle : turned.triangles()) {
+    if (is_inverted) std::swap(triangle[1], triangle[2]);
+    outward.insert(rotated(triangle));
+  }
+  std::vector<Triangle> outer, inner;
+  for (const Triangle& triangle : triangles) {
+    (outward.contains(rotated(triangle)) ? outer : inner).push_back(triangle);
+  }
+  if (outer.empty() || inner.empty()) return;
+  solid.outer_faces = std::make_shared<const csgcore::TriangleMesh>(faces.points, outer);
+  solid.inner_faces = std::make_shared<const csgcore::TriangleMesh>(faces.points, inner);
+}
+
+SharedMesh mesh_of(RevolvedFaces revolved) {
   FaceSet faces;
   for (const std::vector<uint32_t>& face : revolved.mesh.faces) {
     if (revolved.is_cut(face)) {
@@ -84,8 +131,14 @@ std::shared_ptr<const csgcore::TriangleMesh> mesh_of(RevolvedFaces revolved) {
 }  // namespace
 
 Primitive SolidOfFaces::under(const Affine& local_to_world) const {
-  const Affine map = resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent)));
-  return polyhedron ? csgcore::make_polyhedron(polyhedron, map) : csgcore::make_mesh(mesh, map);
+  if (!polyhedron) return under(mesh, local_to_world);
+  return csgcore::make_polyhedron(
+      polyhedron, resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent))));
+}
+
+Primitive SolidOfFaces::under(SharedMesh faces, const Affine& local_to_world) const {
+  return csgcore::make_mesh(std::move(faces),
+                            resized(local_to_world, Vec3(0.0), Vec3(std::ldexp(1.0, exponent))));
 }
 
 Primitive PolyhedronPool::box(const csgcore::Box& box, const Affine& local_to_world) {
@@ -106,8 +159,8 @@ PolyhedronPool::FacesKey PolyhedronPool::key_of(const FaceSet& faces, int expone
   for (const Vec3& point : faces.points) {
     for (int axis = 0; axis < 3; ++axis) hashes.add(std::bit_cast<uint64_t>(point[axis]));
   }
-  for (const uint32_t corner : faces.corners) hashes.add(corner);
-  for (const uint32_t end : faces.ends) hashes.add(end);
+  for (const uint32_t corner : faces.corners) hashes.add(uint64_t{corner});
+  for (const uint32_t end : faces.ends) hashes.add(uint64_t{end});
   return {faces.points.size(), faces.corners.size(),
           faces.ends.size(),   std::bit_cast<uint64_t>(int64_t{exponent}),
           hashes.first(),      hashes.second()};
@@ -122,6 +175,7 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
   if (!is_new || faces.face_count() == 0) return solid;
   solid.exponent = exponent;
   solid.is_inside_out = enclosed_volume(faces) < 0;
+  if (tells_inner_faces_) find_inner_faces(faces, solid);
   if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {
     const Mesh mesh = to_mesh(faces);
     solid.polyhedron = csgcore::Polyhedron::from(mesh);

@@ -38,15 +38,23 @@ struct SolidOfFaces {
   int exponent = 0;
   /// The faces run clockwise, seen from outside.
   bool is_inside_out = false;
+  /// Of a closed solid, some of whose faces run the other way than others: those that are seen from
+  /// within, which run counterclockwise in the file, and the others. Only where the pool tells
+  /// them.
+  std::shared_ptr<const csgcore::TriangleMesh> outer_faces, inner_faces;
 
   bool is_empty() const { return !polyhedron && !mesh; }
   csgcore::Primitive under(const csgcore::Affine& local_to_world) const;
+  csgcore::Primitive under(std::shared_ptr<const csgcore::TriangleMesh> faces,
+                           const csgcore::Affine& local_to_world) const;
 };
 
 class PolyhedronPool {
  public:
   /// `keeps_meshes`: take_meshes() returns OpenSCAD's mesh of every polyhedron that the pool makes.
-  explicit PolyhedronPool(bool keeps_meshes) : keeps_meshes_(keeps_meshes) {}
+  /// `tells_inner_faces`: solids have SolidOfFaces::inner_faces.
+  PolyhedronPool(bool keeps_meshes, bool tells_inner_faces)
+      : keeps_meshes_(keeps_meshes), tells_inner_faces_(tells_inner_faces) {}
 
   /// Has no polyhedron if the box is empty, flat or infinite.
   csgcore::Primitive box(const csgcore::Box& box, const csgcore::Affine& local_to_world);
@@ -75,7 +83,7 @@ class PolyhedronPool {
   std::shared_ptr<const csgcore::Polyhedron> unit_box_;
   std::map<FacetedKey, SolidOfFaces> faceted_;
   std::map<FacesKey, SolidOfFaces> solids_;
-  const bool keeps_meshes_;
+  const bool keeps_meshes_, tells_inner_faces_;
   FacetMeshes meshes_of_;
   uint64_t facets_ = 0;  // of those of more than kFewFacets
 };

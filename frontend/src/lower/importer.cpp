@@ -384,6 +384,13 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.faceted_leaves = static_cast<uint32_t>(
       std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
                     [](const Collector::PlaneLeaf& leaf) { return leaf.is_faceted; }));
+  design.rendered_leaves = static_cast<uint32_t>(
+      std::count_if(collected.plane_leaves.begin(), collected.plane_leaves.end(),
+                    [](const Collector::PlaneLeaf& leaf) { return leaf.is_rendered; }));
+  design.left_out =
+      static_cast<uint32_t>(collected.left_out.size() - collected.lines_to_render.size());
+  design.lines_to_render = std::move(collected.lines_to_render);
+  design.rendering_ms = collected.rendering_ms;
   std::vector<Box> boxes = std::move(collected.boxes);
   const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
   add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
@@ -418,6 +425,7 @@ void collect(const SyntaxTree& tree, Collector& collected, const std::stop_token
     throw_if_stopped(stop);
     collected.take(i, tree.offsets.empty() ? 0 : tree.offsets[i]);
   }
+  collected.end_of_nodes();
 }
 
 }  // namespace
@@ -432,8 +440,8 @@ ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& option
 }
 
 struct TextImport::Impl {
-  Impl(std::string file_name, const ImportOptions& import_options)
-      : options(import_options), collector(tree, options) {
+  Impl(std::string_view text, std::string file_name, const ImportOptions& import_options)
+      : options(import_options), collector(tree, options, text) {
     tree.file_name = std::move(file_name);
   }
   Impl(SyntaxTree whole, const ImportOptions& import_options)
@@ -446,12 +454,13 @@ struct TextImport::Impl {
 
 TextImport::TextImport(std::string_view text, std::string file_name, const ImportOptions& options,
                        const std::stop_token& stop)
-    : impl_(std::make_unique<Impl>(std::move(file_name), options)) {
+    : impl_(std::make_unique<Impl>(text, std::move(file_name), options)) {
   // About what OpenSCAD's files have, as the parser's own: growing copies.
   constexpr size_t kBytesPerNode = 48, kBytesPerLeaf = 128;
   const size_t leaves = text.size() / kBytesPerLeaf;
   impl_->collector.reserve(text.size() / kBytesPerNode, leaves, leaves);
   parse_nodes(text, impl_->tree, impl_->collector, stop);
+  impl_->collector.end_of_nodes();
 }
 
 TextImport::TextImport(SyntaxTree tree, const ImportOptions& options, const std::stop_token& stop)

@@ -17,7 +17,7 @@ enum class Role : uint8_t {
   kUnsupportedOperation,
 };
 
-constexpr std::string_view kBecauseUnsupported = "it cannot be drawn";
+constexpr std::string_view kBecauseUnknown = "OpenSCAD 2021.01 does not know it";
 
 inline Role role_of(NodeKind kind) {
   switch (kind) {

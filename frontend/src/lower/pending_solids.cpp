@@ -14,6 +14,7 @@ std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, 
   const auto lower = [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const PendingSolid& solid = pending[i];
+      if (solid.rendering) continue;
       result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, hulls);
     }
   };

@@ -93,7 +93,7 @@ void PlaneEvaluation::find_presence(uint32_t node) {
       return;
     case NodeKind::kRoof:
       own.presence = Presence::kLeftOut;
-      leave_out_(node, kBecauseUnsupported);
+      leave_out_(node, kBecauseUnknown);
       return;
     default:
       combine(node);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -54,39 +53,38 @@ SolidPart moved(SolidPart part, const Vec3& offset, const Box& box) {
   return part;
 }
 
-/// The lowest and the highest point of a body, if one is above the other; `up` is +z there.
-std::optional<std::array<Vec3, 2>> upright_line(const Generators& generators) {
-  std::array<double, 2> heights{};
-  std::array<std::vector<Generator>, 2> extreme;
-  for (const size_t end : {0, 1}) {
-    const double sign = end == 0 ? -1 : 1;
-    double most = 0;
-    const auto height = [&](const Generator& g) {
-      const Vec3 along(g.ball[0].z, g.ball[1].z, g.ball[2].z);
-      return sign * g.center.z + std::hypot(g.disc_a.z, g.disc_b.z) + glm::length(along);
-    };
-    for (size_t i = 0; i < generators.size(); ++i) {
-      if (i == 0 || height(generators[i]) > most) most = height(generators[i]);
-    }
-    constexpr double kRounding = 0x1p-44;
-    for (const Generator& g : generators) {
-      if (height(g) >= most - kRounding * std::abs(most)) extreme[end].push_back(g);
-    }
-    heights[end] = sign * most;
+/// A point of the generator that is furthest up, or down if `sign` is −1.
+Vec3 end_of(const Generator& g, double sign) {
+  Vec3 result = g.center;
+  const double slope = std::hypot(g.disc_a.z, g.disc_b.z);
+  if (slope > 0) result += sign / slope * (g.disc_a.z * g.disc_a + g.disc_b.z * g.disc_b);
+  const Vec3 along(g.ball[0].z, g.ball[1].z, g.ball[2].z);
+  const double length = glm::length(along);
+  if (length > 0) result += g.ball * (sign / length * along);
+  return result;
+}
+
+/// A point of the body that is furthest up, or down. There is at least one generator.
+Vec3 end_of(const Generators& generators, double sign) {
+  Vec3 best = end_of(generators.front(), sign);
+  for (const Generator& generator : generators) {
+    const Vec3 end = end_of(generator, sign);
+    if (sign * end.z > sign * best.z) best = end;
   }
-  // A point of one end that the other end has, too: a common place of a disc, ball or corner.
-  const auto place = [](const Generator& g, double sign) {
-    const Vec3 along(g.ball[0].z, g.ball[1].z, g.ball[2].z);
-    const double length = glm::length(along);
-    return length > 0 ? g.center + g.ball * (sign / length * along) : g.center;
-  };
-  for (const Generator& low : extreme[0]) {
-    for (const Generator& high : extreme[1]) {
-      const Vec3 from = place(low, -1), to = place(high, 1);
-      if (from.x == to.x && from.y == to.y) return std::array{from, to};
-    }
-  }
-  return std::nullopt;
+  return best;
+}
+
+/// The extrusion between the places of its ends where it is moved to these points, by its lower and
+/// its upper end: its layers are moved along the line between them.
+void stretch(const Vec3& lower, const Vec3& upper, Primitive& extrusion) {
+  extrusion.z_min += lower.z;
+  extrusion.z_max += upper.z;
+  Affine leaning;
+  leaning.linear[2] = (upper - lower) / (extrusion.z_max - extrusion.z_min);
+  leaning.linear[2].z = 1;
+  leaning.translation = lower - extrusion.z_min * leaning.linear[2];
+  leaning.translation.z = 0;
+  extrusion.local_to_world = compose(extrusion.local_to_world, leaning);
 }
 
 }  // namespace
@@ -146,9 +144,9 @@ void SolidSums::add_mesh(const SolidPart& part, const SolidPart& convex, const B
   }
 }
 
-/// The extrusion, with the upright line between the ends of the convex body added to it, and the
-/// sum of the body and each wall: whatever of the sum meets no wall has all of its sections within
-/// the profile, and that line meets the extrusion.
+/// The extrusion, stretched along a line from the lowest to the highest point of the convex body,
+/// and the sum of the body and each wall. Where the body, turned around, meets the extrusion but no
+/// wall, all of its sections lie within the profile, and that line has one at each height.
 void SolidSums::add_extrusion(const SolidPart& part, const SolidPart& convex, const Box& box) {
   const Primitive& extrusion = *part.primitive;
   const Affine& map = extrusion.local_to_world;
@@ -156,15 +154,10 @@ void SolidSums::add_extrusion(const SolidPart& part, const SolidPart& convex, co
   if (map.determinant() == 0 || extrusion.r_bottom != extrusion.r_top) {
     return fail("one of its operands is a tapered or flat extrusion");
   }
-  Affine to_local{csgcore::inverse(map.linear), Vec3(0.0)};
-  map_all(to_local, local.generators);
-  const auto line = upright_line(local.generators);
-  if (!line) return fail("the convex one of its operands leans");
+  map_all({csgcore::inverse(map.linear), Vec3(0.0)}, local.generators);
   SolidPart core = part;
-  core.primitive->z_min += (*line)[0].z;
-  core.primitive->z_max += (*line)[1].z;
-  const Vec3 aside((*line)[0].x, (*line)[0].y, 0);
-  sums_.push_back(moved(std::move(core), map.direction(aside), box));
+  stretch(end_of(local.generators, -1), end_of(local.generators, 1), *core.primitive);
+  sums_.push_back(moved(std::move(core), Vec3(0.0), box));
   const SupportSet support = support_of(convex);
   const double scale = extrusion.r_bottom;
   const auto add_wall = [&](const Vec2& a, const Vec2& b) {

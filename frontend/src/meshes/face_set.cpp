@@ -1,9 +1,12 @@
 #include "meshes/face_set.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+#include <vector>
 
 #include "meshes/triangulation.hpp"
 
@@ -82,29 +85,61 @@ class Renumbering {
   PointTable table_;
 };
 
-Vec3 area_vector(const FaceSet& faces, std::span<const uint32_t> face) {
-  const Vec3& apex = faces.points[face[0]];
+Vec3 area_vector(std::span<const Vec3> points, std::span<const uint32_t> ring) {
+  const Vec3& apex = points[ring[0]];
   Vec3 sum(0.0);
-  for (size_t i = 2; i < face.size(); ++i) {
-    sum += glm::cross(faces.points[face[i - 1]] - apex, faces.points[face[i]] - apex);
+  for (size_t i = 2; i < ring.size(); ++i) {
+    sum += glm::cross(points[ring[i - 1]] - apex, points[ring[i]] - apex);
   }
   return sum;
 }
 
-/// A face as it is seen along the axis that its normal is nearest to, counterclockwise.
-void project(const FaceSet& faces, std::span<const uint32_t> face,
-             std::vector<glm::dvec2>& places) {
-  const Vec3 normal = area_vector(faces, face);
+int longest_axis(const Vec3& v) {
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
-    if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
   }
-  const int right = (axis + 1) % 3, up = (axis + 2) % 3;
-  const double sign = normal[axis] > 0 ? 1 : -1;
-  places.clear();
+  return axis;
+}
+
+/// Returns the axis that OpenSCAD looks along: the one nearest to the normal of a triangle in the
+/// face. That has the two corners that are furthest apart along the axis where the face is longest,
+/// and the corner with which they make the largest triangle.
+int axis_of_view(std::span<const Vec3> points, std::span<const uint32_t> face_from_outside) {
+  // Of several the first one counts, in the order of a design, where faces run clockwise.
+  std::vector<uint32_t> face(face_from_outside.begin(), face_from_outside.end());
+  std::reverse(face.begin() + 1, face.end());
+  const auto at = [&](uint32_t corner) -> const Vec3& { return points[corner]; };
+  std::array<uint32_t, 3> least, most;
+  least.fill(face[0]);
+  most.fill(face[0]);
+  Vec3 size(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const uint32_t corner : face) {
+      if (at(corner)[axis] < at(least[axis])[axis]) least[axis] = corner;
+      if (at(corner)[axis] > at(most[axis])[axis]) most[axis] = corner;
+    }
+    size[axis] = at(most[axis])[axis] - at(least[axis])[axis];
+  }
+  const int along = longest_axis(size);
+  const Vec3 base = at(least[along]) - at(most[along]);
+  Vec3 normal(0.0);
   for (const uint32_t corner : face) {
-    places.emplace_back(faces.points[corner][right], sign * faces.points[corner][up]);
+    const Vec3 candidate = glm::cross(base, at(corner) - at(most[along]));
+    if (glm::dot(candidate, candidate) > glm::dot(normal, normal)) normal = candidate;
   }
+  return longest_axis(normal);
+}
+
+Vec3 area_vector(std::span<const Vec3> points, std::span<const uint32_t> corners,
+                 std::span<const uint32_t> ends) {
+  Vec3 sum(0.0);
+  uint32_t begin = 0;
+  for (const uint32_t end : ends) {
+    if (end > begin) sum += area_vector(points, corners.subspan(begin, end - begin));
+    begin = end;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -113,6 +148,17 @@ std::span<const uint32_t> FaceSet::face(size_t index) const {
   if (ends.empty()) return {corners.data() + 3 * index, 3};
   const uint32_t begin = index == 0 ? 0 : ends[index - 1];
   return {corners.data() + begin, ends[index] - begin};
+}
+
+void project(std::span<const Vec3> points, std::span<const uint32_t> corners,
+             std::span<const uint32_t> ends, std::vector<glm::dvec2>& places) {
+  const int axis = axis_of_view(points, corners);
+  const int right = (axis + 1) % 3, up = (axis + 2) % 3;
+  const double sign = area_vector(points, corners, ends)[axis] > 0 ? 1 : -1;
+  places.clear();
+  for (const uint32_t corner : corners) {
+    places.emplace_back(points[corner][right], sign * points[corner][up]);
+  }
 }
 
 uint64_t tidy(FaceSet& faces) {
@@ -158,7 +204,8 @@ double enclosed_volume(const FaceSet& faces) {
   for (size_t i = 0; i < faces.face_count(); ++i) {
     const std::span<const uint32_t> face = faces.face(i);
     // From a vertex of the solid, so that no large offset cancels.
-    volume += glm::dot(faces.points[face[0]] - faces.points.front(), area_vector(faces, face)) / 6;
+    volume +=
+        glm::dot(faces.points[face[0]] - faces.points.front(), area_vector(faces.points, face)) / 6;
   }
   return volume;
 }
@@ -183,7 +230,8 @@ std::vector<Triangle> triangles_of(const FaceSet& faces) {
       triangles.push_back({face[0], face[1], face[2]});
       continue;
     }
-    project(faces, face, places);
+    const auto end = static_cast<uint32_t>(face.size());
+    project(faces.points, face, {&end, 1}, places);
     triangulate(face, places, triangles);
   }
   return triangles;

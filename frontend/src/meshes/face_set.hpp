@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct FaceSet {
 /// were not finite.
 uint64_t tidy(FaceSet& faces);
 
+/// Projects a face along an axis (frontend/OPENSCAD.md, "Polyhedra"). `places` becomes
+/// the places of its corners in that plane, in which it runs counterclockwise. `ends` has one past
+/// the last corner of each of its rings.
+void project(std::span<const csgcore::Vec3> points, std::span<const uint32_t> corners,
+             std::span<const uint32_t> ends, std::vector<glm::dvec2>& places);
+
 /// Returns the volume that the faces enclose, but for rounding. It is negative if they run
 /// clockwise.
 double enclosed_volume(const FaceSet& faces);
@@ -38,8 +45,8 @@ double enclosed_volume(const FaceSet& faces);
 /// Returns the faces as csgcore has them.
 csgcore::Mesh to_mesh(const FaceSet& faces);
 
-/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along the axis that
-/// its normal is nearest to, and triangulates it there (triangulation.hpp).
+/// Returns the triangles that OpenSCAD cuts the faces into: it projects a face along an axis
+/// (frontend/OPENSCAD.md, "Polyhedra"), and triangulates it there (triangulation.hpp).
 std::vector<csgcore::TriangleMesh::Triangle> triangles_of(const FaceSet& faces);
 
 }  // namespace frontend

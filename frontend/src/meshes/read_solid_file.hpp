@@ -28,5 +28,7 @@ SolidFile read_amf(std::string_view bytes, const std::string& name);
 /// 3MF: every mesh once. Its build items, transformations and units are ignored, as by OpenSCAD
 /// 2021.01.
 SolidFile read_3mf(std::string_view bytes, const std::string& name);
+/// NEF3, the text of a Nef polyhedron (nef_text.hpp).
+SolidFile read_nef3(std::string_view bytes, const std::string& name);
 
 }  // namespace frontend

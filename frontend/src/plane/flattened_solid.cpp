@@ -1,6 +1,7 @@
 #include "plane/flattened_solid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -128,8 +129,8 @@ std::optional<SimplePolygons> united_plan(const TriangleSet& solid, Triangles tr
   return united(std::span(&figure, 1));
 }
 
-/// Removes holes that rounding has left between groups of triangles: they are thinner than what is
-/// rounded, by a share of the size.
+/// Removes the holes and specks that rounding has left between groups of triangles, which are
+/// thinner than this share of the size.
 void remove_cracks(SimplePolygons& polygons) {
   constexpr double kRounding = 0x1p-24;
   const Rectangle box = bounds_of(polygons);
@@ -137,8 +138,7 @@ void remove_cracks(SimplePolygons& polygons) {
   std::erase_if(polygons, [&](const Polygon& polygon) {
     double length = 0;
     visit_edges(polygon, [&](const Vec2& a, const Vec2& b) { length += glm::length(b - a); });
-    const double area = signed_area(polygon);
-    return area <= 0 && -area < thinnest * length;
+    return std::abs(signed_area(polygon)) < thinnest * length;
   });
 }
 

@@ -508,7 +508,7 @@ class Bytes {
 Bytes bytes_of_all() {
   std::mt19937 random(6);
   Bytes bytes;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     const Placement& placement = kPlacements[random() % std::size(kPlacements)];
     const std::vector<Variant>& variants = test_support::all_variants();
     const Target target(variants[random() % variants.size()], placement,

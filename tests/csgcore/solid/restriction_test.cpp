@@ -55,7 +55,7 @@ TEST_P(RestrictionOf, RandomTreeEqualsTheListWithinTheCell) {
   CellList whole, in_cell, below, above;
   assign(whole, solid.list().tests);
   std::mt19937 random(1);
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < 60; ++round) {
     const Box cell = random_cell(random, {Vec3(-8.0), Vec3(8.0)});
     restrictor.restrict(whole, cell, in_cell);
     expect_irreducible(solid, in_cell, cell, true);

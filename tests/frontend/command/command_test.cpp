@@ -339,8 +339,10 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
   EXPECT_THAT(keys(json["primitives_skipped"]),
               ElementsAre("cancelled", "hidden", "inside", "off_screen", "sub_pixel"));
   EXPECT_THAT(keys(json["times_ms"]),
-              ElementsAre("context", "cull", "encode", "export", "import", "parse", "prepare",
-                          "read", "render", "subdivide", "total", "trace", "traverse"));
+              ElementsAre("context", "cull", "encode", "export", "import", "openscad", "parse",
+                          "prepare", "read", "render", "subdivide", "total", "trace", "traverse"));
+  EXPECT_THAT(keys(json["design_leaves"]),
+              ElementsAre("compound", "exact", "faceted", "left_out", "openscad", "total"));
   EXPECT_THAT(keys(json["paper_ms"]), ElementsAre("S", "S_R", "T_R", "T_S"));
 }
 
@@ -432,8 +434,9 @@ TEST_F(Command, FailuresExitWith1AndTouchNothing) {
 }
 
 TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
-  const std::string warning = "mixed.csg:2:2: warning: import is left out (it cannot be drawn)\n";
-  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n import(\"a.nef3\");\n");
+  const std::string warning =
+      "mixed.csg:2:2: warning: roof is left out (OpenSCAD 2021.01 does not know it)\n";
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n roof() { cube(); }\n");
   // The option used to be needed for this; scripts may still give it.
   for (const char* option : {"--imgsize=64,64", "--skip-unsupported"}) {
     drawings_ = 0;
@@ -446,21 +449,21 @@ TEST_F(Command, WhatCannotBeDrawnIsLeftOut) {
   // If the design has nothing else, the picture shows the background.
   std::filesystem::remove(png_);
   drawings_ = 0;
-  const std::string flat = folder_.write("flat.csg", "import(\"a.nef3\"); cube(1e308);");
+  const std::string flat = folder_.write("flat.csg", "roof() { cube(); } cube(1e308);");
   const Outcome outcome = run({"-o", png_, flat});
   EXPECT_EQ(outcome.code, ExitCode::kDone);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("flat.csg:1:1: warning: import is left out"),
-                                 HasSubstr("flat.csg:1:19: warning: cube is left out")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("flat.csg:1:1: warning: roof is left out"),
+                                 HasSubstr("flat.csg:1:20: warning: cube is left out")));
   EXPECT_TRUE(std::filesystem::exists(png_));
   EXPECT_EQ(drawings_, 0);
 }
 
 TEST_F(Command, HardWarningsAreErrors) {
-  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n import(\"a.nef3\");\n");
+  const std::string mixed = folder_.write("mixed.csg", "sphere(r = 1);\n roof() { cube(); }\n");
   for (const char* quiet : {"--quiet", "--info"}) {
     const Outcome outcome = run({"-o", png_, "--hardwarnings", quiet, mixed});
     EXPECT_EQ(outcome.code, ExitCode::kFailure);
-    EXPECT_THAT(outcome.err, HasSubstr("mixed.csg:2:2: error: import is left out (it cannot be"));
+    EXPECT_THAT(outcome.err, HasSubstr("mixed.csg:2:2: error: roof is left out (OpenSCAD 2021.01"));
     EXPECT_FALSE(std::filesystem::exists(png_));
     EXPECT_EQ(drawings_, 0);
   }
@@ -662,10 +665,10 @@ TEST_F(Command, MakeDrawsAgainWhatItReads) {
 }
 
 TEST_F(Command, PlacesInAnExportedCsgAreNotShownAsPlacesInTheScad) {
-  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'import(\"a.nef3\");'"));
+  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'roof() { cube(); }'"));
   const std::string scad = folder_.write("a.scad", "// a comment\ntext(1);");
   EXPECT_THAT(run({"-o", png_, scad}).err,
-              StartsWith(scad + " (its .csg):1:1: warning: import is left out"));
+              StartsWith(scad + " (its .csg):1:1: warning: roof is left out"));
 }
 
 TEST_F(Command, AFailedExportLeavesNothing) {

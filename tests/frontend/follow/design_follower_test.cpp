@@ -213,6 +213,19 @@ TEST_P(Follow, ASaveThatChangesNothingSaysSo) {
   EXPECT_EQ(mended.design, first.design);
 }
 
+TEST_P(Follow, HullsThatAreTheSameAreNotMadeAnew) {
+  const std::string hull =
+      "hull() { cube(1); polyhedron(points = [[0,0,0],[3,0,0],[0,3,0],[0,0,3]], "
+      "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]); }";
+  Followed design(folder_.write("a.csg", hull + "sphere(1);"), options());
+  const DesignVersion first = design.next_of(3);
+  folder_.write("a.csg", "sphere(1);" + hull + "sphere(2);");
+  const DesignVersion second = design.next_of(4);
+  EXPECT_NE(first.design->scene.primitives[0].polyhedron, nullptr);
+  EXPECT_EQ(first.design->scene.primitives[0].polyhedron,
+            second.design->scene.primitives[1].polyhedron);
+}
+
 TEST_P(Follow, OtherFilesOfTheFolderDoNotMatter) {
   Followed design(folder_.write("a.csg", spheres(1)), options());
   design.next_of(1);

@@ -67,7 +67,7 @@ Polygons openscad_outlines(const TemporaryFolder& folder, const std::string& csg
 Polygons own_outlines(const std::string& csg) {
   const SyntaxTree tree = parse(csg, "text.csg");
   DesignFonts fonts({});
-  PolyhedronPool polyhedra(false);
+  PolyhedronPool polyhedra(false, false);
   FileImports files({}, polyhedra);
   NodeProblems problems;
   PlaneSubtree subtree(tree, 0);

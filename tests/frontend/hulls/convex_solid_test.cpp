@@ -308,5 +308,41 @@ TEST(ConvexSolid, HasNoMoreTangentPiecesThanThereAreTangents) {
             3u);
 }
 
+TEST(ConvexSolid, OfManyRoundBodiesIsThatOfTheOuterOnes) {
+  Random random(1);
+  Generators many;
+  for (int i = 0; i < 3000; ++i) many.push_back(ball(random.point(10), random.number(0.1, 1)));
+  for (int i = 0; i < 3000; ++i) {
+    many.push_back(disc(random.point(1), Vec3(0, 0, 1), random.number(0.1, 1)));
+  }
+  const Generators balls(many.begin(), many.begin() + 3000);
+  const Generators discs(many.begin() + 3000, many.end());
+  for (const Generators& generators : {balls, discs}) {
+    const ConvexSolid solid = convex_solid(generators);
+    EXPECT_FALSE(solid.is_faceted);
+    EXPECT_LT(solid.pieces.size(), 2000u);
+    const double size = hull_test::size_of(generators);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 u = random.direction();
+      EXPECT_NEAR(hull_test::support(solid.pieces, u), hull_test::support(generators, u),
+                  kTolerance * size);
+    }
+  }
+}
+
+TEST(ConvexSolid, HasFacetsWhereTheSearchForItsPiecesWouldTakeLong) {
+  // Discs of a cone, which all touch its side: each pair has to be compared with all others.
+  Generators cone;
+  for (int i = 0; i < 1000; ++i) {
+    cone.push_back(disc(Vec3(i * 0.1, 0, 0.5 * (i % 2)), Vec3(0, 0, 1), 1 + i * 0.001));
+  }
+  const ConvexSolid solid = convex_solid(cone);
+  EXPECT_TRUE(solid.is_faceted);
+  EXPECT_EQ(solid.pieces.size(), 1u);
+  const double size = hull_test::size_of(cone);
+  EXPECT_NEAR(hull_test::support(solid.pieces, Vec3(1, 0, 0)),
+              hull_test::support(cone, Vec3(1, 0, 0)), 1e-3 * size);
+}
+
 }  // namespace
 }  // namespace frontend

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "csgcore/triangle_mesh.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -256,6 +257,35 @@ TEST(ThrownTogether, TranslucentAndHighlightedLeavesAreLayersOfTheirOwn) {
   EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kModel);
   EXPECT_EQ(scene.layers[1].kind, Layer::Kind::kHighlight);  // as a leaf
   EXPECT_EQ(scene.layers[2].kind, Layer::Kind::kHighlight);  // and as an overlay
+}
+
+TEST(ThrownTogether, DrawsNoModelUnderALeafThatIsHighlighted) {
+  const csgcore::Scene scene =
+      import_text("#cube();", for_picture(PictureKind::kThrownTogether)).scene;
+  ASSERT_THAT(scene.layers, SizeIs(3));
+  EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kModel);
+  EXPECT_TRUE(scene.layers[0].solid.empty());
+}
+
+TEST(ThrownTogether, APlateShowsItsBottomUnlessASubtractedOneHidesIt) {
+  const auto layers = [](const std::string& text) {
+    return import_text(text, for_picture(PictureKind::kThrownTogether)).scene.layers;
+  };
+  EXPECT_TRUE(layers("square(9); %circle(3);").back().shows_behind);
+  EXPECT_FALSE(layers("square(9); %sphere(3);").back().shows_behind);
+  EXPECT_THAT(layers("difference() { square(9); #circle(3); }"), SizeIs(2));
+}
+
+TEST(ThrownTogether, FacesThatRunTheOtherWayHaveTheColorOfTheInside) {
+  const std::string one_turned = "faces = [[0,1,2],[0,3,1],[0,2,3],[1,2,3]]";
+  const ImportedDesign design = import_text("polyhedron(" + kCorner + one_turned + ");",
+                                            for_picture(PictureKind::kThrownTogether));
+  EXPECT_EQ(design.leaves, 1u);
+  ASSERT_THAT(design.scene.primitives, SizeIs(2));
+  EXPECT_EQ(design.scene.primitives[0].mesh->triangles().size(), 3u);
+  EXPECT_EQ(design.scene.primitives[0].color, std::nullopt);
+  EXPECT_EQ(design.scene.primitives[1].mesh->triangles().size(), 1u);
+  EXPECT_EQ(design.scene.primitives[1].color, kSeenFromWithin);
 }
 
 TEST(ThrownTogether, AnInsideOutPolyhedronHasTheColorOfTheInside) {

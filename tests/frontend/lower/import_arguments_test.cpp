@@ -91,15 +91,15 @@ TEST(ImporterPrimitives, TakeArgumentsOfTheWrongTypeForMissing) {
 TEST(ImporterPrimitives, HaveAWarningForEachKindOfProblem) {
   EXPECT_THAT(
       warnings_of("cube(\"a\"); sphere(\"a\");\ncube([1]); cylinder(\"a\", \"b\"); cube(1, 1);"
-                  "import(\"a.nef3\"); cube([2]); import(\"a.nef3\");"),
+                  "roof() { cube(); } cube([2]); roof() { cube(); }"),
       ElementsAre("a.csg:1:1: warning: cube: size is \"a\", and counts as missing; the "
                   "first of 3 (it must be a number or a list of three numbers)",
                   HasSubstr("a.csg:1:12: warning: sphere: r is a string, and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: h is a string, and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: r1 is a string, and"),
                   HasSubstr("a.csg:2:32: warning: cube: center is a number, and"),
-                  "a.csg:2:43: warning: import is left out; the first of 2 (it cannot be "
-                  "drawn)"));
+                  "a.csg:2:43: warning: roof is left out; the first of 2 (OpenSCAD 2021.01 "
+                  "does not know it)"));
 }
 
 TEST(ImporterPrimitives, AreLeftOutWhereNoScaleMakesThemDrawable) {

@@ -109,11 +109,8 @@ TEST_F(ImporterFiles, OfOtherKindsAreNotDrawn) {
       warnings("import(\"a.obj\"); import();"),
       ElementsAre("a.csg:1:1: warning: import: Unsupported file format while trying to "
                   "import file '\"a.obj\"'; the first of 2 (convert it to .stl, .off, .amf, "
-                  ".3mf, .svg or .dxf)"));
-  EXPECT_THAT(warnings("import(\"a.NEF3\");"),
-              ElementsAre("a.csg:1:1: warning: import is left out (it cannot be drawn)"));
+                  ".3mf, .nef3, .svg or .dxf)"));
   EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.obj\"); }"), "-");
-  EXPECT_EQ(model_of("intersection() { sphere(); import(\"a.nef3\"); }"), "0");
 }
 
 TEST_F(ImporterFiles, MayBeDrawings) {

@@ -217,6 +217,12 @@ TEST(ImporterPolyhedron, OfManyFacesIsAMesh) {
   EXPECT_TRUE(primitive.mesh->is_closed());
 }
 
+TEST(ImporterPolyhedron, HasSheetsOnceThatRunBothWays) {
+  const Primitive open =
+      only_primitive("polyhedron(" + kCorner + "faces = [[0,1,2],[2,1,0],[0,1,3]]);");
+  EXPECT_EQ(open.mesh->triangles().size(), 2u);
+}
+
 TEST(ImporterPolyhedron, ListsThatAreNoneCountAsMissing) {
   EXPECT_THAT(
       warnings_of("polyhedron(points = 3, faces = [[0,1]]);"),

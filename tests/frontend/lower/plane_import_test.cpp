@@ -493,5 +493,11 @@ TEST(PlaneImport, ForgetsColoursInside) {
   EXPECT_FALSE(only_primitive(extruded("color([1,0,0,1]) { square(2); }")).color);
 }
 
+TEST(FinalRender, TakesNoDimensionFromWithinABackgroundPart) {
+  ImportOptions options;
+  options.picture = PictureKind::kRendered;
+  EXPECT_EQ(model_of("%linear_extrude(height = 1) { square(1); } cube(1);", options), "1");
+}
+
 }  // namespace
 }  // namespace frontend

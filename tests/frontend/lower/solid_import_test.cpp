@@ -291,6 +291,18 @@ TEST(SolidMinkowski, OfAProfileThatIsNotConvexGoesAlongItsWalls) {
   EXPECT_TRUE(inside(-0.6, 5, 2.6));
 }
 
+TEST(SolidMinkowski, OfAProfileThatIsNotConvexTakesWhatLeans) {
+  const std::string bar = "multmatrix([[1,0,3,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); }";
+  const Inside inside("minkowski() { linear_extrude(height = 2) { difference() { square(20);" +
+                      at(9, 9, 0, "square(6);") + "} }" + bar + "}");
+  EXPECT_TRUE(inside(0.1, 5, 0.01));
+  EXPECT_FALSE(inside(0.1, 5, 2.99));
+  EXPECT_TRUE(inside(3.1, 5, 2.99));
+  EXPECT_TRUE(inside(5, 5, 1.5));
+  EXPECT_TRUE(inside(23.9, 5, 2.99));
+  EXPECT_FALSE(inside(14.5, 12, 1.5)) << "in the hole";
+}
+
 TEST(SolidMinkowski, OfAMeshGoesAlongItsFaces) {
   // Two tetrahedra in one mesh, far from each other.
   const Inside inside(

@@ -77,6 +77,50 @@ TEST(MeshFiles, AnotherFormatIsNone) {
   }
 }
 
+/// A block of 10 by 10 by 10 with a hole through it from x = 2 to 5 and from y = 2 to 6.1, which
+/// OpenSCAD cuts to a multiple of 2^-20.
+TEST(Nef3, HasFacesWithHolesAndFractions) {
+  SolidFile file = read_nef3(content_of("frame.nef3"), "frame.nef3");
+  EXPECT_EQ(file.problem, "");
+  tidy(file.faces);
+  EXPECT_THAT(file.faces.points, SizeIs(16));
+  EXPECT_NEAR(enclosed_volume(file.faces), 1000 - 3 * (6396313 / 1048576.0 - 2) * 10, 1e-9);
+  const auto mesh = mesh_of(std::move(file.faces));
+  EXPECT_THAT(mesh->triangles(), SizeIs(4 * 2 + 4 * 2 + 2 * 8));
+  EXPECT_TRUE(mesh->is_closed());
+}
+
+TEST(Nef3, OfLongNumbersIsExact) {
+  const std::string text = content_of("frame.nef3");
+  const std::string from = "| 10 10 10 1 }";
+  // 1/3 and 3, each with 40 digits.
+  const std::string thirds = "| " + std::string(40, '1') + ' ' + std::string(40, '9') + ' ' +
+                             std::string(40, '6') + ' ' + std::string(40, '3') + " }";
+  std::string changed = text;
+  changed.replace(changed.find(from), from.size(), thirds);
+  const SolidFile file = read_nef3(changed, "a.nef3");
+  ASSERT_GT(file.faces.points.size(), 1u);
+  EXPECT_EQ(file.faces.points[1], csgcore::Vec3(1.0 / 3, 3, 2));
+}
+
+TEST(Nef3, ThatIsDamagedIsEmpty) {
+  const std::string text = content_of("frame.nef3");
+  EXPECT_EQ(read_nef3("garbage", "a.nef3").problem, "Failure trying to import 'a.nef3'");
+  std::mt19937 random(26);
+  for (int i = 0; i < 1000; ++i) {
+    std::string damaged = text;
+    const size_t place = random() % text.size();
+    if (i % 2 == 0) {
+      damaged.resize(place);
+    } else {
+      damaged[place] = "0123456789-{},| \nx"[random() % 18];
+    }
+    const SolidFile file = read_nef3(damaged, "a.nef3");  // no crash, whatever it is
+    const bool is_cut_off = i % 2 == 0 && place + 1 < text.find("/*");
+    EXPECT_TRUE(!is_cut_off || !file.problem.empty()) << place;
+  }
+}
+
 TEST(Stl, IsTextByItsFirstWordAndBinaryByItsLength) {
   const std::string binary = content_of("step.stl");
   EXPECT_EQ(read_stl(binary + "x", "a").faces.face_count(), 0u);
@@ -146,6 +190,14 @@ TEST(FaceSets, AreCutAsTheyAreSeenFromOutside) {
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4}}, 1, 3)) << "along x";
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}, 1, 3)) << "along y";
   EXPECT_TRUE(has_diagonal({{0, 0, 0}, {9, 1, 1}, {90, 2, 0}, {9, 1, -3}}, 1, 3)) << "aslant";
+  // Its Newell sum is nearest to x, and the triangle of its furthest corners to z.
+  EXPECT_TRUE(has_diagonal({{-3.48892, 5.42115, 6},
+                            {-4.21311, 5.51058, 3},
+                            {-1.87866, -4.21311, 3},
+                            {1.05099, -3.48892, 6}},
+                           0, 2))
+      << "between axes";
+  EXPECT_TRUE(has_diagonal({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}, 0, 2)) << "crossed";
 }
 
 TEST(FaceSets, LoseWhatIsNoFace) {

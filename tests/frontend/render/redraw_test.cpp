@@ -7,6 +7,7 @@
 #include "frontend/camera.hpp"
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
+#include "frontend/importer.hpp"
 #include "frontend/render.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "support/models.hpp"
@@ -121,6 +122,23 @@ TEST_P(Redrawn, EqualsThePictureDrawnAnew) {
   if (GetParam().renderer == RendererKind::kCpu) {
     EXPECT_LT(least_traced, kSide_px * kSide_px / 4);
   }
+}
+
+TEST_P(Redrawn, AnEditedHullEqualsThePictureDrawnAnew) {
+  if (!can_draw()) GTEST_SKIP() << "no OpenGL";
+  const auto scene_of = [](const std::string& radius, const std::string& size) {
+    const std::string text = "difference() { hull() { sphere(3); cube([8, 2, 2]); sphere(" +
+                             radius + "); } cylinder(h = 9, r = 1); } minkowski() { cube([" + size +
+                             ", 9, 1]); sphere(0.5); }";
+    return TextImport(text, "a.csg", {}).finish().scene;
+  };
+  load(scene_of("4", "1"));
+  const csgcore::View view = view_of(*scene_, csgcore::Projection::kPerspective);
+  expect_drawn_anew(redraw(view), view);
+  load(scene_of("5", "1"));
+  expect_drawn_anew(redraw(view), view);
+  load(scene_of("5", "2"));
+  expect_drawn_anew(redraw(view), view);
 }
 
 TEST_P(Redrawn, AnotherViewOrLookIsDrawnWhole) {

@@ -20,5 +20,13 @@ TEST(NameTable, KnowsDynamicNames) {
   EXPECT_FALSE(names.is_dynamic(names.intern("fn")));
 }
 
+TEST(NameTable, HoldsManyNames) {
+  NameTable names;
+  constexpr Name kCount = 5000;
+  for (Name i = 0; i < kCount; ++i) EXPECT_EQ(names.intern("name_" + std::to_string(i)), i);
+  for (Name i = 0; i < kCount; ++i) EXPECT_EQ(names.find("name_" + std::to_string(i)), i);
+  EXPECT_EQ(names.size(), kCount);
+}
+
 }  // namespace
 }  // namespace language

@@ -167,6 +167,8 @@ TEST_F(BuiltinFunctions, Search) {
   EXPECT_EQ(call("search", {text("a"), list({text("abc")})}),
             "[] | Invalid entry in search vector at index 0, required number of values in the "
             "entry: 1. Invalid entry: \"abc\"");
+  EXPECT_EQ(call("search", {text("a"), list({list({text("a long text of 23 bytes")})})}),
+            "[] | search term not found: \"a\"");
   EXPECT_EQ(call("search", {Value(), table}), "undef");
 }
 

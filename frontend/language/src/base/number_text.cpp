@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 namespace language {
@@ -17,6 +18,12 @@ struct Decimal {
   uint32_t digits;  // as an integer of kDigits digits
   int exponent;     // of the first digit
 };
+
+// Returns a decimal whose digits may have been rounded up to 10^kDigits.
+Decimal carried(uint32_t digits, int exponent) {
+  constexpr uint32_t kEnd = 1'000'000;
+  return digits == kEnd ? Decimal{kEnd / 10, exponent + 1} : Decimal{digits, exponent};
+}
 
 // Reads what std::to_chars writes: "d.ddddde±xx".
 Decimal read_scientific(std::string_view text) {
@@ -53,15 +60,39 @@ bool is_exactly(double number, uint64_t digits, int power) {
   return std::ldexp(static_cast<double>(odd), power) == number;
 }
 
+// Returns a positive number rounded to kDigits digits where that can be told from one product of
+// doubles: where the number is far enough from a tie, and its exponent not too large.
+std::optional<Decimal> round_quickly(double number) {
+  constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  constexpr int kMostPower = 22;  // the last power of ten that is a double
+  constexpr double kLeast = 1e5, kEnd = 1e6;
+  // The product is wrong by 2^-53 of itself at most, which is below 1.2e-10.
+  constexpr double kNearTie = 1e-9;
+  constexpr double kDecimalsPerBinary = 0.30102999566398120;
+  const auto scaled = [&](int power) {
+    return power < 0 ? number / kPowers[-power] : number * kPowers[power];
+  };
+  const double magnitude = std::floor(std::ilogb(number) * kDecimalsPerBinary);
+  int power = kDigits - 1 - static_cast<int>(magnitude);
+  if (std::abs(power) >= kMostPower) return std::nullopt;
+  double integer = scaled(power);
+  if (integer >= kEnd) integer = scaled(--power);
+  if (!(integer >= kLeast && integer < kEnd)) return std::nullopt;
+  const double floor = std::floor(integer), part = integer - floor;
+  if (std::abs(part - 0.5) < kNearTie) return std::nullopt;
+  return carried(static_cast<uint32_t>(floor) + (part > 0.5 ? 1 : 0), kDigits - 1 - power);
+}
+
 // Returns a positive number rounded to kDigits digits; exact ties go away from zero.
 Decimal round_away(double number) {
+  if (const auto rounded = round_quickly(number)) return *rounded;
   const Decimal longer = round_to_even(number, kDigits + 1);
   if (longer.digits % 10 != 5) return round_to_even(number, kDigits);
   if (!is_exactly(number, longer.digits, longer.exponent - kDigits))
     return round_to_even(number, kDigits);
-  Decimal rounded{longer.digits / 10 + 1, longer.exponent};
-  if (rounded.digits == 1'000'000) rounded = {100'000, longer.exponent + 1};
-  return rounded;
+  return carried(longer.digits / 10 + 1, longer.exponent);
 }
 
 // Writes decimals in place and appends them once.
@@ -156,7 +187,8 @@ void append_general_number(std::string& out, double number) {
     out += std::isnan(size) ? "nan" : "inf";
     return;
   }
-  const Decimal decimal = round_to_even(size, kDigits);
+  const auto quick = round_quickly(size);
+  const Decimal decimal = quick ? *quick : round_to_even(size, kDigits);
   Writer writer(decimal);
   constexpr int kLeastExponent = -4;
   if (decimal.exponent < kLeastExponent || decimal.exponent > kMostExponent)

@@ -4,11 +4,10 @@
 namespace language {
 
 // The assignments of the children's block are evaluated before the call, in a scope that the
-// children then run in.
+// arguments are then evaluated in and the children run in. It is left open.
 BlockEntry* CodeCompiler::save_block(const ModuleCall& call, const Hiding& hiding) {
   const Scope& scope = *call.children;
   if (scope.assignments.empty() && scope.calls.empty()) return nullptr;
-  ScopeLayout* const outer = scope_;
   if (!scope.assignments.empty()) {
     ScopeLayout& layout = open_scope(true, call.place);
     const uint32_t open = out_.here() - 1;
@@ -19,7 +18,6 @@ BlockEntry* CodeCompiler::save_block(const ModuleCall& call, const Hiding& hidin
   }
   BlockEntry& block = compiler_.add_block(scope.calls, *scope_);
   out_.emit(Op::kSaveBlock, call.place, 0);
-  if (scope_ != outer) close_scope(call.place);
   return &block;
 }
 
@@ -37,6 +35,7 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   if (found.is_in_other_unit) out_.emit(Op::kEnterUnit, call.place, 0, unit);
   const Scope* const used =
       found.is_in_other_unit ? compiler_.program().units[unit].scope : nullptr;
+  ScopeLayout* const outer = scope_;
   site.block = save_block(call, {{}, used});
   site.is_in_unit = found.is_in_other_unit;
   site.scope = found.is_in_other_unit ? 0 : scope_number(*module.scope);
@@ -49,6 +48,7 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   warn_of_arguments(plan, call.place, false);
   arguments(plan, call.arguments, base);
   out_.emit(Op::kCallModule, call.place, -static_cast<int>(site.slots), number);
+  if (scope_ != outer) close_scope(call.place);
   if (has_mark) out_.emit(Op::kUndoTrail, call.place, 0, start);
   drop_to(start, call.place);
 }

@@ -111,10 +111,14 @@ class Search {
     return indices;
   }
 
+  // Returns whether a value's text begins with a character. OpenSCAD 2021.01 looks at the text when
+  // it has freed it already, and so finds nothing where the text lies in a block of its own.
   static bool begins_with(const Value& value, std::string_view character) {
+    constexpr size_t kLeastBlock = 16;  // bytes from which the text has a block
     std::string text;
     append_str_text(text, value);
-    return !text.empty() && first_code_point(text) == first_code_point(character);
+    return !text.empty() && text.size() < kLeastBlock &&
+           first_code_point(text) == first_code_point(character);
   }
 
   void warn_of_entry(size_t index, const Value& entry) const {

@@ -11,14 +11,16 @@
 namespace language {
 
 Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena,
-             Messages& messages, FileLookup& lookup, FileId main, std::string folder)
+             Messages& messages, FileLookup& lookup, const Main& main)
     : files_(files),
       names_(names),
       arena_(arena),
       messages_(messages),
       lookup_(lookup),
-      folder_(std::move(folder)) {
-  enter(main, files_[main].text.data());
+      hard_warnings_(main.hard_warnings),
+      warnings_before_(messages.warnings()),
+      folder_(main.folder) {
+  enter(main.file, files_[main.file].text.data());
 }
 
 void Lexer::enter(FileId file, const char* cursor) {
@@ -209,6 +211,7 @@ bool Lexer::lex_include(Token& token) {
   }
   ++cursor_;
   const FileId file = lookup_.include(named_file(path_folder + last_path_name_));
+  check_warnings();
   if (file == kNoFile) return false;
   // OpenSCAD goes on counting with the line of messages, which differs where there are CRs.
   const ErrorLines lines{files_.message_line(token.place), offset_of(cursor_)};
@@ -234,6 +237,7 @@ void Lexer::lex_use(Token& token) {
   if (cursor_ == end_) return lex_unterminated(token, "use statement");
   ++cursor_;
   lookup_.use(named_file(last_path_name_));
+  check_warnings();
 }
 
 std::string_view Lexer::store(std::string_view text) {
@@ -246,6 +250,15 @@ std::string_view Lexer::store(std::string_view text) {
 void Lexer::lex_unterminated(Token& token, std::string_view what) {
   token.kind = TokenKind::kUnknown;
   say_error("Unterminated " + std::string(what));
+}
+
+void Lexer::check_warnings() const {
+  if (hard_warnings_ && messages_.warnings() > warnings_before_) fail("stop on first warning");
+}
+
+void Lexer::fail(const std::string& text) const {
+  say_error(text);
+  throw SyntaxError();
 }
 
 void Lexer::say_error(const std::string& text) const {

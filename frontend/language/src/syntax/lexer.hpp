@@ -13,17 +13,28 @@
 
 namespace language {
 
+/// Ends the parsing of a file, after the message about it.
+struct SyntaxError {};
+
 class Lexer {
  public:
-  /// Lexes the file `main`, whose path is in `folder`. `names` must begin with kFirstNames. Texts
+  struct Main {
+    FileId file = kNoFile;
+    std::string folder;          // of the file; absolute
+    bool hard_warnings = false;  // whether a warning is a syntax error
+  };
+
+  /// Lexes a file. `names` must begin with kFirstNames. Texts
   /// of tokens lie in the arena.
   Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
-        FileLookup& lookup, FileId main, std::string folder);
+        FileLookup& lookup, const Main& main);
 
   /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
   Token next();
-  /// Says a parser error about the last token.
-  void say_error(const std::string& text) const;
+  /// Says a parser error about the last token, and throws SyntaxError.
+  [[noreturn]] void fail(const std::string& text) const;
+  /// Fails if there was a warning since the lexer was made, and warnings are errors.
+  void check_warnings() const;
 
  private:
   /// How lines are counted in parser errors: `first`, plus the line feeds from `offset` on.
@@ -58,6 +69,7 @@ class Lexer {
   bool begins_path() const;
   bool reach_path_part();
   std::string_view store(std::string_view text);
+  void say_error(const std::string& text) const;
   void lex_unterminated(Token& token, std::string_view what);
 
   SourceFiles& files_;
@@ -65,6 +77,8 @@ class Lexer {
   std::pmr::memory_resource& arena_;
   Messages& messages_;
   FileLookup& lookup_;
+  bool hard_warnings_;
+  size_t warnings_before_;
 
   std::vector<Includer> includers_;          // outermost first
   std::vector<std::string> being_included_;  // paths of the included files among them

@@ -1,5 +1,6 @@
 #include "syntax/parameter_text.hpp"
 
+#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ namespace language {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
+  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
   return text;
 }
 
@@ -95,7 +96,9 @@ const Expression* LiteralMaker::make_element(std::string_view text) {
   std::string value;
   const std::string terminated(text);
   for (const char* at = terminated.c_str(); *at != '\0';) {
-    if (*at == '\\') {
+    if (*at == '\\' && std::strchr("xuU", at[1])) {
+      ++at;  // these escapes are unknown here
+    } else if (*at == '\\') {
       at += append_escape(at, value);
     } else {
       value += *at++;

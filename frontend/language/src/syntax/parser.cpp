@@ -10,7 +10,6 @@ const Token& Parser::fetch(int position) {
   if (++taken_ % kTokensBetweenChecks == 0 && settings_.stop.stop_requested()) throw Stopped();
   tokens_[position] = lexer_.next();
   ahead_ = position + 1;
-  check_hard_warnings();
   return tokens_[position];
 }
 
@@ -33,12 +32,12 @@ Token Parser::take() {
 }
 
 Token Parser::expect(char sign) {
-  if (!peek().is(sign)) fail();
+  if (!peek().is(sign)) fail_at_token();
   return take();
 }
 
 Token Parser::expect_name() {
-  if (!peek().is(TokenKind::kName)) fail();
+  if (!peek().is(TokenKind::kName)) fail_at_token();
   return take();
 }
 
@@ -53,15 +52,6 @@ int Parser::accept_commas() {
   int count = 0;
   while (accept(',')) ++count;
   return count;
-}
-
-void Parser::fail(std::string_view what) {
-  lexer_.say_error(std::string(what));
-  throw SyntaxError();
-}
-
-void Parser::check_hard_warnings() {
-  if (settings_.hard_warnings && messages_.warnings() > 0) fail("stop on first warning");
 }
 
 const Scope* Parser::parse_file() {
@@ -128,7 +118,7 @@ void Parser::say_overwritten(const Assignment& assignment, Place first) {
     text += " of \"" + messages_.shown_path(first.file, PathBase::kMainFile) + "\"";
   }
   messages_.warn(text + " but was overwritten", second);
-  check_hard_warnings();
+  lexer_.check_warnings();
 }
 
 void Parser::parse_module(ScopeBuilder& scope) {
@@ -206,7 +196,7 @@ ModuleCall Parser::parse_if() {
 
 ModuleCall Parser::parse_plain_call() {
   const Nested nested(*this, 2);
-  if (!begins_call()) fail();
+  if (!begins_call()) fail_at_token();
   const Token name = take();
   ModuleCall call{};
   call.name = name.name;

@@ -4,7 +4,6 @@
 #include <memory_resource>
 #include <span>
 #include <stop_token>
-#include <string_view>
 #include <vector>
 
 #include "syntax/arena_list.hpp"
@@ -17,10 +16,8 @@ namespace language {
 /// Parses one file with all that it includes. Throws SyntaxError after the message about it.
 class Parser {
  public:
-  struct SyntaxError {};
   struct Settings {
     FileId design_file = kNoFile;  // the main file of the design, which warnings treat differently
-    bool hard_warnings = false;    // whether a warning is a syntax error
     std::stop_token stop;
   };
 
@@ -56,8 +53,7 @@ class Parser {
   Token expect_name();
   bool accept(char sign);
   int accept_commas();
-  [[noreturn]] void fail(std::string_view what = "syntax error");
-  void check_hard_warnings();
+  [[noreturn]] void fail_at_token() const { lexer_.fail("syntax error"); }
 
   // Statements.
   void parse_statement(ScopeBuilder& scope);
@@ -138,7 +134,7 @@ class Parser::Nested {
   Nested(Parser& parser, uint32_t symbols) : parser_(parser), symbols_(symbols) {
     constexpr uint32_t kMostSymbols = 19'994;
     parser_.depth_ += symbols_;
-    if (parser_.depth_ > kMostSymbols) parser_.fail("memory exhausted");
+    if (parser_.depth_ > kMostSymbols) parser_.lexer_.fail("memory exhausted");
   }
   Nested(const Nested&) = delete;
   Nested& operator=(const Nested&) = delete;

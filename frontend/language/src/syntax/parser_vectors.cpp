@@ -11,7 +11,7 @@ const Expression* Parser::parse_bracket() {
   if (accept(']'))
     return make<VectorExpression>(ExpressionKind::kVector, start,
                                   std::span<const Expression* const>{});
-  if (has_commas) fail();
+  if (has_commas) fail_at_token();
   const Element first = parse_element(false);
   if (!first.is_comprehension && peek().is(':')) return parse_range(first.node, start);
   return parse_vector(first, start);

@@ -21,10 +21,12 @@ bool is_font(const std::string& name) {
   return extension == ".ttf" || extension == ".otf";
 }
 
-std::string canonical(const std::string& path) {
+/// OpenSCAD follows links to the main file's folder in messages, but neither a link to the file
+/// itself, nor those on the way to what it includes.
+std::string shown_main_path(const fs::path& path) {
   std::error_code error;
-  const fs::path canonical = fs::canonical(path, error);
-  return error ? path : canonical.string();
+  const fs::path folder = fs::canonical(path.parent_path(), error);
+  return ((error ? path.parent_path() : folder) / path.filename()).string();
 }
 
 }  // namespace
@@ -35,14 +37,14 @@ ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOp
 }
 
 bool ProgramReader::read_main(const std::string& path) {
+  std::error_code error;
   if (path == "-") {
-    std::error_code no_folder;
-    add_unit("<stdin>", options_.standard_input);
-    program_.units[0].folder = fs::current_path(no_folder).string();
+    add_unit("<stdin>", fs::current_path(error).string(), options_.standard_input);
   } else {
     const auto text = read_file(path);
     if (!text) return false;
-    add_unit(canonical(path), *text);
+    const fs::path absolute = fs::absolute(path, error).lexically_normal();
+    add_unit(shown_main_path(absolute), absolute.parent_path().string(), *text);
   }
   messages_.set_main_folder(program_.units[0].folder);
   return true;
@@ -66,14 +68,14 @@ void ProgramReader::parse_used() {
 bool ProgramReader::parse(uint32_t unit_number) {
   current_unit_ = unit_number;
   Unit& unit = program_.units[unit_number];
-  Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this, unit.file,
-              unit.folder);
+  Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
+              {unit.file, unit.folder, options_.hard_warnings});
   Parser parser(lexer, program_.files, program_.names, program_.arena, messages_,
-                {program_.units[0].file, options_.hard_warnings, options_.stop});
+                {program_.units[0].file, options_.stop});
   try {
     unit.scope = parser.parse_file();
     return true;
-  } catch (const Parser::SyntaxError&) {
+  } catch (const SyntaxError&) {
     return false;
   }
 }
@@ -100,7 +102,8 @@ void ProgramReader::use(const NamedFile& file) {
   if (known == used_.end()) {
     const auto text = read_file(path);
     if (!text) return messages_.warn("Can't open library '" + std::string(file.name) + "'.");
-    known = used_.emplace(path, add_unit(path, *text)).first;
+    const std::string folder = fs::path(path).parent_path().string();
+    known = used_.emplace(path, add_unit(path, folder, *text)).first;
   }
   auto& uses = program_.units[current_unit_].uses;
   std::erase(uses, known->second);
@@ -115,9 +118,9 @@ void ProgramReader::use_font(const std::string& name, const std::string& path) {
   }
 }
 
-uint32_t ProgramReader::add_unit(std::string path, std::string_view text) {
+uint32_t ProgramReader::add_unit(std::string path, std::string folder, std::string_view text) {
   Unit& unit = program_.units.emplace_back();
-  unit.folder = fs::path(path).parent_path().string();
+  unit.folder = std::move(folder);
   unit.file = program_.files.add({std::move(path), unit_text(text), {}});
   return static_cast<uint32_t>(program_.units.size() - 1);
 }

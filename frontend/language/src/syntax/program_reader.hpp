@@ -29,7 +29,7 @@ class ProgramReader : public FileLookup {
 
  private:
   bool parse(uint32_t unit);
-  uint32_t add_unit(std::string path, std::string_view text);
+  uint32_t add_unit(std::string path, std::string folder, std::string_view text);
   std::string unit_text(std::string_view file_text) const;
   void use_font(const std::string& name, const std::string& path);
 

@@ -1,5 +1,7 @@
 #include "syntax/scope_builder.hpp"
 
+#include <utility>
+
 namespace language {
 
 Place ScopeBuilder::add(const Assignment& assignment) {
@@ -9,7 +11,7 @@ Place ScopeBuilder::add(const Assignment& assignment) {
     return {};
   }
   older->value = assignment.value;
-  return older->place;
+  return std::exchange(older->place, assignment.place);
 }
 
 const Scope* ScopeBuilder::finish(std::pmr::memory_resource& arena) const {

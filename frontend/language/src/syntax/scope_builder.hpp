@@ -55,7 +55,7 @@ class ScopeBuilder {
         calls_(stacks.calls) {}
 
   /// Adds an assignment. Returns the place of the one that it overwrites, which has no file if
-  /// there is none: that one keeps its place and gets the new expression.
+  /// there is none: that one keeps its position in the list.
   Place add(const Assignment& assignment);
   void add(const FunctionDefinition& definition) { replace(functions_, definition); }
   void add(const ModuleDefinition& definition) { replace(modules_, definition); }

@@ -163,7 +163,7 @@ const Node& as(const Expression& expression) {
 struct Assignment {
   Name name;
   const Expression* value;
-  Place place;  // of the name; where a scope assigns it twice, of the first
+  Place place;  // of the name; where a scope assigns it twice, of the last
 };
 
 struct Scope;
@@ -172,7 +172,7 @@ struct Scope;
 struct ModuleCall {
   Name name;
   uint8_t modifiers = 0;  // CallModifier
-  Place place;  // of the name; of an `if`, of its `)`
+  Place place;            // of the name; of an `if`, of its `)`
   std::span<const Argument> arguments;
   const Expression* condition = nullptr;  // of an `if`
   const Scope* children = nullptr;        // never null: empty if there are none
@@ -196,7 +196,7 @@ struct ModuleDefinition {
 /// A file's top level, a module's body or a child block. Each list is in source order; of names
 /// that are defined twice the definition that counts stands in the list, once.
 struct Scope {
-  std::span<const Assignment> assignments;  // place of the first, expression of the last
+  std::span<const Assignment> assignments;  // position of the first, all else of the last
   std::span<const FunctionDefinition> functions;
   std::span<const ModuleDefinition> modules;
   std::span<const ModuleCall> calls;

@@ -1,8 +1,9 @@
 #include "values/comparison.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <string>
 
+#include "values/level_stack.hpp"
 #include "values/range.hpp"
 
 namespace language {
@@ -74,8 +75,8 @@ struct Pair {
 
 // Adds the lines that say where within vectors the comparison failed, from inside out. Each pair's
 // `next` is already past the element that failed.
-void append_indices(const std::vector<Pair>& pairs, std::string& text) {
-  for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair)
+void append_indices(const LevelStack<Pair>& pairs, std::string& text) {
+  for (auto pair = pairs.levels().rbegin(); pair != pairs.levels().rend(); ++pair)
     text += "\n\tin vector comparison at index " + std::to_string(pair->next - 1);
 }
 
@@ -84,16 +85,16 @@ void append_indices(const std::vector<Pair>& pairs, std::string& text) {
 Ordering order(const Value& left, std::string_view sign, const Value& right,
                OperatorProblem& problem) {
   if (!left.is_vector() || !right.is_vector()) return order_leaves(left, sign, right, problem);
-  std::vector<Pair> pairs;
-  pairs.emplace_back(left, right);
+  LevelStack<Pair> pairs;
+  pairs.push(left, right);
   while (true) {
     Ordering ordering = Ordering::kNeither;
-    Pair& pair = pairs.back();
+    Pair& pair = pairs.top();
     if (pair.has_both()) {
       const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
       ++pair.next;
       if (a.is_vector() && b.is_vector()) {
-        pairs.emplace_back(a, b);
+        pairs.push(a, b);
         continue;
       }
       ordering = order_leaves(a, "<", b, problem);
@@ -101,7 +102,7 @@ Ordering order(const Value& left, std::string_view sign, const Value& right,
       if (ordering != Ordering::kNeither) return ordering;
     } else {
       ordering = ordering_of(pair.left.size(), pair.right.size());
-      pairs.pop_back();
+      pairs.pop();
       if (ordering != Ordering::kNeither || pairs.empty()) return ordering;
     }
   }
@@ -109,19 +110,19 @@ Ordering order(const Value& left, std::string_view sign, const Value& right,
 
 bool are_equal(const Value& left, const Value& right) {
   if (!left.is_vector() || !right.is_vector()) return are_leaves_equal(left, right);
-  std::vector<Pair> pairs;
-  pairs.emplace_back(left, right);
+  LevelStack<Pair> pairs;
+  pairs.push(left, right);
   while (!pairs.empty()) {
-    Pair& pair = pairs.back();
+    Pair& pair = pairs.top();
     if (pair.left.size() != pair.right.size()) return false;
     if (!pair.has_both()) {
-      pairs.pop_back();
+      pairs.pop();
       continue;
     }
     const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
     ++pair.next;
     if (a.is_vector() && b.is_vector())
-      pairs.emplace_back(a, b);
+      pairs.push(a, b);
     else if (!are_leaves_equal(a, b))
       return false;
   }

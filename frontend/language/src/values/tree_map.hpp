@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "values/level_stack.hpp"
 #include "values/make.hpp"
 
 namespace language {
@@ -20,21 +20,21 @@ Value map_leaves(const Value& vector, Leaf leaf) {
     explicit Level(const Value& source)
         : rest(source.elements()), result(make_vector(rest.size())) {}
   };
-  std::vector<Level> levels;
-  levels.emplace_back(vector);
+  LevelStack<Level> levels;
+  levels.push(vector);
   while (true) {
-    Level& level = levels.back();
+    Level& level = levels.top();
     if (level.rest.empty()) {
       Value result = std::move(level.result);
-      levels.pop_back();
+      levels.pop();
       if (levels.empty()) return result;
-      append_element(levels.back().result, std::move(result));
+      append_element(levels.top().result, std::move(result));
       continue;
     }
     const Value& element = level.rest.front();
     level.rest = level.rest.subspan(1);
     if (element.is_vector())
-      levels.emplace_back(element);
+      levels.push(element);
     else
       append_element(level.result, leaf(element));
   }
@@ -54,21 +54,21 @@ Value map_pairs(const Value& left, const Value& right, Leaf leaf) {
           end(std::min(left.size(), right.size())),
           result(make_vector(end)) {}
   };
-  std::vector<Level> levels;
-  levels.emplace_back(left, right);
+  LevelStack<Level> levels;
+  levels.push(left, right);
   while (true) {
-    Level& level = levels.back();
+    Level& level = levels.top();
     if (level.next == level.end) {
       Value result = std::move(level.result);
-      levels.pop_back();
+      levels.pop();
       if (levels.empty()) return result;
-      append_element(levels.back().result, std::move(result));
+      append_element(levels.top().result, std::move(result));
       continue;
     }
     const Value &a = level.left[level.next], &b = level.right[level.next];
     ++level.next;
     if (a.is_vector() && b.is_vector())
-      levels.emplace_back(a, b);
+      levels.push(a, b);
     else
       append_element(level.result, leaf(a, b));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/descriptor.hpp"
+#include "frontend/interrupt.hpp"
 
 namespace frontend {
 
@@ -42,14 +43,14 @@ struct ChildSetup {
   int errors = -1;                   // its standard error
   int kept = -1;                     // one more descriptor that it inherits, with the same number;
                                      // -1: none
+  bool is_in_background = false;     // it gets the processors that nothing else wants
 };
 
 /// A running program. It and everything that it starts are in a process group of their own. The
 /// group is killed when this object is destroyed, when a signal ends this program (interrupt.hpp),
 /// and when this program is killed. For the last case the group holds a guard: a shell that waits
 /// for the end of a pipe that only this program holds open, and then kills its own group.
-/// (PR_SET_PDEATHSIG would reach the program alone, not what a wrapper script has started.) There
-/// is one such object at a time.
+/// (PR_SET_PDEATHSIG would reach the program alone, not what a wrapper script has started.)
 class ChildProcess {
  public:
   /// Starts the program with an empty standard input. Throws std::system_error if it cannot be
@@ -70,6 +71,7 @@ class ChildProcess {
  private:
   void kill_all() const;
 
+  KillOnInterrupt interrupt_;
   Pipe lifeline_;  // from here to the guard; nothing is written to it
   pid_t pid_ = 0;
   pid_t group_ = 0;

@@ -1,8 +1,9 @@
-#include "follow/child_process.hpp"
+#include "process/child_process.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
@@ -88,7 +89,9 @@ ChildProcess::ChildProcess(const ChildSetup& setup) {
   // starts second, as nothing waits for it.
   const HoldInterrupts hold;
   pid_ = group_ = spawn(setup.command, files, 0, hold);
-  set_child_group(group_);
+  interrupt_.set(group_);
+  constexpr int kLeastPriority = 19;
+  if (setup.is_in_background) setpriority(PRIO_PGRP, static_cast<id_t>(group_), kLeastPriority);
   try {
     guard_ = spawn({"/bin/sh", "-c", "read end; kill -KILL 0"}, guard_files, group_, hold);
   } catch (...) {
@@ -118,7 +121,7 @@ int ChildProcess::wait() {
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
   kill(-group_, SIGKILL);  // the guard, and whatever else is left
-  set_child_group(0);      // as long as no other group can have the number
+  interrupt_.set(0);       // as long as no other group can have the number
   int status = 0;
   waitpid(std::exchange(pid_, 0), &status, 0);
   if (guard_ > 0) waitpid(std::exchange(guard_, 0), nullptr, 0);

@@ -1,0 +1,20 @@
+// How finely openscad divides what is round in a part of a design that it renders.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frontend/import_options.hpp"
+#include "frontend/syntax_tree.hpp"
+
+namespace frontend {
+
+/// Returns the $fn of each node of the subtree, the root's first; 0: its own arguments stay.
+///
+/// Where facets are not kept, what is round gets so many that they are below a pixel or about one,
+/// as long as openscad takes some seconds for all: it takes a millisecond for a facet, and in a
+/// Minkowski sum for each pair of one. Nothing gets fewer than the design gives it.
+std::vector<double> render_fragments(const SyntaxTree& tree, uint32_t root,
+                                     const ImportOptions& options);
+
+}  // namespace frontend

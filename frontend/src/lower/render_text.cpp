@@ -1,0 +1,269 @@
+#include "lower/render_text.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "lower/file_matrix.hpp"
+#include "lower/import_arguments.hpp"
+#include "lower/node_roles.hpp"
+#include "lower/read_2d.hpp"
+#include "lower/render_facets.hpp"
+
+namespace frontend {
+namespace {
+
+/// Far outside of every solid.
+constexpr std::string_view kElsewhere =
+    "multmatrix([[1,0,0,1e15],[0,1,0,0],[0,0,1,0],[0,0,0,1]])cube(1);";
+
+std::string number_text(double number) {
+  if (std::isnan(number)) return "(0/0)";
+  if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
+  std::array<char, 32> digits;
+  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  return std::string(digits.data(), static_cast<size_t>(end - digits.data()));
+}
+
+std::string string_literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// Whether it makes a solid in coordinates that no other node of the text moves.
+bool is_solid_leaf(NodeKind kind) { return role_of(kind) == Role::kSolid || is_extrusion(kind); }
+
+std::string matrix_text(const csgcore::Affine& map) {
+  std::string text = "multmatrix([";
+  for (int row = 0; row < 3; ++row) {
+    text += '[';
+    for (int column = 0; column < 3; ++column) text += number_text(map.linear[column][row]) + ',';
+    text += number_text(map.translation[row]) + "],";
+  }
+  return text + "[0,0,0,1]])";
+}
+
+class RenderText {
+ public:
+  RenderText(const SyntaxTree& tree, uint32_t root, const ImportOptions& options)
+      : tree_(tree),
+        root_(root),
+        options_(options),
+        fragments_(render_fragments(tree, root, options)) {}
+
+  void write(bool is_plane) {
+    const uint32_t end = tree_.nodes[root_].subtree_end;
+    if (is_plane) unscaled_until_ = end;
+    std::vector<uint32_t> open;
+    for (uint32_t i = root_; i < end;) {
+      for (; !open.empty() && open.back() <= i; open.pop_back()) text_ += '}';
+      const SyntaxNode& node = tree_.nodes[i];
+      if (i != root_ && (node.modifiers & (kDisable | kBackground)) != 0) {
+        i = node.subtree_end;
+        continue;
+      }
+      write_node(i);
+      if (node.subtree_end == i + 1) {
+        text_ += ';';
+      } else {
+        text_ += '{';
+        open.push_back(node.subtree_end);
+      }
+      ++i;
+    }
+    text_.append(open.size(), '}');
+  }
+
+  bool has_text() const { return has_text_; }
+  std::string take_text() { return std::move(text_); }
+  std::string take_inputs() { return std::move(inputs_); }
+
+ private:
+  bool is_scaled(uint32_t index) const { return index >= unscaled_until_; }
+
+  void write_node(uint32_t index) {
+    const SyntaxNode& node = tree_.nodes[index];
+    has_text_ = has_text_ || node.kind == NodeKind::kText;
+    if (is_scaled(index) && is_solid_leaf(node.kind)) {
+      csgcore::Affine larger;
+      larger.linear = csgcore::Mat3(kRenderScale);
+      text_ += matrix_text(larger);
+      unscaled_until_ = node.subtree_end;
+      write_call(index);
+    } else if (node.kind == NodeKind::kMultmatrix) {
+      write_matrix(index);
+    } else if (node.kind == NodeKind::kResize) {
+      write_resize(index);
+    } else if (node.kind == NodeKind::kColor) {
+      text_ += "group()";
+    } else {
+      write_call(index);
+    }
+  }
+
+  void write_matrix(uint32_t index) {
+    NodeProblems told;  // when the node was taken
+    const FileMatrix file = read_matrix(tree_, tree_.nodes[index], told);
+    if (!is_affine(file)) {  // nothing is left
+      text_ += "multmatrix([[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]])";
+      return;
+    }
+    csgcore::Affine map = heal(file).map;
+    if (is_scaled(index)) map.translation *= kRenderScale;
+    text_ += matrix_text(map);
+  }
+
+  void write_resize(uint32_t index) {
+    const ResizeArguments resize = read_resize(tree_, tree_.nodes[index]);
+    std::string sizes, follows;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double size = resize.size[axis] * (is_scaled(index) ? kRenderScale : 1);
+      sizes += number_text(size) + ',';
+      follows += resize.follows[axis] ? "true," : "false,";
+    }
+    text_ += "resize(newsize=[" + sizes + "],auto=[" + follows + "])";
+  }
+
+  void write_call(uint32_t index) {
+    const SyntaxNode& node = tree_.nodes[index];
+    const double fn = fragments_[index - root_];
+    text_ += std::string(name_of(node.kind)) + '(';
+    for (const Argument& argument : tree_.arguments_of(node)) {
+      if (argument.name == "timestamp" || (fn > 0 && argument.name == "$fn")) continue;
+      if (!argument.name.empty()) text_ += std::string(argument.name) + '=';
+      if (names_file(node.kind, argument)) {
+        write_file(tree_.text_of(argument.value));
+      } else {
+        write_value(argument.value);
+      }
+      text_ += ',';
+    }
+    if (fn > 0) {
+      text_ += "$fn=" + number_text(fn);
+    } else if (text_.back() == ',') {
+      text_.pop_back();
+    }
+    text_ += ')';
+  }
+
+  static bool names_file(NodeKind kind, const Argument& argument) {
+    if (argument.value.kind != ValueKind::kString) return false;
+    const bool may_be_unnamed = kind == NodeKind::kImport || kind == NodeKind::kSurface;
+    return argument.name == "file" || (may_be_unnamed && argument.name.empty());
+  }
+
+  void write_file(std::string_view name) {
+    if (name.empty()) {
+      text_ += "\"\"";
+      return;
+    }
+    std::error_code failed;
+    const std::filesystem::path path =
+        std::filesystem::absolute(std::filesystem::path(options_.folder) / name, failed)
+            .lexically_normal();
+    text_ += string_literal(path.string());
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) status = {};
+    inputs_ += std::to_string(status.st_size) + ' ' + std::to_string(status.st_mtim.tv_sec) + '.' +
+               std::to_string(status.st_mtim.tv_nsec) + ';';
+  }
+
+  /// Does not recurse: lists may be nested deeply.
+  void write_value(const Value& value) {
+    struct OpenList {
+      const Value* next;
+      const Value* end;
+    };
+    std::vector<OpenList> lists;
+    const Value* current = &value;
+    for (;;) {
+      if (current->kind == ValueKind::kList) {
+        const std::span<const Value> elements = tree_.elements_of(*current);
+        text_ += '[';
+        lists.push_back({elements.data(), elements.data() + elements.size()});
+      } else {
+        write_scalar(*current);
+        if (!lists.empty()) text_ += ',';
+      }
+      while (!lists.empty() && lists.back().next == lists.back().end) {
+        lists.pop_back();
+        text_ += lists.empty() ? "]" : "],";
+      }
+      if (lists.empty()) return;
+      current = lists.back().next++;
+    }
+  }
+
+  void write_scalar(const Value& value) {
+    switch (value.kind) {
+      case ValueKind::kUndef:
+      case ValueKind::kList:
+        text_ += "undef";
+        return;
+      case ValueKind::kBool:
+        text_ += value.boolean ? "true" : "false";
+        return;
+      case ValueKind::kNumber:
+        text_ += number_text(value.number);
+        return;
+      case ValueKind::kString:
+        text_ += string_literal(tree_.text_of(value));
+    }
+  }
+
+  const SyntaxTree& tree_;
+  const uint32_t root_;
+  const ImportOptions& options_;
+  const std::vector<double> fragments_;
+  uint32_t unscaled_until_ = 0;  // nodes before this one are not scaled
+  bool has_text_ = false;
+  std::string text_, inputs_;
+};
+
+/// Returns the lines that make fonts of files known.
+std::string font_lines(const std::vector<std::string>& fonts) {
+  std::string lines;
+  for (const std::string& font : fonts) {
+    std::error_code failed;
+    const std::string path = std::filesystem::absolute(font, failed).string();
+    if (path.find('>') == std::string::npos) lines += "use <" + path + ">\n";
+  }
+  return lines;
+}
+
+}  // namespace
+
+bool may_be_rendered(const SyntaxTree& tree, uint32_t root) {
+  const auto begin = tree.nodes.begin();
+  return std::none_of(begin + root, begin + tree.nodes[root].subtree_end,
+                      [](const SyntaxNode& node) {
+                        return node.kind == NodeKind::kRoof || node.kind == NodeKind::kFill;
+                      });
+}
+
+RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plane,
+                             const ImportOptions& options, const std::vector<std::string>& fonts) {
+  RenderText body(tree, root, options);
+  body.write(is_plane);
+  RenderRequest request;
+  if (body.has_text()) request.text = font_lines(fonts);
+  // What is subtracted changes nothing, but makes openscad compute with exact numbers.
+  request.text += "difference(){";
+  request.text += is_plane ? "linear_extrude(height=1){" : "union(){";
+  request.text += body.take_text() + '}' + std::string(kElsewhere) + "}\n";
+  request.inputs = body.take_inputs();
+  request.line = tree.nodes[root].location.line;
+  return request;
+}
+
+}  // namespace frontend

@@ -1,0 +1,25 @@
+#include "base/read_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace language {
+namespace {
+
+TEST(ReadFile, ReturnsAllBytes) {
+  const std::string path = testing::TempDir() + "read_file_test.scad";
+  const std::string bytes = std::string(100'000, 'x') + std::string("\0\r\n", 3);
+  std::ofstream(path, std::ios::binary) << bytes;
+  EXPECT_EQ(read_file(path), bytes);
+  std::filesystem::remove(path);
+}
+
+TEST(ReadFile, ReadsNoFolderAndNothingThatIsMissing) {
+  EXPECT_EQ(read_file(testing::TempDir()), std::nullopt);
+  EXPECT_EQ(read_file(testing::TempDir() + "no such file"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace language

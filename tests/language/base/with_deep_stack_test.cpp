@@ -1,0 +1,26 @@
+#include "base/with_deep_stack.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace language {
+namespace {
+
+int depth_of(int left) {
+  volatile char frame[1000] = {};  // 20 MB in all
+  return left == 0 ? frame[0] : 1 + depth_of(left - 1);
+}
+
+TEST(WithDeepStack, HoldsDeepRecursion) {
+  int depth = 0;
+  with_deep_stack([&] { depth = depth_of(20'000); });
+  EXPECT_EQ(depth, 20'000);
+}
+
+TEST(WithDeepStack, PassesOnWhatIsThrown) {
+  EXPECT_THROW(with_deep_stack([] { throw std::runtime_error("stop"); }), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace language
