@@ -44,7 +44,7 @@ uint32_t FrameTree::add(uint32_t parent, const HealedMatrix& matrix) {
   const double stretch = is_translation ? 1 : stretch_bound(matrix.map.linear);
   frame.stretch = outer.stretch * stretch;
   if (!matrix.exact || outer.linear_error > 0 || outer.point_error > 0) {
-    const double own_error = is_translation ? 0 : stretch_bound(matrix.linear_error);
+    const double own_error = matrix.exact ? 0 : stretch_bound(matrix.linear_error);
     frame.linear_error = outer.linear_error * stretch + outer.stretch * own_error;
     frame.point_error = outer.point_error +
                         outer.linear_error * glm::length(matrix.map.translation) +

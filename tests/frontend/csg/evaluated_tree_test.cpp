@@ -73,12 +73,14 @@ TEST(EvaluatedTree, HasModifiersAndTheRootAlone) {
 }
 
 TEST(EvaluatedTree, TakesRangesAndFunctionsForUndef) {
-  const SyntaxTree tree = evaluated("polygon(points=[[0:2],function(x) x,[\"a\",[1,[2]]]]);");
-  const auto points = tree.elements_of(tree.arguments_of(tree.nodes[0])[0].value);
+  const SyntaxTree tree =
+      evaluated("polygon(points=[[0:2],[\"a\",[1,[2]]]], paths=function(x) x);");
+  const auto arguments = tree.arguments_of(tree.nodes[0]);
+  const auto points = tree.elements_of(arguments[0].value);
   EXPECT_EQ(points[0].kind, ValueKind::kUndef);
-  EXPECT_EQ(points[1].kind, ValueKind::kUndef);
-  EXPECT_EQ(tree.text_of(tree.elements_of(points[2])[0]), "a");
-  EXPECT_EQ(tree.elements_of(tree.elements_of(tree.elements_of(points[2])[1])[1])[0].number, 2);
+  EXPECT_EQ(tree.text_of(tree.elements_of(points[1])[0]), "a");
+  EXPECT_EQ(tree.elements_of(tree.elements_of(tree.elements_of(points[1])[1])[1])[0].number, 2);
+  EXPECT_EQ(arguments[1].value.kind, ValueKind::kUndef);
 }
 
 TEST(EvaluatedTree, IsDrawnAsTheTextOfItsCsg) {
@@ -102,7 +104,7 @@ TEST(EvaluatedTree, FillsPlaces) {
       imported("cube(1);\n render() {\nsphere(1);}", {.keeps_places = true});
   ASSERT_EQ(design.places.size(), 2u);
   EXPECT_EQ(design.places[1].line, 3u);
-  EXPECT_EQ(design.places[1].offset, 20u);
+  EXPECT_EQ(design.places[1].offset, 21u);
   EXPECT_EQ(design.places[1].leaf_line, 2u);
   EXPECT_EQ(design.places[1].leaf_offset, 10u);
 }

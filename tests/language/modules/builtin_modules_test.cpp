@@ -72,6 +72,8 @@ TEST(BuiltinModules, MakePrimitives) {
 
 TEST(BuiltinModules, MakePointLists) {
   expect_each({
+      {"polygon([[1,function(x) x+1]]);",
+       "polygon(points = [[1, function(x) (x + 1)]], paths = undef, convexity = 1);\n", ""},
       {"polyhedron([1,\"a\",[undef,true]],faces=5,convexity=0);",
        "polyhedron(points = [1, \"a\", [undef, true]], faces = 5, convexity = 1);\n", ""},
       {"polyhedron(points=[[0,0,0]],triangles=[[0,1,2]]);",

@@ -1,14 +1,45 @@
 // polyhedron and polygon: their lists are written as they are, and checked where geometry is made.
 #include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
+#include "values/function_object.hpp"
+#include "values/value_text.hpp"
 
 namespace language {
 namespace {
 
+/// Stands for a value that holds functions: these do not outlive the evaluation, as nodes do.
+struct SpelledValue final : FunctionObject {
+  explicit SpelledValue(std::string spelled) : text(std::move(spelled)) {}
+  void append_text(std::string& out) const override { out += text; }
+
+  const std::string text;
+};
+
+bool holds_function(const Value& value) {
+  if (value.is_function()) return true;
+  if (!value.is_vector()) return false;
+  std::vector<std::span<const Value>> pending = {value.elements()};
+  while (!pending.empty()) {
+    const std::span<const Value> elements = pending.back();
+    pending.pop_back();
+    for (const Value& element : elements) {
+      if (element.is_function()) return true;
+      if (element.is_vector()) pending.push_back(element.elements());
+    }
+  }
+  return false;
+}
+
 void add_list(Node& node, std::string_view name, const Value& list) {
-  add(node, name, list.is_set() ? list : Value::undef(), ArgumentStyle::kEcho);
+  Value kept = list.is_set() ? list : Value::undef();
+  if (holds_function(kept)) kept = Value::adopt(new SpelledValue(echo_text(kept)));
+  add(node, name, std::move(kept), ArgumentStyle::kEcho);
 }
 
 void add_convexity(Node& node, const Value& convexity) {
