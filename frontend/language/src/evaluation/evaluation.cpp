@@ -8,6 +8,7 @@
 #include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
 #include "values/make.hpp"
+#include "values/object_memory.hpp"
 #include "values/value_text.hpp"
 
 namespace language {
@@ -125,7 +126,11 @@ void Session::say_root_modifiers() {
     messages_.warn("More than one Root Modifier (!)", *other);
 }
 
+// Bytes that a design's values may take (LANGUAGE.md, "Differences").
+constexpr int64_t kMemoryLimit = int64_t{2} << 30;
+
 void Session::evaluate_program() {
+  object_memory.limit = kMemoryLimit;
   for (const std::string_view name :
        {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
     program_->names.intern(name);
