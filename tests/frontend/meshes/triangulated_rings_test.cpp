@@ -1,10 +1,10 @@
 // Tests the triangles of figures with holes.
-#include "meshes/ring_faces.hpp"
-
 #include <gtest/gtest.h>
 
 #include <map>
 #include <utility>
+
+#include "meshes/triangulation.hpp"
 
 namespace frontend {
 namespace {
@@ -19,8 +19,17 @@ struct Faces {
 };
 
 Faces faces_of(const Rings& rings, const std::vector<dvec2>& places) {
+  std::vector<uint32_t> corners, ends;
+  std::vector<dvec2> corner_places;
+  for (const std::vector<uint32_t>& ring : rings) {
+    for (const uint32_t corner : ring) {
+      corners.push_back(corner);
+      corner_places.push_back(places[corner]);
+    }
+    ends.push_back(static_cast<uint32_t>(corners.size()));
+  }
   std::vector<std::array<uint32_t, 3>> triangles;
-  triangulate_rings(rings, places, triangles);
+  triangulate_all(corners, ends, corner_places, triangles);
   Faces result;
   for (const auto& triangle : triangles) {
     const dvec2 &a = places[triangle[0]], &b = places[triangle[1]], &c = places[triangle[2]];
