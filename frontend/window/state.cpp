@@ -220,7 +220,7 @@ std::vector<StatusPart> status_parts(const State& state) {
   const auto time = [&parts](const char* format, double ms, int rank) {
     parts.push_back({text(format, ms), rank, true});
   };
-  if (version.export_ms > 0) time("openscad %.0f", version.export_ms, 3);
+  if (version.export_ms > 0) time("evaluate %.0f", version.export_ms, 3);
   time("parse %.1f", version.parse_ms, 9);
   time("import %.1f", version.import_ms, 8);
   if (state.painting) {

@@ -334,7 +334,7 @@ std::string help_text() {
       "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "       scadray check [options] FILE...    (scadray check --help)\n"
-      "Ray traces a design: FILE is a .csg, a .scad (exported by OpenSCAD), or - for a\n"
+      "Ray traces a design: FILE is a .scad, a .csg that OpenSCAD exported, or - for a\n"
       ".csg from standard input. `bench` measures how long that takes, `validate` compares\n"
       "it with exact arithmetic, `check` compares evaluations with openscad's",
       kHelpColumns);

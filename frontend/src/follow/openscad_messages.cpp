@@ -31,7 +31,7 @@ void OpenScadMessages::line(const std::string& text) {
 }
 
 Error openscad_error(const std::string& scad_path, const std::string& text) {
-  constexpr const char* kTodo = "correct the design; this is what openscad reports";
+  constexpr const char* kTodo = "correct the design; the words are OpenSCAD's";
   constexpr std::string_view kFile = " in file ", kLine = ", line ";
   const std::size_t file_at = text.rfind(kFile);
   const std::size_t line_at = text.rfind(kLine);
