@@ -25,8 +25,8 @@ constexpr std::string_view kBecauseNotConvex = "two of its operands are not conv
 constexpr std::string_view kBecauseManyCorners = "its operands have too many corners";
 /// More parts take seconds to make and to draw.
 constexpr size_t kMostSums = 20000;
-/// So many take some seconds.
-constexpr size_t kMostPairs = size_t{1} << 24;
+/// So many take a second and 300 MB.
+constexpr size_t kMostPairs = size_t{1} << 21;
 
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
@@ -121,6 +121,7 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
   std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
   if (!sum) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;
+  pairs_ += sum->generators.size();  // facets of round bodies may have become corners
   if (sum->is_flat) return;
   sums_.push_back(part_of(
       SupportSet{std::move(sum->generators), sum->is_faceted || a.is_faceted || b.is_faceted},

@@ -17,10 +17,10 @@ std::string text_of(const BuiltinCall& call, const Value& value, const Value& ol
   return str_or_nothing(older);
 }
 
-/// Returns whether a path ends in .svg, in any case.
+/// Returns whether a path ends in .svg, in any case. A file that has no name before it is none.
 bool is_svg(std::string_view path) {
   constexpr std::string_view kSuffix = ".svg";
-  if (path.size() < kSuffix.size()) return false;
+  if (path.size() <= kSuffix.size() || path[path.size() - kSuffix.size() - 1] == '/') return false;
   const std::string_view suffix = path.substr(path.size() - kSuffix.size());
   return std::equal(suffix.begin(), suffix.end(), kSuffix.begin(), [](char c, char wanted) {
     return (c >= 'A' && c <= 'Z' ? c | 0x20 : c) == wanted;
