@@ -30,6 +30,17 @@ constexpr size_t kMostPairs = size_t{1} << 21;
 
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
+/// The work that the hull of the generators makes, in corners: a ball and a disc have several
+/// pieces with each neighbour, as measured.
+size_t work_of(const Generators& generators) {
+  constexpr size_t kOfBall = 32, kOfDisc = 128;
+  size_t work = 0;
+  for (const Generator& generator : generators) {
+    work += generator.has_disc() ? kOfDisc : generator.has_ball() ? kOfBall : 1;
+  }
+  return work;
+}
+
 SupportSet support_of(const SolidPart& part) {
   SupportSet support;
   part.add_support(support);
@@ -121,7 +132,7 @@ void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& 
   std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
   if (!sum) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;
-  pairs_ += sum->generators.size();  // facets of round bodies may have become corners
+  pairs_ += work_of(sum->generators);
   if (sum->is_flat) return;
   sums_.push_back(part_of(
       SupportSet{std::move(sum->generators), sum->is_faceted || a.is_faceted || b.is_faceted},
