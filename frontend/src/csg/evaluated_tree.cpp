@@ -1,6 +1,5 @@
 #include "csg/evaluated_tree.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -25,33 +24,6 @@ std::string shown_name(const std::string& path) {
   return from_here.string();
 }
 
-/// Where the lines of each file begin.
-class Lines {
- public:
-  explicit Lines(const language::SourceFiles& files) : files_(files), starts_(files.size()) {}
-
-  Location location_of(language::Place place) {
-    if (place.file >= starts_.size()) return {};
-    std::vector<uint32_t>& starts = starts_[place.file];
-    if (starts.empty()) starts = line_starts(files_[place.file].text);
-    const auto after = std::upper_bound(starts.begin(), starts.end(), place.offset);
-    return {static_cast<uint32_t>(after - starts.begin()), place.offset - *std::prev(after) + 1,
-            place.file};
-  }
-
- private:
-  static std::vector<uint32_t> line_starts(const std::string& text) {
-    std::vector<uint32_t> starts = {0};
-    for (size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
-      starts.push_back(static_cast<uint32_t>(at + 1));
-    }
-    return starts;
-  }
-
-  const language::SourceFiles& files_;
-  std::vector<std::vector<uint32_t>> starts_;
-};
-
 uint8_t modifiers_of(uint8_t call_modifiers) {
   uint8_t modifiers = 0;
   if ((call_modifiers & language::kBackgroundModifier) != 0) modifiers |= kBackground;
@@ -61,7 +33,7 @@ uint8_t modifiers_of(uint8_t call_modifiers) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(const language::SourceFiles& files, SyntaxTree& tree) : lines_(files), tree_(tree) {}
+  TreeBuilder(const language::SourceFiles& files, SyntaxTree& tree) : files_(files), tree_(tree) {}
 
   /// Adds a node and all below it.
   void add(const language::Node& top) {
@@ -88,7 +60,9 @@ class TreeBuilder {
     SyntaxNode made;
     made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
     made.modifiers = modifiers_of(node.modifiers);
-    made.location = lines_.location_of(node.place);
+    if (node.place.file < files_.size()) {
+      made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
+    }
     made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
     made.argument_count = static_cast<uint32_t>(node.arguments.size());
     made.subtree_end = kOpenSubtree;
@@ -146,7 +120,7 @@ class TreeBuilder {
     return made;
   }
 
-  Lines lines_;
+  const language::SourceFiles& files_;
   SyntaxTree& tree_;
   std::vector<Open> open_;
   std::vector<std::pair<std::span<const language::Value>, size_t>> lists_;  // to be filled

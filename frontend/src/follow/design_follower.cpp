@@ -232,7 +232,7 @@ class DesignFollower::Follower {
   FileWatch watch_;
   IncludedFiles included_;
   std::vector<std::string> files_;  // watched files, by their names
-  /// Of the last version that was read to its end.
+  /// The hulls of the last version that was read to its end.
   const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
   std::vector<std::string> imports_;  // files imported by the last version that could be read
   GoodVersion good_;

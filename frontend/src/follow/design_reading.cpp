@@ -110,6 +110,7 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   version.messages.resize(version.messages.size() - version.design->warnings.size());
   DesignText text;
   text.is_exported = reading.good.is_exported;
+  text.evaluation = reading.good.texts.evaluation;
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
   const GoodVersion& good = reading.good;

@@ -38,9 +38,8 @@ struct SolidOfFaces {
   int exponent = 0;
   /// The faces run clockwise, seen from outside.
   bool is_inside_out = false;
-  /// Of a closed solid, some of whose faces run the other way than others: those that are seen from
-  /// within, which run counterclockwise in the file, and the others. Only where the pool tells
-  /// them.
+  /// The faces that are seen from outside, and those that are seen from within, which run
+  /// counterclockwise in the file. Set for a closed solid that has both, where the pool tells them.
   std::shared_ptr<const csgcore::TriangleMesh> outer_faces, inner_faces;
 
   bool is_empty() const { return !polyhedron && !mesh; }

@@ -47,7 +47,7 @@ bool read_cut(const SyntaxTree& tree, const SyntaxNode& node);
 struct LinearExtrudeArguments {
   double height = 100;  // ≤ 0: nothing
   bool is_centered = false;
-  /// Of the bottom.
+  /// Returns the height of the bottom.
   double z_min() const { return is_centered ? -height / 2 : 0; }
   double twist = 0;                // degrees, clockwise
   Vec2 top_scale{1.0};             // ≥ 0

@@ -19,7 +19,7 @@ constexpr std::array<int, 8> kFragments = {96, 72, 60, 48, 36, 24, 18, 12};
 /// The facets, or pairs of facets in a sum, that openscad takes some three seconds for.
 constexpr double kMostRenderedFacets = 2048;
 
-/// Of parts whose facets are not counted: a text, a file.
+/// A part whose facets are not counted, such as a text or a file, counts as so many.
 constexpr double kFacetsOfOthers = 256;
 
 struct RoundLeaf {
@@ -29,7 +29,7 @@ struct RoundLeaf {
   int own = 0;  // OpenSCAD's fragments
 };
 
-/// Of what is round about an axis that its node does not tell the distance of.
+/// Returns the most fragments that a shape of any radius may have.
 int most_fragments(const csgcore::FacetSettings& facets) {
   const double count = facets.fn > 0 ? facets.fn : std::ceil(360 / std::max(facets.fa, 0.01));
   return static_cast<int>(std::clamp(count, 3.0, 36000.0));

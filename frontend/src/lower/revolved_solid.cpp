@@ -93,11 +93,8 @@ class RevolvedMesh {
       corners.push_back(ring[point]);
       places.push_back(points_[point]);
     }
-    const size_t first = triangles_.size();
-    triangulate_all(corners, ends_, places, triangles_);
-    if (!is_first) return;
-    for (size_t i = first; i < triangles_.size(); ++i)
-      std::swap(triangles_[i][0], triangles_[i][1]);
+    const auto close = is_first ? triangulate_all_reversed : triangulate_all;
+    close(corners, ends_, places, triangles_);
   }
 
   const TurnSections& sections_;

@@ -23,8 +23,6 @@ using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
 
-Vec2 plan_of(const Vec3& point) { return {point.x, point.y}; }
-
 /// What the map makes of local points at that height, seen along z.
 PlaneMap plan_at(const Affine& map, double z) {
   PlaneMap plan = plane_part(map);

@@ -31,8 +31,6 @@ using csgcore::Vec3;
 
 constexpr std::string_view kBecauseManyCrossings = "the edges of its shadow cross too often";
 
-Vec2 plan_of(const Vec3& point) { return {point.x, point.y}; }
-
 /// The image of a disc or a ball: an ellipse with these half-axes, which may be 0.
 struct Ellipse {
   Vec2 center, a, b;

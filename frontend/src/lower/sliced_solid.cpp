@@ -138,11 +138,8 @@ class SlicedMesh {
       }
       ends.push_back(static_cast<uint32_t>(corners.size()));
     }
-    const size_t first = triangles_.size();
-    triangulate_all(corners, ends, places, triangles_);
-    if (layer > 0) return;
-    for (size_t i = first; i < triangles_.size(); ++i)
-      std::swap(triangles_[i][0], triangles_[i][1]);
+    const auto close = layer == 0 ? triangulate_all_reversed : triangulate_all;
+    close(corners, ends, places, triangles_);
   }
 
   const TwistedLayers& layers_;

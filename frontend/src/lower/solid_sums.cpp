@@ -25,8 +25,8 @@ constexpr std::string_view kBecauseNotConvex = "two of its operands are not conv
 constexpr std::string_view kBecauseManyCorners = "its operands have too many corners";
 /// More parts take seconds to make and to draw.
 constexpr size_t kMostSums = 20000;
-/// So many take a second and 300 MB.
-constexpr size_t kMostPairs = size_t{1} << 21;
+/// So many corners take a second and 300 MB.
+constexpr size_t kMostWork = size_t{1} << 21;
 
 Box sum(const Box& a, const Box& b) { return {a.min + b.min, a.max + b.max}; }
 
@@ -125,14 +125,14 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
 }
 
 void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& box) {
-  pairs_ += a.generators.size() * b.generators.size();
+  work_ += a.generators.size() * b.generators.size();
   if (sums_.size() >= kMostSums) fail(kBecauseManyFaces);
-  if (pairs_ > kMostPairs) fail(kBecauseManyCorners);
+  if (work_ > kMostWork) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;
   std::optional<GeneratorSum> sum = minkowski_sum(a.generators, b.generators);
   if (!sum) fail(kBecauseManyCorners);
   if (!failure_.empty()) return;
-  pairs_ += work_of(sum->generators);
+  work_ += work_of(sum->generators);
   if (sum->is_flat) return;
   sums_.push_back(part_of(
       SupportSet{std::move(sum->generators), sum->is_faceted || a.is_faceted || b.is_faceted},

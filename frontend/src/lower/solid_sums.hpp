@@ -26,7 +26,7 @@ class SolidSums {
 
   std::vector<SolidPart> sums_;
   std::string_view failure_;
-  size_t pairs_ = 0;  // of generators that were added
+  size_t work_ = 0;  // of what was added: pairs of generators, and their sums
 };
 
 }  // namespace frontend

@@ -106,7 +106,7 @@ int longest_axis(const Vec3& v) {
 /// face. That has the two corners that are furthest apart along the axis where the face is longest,
 /// and the corner with which they make the largest triangle.
 int axis_of_view(std::span<const Vec3> points, std::span<const uint32_t> face_from_outside) {
-  // Of several the first one counts, in the order of a design, where faces run clockwise.
+  // The first of several corners counts, in the order of a design, where faces run clockwise.
   std::vector<uint32_t> face(face_from_outside.begin(), face_from_outside.end());
   std::reverse(face.begin() + 1, face.end());
   const auto at = [&](uint32_t corner) -> const Vec3& { return points[corner]; };

@@ -183,4 +183,11 @@ void triangulate_all(Corners corners, Ends ends, Places places, std::vector<Tria
   }
 }
 
+void triangulate_all_reversed(Corners corners, Ends ends, Places places,
+                              std::vector<Triangle>& triangles) {
+  const size_t first = triangles.size();
+  triangulate_all(corners, ends, places, triangles);
+  for (size_t i = first; i < triangles.size(); ++i) std::swap(triangles[i][0], triangles[i][1]);
+}
+
 }  // namespace frontend

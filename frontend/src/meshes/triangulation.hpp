@@ -35,4 +35,9 @@ void triangulate_all(std::span<const uint32_t> corners, std::span<const uint32_t
                      std::span<const glm::dvec2> places,
                      std::vector<std::array<uint32_t, 3>>& triangles);
 
+/// The same for a face that is seen from the other side: its triangles run the other way.
+void triangulate_all_reversed(std::span<const uint32_t> corners, std::span<const uint32_t> ends,
+                              std::span<const glm::dvec2> places,
+                              std::vector<std::array<uint32_t, 3>>& triangles);
+
 }  // namespace frontend

@@ -16,8 +16,6 @@ namespace {
 using csgcore::FillRule;
 using csgcore::Vec3;
 
-Vec2 plan_of(const Vec3& point) { return {point.x, point.y}; }
-
 /// On which side of the plane its own vertices count: then no vertex lies in it, and the section is
 /// that of what lies directly on the other side.
 enum class InPlane : uint8_t { kAbove, kBelow };

@@ -12,6 +12,9 @@ namespace frontend {
 
 using csgcore::Vec2;
 
+/// Returns the point seen along z.
+inline Vec2 plan_of(const csgcore::Vec3& point) { return {point.x, point.y}; }
+
 /// The affine map x ↦ linear·x + translation.
 struct PlaneMap {
   glm::dmat2 linear{1.0};

@@ -38,7 +38,16 @@ class SourceFiles {
   uint32_t column(Place place) const;
 
  private:
+  /// The last line that begins at or before the place: where it begins, and its number less one.
+  struct LineStart {
+    uint32_t offset;
+    uint32_t number;
+  };
+  LineStart line_start(Place place) const;
+
   std::deque<SourceFile> files_;  // a deque, so that texts do not move
+  std::vector<std::vector<uint32_t>>
+      line_starts_;  // by file, as editors count: 0, and after each LF
 };
 
 }  // namespace language

@@ -55,11 +55,7 @@ void CodeCompiler::let_arguments(std::span<const Argument> arguments, bool is_in
   }
   std::vector<Name> done;
   for (const Argument& argument : arguments) {
-    if (argument.value) {
-      expression(*argument.value);
-    } else {
-      out_.emit(Op::kUndef, argument.place, 1);
-    }
+    body_or_undef(argument.value, argument.place);
     const bool is_known = std::find(done.begin(), done.end(), argument.name) != done.end();
     if (argument.name == kNoName) {
       out_.emit(Op::kUnnamedLet, argument.place, -1);

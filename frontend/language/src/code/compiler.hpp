@@ -11,6 +11,8 @@
 
 namespace language {
 
+class CodeCompiler;
+
 /// The top level of a file.
 struct UnitEntry {
   std::unique_ptr<ScopeLayout> scope;
@@ -43,7 +45,7 @@ class Compiler {
   /// one of them is discarded.
   ArgumentPlan plan(Callable& callable, std::span<const Argument> arguments, Place call);
   ArgumentPlan plan_module(ModuleEntry& module, std::span<const Argument> arguments, Place call);
-  /// Of a builtin module, whose parameters are all in order.
+  /// The same for a builtin module, whose parameters are all in order.
   ArgumentPlan plan_builtin(const ModuleShape& module, std::span<const Argument> arguments,
                             Place call);
 
@@ -73,6 +75,9 @@ class Compiler {
 
  private:
   Code& add_code(uint32_t unit);
+  /// `compile` compiles the body of a function or a module.
+  template <typename Entry>
+  const Code& code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&));
 
   Program& program_;
   Builtins builtins_;

@@ -146,11 +146,7 @@ void CodeCompiler::declare_for_c(const ForCExpression& loop, ScopeLayout& scope)
 void CodeCompiler::for_c_assignments(std::span<const Argument> arguments, ScopeLayout& scope) {
   std::vector<Name> done;
   for (const Argument& argument : arguments) {
-    if (argument.value) {
-      expression(*argument.value);
-    } else {
-      out_.emit(Op::kUndef, argument.place, 1);
-    }
+    body_or_undef(argument.value, argument.place);
     if (argument.name == kNoName) {
       out_.emit(Op::kUnnamedLet, argument.place, -1);
     } else if (std::find(done.begin(), done.end(), argument.name) != done.end()) {

@@ -19,34 +19,28 @@ UnitEntry& Compiler::unit(uint32_t number) {
   return *entry;
 }
 
-const Code& Compiler::code_of(FunctionEntry& function) {
-  if (function.code) return *function.code;
-  prepare(function);
-  Code& code = add_code(function.scope->unit);
+template <typename Entry>
+const Code& Compiler::code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&)) {
+  if (entry.code) return *entry.code;
+  prepare(entry);
+  Code& code = add_code(entry.scope->unit);
   size_t slots = 0;
   do {  // a call of itself may pass it a name that it does not declare
-    slots = function.parameters.slot_names.size();
+    slots = entry.parameters.slot_names.size();
     code = Code();
-    code.unit = function.scope->unit;
-    CodeCompiler(*this, code, *function.scope).compile_function(function);
-  } while (function.parameters.slot_names.size() != slots);
-  function.code = &code;
+    code.unit = entry.scope->unit;
+    (CodeCompiler(*this, code, *entry.scope).*compile)(entry);
+  } while (entry.parameters.slot_names.size() != slots);
+  entry.code = &code;
   return code;
 }
 
+const Code& Compiler::code_of(FunctionEntry& function) {
+  return code_of_callable(function, &CodeCompiler::compile_function);
+}
+
 const Code& Compiler::code_of(ModuleEntry& module) {
-  if (module.code) return *module.code;
-  prepare(module);
-  Code& code = add_code(module.scope->unit);
-  size_t slots = 0;
-  do {  // a call of itself may pass it a name that it does not declare
-    slots = module.parameters.slot_names.size();
-    code = Code();
-    code.unit = module.scope->unit;
-    CodeCompiler(*this, code, *module.scope).compile_module(module);
-  } while (module.parameters.slot_names.size() != slots);
-  module.code = &code;
-  return code;
+  return code_of_callable(module, &CodeCompiler::compile_module);
 }
 
 const Code& Compiler::code_of(BlockEntry& block) {

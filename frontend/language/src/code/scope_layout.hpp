@@ -50,7 +50,6 @@ class ScopeLayout {
   ScopeVariable& declare(Name name);
   const ScopeVariable* find(Name name) const;
   ScopeVariable* find(Name name);
-  void mark_set(Name name) { find(name)->is_set = true; }
   uint32_t size() const { return static_cast<uint32_t>(variables_.size()); }
   const std::vector<ScopeVariable>& variables() const { return variables_; }
 

@@ -76,13 +76,7 @@ void Machine::call_function(const CallSite& site) {
   FunctionEntry& function = *site.function;
   if (frames_.size() >= kDepthLimit)
     recursion_in_function(compiler_.names().text(function.name), place());
-  HeapScope* scope;
-  if (site.is_in_unit) {
-    scope = unit_scopes_.back();
-    unit_scopes_.pop_back();
-  } else {
-    scope = HeapScopes::acquire(scope_at(site.scope));
-  }
+  HeapScope* const scope = take_scope(site);
   const Code& code = compiler_.code_of(function);
   const uint32_t base = stack_.size() - site.slots;
   push_frame(code, base, scope, FrameKind::kFunction, kNoActivation);

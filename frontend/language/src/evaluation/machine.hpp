@@ -78,6 +78,8 @@ class Machine {
 
   // variables.cpp
   HeapScope* scope_at(uint32_t number) const;
+  /// Returns a reference to the scope around what a site calls; that of a used file waits for it.
+  HeapScope* take_scope(const CallSite& site);
   void push_dynamic(Name name, bool silently);
   void unknown_variable(Name name);
   void push_scope(uint32_t size);

@@ -84,13 +84,7 @@ void Machine::call_module(const CallSite& site) {
     block_scope = block_scopes_.back();
     block_scopes_.pop_back();
   }
-  HeapScope* scope;
-  if (site.is_in_unit) {
-    scope = unit_scopes_.back();
-    unit_scopes_.pop_back();
-  } else {
-    scope = HeapScopes::acquire(scope_at(site.scope));
-  }
+  HeapScope* const scope = take_scope(site);
   activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
   auto node = std::make_shared<Node>();
   node->name = "group";

@@ -9,6 +9,13 @@ HeapScope* Machine::scope_at(uint32_t number) const {
   return scope;
 }
 
+HeapScope* Machine::take_scope(const CallSite& site) {
+  if (!site.is_in_unit) return HeapScopes::acquire(scope_at(site.scope));
+  HeapScope* const scope = unit_scopes_.back();
+  unit_scopes_.pop_back();
+  return scope;
+}
+
 void Machine::push_dynamic(Name name, bool silently) {
   const Value& value = dynamic_[name];
   if (!records_.empty()) note_read(name);

@@ -43,7 +43,7 @@ struct BuiltinFunction {
   uint16_t least_arguments;  // fewer or more: "‹f›() number of parameters does not match", undef,
   uint16_t most_arguments;  // and no argument is evaluated
   Value (*call)(const FunctionCall& call);
-  /// Of the functions that do not evaluate all their arguments: returns which of the written
+  /// A function that does not evaluate all its arguments has this: it returns which of the written
   /// arguments is evaluated next, given those that have been, or kNoArgument. Each value is added
   /// to the call's arguments, also where an argument is evaluated for a second time. Null: all are
   /// evaluated, in the order in which they are written.

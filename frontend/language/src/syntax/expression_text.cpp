@@ -227,11 +227,4 @@ void append_expression_text(std::string& out, const Expression& expression,
   ExpressionPrinter(out, names).print({&expression});
 }
 
-void append_parameters_text(std::string& out, std::span<const Parameter> parameters,
-                            const NameTable& names) {
-  ExpressionPrinter printer(out, names);
-  printer.add_list(parameters);
-  printer.print({});
-}
-
 }  // namespace language

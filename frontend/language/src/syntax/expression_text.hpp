@@ -11,8 +11,4 @@ namespace language {
 /// Appends an expression in OpenSCAD's normal form (LANGUAGE.md, "Grammar"). Does not recurse.
 void append_expression_text(std::string& out, const Expression& expression, const NameTable& names);
 
-/// Appends parameters with their defaults, without parentheses: "a, b = 1".
-void append_parameters_text(std::string& out, std::span<const Parameter> parameters,
-                            const NameTable& names);
-
 }  // namespace language
