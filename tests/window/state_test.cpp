@@ -156,7 +156,7 @@ TEST_F(StateTest, StatusLine) {
   version.parse_ms = 1.25;
   version.import_ms = 2;
   state_.version = version;
-  EXPECT_EQ(status_line(state_), "1 primitives  |  openscad 80, parse 1.2, import 2.0");
+  EXPECT_EQ(status_line(state_), "1 primitives  |  evaluate 80, parse 1.2, import 2.0");
   Painting painting;
   painting.order.size = {640, 480};
   painting.stats.renderer = "cpu";
@@ -165,7 +165,7 @@ TEST_F(StateTest, StatusLine) {
   state_.frames_per_second = 59.6;
   state_.is_reading = true;
   EXPECT_EQ(status_line(state_),
-            "1 primitives  |  openscad 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
+            "1 primitives  |  evaluate 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
             "cpu  |  640 x 480  |  reading");
 }
 
@@ -193,10 +193,10 @@ TEST_F(StateTest, StatusLineIsShortenedByWhatMattersLeast) {
   EXPECT_EQ(shortened(1000), status_line(state_));
   EXPECT_EQ(shortened(status_line(state_).size()), status_line(state_));
   const std::string shorter =
-      "1 primitives  |  openscad 80, subdivide 3.0, draw 7.5 ms  |  60 frames/s  |  cpu  |  "
+      "1 primitives  |  evaluate 80, subdivide 3.0, draw 7.5 ms  |  60 frames/s  |  cpu  |  "
       "640 x 480  |  reading";
   EXPECT_EQ(shortened(shorter.size()), shorter);
-  EXPECT_EQ(shortened(70), "1 primitives  |  openscad 80, draw 7.5 ms  |  60 frames/s  |  reading");
+  EXPECT_EQ(shortened(70), "1 primitives  |  evaluate 80, draw 7.5 ms  |  60 frames/s  |  reading");
   EXPECT_EQ(shortened(1), "1 primitives  |  reading");
   for (size_t letters = 24; letters < 120; ++letters) EXPECT_LE(shortened(letters).size(), letters);
   state_.painting->stats.renderer = "gl: a driver's name";
