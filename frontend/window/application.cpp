@@ -73,8 +73,8 @@ Application::Application(const frontend::Options& options)
     : options_(options),
       state_(options),
       window_(file_name(options.input) + " - scadray", window_size(options), *this),
-      panels_([this](Command command) { run_command(command); },
-              [this](const std::string& path) { save_picture(path); }),
+      actions_{.run = [this](Command command) { run_command(command); },
+               .save = [this](const std::string& path) { save_picture(path); }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
@@ -140,7 +140,7 @@ void Application::draw_frame() {
   csgcore::View view = state_.navigation.view(size);
   view.width_px = static_cast<uint32_t>(std::lround(size.width_px / scale));
   view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
-  panels_.draw(state_, view);
+  draw_panels(state_, view, actions_);
   window_.end_frame();
   if (std::exchange(has_new_picture_, false)) report_picture();
 }

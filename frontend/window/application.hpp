@@ -12,7 +12,7 @@
 #include "glfw_window.hpp"
 #include "motion_meter.hpp"
 #include "painter.hpp"
-#include "panels.hpp"
+#include "panels/panels.hpp"
 #include "report.hpp"
 #include "screen.hpp"
 #include "state.hpp"
@@ -62,7 +62,7 @@ class Application final : private WindowEvents {
   State state_;
   GlfwWindow window_;
   Screen screen_;
-  Panels panels_;
+  const PanelActions actions_;
   Report report_;
   MotionMeter motion_;
   const double frame_s_;  // time of a frame; asking the display for it takes a round trip to the X
