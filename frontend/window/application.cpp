@@ -74,7 +74,8 @@ Application::Application(const frontend::Options& options)
       state_(options),
       window_(file_name(options.input) + " - scadray", window_size(options), *this),
       actions_{.run = [this](Command command) { run_command(command); },
-               .save = [this](const std::string& path) { save_picture(path); }},
+               .save = [this](const std::string& path) { save_picture(path); },
+               .open = [this](const MessagePlace& place) { open_place(place); }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
@@ -164,19 +165,14 @@ bool Application::take_news() {
 }
 
 void Application::take_version(frontend::DesignVersion version) {
-  state_.notice.clear();
-  if (version.design) {
-    if (state_.design != version.design) state_.points.clear();
-    state_.design = version.design;
-    texts_ = version.texts;
-    if (!has_camera_ && !state_.bounds().empty()) {
-      state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
-                                     state_.navigation.projection());
-      has_camera_ = true;
-    }
-  }
   const bool leaves_picture = !version.design || version.unchanged;
-  state_.version = std::move(version);
+  if (version.design) texts_ = version.texts;
+  state_.take(std::move(version));
+  if (!has_camera_ && !state_.bounds().empty()) {
+    state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
+                                   state_.navigation.projection());
+    has_camera_ = true;
+  }
   show_title();
   // The picture stays, and the next frame shows what there is to say of the version.
   if (leaves_picture) has_new_picture_ = true;
@@ -273,6 +269,14 @@ std::vector<frontend::NamedPath> Application::inputs() const {
   }
   return inputs;
 }
+
+/// Returns the file that a message names: messages name files from the design's folder.
+std::string Application::path_of(const MessagePlace& place) const {
+  const std::filesystem::path folder = std::filesystem::path(options_.input).parent_path();
+  return (folder / place.file).string();
+}
+
+void Application::open_place(const MessagePlace& place) { state_.notice = path_of(place); }
 
 void Application::run_command(Command command) {
   state_.notice.clear();

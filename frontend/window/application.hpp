@@ -39,6 +39,8 @@ class Application final : private WindowEvents {
 
   void run_command(Command command);
   void save_picture(const std::string& path);
+  std::string path_of(const MessagePlace& place) const;
+  void open_place(const MessagePlace& place);
   void drag_section(double dx_px, double dy_px);
 
   void wait_for_news();

@@ -1,7 +1,6 @@
 #include "panels/panels.hpp"
 
 #include "panels/help_sheet.hpp"
-#include "panels/message_panel.hpp"
 #include "panels/point_labels.hpp"
 #include "panels/section_panel.hpp"
 #include "panels/status_bar.hpp"
@@ -12,7 +11,7 @@ void draw_panels(State& state, const csgcore::View& view, const PanelActions& ac
   draw_points(state, view);
   draw_menu_bar(state, actions.run);
   const float status_top = draw_status_line(state);
-  draw_messages(state, status_top);
+  draw_messages(state, status_top, actions.open);
   draw_section(state);
   draw_help(state);
   draw_save_dialogue(state, actions.save);

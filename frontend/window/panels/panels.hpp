@@ -3,6 +3,7 @@
 
 #include "csgcore/view.hpp"
 #include "panels/menu_bar.hpp"
+#include "panels/message_panel.hpp"
 #include "panels/save_dialogue.hpp"
 #include "state.hpp"
 
@@ -12,6 +13,7 @@ namespace window {
 struct PanelActions {
   RunCommand run;  // for commands that State::apply() does not do
   SavePicture save;
+  OpenPlace open;
 };
 
 /// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units.
