@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,10 @@ class Application final : private WindowEvents {
   void drag_section(double dx_px, double dy_px);
 
   void wait_for_news();
+  std::optional<double> seconds_to_next_look() const;
   bool watch_reading();
+  bool watch_long_work();
+  void stop_long_work();
   bool take_news();
   void take_version(frontend::DesignVersion version);
   void take_painting(Painting painting);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "frontend/activity.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/options.hpp"
 #include "frontend/overlays.hpp"
@@ -46,6 +47,7 @@ struct State {
   std::optional<frontend::DesignVersion> version;          // the newest
   std::vector<Message> messages;  // its error, if it has one, then what its evaluation has said
   bool is_reading = false;
+  std::optional<frontend::Activity> long_activity;  // what the user waits for, beyond a second
 
   // The picture.
   std::optional<Painting> painting;  // the one shown, without its image

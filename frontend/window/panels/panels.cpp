@@ -2,6 +2,7 @@
 
 #include "panels/help_sheet.hpp"
 #include "panels/point_labels.hpp"
+#include "panels/progress_panel.hpp"
 #include "panels/section_panel.hpp"
 #include "panels/status_bar.hpp"
 
@@ -13,6 +14,7 @@ void draw_panels(State& state, const csgcore::View& view, const PanelActions& ac
   const float status_top = draw_status_line(state);
   draw_messages(state, status_top, actions.open);
   draw_section(state);
+  draw_progress(state, actions.run);
   draw_help(state);
   draw_save_dialogue(state, actions.save);
 }
