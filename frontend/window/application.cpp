@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <thread>
@@ -64,6 +65,13 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
 Size window_size(const frontend::Options& options) {
   if (!options.has_image_size) return kDefaultSize;
   return {options.camera.width_px, options.camera.height_px};
+}
+
+void print_echoes(const frontend::DesignVersion& version) {
+  for (const std::string& line : version.messages) {
+    if (frontend::is_echo(line)) std::printf("%s\n", line.c_str());
+  }
+  std::fflush(stdout);
 }
 
 bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
@@ -137,7 +145,10 @@ std::optional<double> Application::seconds_to_next_look() const {
 bool Application::watch_reading() {
   const bool was_reading =
       std::exchange(is_reading_, follower_.state() == frontend::DesignFollower::State::kReading);
-  if (is_reading_ && !was_reading) reading_since_ = Clock::now();
+  if (is_reading_ && !was_reading) {
+    reading_since_ = Clock::now();
+    state_.is_stopped = false;
+  }
   const bool is_long = is_reading_ && Clock::now() - reading_since_ >= kShortReading;
   return std::exchange(state_.is_reading, is_long) != is_long;
 }
@@ -158,7 +169,7 @@ bool Application::watch_long_work() {
 void Application::stop_long_work() {
   follower_.stop();
   painter_.stop();
-  state_.notice = "stopped; a save, or F5, starts again";
+  state_.is_stopped = true;
 }
 
 /// Waits for the display if the driver does not, as a software renderer does not.
@@ -204,6 +215,7 @@ bool Application::take_news() {
 void Application::take_version(frontend::DesignVersion version) {
   const bool leaves_picture = !version.design || version.unchanged;
   if (version.design) texts_ = version.texts;
+  if (options_.prints_echoes) print_echoes(version);
   state_.take(std::move(version));
   if (!has_camera_ && !state_.bounds().empty()) {
     state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
@@ -307,10 +319,12 @@ std::vector<frontend::NamedPath> Application::inputs() const {
   return inputs;
 }
 
-/// Returns the file that a message names: messages name files from the design's folder.
+/// Returns the file that a message names: from the design's folder, or else from the working one.
 std::string Application::path_of(const MessagePlace& place) const {
   const std::filesystem::path folder = std::filesystem::path(options_.input).parent_path();
-  return (folder / place.file).string();
+  std::error_code missing;
+  const bool is_beside = std::filesystem::exists(folder / place.file, missing);
+  return is_beside ? (folder / place.file).string() : place.file;
 }
 
 void Application::open_place(const MessagePlace& place) { state_.notice = path_of(place); }

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "frontend/design_version.hpp"
+
 namespace window {
 namespace {
 
@@ -61,7 +63,7 @@ std::optional<MessagePlace> scadray_place(std::string_view line) {
 
 /// Returns the word that says what a line is: before its text, or behind its place.
 MessageKind kind_of(std::string_view line) {
-  if (line.starts_with("ECHO: ")) return MessageKind::kEcho;
+  if (frontend::is_echo(line)) return MessageKind::kEcho;
   const std::string_view start = line.substr(0, line.find(", in file "));
   if (start.starts_with("ERROR: ") || contains_text(start, ": error: ") ||
       start.starts_with("error: ")) {
@@ -96,7 +98,7 @@ std::vector<Message> traced_lines(const std::vector<std::string>& lines) {
 }  // namespace
 
 MessagePlace place_of_message(std::string_view line) {
-  if (line.starts_with("ECHO: ")) return {};
+  if (frontend::is_echo(line)) return {};
   if (auto place = openscad_place(line)) return *place;
   return scadray_place(line).value_or(MessagePlace{});
 }

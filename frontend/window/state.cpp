@@ -110,6 +110,7 @@ void State::take(frontend::DesignVersion newest) {
   lines.insert(lines.end(), newest.messages.begin(), newest.messages.end());
   messages = messages_of(lines);
   notice.clear();
+  is_stopped = false;
   version = std::move(newest);
 }
 
@@ -224,7 +225,8 @@ std::string rendering_words(const std::vector<uint32_t>& lines) {
 }
 
 std::vector<StatusPart> status_parts(const State& state) {
-  if (!state.version) return {{"reading " + state.name, 0}};
+  constexpr const char* kStopped = "stopped; a save, or F5, starts again";
+  if (!state.version) return {{state.is_stopped ? kStopped : "reading " + state.name, 0}};
   std::vector<StatusPart> parts;
   const frontend::DesignVersion& version = *state.version;
   if (state.design) {
@@ -253,7 +255,9 @@ std::vector<StatusPart> status_parts(const State& state) {
                      4});
   }
   if (state.is_reading) parts.push_back({"reading", 0});
-  if (state.design && !state.design->lines_to_render.empty()) {
+  if (state.is_stopped) {
+    parts.push_back({kStopped, 0});
+  } else if (state.design && !state.design->lines_to_render.empty()) {
     parts.push_back({rendering_words(state.design->lines_to_render), 0});
   }
   return parts;

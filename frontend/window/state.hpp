@@ -47,6 +47,7 @@ struct State {
   std::optional<frontend::DesignVersion> version;          // the newest
   std::vector<Message> messages;  // its error, if it has one, then what its evaluation has said
   bool is_reading = false;
+  bool is_stopped = false;  // the user has ended what was done for the newest version
   std::optional<frontend::Activity> long_activity;  // what the user waits for, beyond a second
 
   // The picture.

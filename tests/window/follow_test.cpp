@@ -119,6 +119,19 @@ TEST_F(Following, MissingValidBrokenValid) {
   expect_drawn(design, mended);
 }
 
+TEST_F(Following, EscapeStopsWhatTakesLong) {
+  const std::string design = folder_.write("a.scad", "cube(10); sphere(8);");
+  open(design, {"--echo"});
+  next_of(2);
+  const Picture good = shown();
+  folder_.write("a.scad", "echo(len([for (i = 0; true; i = i) if (false) i]));");
+  wait_until_other(good);
+  key("Escape");
+  expect_shown(good, free_area());
+  folder_.write("a.scad", "echo(\"again\"); cube(10); sphere(8); cube(9);");
+  expect_drawn(design, next_of(3));
+}
+
 TEST_F(Following, AnIncludedFile) {
   if (missing_program({"openscad"})) GTEST_SKIP() << "no openscad";
   folder_.write("part.scad", "module part() { cube(10); }\necho(\"one\");\n");

@@ -205,5 +205,27 @@ TEST_F(StateTest, StatusLineIsShortenedByWhatMattersLeast) {
   EXPECT_NE(shortened(status_line(state_).size() - 1).find("parse"), std::string::npos);
 }
 
+TEST_F(StateTest, AVersionsErrorIsItsFirstMessage) {
+  frontend::DesignVersion version;
+  version.error = "a.scad:1:1: error: wrong (mend it)";
+  version.messages = {"ECHO: 1"};
+  state_.is_stopped = true;
+  state_.take(version);
+  ASSERT_EQ(state_.messages.size(), 2u);
+  EXPECT_EQ(state_.messages[0].kind, MessageKind::kError);
+  EXPECT_EQ(state_.messages[1].kind, MessageKind::kEcho);
+  EXPECT_NE(state_.design, nullptr);  // the last good one stays
+  EXPECT_FALSE(state_.is_stopped);
+}
+
+TEST_F(StateTest, TheStatusLineSaysThatWorkWasStopped) {
+  state_.is_stopped = true;
+  EXPECT_THAT(status_line(state_), HasSubstr("F5"));
+  state_.take({});
+  EXPECT_THAT(status_line(state_), testing::Not(HasSubstr("F5")));
+  state_.is_stopped = true;
+  EXPECT_THAT(status_line(state_), HasSubstr("F5"));
+}
+
 }  // namespace
 }  // namespace window

@@ -28,6 +28,9 @@ struct DesignTexts {
   std::string_view text(uint32_t file) const;
 };
 
+/// Returns whether a message is what echo() has said.
+inline bool is_echo(std::string_view message) { return message.starts_with("ECHO: "); }
+
 /// One reading of a design: at the start, or after a save.
 struct DesignVersion {
   uint64_t number = 0;  // counts up from 1

@@ -16,6 +16,7 @@
 #include "follow/make_rule.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/design_file.hpp"
+#include "frontend/design_version.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
@@ -189,7 +190,9 @@ class Run {
     }
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
-      if (!options_.quiet || line.starts_with("ERROR")) {
+      if (options_.prints_echoes && is_echo(line)) {
+        std::printf("%s\n", line.c_str());
+      } else if (!options_.quiet || line.starts_with("ERROR")) {
         progress_.clear();
         std::fprintf(stderr, "%s\n", line.c_str());
       }

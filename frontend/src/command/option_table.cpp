@@ -98,6 +98,8 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
+    {"echo", Takes::kNothing, "",
+     "write what the design echoes to standard output; the window does after each save"},
     {"openscad-timeout", Takes::kText, "SECONDS",
      "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
      "0: it is left out"},

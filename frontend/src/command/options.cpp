@@ -194,7 +194,8 @@ void read_outputs(const Arguments& arguments, Options& options) {
   const auto is_stdout = [](const auto& output) { return output.path == "-"; };
   const auto to_stdout = std::count_if(options.outputs.begin(), options.outputs.end(), is_stdout) +
                          std::count_if(options.texts.begin(), options.texts.end(), is_stdout);
-  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") > 1) {
+  if (to_stdout + (options.stats_path == "-") + (options.rule_path == "-") + options.prints_echoes >
+      1) {
     fail("more than one output goes to standard output", "give all but one a file");
   }
   static_assert(kMaxPictures <= 99999, "a frame's number has five digits");
@@ -306,6 +307,7 @@ Options parse_options(const std::vector<std::string>& words) {
   if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
   options.input = files[0];
   options.quiet = arguments.has("quiet");
+  options.prints_echoes = arguments.has("echo");
   options.info = arguments.has("info");
   options.has_image_size = arguments.has("imgsize");
   read_picture_kind(arguments, options);

@@ -91,11 +91,22 @@ void tab(State& state, const std::string& words, bool echoes, const OpenPlace& o
   ImGui::EndTabItem();
 }
 
+/// Draws the field for the filter in the right half of the tabs' row, and leaves the cursor where
+/// it was.
+void filter_field(State& state) {
+  const ImVec2 start = ImGui::GetCursorPos();
+  const float room = ImGui::GetContentRegionAvail().x;
+  const float width = std::min(12 * ImGui::GetFontSize(), room / 3);
+  ImGui::SetCursorPosX(start.x + room - width);
+  ImGui::SetNextItemWidth(width);
+  ImGui::InputTextWithHint("##filter", "filter", &state.message_filter);
+  ImGui::SetCursorPos(start);
+}
+
 void all_messages(State& state, const OpenPlace& open) {
   const MessageCounts counts = count_messages(state.messages);
   if (state.messages.size() >= kLeastFiltered) {
-    ImGui::SetNextItemWidth(std::min(12 * ImGui::GetFontSize(), ImGui::GetContentRegionAvail().x));
-    ImGui::InputTextWithHint("##filter", "filter", &state.message_filter);
+    filter_field(state);
   } else {
     state.message_filter.clear();
   }
@@ -126,7 +137,7 @@ void draw_messages(State& state, float bottom, const OpenPlace& open) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::max(display.x - 20, 50.0f);
   ImGui::SetNextWindowPos({10, bottom - 8}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, display.y / 2});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, display.y / 3});
   ImGui::SetNextWindowBgAlpha(0.85f);
   if (ImGui::Begin("##messages", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {
     if (!no_picture.empty()) line(kErrorColor, no_picture, {}, open);

@@ -368,6 +368,15 @@ TEST_F(Command, SaysWhereTilesWereNotTaken) {
   EXPECT_EQ(run({"--technique=cells", "-o", png_, file_}).err, "");
 }
 
+TEST_F(Command, EchoesGoToStandardOutputOnDemand) {
+  const std::string design = folder_.write("a.scad", "echo(\"said\"); cube(nope);");
+  const Outcome apart = run({"--echo", "-o", png_, design});
+  EXPECT_EQ(apart.out, "ECHO: \"said\"\n");
+  EXPECT_THAT(apart.err, AllOf(HasSubstr("nope"), Not(HasSubstr("said"))));
+  EXPECT_EQ(run({"--echo", "-q", "-o", png_, design}).out, apart.out);
+  EXPECT_THAT(run({"-o", png_, design}).err, HasSubstr("ECHO: \"said\""));
+}
+
 TEST_F(Command, QuietShowsErrorsOnly) {
   const std::vector<std::string> loud = {"-o", png_, "--csglimit=9", "--view=scales", file_};
   EXPECT_THAT(run(loud).err, AllOf(HasSubstr("--csglimit"), HasSubstr("scales")));

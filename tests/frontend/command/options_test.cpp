@@ -135,6 +135,8 @@ TEST(Options, Animation) {
             "most 2048, or fewer -o)");
   EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--animate=2", "a"}),
               HasSubstr("standard output"));
+  EXPECT_THAT(error_of({"-o", "-", "--export-format=png", "--echo", "a"}),
+              HasSubstr("standard output"));
 }
 
 TEST(Options, File) {

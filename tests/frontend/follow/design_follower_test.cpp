@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include "follow/followed.hpp"
 #include "follow/saves.hpp"
 #include "temporary_folder.hpp"
@@ -254,6 +256,23 @@ TEST(DesignFollower, ReadsAgainOnDemand) {
   EXPECT_TRUE(second.unchanged);
   EXPECT_EQ(second.number, 2u);
   EXPECT_GT(second.noticed, first.noticed);
+}
+
+TEST(DesignFollower, StopsAtTheUsersWish) {
+  const TemporaryFolder folder;
+  const std::string endless = "echo(len([for (i = 0; true; i = i) if (false) i]));";
+  FollowOptions options = by_inotify();
+  options.evaluator = Evaluator::kOwn;
+  Followed design(folder.write("a.scad", endless), options);
+  while (!design->activity() || design->activity()->stage != "evaluating") {
+    std::this_thread::yield();
+  }
+  design->stop();
+  design.wait_until_idle();
+  EXPECT_FALSE(design->activity());
+  EXPECT_FALSE(design->take());
+  folder.write("a.scad", "cube(1);");
+  design.next_of(1);
 }
 
 TEST(DesignFollower, ListsWhatIsLeftOut) {
