@@ -331,7 +331,8 @@ void Application::open_place(const MessagePlace& place) { state_.notice = path_o
 
 void Application::run_command(Command command) {
   state_.notice.clear();
-  if (command == Command::kForgetPoints && state_.long_activity) command = Command::kStop;
+  const bool is_busy = state_.long_activity || state_.is_reading;
+  if (command == Command::kForgetPoints && is_busy) command = Command::kStop;
   if (state_.apply(command)) return;
   if (command == Command::kStop) stop_long_work();
   if (command == Command::kReload) follower_.reload();

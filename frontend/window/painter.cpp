@@ -184,8 +184,9 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
   frontend::RenderSettings settings = order.settings;
   settings.samples = samples;
   settings.stop = stop;
-  settings.progress = [this](const char* stage, double fraction) {
+  settings.progress = [this, &order](const char* stage, double fraction) {
     activity_.update(stage, fraction);
+    if (order.settings.progress) order.settings.progress(stage, fraction);
   };
   settings.measured_channels |= is_channel(settings.show) || order.overlays.any();
   const Clock::time_point start = Clock::now();
