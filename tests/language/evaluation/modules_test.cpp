@@ -233,6 +233,21 @@ q();
 )");
 }
 
+TEST(Modules, CountAmongParentModulesFromTheirDefaultsOn) {
+  const Evaluated result = evaluated(R"(
+module m(x, y = [$parent_modules, parent_module(0)]) { echo(x, y, $parent_modules); children(); }
+module p() m([$parent_modules, parent_module(1)]) { z = [$parent_modules, parent_module(0)]; echo(z); }
+p();
+m($parent_modules = 7);
+m();
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: [2, "p"], [2, "m"], 2
+ECHO: [1, "p"]
+ECHO: undef, [1, "m"], 7
+ECHO: undef, [1, "m"], 1
+)");
+}
+
 TEST(Modules, RootModifiersOfTwoStatements) {
   const Evaluated result = evaluated(R"(!cube(1);
 !sphere(2);

@@ -173,6 +173,7 @@ class Machine {
   bool wants_first(const NodeSite& site);
   Value dynamic_value(Name name) const;
   BuiltinCall builtin_call(const NodeSite& site, bool has_first);
+  void name_module(Name name);
   void call_module(const CallSite& site);
   void return_module();
   void say_successor(const NodeSite& site);
