@@ -72,7 +72,7 @@ enum class Op : uint8_t {
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
   kEnterUnit,         // make the top level of unit b ready for a call
-  kBeginCall,         // push the parameters of calls[b], with their defaults
+  kBeginCall,         // push the declared parameters of calls[b], with their defaults
   kCall,              // call the function of calls[b], whose parameters are on top
   kCallBuiltin,       // call builtin function b with the a values on top
   kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it

@@ -46,7 +46,7 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   calls.push_back(site);
   out_.emit(Op::kNameModule, call.place, 0, number);
   const uint32_t base = out_.depth();
-  out_.emit(Op::kBeginCall, call.place, static_cast<int>(site.slots), number);
+  begin_call(module.parameters, call.place, number);
   warn_of_arguments(plan, call.place, false);
   arguments(plan, call.arguments, base);
   out_.emit(Op::kCallModule, call.place, -static_cast<int>(site.slots), number);
