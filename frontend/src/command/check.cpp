@@ -1,5 +1,6 @@
 #include "command/check.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -70,7 +71,9 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
   command.insert(command.end(), {"--", file});
   std::FILE* const errors = std::fopen(messages.c_str(), "we");
   if (errors == nullptr) throw Error(messages, {}, "cannot be written", "check $TMPDIR");
-  ChildProcess({command, fileno(errors), fileno(errors)}).wait();
+  // Its standard output has no messages, but what OpenSCAD's lexer copies there (LANGUAGE.md).
+  const Descriptor nowhere(open("/dev/null", O_WRONLY | O_CLOEXEC));
+  ChildProcess({command, nowhere.number(), fileno(errors)}).wait();
   std::fclose(errors);
   return {text_of(tree), text_of(messages)};
 }

@@ -102,6 +102,8 @@ std::shared_ptr<const language::Evaluation> evaluate_design(
     message("openscad evaluates the design, since scadray does not know " + evaluation.unknown);
     return nullptr;
   }
+  // A syntax error in a used file, or a parameter file that cannot be read, ends nothing.
+  if (evaluation.outcome == language::Outcome::kDone) messages.pass_errors();
   held.pass_on();
   messages.finish();
   if (messages.first_error()) throw openscad_error(path, *messages.first_error());

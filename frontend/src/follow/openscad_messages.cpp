@@ -7,6 +7,8 @@
 namespace frontend {
 namespace {
 
+constexpr std::string_view kError = "ERROR: ";
+
 /// An ERROR after which OpenSCAD goes on: another font stands in.
 constexpr std::string_view kMissingFont = "ERROR: Can't read font with path";
 
@@ -21,13 +23,19 @@ bool is_same_file(const std::string& name, const std::string& scad_path) {
 }  // namespace
 
 void OpenScadMessages::line(const std::string& text) {
-  constexpr std::string_view kError = "ERROR: ";
   if (text.empty()) return;
-  if (text.starts_with(kError) && !text.starts_with(kMissingFont) && !first_error_) {
+  const bool is_error = text.starts_with(kError) && !text.starts_with(kMissingFont);
+  if (is_error && !passes_errors_ && !first_error_) {
     first_error_ = text.substr(kError.size());
   } else {
     message_(text);
   }
+}
+
+void OpenScadMessages::pass_errors() {
+  passes_errors_ = true;
+  if (first_error_) message_(std::string(kError) + *first_error_);
+  first_error_.reset();
 }
 
 Error openscad_error(const std::string& scad_path, const std::string& text) {

@@ -1,4 +1,5 @@
-// The messages of an evaluation, by openscad or in its words: the first ERROR ends the reading.
+// The messages of an evaluation, by openscad or in its words: the first ERROR ends the reading,
+// unless the evaluation is known to have gone on after it.
 #pragma once
 
 #include <cstddef>
@@ -30,6 +31,8 @@ class OpenScadMessages {
     if (!pending_.empty()) line(pending_);
     pending_.clear();
   }
+  /// Shows the ERROR that is kept and all later ones like other messages.
+  void pass_errors();
   const std::optional<std::string>& first_error() const { return first_error_; }
 
  private:
@@ -41,6 +44,7 @@ class OpenScadMessages {
   const std::function<void(const std::string&)>& message_;
   std::string pending_;
   std::optional<std::string> first_error_;
+  bool passes_errors_ = false;
 };
 
 /// Turns "what in file NAME, line N" into an Error with that place.

@@ -123,6 +123,20 @@ TEST_F(EvaluatedDesign, SetsTheCameraUnlessTheCommandDoes) {
   EXPECT_EQ(view_.eye, csgcore::Vec3(0, 0, 7));
 }
 
+TEST_F(EvaluatedDesign, IsDrawnAfterErrorsThatOpenScadGoesOnAfter) {
+  folder_.write("broken.scad", "module m() { cube(1) }");
+  const std::string png = folder_ / "x.png";
+  const Said said = run({"-o", png, "-p", folder_ / "no.json", "-P", "p",
+                         design("use <broken.scad>\necho(1); sphere(1);")});
+  EXPECT_EQ(said.code, ExitCode::kDone);
+  EXPECT_THAT(said.err, testing::ContainsRegex("^ERROR: Parser error: syntax error in file .*\n"
+                                               "ERROR: Cannot open Parameter Set .*\n"
+                                               "ECHO: 1\n"));
+  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kSphere);
+  const Said failed = run({"-o", png, design("include <broken.scad>\nsphere(1);")});
+  EXPECT_EQ(failed.code, ExitCode::kFailure);
+}
+
 TEST_F(EvaluatedDesign, IsGivenToOpenScadWhereScadrayDoesNotKnowIt) {
   const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
   const Said said = run({"-o", folder_ / "x.png", design("echo(dxf_dim(file = \"a.dxf\"));")});
@@ -133,6 +147,7 @@ TEST_F(EvaluatedDesign, IsGivenToOpenScadWhereScadrayDoesNotKnowIt) {
 
 TEST_F(EvaluatedDesign, IsComparedWithOpenScads) {
   const Environment same("OPENSCAD", folder_.script("same",
+                                                    "printf '\\\\'\n"  // as its lexer does
                                                     "echo 'ECHO: 1' >&2\n"
                                                     "printf 'group();\\n\\n' >\"$2\"\n"));
   const Said equal = run({"check", design("echo(1); group();")});

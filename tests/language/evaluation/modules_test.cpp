@@ -233,6 +233,43 @@ q();
 )");
 }
 
+TEST(Modules, CountAmongParentModulesFromTheirDefaultsOn) {
+  const Evaluated result = evaluated(R"(
+module m(x, y = [$parent_modules, parent_module(0)]) { echo(x, y, $parent_modules); children(); }
+module p() m([$parent_modules, parent_module(1)]) { z = [$parent_modules, parent_module(0)]; echo(z); }
+p();
+m($parent_modules = 7);
+m();
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: [2, "p"], [2, "m"], 2
+ECHO: [1, "p"]
+ECHO: undef, [1, "m"], 7
+ECHO: undef, [1, "m"], 1
+)");
+}
+
+TEST(Modules, UndeclaredArgumentsLeaveTheDefaultsOfOtherCalls) {
+  const Evaluated result = evaluated(R"(
+function ten(n) = n * 10;
+module m(x = ten(2), y = ten(3)) echo(x, y);
+module later() m(z = 1);
+m(); later(); m(z = 2);
+function f(x = ten(2), y) = [x, y, is_undef(z) ? 0 : z];
+function later() = f(z = 1, w = 2);
+echo(f(), later(), f(z = 4));
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: 20, 30
+WARNING: variable z not specified as parameter in file design.scad, line 4
+ECHO: 20, 30
+WARNING: variable z not specified as parameter in file design.scad, line 5
+ECHO: 20, 30
+WARNING: variable z not specified as parameter in file design.scad, line 7
+WARNING: variable w not specified as parameter in file design.scad, line 7
+WARNING: variable z not specified as parameter in file design.scad, line 8
+ECHO: [20, undef, 0], [20, undef, 1], [20, undef, 4]
+)");
+}
+
 TEST(Modules, RootModifiersOfTwoStatements) {
   const Evaluated result = evaluated(R"(!cube(1);
 !sphere(2);

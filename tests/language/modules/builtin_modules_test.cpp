@@ -475,6 +475,11 @@ TEST(BuiltinModules, MakeFiles) {
        "0, $fa = 12, $fs = 2, timestamp = 0);\n",
        "DEPRECATED: The import_stl() module will be removed in future releases. Use import() "
        "instead. in file <stdin>, line 1\n"},
+      {"import_dxf(\"no.svg\",dpi=3);",
+       "import(file = \"no.svg\", layer = \"\", origin = [0, 0], scale = 1, convexity = 1, $fn = "
+       "0, $fa = 12, $fs = 2, timestamp = 0);\n",
+       "DEPRECATED: The import_dxf() module will be removed in future releases. Use import() "
+       "instead. in file <stdin>, line 1\n"},
       {"surface(\"no.png\",true,invert=true);",
        "surface(file = \"no.png\", center = true, invert = true, timestamp = 0);\n", ""},
       {"surface(5) cube(1);",

@@ -95,6 +95,15 @@ bool CodeCompiler::binds_dynamic(const Callable& callable,
   return names_dynamic(arguments, compiler_.names());
 }
 
+// The slots of undeclared names follow those of the parameters. The defaults know none of them,
+// since calls that are compiled later may add some.
+void CodeCompiler::begin_call(const ParameterList& parameters, Place place, uint32_t number) {
+  const uint32_t declared = parameters.declared_slots;
+  out_.emit(Op::kBeginCall, place, static_cast<int>(declared), number);
+  for (size_t slot = declared; slot < parameters.slot_names.size(); ++slot)
+    out_.constant(Value::unset(), place);
+}
+
 void CodeCompiler::warn_of_arguments(const ArgumentPlan& plan, Place place, bool once) {
   if (plan.warnings.empty()) return;
   auto& plans = out_.code().plans;
@@ -133,7 +142,7 @@ void CodeCompiler::static_call(const CallExpression& call, Found<FunctionEntry> 
   auto& calls = out_.code().calls;
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
-  out_.emit(Op::kBeginCall, call.place, static_cast<int>(site.slots), number);
+  begin_call(function.parameters, call.place, number);
   warn_of_arguments(plan, call.place, false);
   arguments(plan, call.arguments, base);
   out_.emit(Op::kCall, call.place, 1 - static_cast<int>(site.slots), number);

@@ -75,6 +75,7 @@ class CodeCompiler {
   void static_call(const CallExpression& call, Found<FunctionEntry> found);
   void dynamic_call(const CallExpression& call);
   void is_undef_call(const CallExpression& call);
+  void begin_call(const ParameterList& parameters, Place place, uint32_t number);
   void arguments(const ArgumentPlan& plan, std::span<const Argument> arguments, uint32_t base);
   void warn_of_arguments(const ArgumentPlan& plan, Place place, bool once);
   bool binds_dynamic(const Callable& callable, std::span<const Argument> arguments) const;

@@ -64,6 +64,8 @@ class Compiler {
   const Program& program() const { return program_; }
   const NameTable& names() const { return program_.names; }
   const Builtins& builtins() const { return builtins_; }
+  /// Returns whether the design reads $parent_modules.
+  bool counts_modules() const { return names().find("$parent_modules") != kNoName; }
 
   // Names that the language gives a meaning.
   struct KnownNames {

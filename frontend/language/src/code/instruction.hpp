@@ -72,7 +72,7 @@ enum class Op : uint8_t {
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
   kEnterUnit,         // make the top level of unit b ready for a call
-  kBeginCall,         // push the parameters of calls[b], with their defaults
+  kBeginCall,         // push the declared parameters of calls[b], with their defaults
   kCall,              // call the function of calls[b], whose parameters are on top
   kCallBuiltin,       // call builtin function b with the a values on top
   kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
@@ -100,6 +100,7 @@ enum class Op : uint8_t {
   kWantsFirst,      // go to b unless the module of node_sites[a] wants its first argument again
   kMakeNode,        // pop the parameters, make a builtin module's node, go to b if it is no parent
   kSaveBlock,       // remember the scope of the block of calls[b]
+  kNameModule,      // the user module of calls[b] counts among those that run from here on
   kCallModule,      // call the user module of calls[b], whose parameters are on top
   kChildCount,      // push $children
   kParameterLiteral,  // if the value on top is set, say that the name b, a parameter, is

@@ -27,7 +27,8 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   const uint32_t unit = module.scope->unit;
   const uint32_t start = out_.depth();
   const bool has_mark = binds_dynamic(module, call.arguments) || assigns_dynamic(*call.children) ||
-                        (found.is_in_other_unit && compiler_.unit(unit).binds_dynamic);
+                        (found.is_in_other_unit && compiler_.unit(unit).binds_dynamic) ||
+                        compiler_.counts_modules();
   if (has_mark) out_.emit(Op::kMarkTrail, call.place, 1);
   CallSite site;
   site.module = &module;
@@ -43,8 +44,9 @@ void CodeCompiler::module_call(const ModuleCall& call, Found<ModuleEntry> found)
   auto& calls = out_.code().calls;
   const auto number = static_cast<uint32_t>(calls.size());
   calls.push_back(site);
+  out_.emit(Op::kNameModule, call.place, 0, number);
   const uint32_t base = out_.depth();
-  out_.emit(Op::kBeginCall, call.place, static_cast<int>(site.slots), number);
+  begin_call(module.parameters, call.place, number);
   warn_of_arguments(plan, call.place, false);
   arguments(plan, call.arguments, base);
   out_.emit(Op::kCallModule, call.place, -static_cast<int>(site.slots), number);

@@ -26,7 +26,7 @@ void CodeCompiler::compile_function(FunctionEntry& function) {
 
 void CodeCompiler::compile_defaults(Callable& callable, bool is_module) {
   finds_all_set_ = is_module;
-  const auto slots = static_cast<uint32_t>(callable.parameters.slot_names.size());
+  const uint32_t slots = callable.parameters.declared_slots;
   out_.code().slots = slots;
   out_.set_depth(slots);
   const auto& targets = callable.parameters.targets;

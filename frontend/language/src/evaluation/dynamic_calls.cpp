@@ -69,9 +69,8 @@ void Machine::prepare_call(const DynamicCall& site) {
   compiler_.prepare(*function);
   if (!function->has_default_code) return;
   HeapScope* const scope = HeapScopes::acquire(scope_of(site));
-  const uint32_t base = stack_.size();
   const Code& code = compiler_.defaults_of(*function, false);
-  push_parameters(*function, code.slots);
+  const uint32_t base = push_parameters(*function);
   push_frame(code, base, scope, FrameKind::kDynamicDefaults, kNoActivation);
 }
 

@@ -43,20 +43,19 @@ void Machine::pop_frame() {
   if (frame.code->unit != unit_) set_unit(frame.code->unit);
 }
 
-void Machine::push_parameters(const Callable& callable, uint32_t slots) {
-  stack_.reserve(stack_.size() + slots);
+uint32_t Machine::push_parameters(const Callable& callable) {
+  const uint32_t base = stack_.size();
+  stack_.reserve(base + static_cast<uint32_t>(callable.initial.size()));
   for (const Value& value : callable.initial) stack_.push_copy(value);
-  for (auto slot = static_cast<uint32_t>(callable.initial.size()); slot < slots; ++slot)
-    stack_.push(Value::unset());
+  return base;
 }
 
 void Machine::begin_call(const CallSite& site) {
   Callable& callable =
       site.module ? static_cast<Callable&>(*site.module) : static_cast<Callable&>(*site.function);
-  push_parameters(callable, site.slots);
+  const uint32_t base = push_parameters(callable);
   if (!callable.has_default_code) return;
   HeapScope* const scope = site.is_in_unit ? unit_scopes_.back() : scope_at(site.scope);
-  const uint32_t base = stack_.size() - site.slots;
   push_frame(compiler_.defaults_of(callable, site.module), base, HeapScopes::acquire(scope),
              FrameKind::kDefaults, kNoActivation);
 }

@@ -390,6 +390,9 @@ void Machine::run() {
       case Op::kSaveBlock:
         block_scopes_.push_back(HeapScopes::acquire(scope_));
         break;
+      case Op::kNameModule:
+        name_module(frames_.back().code->calls[step.b].module->name);
+        break;
       case Op::kCallModule:
         call_module(frames_.back().code->calls[step.b]);
         break;

@@ -132,7 +132,8 @@ class Machine {
                   uint32_t activation);
   void pop_frame();
   void begin_call(const CallSite& site);
-  void push_parameters(const Callable& callable, uint32_t slots);
+  /// Pushes the declared parameters with their constant defaults. Returns the first one's slot.
+  uint32_t push_parameters(const Callable& callable);
   void call_function(const CallSite& site);
   void call_builtin(uint32_t index, uint32_t count);
   void next_lazy(const LazyCall& site);
@@ -173,6 +174,7 @@ class Machine {
   bool wants_first(const NodeSite& site);
   Value dynamic_value(Name name) const;
   BuiltinCall builtin_call(const NodeSite& site, bool has_first);
+  void name_module(Name name);
   void call_module(const CallSite& site);
   void return_module();
   void say_successor(const NodeSite& site);

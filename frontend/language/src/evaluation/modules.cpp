@@ -72,6 +72,12 @@ void Machine::unknown_module(Name name) {
        PathBase::kMainFile);
 }
 
+void Machine::name_module(Name name) {
+  module_names_.push_back(compiler_.names().text(name));
+  if (parent_modules_ != kNoName)
+    dynamic_.bind(parent_modules_, static_cast<double>(module_names_.size()));
+}
+
 void Machine::call_module(const CallSite& site) {
   ModuleEntry& module = *site.module;
   if (frames_.size() >= kDepthLimit) {
@@ -95,9 +101,6 @@ void Machine::call_module(const CallSite& site) {
   const uint32_t base = stack_.size() - site.slots;
   push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));
   for (uint32_t slot = site.slots; slot < code.slots; ++slot) stack_.push(Value::unset());
-  module_names_.push_back(compiler_.names().text(module.name));
-  if (parent_modules_ != kNoName)
-    dynamic_.bind(parent_modules_, static_cast<double>(module_names_.size()));
 }
 
 void Machine::return_module() {

@@ -49,9 +49,7 @@ double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) 
   return kDefault;
 }
 
-}  // namespace
-
-Made make_import(const BuiltinCall& call, Node& node) {
+Made make_import_node(const BuiltinCall& call, Node& node, bool knows_svg) {
   enum : size_t {
     kFile,
     kLayer,
@@ -80,7 +78,7 @@ Made make_import(const BuiltinCall& call, Node& node) {
   add_escaped(node, "file", file.path);
   add_escaped(node, "layer", layer);
   add(node, "origin", numbers({x, y}));
-  if (is_svg(file.path)) {
+  if (knows_svg && is_svg(file.path)) {
     add_bool(node, "center", is_true_bool(given[kCenter]));
     add(node, "dpi", dpi);
   }
@@ -89,6 +87,14 @@ Made make_import(const BuiltinCall& call, Node& node) {
   add_fragments(node, fragments_of(call));
   add_integer(node, "timestamp", file.timestamp);
   return Made::kNode;
+}
+
+}  // namespace
+
+Made make_import(const BuiltinCall& call, Node& node) { return make_import_node(call, node, true); }
+
+Made make_typed_import(const BuiltinCall& call, Node& node) {
+  return make_import_node(call, node, false);
 }
 
 Made make_surface(const BuiltinCall& call, Node& node) {

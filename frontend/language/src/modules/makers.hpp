@@ -57,6 +57,8 @@ Made make_resize(const BuiltinCall& call, Node& node);
 // file_nodes.cpp; file, layer, convexity, origin, scale, width, height, filename, layername,
 // center, dpi
 Made make_import(const BuiltinCall& call, Node& node);
+/// import_dxf(), import_off(), import_stl(): these write no SVG's arguments.
+Made make_typed_import(const BuiltinCall& call, Node& node);
 // file, center, convexity, invert
 Made make_surface(const BuiltinCall& call, Node& node);
 
