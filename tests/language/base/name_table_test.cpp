@@ -28,5 +28,18 @@ TEST(NameTable, HoldsManyNames) {
   EXPECT_EQ(names.size(), kCount);
 }
 
+TEST(NameTable, TellsNamesApartAtEachByte) {
+  NameTable names;
+  Name count = 0;
+  for (size_t length = 1; length <= 20; ++length) {
+    EXPECT_EQ(names.intern(std::string(length, 'a')), count++);
+    for (size_t i = 0; i < length; ++i) {
+      std::string name(length, 'a');
+      name[i] = 'b';
+      EXPECT_EQ(names.intern(name), count++);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace language

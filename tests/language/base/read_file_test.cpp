@@ -16,6 +16,10 @@ TEST(ReadFile, ReturnsAllBytes) {
   std::filesystem::remove(path);
 }
 
+TEST(ReadFile, ReadsWhatHasNoSize) {
+  EXPECT_NE(read_file("/proc/self/cmdline"), "");  // whose size is told as 0
+}
+
 TEST(ReadFile, ReadsNoFolderAndNothingThatIsMissing) {
   EXPECT_EQ(read_file(testing::TempDir()), std::nullopt);
   EXPECT_EQ(read_file(testing::TempDir() + "no such file"), std::nullopt);

@@ -92,6 +92,21 @@ ECHO: 8, undef
 )");
 }
 
+// A call in tail position may be one of the running function, to which its names are new.
+TEST(Functions, FunctionValuesPassNamesInTailCalls) {
+  const Evaluated result = evaluated(R"(function named(t) = t;
+a = function(x) named(t = x);
+b = function(x) let(t = x + 1) named(t = t);
+c = function(x, y = 4) named(t = [x, y]);
+d = function(x) x > 2 ? [x, t] : d(t = 7, x = x + 1);
+echo(a(1), b(2), c(3), d(1));
+)");
+  EXPECT_EQ(result.messages,
+            R"(WARNING: variable t not specified as parameter in file design.scad, line 5
+ECHO: 1, 3, [3, 4], [3, 7]
+)");
+}
+
 TEST(Functions, FunctionValuesShareTheirScope) {
   const Evaluated result = evaluated(R"(z = function() later;
 later = 5;

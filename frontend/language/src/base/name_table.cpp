@@ -6,18 +6,33 @@ namespace language {
 
 namespace {
 
+template <typename Word>
+uint64_t word_at(const char* bytes) {
+  Word word;
+  std::memcpy(&word, bytes, sizeof word);
+  return word;
+}
+
+/// Returns a number in which each byte of a text of at most eight bytes counts. (To copy a varying
+/// number of bytes would take a call.)
+uint64_t short_word(std::string_view text) {
+  const size_t size = text.size();
+  const char* const bytes = text.data();
+  if (size >= 4) return word_at<uint32_t>(bytes) | word_at<uint32_t>(bytes + size - 4) << 32;
+  if (size >= 2) return word_at<uint16_t>(bytes) | word_at<uint16_t>(bytes + size - 2) << 16;
+  return size == 1 ? word_at<uint8_t>(bytes) : 0;
+}
+
 /// Mixes eight bytes at a time: names are short, and a table this small needs no stronger hash.
 uint32_t hash_of(std::string_view text) {
   constexpr uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
   uint64_t hash = text.size();
-  while (!text.empty()) {
-    const size_t count = text.size() < 8 ? text.size() : 8;
-    uint64_t word = 0;
-    std::memcpy(&word, text.data(), count);
+  const auto mix = [&](uint64_t word) {
     hash = (hash ^ word) * kFactor;
     hash ^= hash >> 32;
-    text.remove_prefix(count);
-  }
+  };
+  for (; text.size() > 8; text.remove_prefix(8)) mix(word_at<uint64_t>(text.data()));
+  mix(short_word(text));
   return static_cast<uint32_t>(hash);
 }
 

@@ -122,13 +122,14 @@ void Machine::call_dynamic_function(const DynamicCall& site, FunctionEntry& func
     HeapScopes::release(unit_scopes_.back());
     unit_scopes_.pop_back();
   }
+  const Code& code = compiler_.code_of(function);  // which may find more slots
   const Value& defaults = stack_.top();
   if (defaults.is_set()) {
     parameters_.assign(defaults.elements().begin(), defaults.elements().end());
   } else {
     parameters_ = function.initial;
   }
-  parameters_.resize(function.parameters.slot_names.size(), Value::unset());
+  parameters_.resize(code.slots, Value::unset());
   for (const ArgumentPlan::Step& step : plan_of(site, function).steps) {
     if (!step.target.is_dynamic)
       parameters_[step.target.slot] = std::move(stack_[base + kArguments + step.argument]);
@@ -138,7 +139,7 @@ void Machine::call_dynamic_function(const DynamicCall& site, FunctionEntry& func
   stack_.drop_to(base);
   stack_.reserve(base + static_cast<uint32_t>(parameters_.size()));
   for (Value& parameter : parameters_) stack_.push(std::move(parameter));
-  push_frame(compiler_.code_of(function), base, scope, FrameKind::kFunction, kNoActivation);
+  push_frame(code, base, scope, FrameKind::kFunction, kNoActivation);
   Frame& frame = frames_.back();
   frame.function = &function;
   frame.trail = mark;

@@ -41,8 +41,8 @@ size_t wide_characters_length(const char* text) {
 
 /// No token begins with such a sign; what is no character ends the text for OpenSCAD.
 TokenKind unknown_kind(const char* text) {
-  const bool is_ascii = static_cast<unsigned char>(text[0]) < 0x80;
-  return is_ascii || wide_character_length(text) > 0 ? TokenKind::kUnknown : TokenKind::kEnd;
+  const bool is_character = is_ascii(text[0]) || wide_character_length(text) > 0;
+  return is_character ? TokenKind::kUnknown : TokenKind::kEnd;
 }
 
 }  // namespace
@@ -72,6 +72,7 @@ size_t wide_blank_length(const char* text) {
 }
 
 TokenKind sign_kind(const char* text) {
+  if (is_sign(text[0])) return TokenKind::kSign;
   const char next = text[1];
   switch (text[0]) {
     case '<':
@@ -91,10 +92,8 @@ TokenKind sign_kind(const char* text) {
     case '\x03':
       return TokenKind::kFileEnd;
     default:
-      break;
+      return unknown_kind(text);
   }
-  const bool is_known = std::strchr("()[]{};,:?+-*/%^#.~", text[0]) != nullptr;
-  return is_known ? TokenKind::kSign : unknown_kind(text);
 }
 
 }  // namespace language

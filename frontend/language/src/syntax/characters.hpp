@@ -10,11 +10,18 @@
 
 namespace language {
 
-enum CharacterClass : uint8_t { kBlankByte = 1, kWordByte = 2, kDigitByte = 4, kStringByte = 8 };
+enum CharacterClass : uint8_t {
+  kBlankByte = 1,
+  kWordByte = 2,
+  kDigitByte = 4,
+  kStringByte = 8,
+  kSignByte = 16,
+};
 
 constexpr std::array<uint8_t, 256> kCharacterClasses = [] {
   std::array<uint8_t, 256> classes{};
   for (const unsigned char c : std::string_view(" \t\n\r")) classes[c] |= kBlankByte;
+  for (const unsigned char c : std::string_view("()[]{};,:?+-*/%^#.~")) classes[c] |= kSignByte;
   for (int c = 0; c < 256; ++c) {
     const bool is_digit = '0' <= c && c <= '9';
     const bool is_letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
@@ -31,6 +38,10 @@ inline bool is_of(char c, CharacterClass wanted) {
 inline bool is_blank(char c) { return is_of(c, kBlankByte); }
 inline bool is_word(char c) { return is_of(c, kWordByte); }
 inline bool is_digit(char c) { return is_of(c, kDigitByte); }
+/// Returns whether a byte is a sign in itself, whatever follows it.
+inline bool is_sign(char c) { return is_of(c, kSignByte); }
+inline bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+inline bool begins_number(char c) { return is_digit(c) || c == '.'; }
 /// Returns whether a byte within a string is not simply a part of its value.
 inline bool ends_plain_text(char c) { return !is_of(c, kStringByte); }
 

@@ -51,17 +51,13 @@ void Lexer::begin_line_at(const char* at) {
   if (line_starts_->empty() || line_starts_->back() < offset) line_starts_->push_back(offset);
 }
 
-Token Lexer::next() {
-  for (;;) {
-    Token token;
+void Lexer::next(Token& token) {
+  do {
+    token = {};
     const bool is_whole = skip_blank();
     token.place = position();
-    if (!is_whole) {
-      lex_unterminated(token, "comment");
-      return token;
-    }
-    if (lex(token)) return token;
-  }
+    if (!is_whole) return lex_unterminated(token, "comment");
+  } while (!lex(token));
 }
 
 /// Skips blanks and comments. Returns false if a comment is not terminated.
@@ -76,6 +72,8 @@ bool Lexer::skip_blank() {
       skip_line_comment();
     } else if (c == '/' && cursor_[1] == '*') {
       if (!skip_block_comment()) return false;
+    } else if (is_ascii(c)) {
+      return true;
     } else if (const size_t length = wide_blank_length(cursor_); length > 0) {
       cursor_ += length;
     } else {
@@ -119,7 +117,7 @@ bool Lexer::lex_word(Token& token) {
   const char* end = cursor_ + (*cursor_ == '$');
   while (is_word(*end)) ++end;
   const auto length = static_cast<size_t>(end - cursor_);
-  const size_t digits = number_length(cursor_);
+  const size_t digits = begins_number(*cursor_) ? number_length(cursor_) : 0;
   if (digits > 0 && digits >= length) return lex_number(token, digits);
   if (length == 1 && *cursor_ == '$') {
     lex_sign(token);

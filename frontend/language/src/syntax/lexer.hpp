@@ -29,8 +29,8 @@ class Lexer {
   Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
         FileLookup& lookup, const Main& main);
 
-  /// Returns the next token. Says messages about what is not terminated, whose token is kUnknown.
-  Token next();
+  /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
+  void next(Token& token);
   /// Says a parser error about the last token, and throws SyntaxError.
   [[noreturn]] void fail(const std::string& text) const;
   /// Fails if there was a warning since the lexer was made, and warnings are errors.

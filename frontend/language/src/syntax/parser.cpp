@@ -8,7 +8,7 @@ namespace language {
 const Token& Parser::fetch(int position) {
   constexpr uint32_t kTokensBetweenChecks = 4096;
   if (++taken_ % kTokensBetweenChecks == 0 && settings_.stop.stop_requested()) throw Stopped();
-  tokens_[position] = lexer_.next();
+  lexer_.next(tokens_[position]);
   ahead_ = position + 1;
   return tokens_[position];
 }
@@ -31,9 +31,12 @@ Token Parser::take() {
   return token;
 }
 
-Token Parser::expect(char sign) {
+/// Consumes a sign, and returns its place.
+Place Parser::expect(char sign) {
   if (!peek().is(sign)) fail_at_token();
-  return take();
+  const Place place = peek().place;
+  consume();
+  return place;
 }
 
 Token Parser::expect_name() {
@@ -127,7 +130,7 @@ void Parser::parse_module(ScopeBuilder& scope) {
   const Name name = expect_name().name;
   expect('(');
   const auto parameters = parse_parameters();
-  const Place place = expect(')').place;
+  const Place place = expect(')');
   scope.add(ModuleDefinition{name, place, parameters, parse_module_body()});
 }
 
@@ -185,7 +188,7 @@ ModuleCall Parser::parse_if() {
   consume();
   expect('(');
   call.condition = parse_expression();
-  call.place = expect(')').place;
+  call.place = expect(')');
   call.children = parse_children();
   if (peek().is(TokenKind::kElse)) {
     consume();

@@ -49,7 +49,7 @@ class Parser {
   const Token& fetch(int position);
   void consume();
   Token take();
-  Token expect(char sign);
+  Place expect(char sign);
   Token expect_name();
   bool accept(char sign);
   int accept_commas();

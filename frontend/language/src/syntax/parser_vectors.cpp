@@ -65,7 +65,7 @@ Parser::Element Parser::parse_element(bool may_be_parenthesised) {
 /// Only what stands behind `(` tells whether this is a comprehension, or an operand in parentheses.
 Parser::Element Parser::parse_parenthesised_element() {
   const Nested nested(*this, 1);
-  const Place start = expect('(').place;
+  const Place start = expect('(');
   const Element inner = parse_element(false);
   expect(')');
   if (inner.is_comprehension) return inner;
