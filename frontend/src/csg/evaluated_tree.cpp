@@ -40,8 +40,7 @@ class TreeBuilder {
 
   /// Adds the nodes from `begin` to `end`, which are siblings and all below them.
   void add(uint32_t begin, uint32_t end) {
-    tree_.nodes.reserve(end - begin);
-    tree_.offsets.reserve(end - begin);
+    reserve(begin, end);
     for (uint32_t i = begin; i < end; ++i) {
       const language::Node& node = from_.nodes[i];
       SyntaxNode made;
@@ -62,11 +61,28 @@ class TreeBuilder {
   }
 
  private:
+  static constexpr uint32_t kRows = 4;  // of a matrix, and its columns
+
+  /// Makes room for the nodes and the numbers, whose arrays are large: growing would copy them.
+  void reserve(uint32_t begin, uint32_t end) {
+    tree_.nodes.reserve(end - begin);
+    tree_.offsets.reserve(end - begin);
+    size_t arguments = 0, values = 0;
+    for (uint32_t i = begin; i < end; ++i) {
+      for (const language::NodeArgument& argument : from_.arguments_of(i)) {
+        const bool is_matrix = argument.style == language::ArgumentStyle::kMatrix;
+        ++arguments;
+        values += argument.number_count + (is_matrix ? kRows : 0);
+      }
+    }
+    tree_.arguments.reserve(arguments);
+    tree_.values.reserve(values);
+  }
+
   Value value_of(const language::NodeArgument& argument) {
     const std::span<const double> numbers = from_.numbers_of(argument);
     if (numbers.empty()) return whole_value(argument.value);
     if (argument.style != language::ArgumentStyle::kMatrix) return list_of(numbers);
-    constexpr uint32_t kRows = 4;
     const Value rows = list(kRows);
     for (uint32_t row = 0; row < kRows; ++row) {
       const Value made = list_of(numbers.subspan(row * kRows, kRows));

@@ -60,6 +60,11 @@ struct NodeTree {
     return {numbers.data() + argument.first_number, argument.number_count};
   }
   uint32_t size() const { return static_cast<uint32_t>(nodes.size()); }
+  /// Returns what the tree takes, without the strings and vectors of its arguments.
+  size_t bytes() const {
+    return nodes.size() * sizeof(Node) + arguments.size() * sizeof(NodeArgument) +
+           numbers.size() * sizeof(double);
+  }
 
   /// Adds a node behind all others. Its end is not known yet.
   uint32_t open(std::string_view name, uint8_t modifiers, Place place);
