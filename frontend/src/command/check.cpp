@@ -91,7 +91,7 @@ std::optional<Result> by_scadray(const std::string& file, const std::vector<std:
   }
   const bool is_read = evaluation.outcome == language::Outcome::kDone ||
                        evaluation.outcome == language::Outcome::kAborted;
-  if (is_read) result.tree = language::csg_text(*evaluation.root);
+  if (is_read) result.tree = language::csg_text(evaluation.tree);
   return result;
 }
 

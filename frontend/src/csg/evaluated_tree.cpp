@@ -1,9 +1,11 @@
 #include "csg/evaluated_tree.hpp"
 
 #include <filesystem>
-#include <memory>
+#include <optional>
+#include <span>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/name_table.hpp"
 #include "csg/node_sink.hpp"
@@ -33,46 +35,80 @@ uint8_t modifiers_of(uint8_t call_modifiers) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(const language::SourceFiles& files, SyntaxTree& tree) : files_(files), tree_(tree) {}
+  TreeBuilder(const language::NodeTree& from, const language::SourceFiles& files, SyntaxTree& tree)
+      : from_(from), files_(files), tree_(tree) {}
 
-  /// Adds a node and all below it.
-  void add(const language::Node& top) {
-    open(top);
-    while (!open_.empty()) {
-      Open& innermost = open_.back();
-      if (innermost.next < innermost.node->children.size()) {
-        open(*innermost.node->children[innermost.next++]);
-      } else {
-        tree_.nodes[innermost.index].subtree_end = static_cast<uint32_t>(tree_.nodes.size());
-        open_.pop_back();
+  /// Adds the nodes from `begin` to `end`, which are siblings and all below them.
+  void add(uint32_t begin, uint32_t end) {
+    reserve(begin, end);
+    for (uint32_t i = begin; i < end; ++i) {
+      const language::Node& node = from_.nodes[i];
+      SyntaxNode made;
+      made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
+      made.modifiers = modifiers_of(node.modifiers);
+      if (node.place.file < files_.size()) {
+        made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
       }
+      made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
+      made.subtree_end = node.end - begin;
+      for (const language::NodeArgument& argument : from_.arguments_of(i)) {
+        tree_.arguments.push_back({argument.name, value_of(argument)});
+      }
+      made.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - made.first_argument;
+      tree_.nodes.push_back(made);
+      tree_.offsets.push_back(node.place.offset);
     }
   }
 
  private:
-  struct Open {
-    const language::Node* node;
-    size_t next;     // child
-    uint32_t index;  // in the tree
-  };
+  static constexpr uint32_t kRows = 4;  // of a matrix, and its columns
 
-  void open(const language::Node& node) {
-    SyntaxNode made;
-    made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
-    made.modifiers = modifiers_of(node.modifiers);
-    if (node.place.file < files_.size()) {
-      made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
+  /// Makes room for the nodes and the numbers, whose arrays are large: growing would copy them.
+  void reserve(uint32_t begin, uint32_t end) {
+    tree_.nodes.reserve(end - begin);
+    tree_.offsets.reserve(end - begin);
+    size_t arguments = 0, values = 0;
+    for (uint32_t i = begin; i < end; ++i) {
+      for (const language::NodeArgument& argument : from_.arguments_of(i)) {
+        const bool is_matrix = argument.style == language::ArgumentStyle::kMatrix;
+        ++arguments;
+        values += argument.number_count + (is_matrix ? kRows : 0);
+      }
     }
-    made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
-    made.argument_count = static_cast<uint32_t>(node.arguments.size());
-    made.subtree_end = kOpenSubtree;
-    for (const language::NodeArgument& argument : node.arguments) {
-      const Value value = whole_value(argument.value);
-      tree_.arguments.push_back({argument.name, value});
+    tree_.arguments.reserve(arguments);
+    tree_.values.reserve(values);
+  }
+
+  Value value_of(const language::NodeArgument& argument) {
+    const std::span<const double> numbers = from_.numbers_of(argument);
+    if (numbers.empty()) return whole_value(argument.value);
+    if (argument.style != language::ArgumentStyle::kMatrix) return list_of(numbers);
+    const Value rows = list(kRows);
+    for (uint32_t row = 0; row < kRows; ++row) {
+      const Value made = list_of(numbers.subspan(row * kRows, kRows));
+      tree_.values[rows.first + row] = made;
     }
-    open_.push_back({&node, 0, static_cast<uint32_t>(tree_.nodes.size())});
-    tree_.nodes.push_back(made);
-    tree_.offsets.push_back(node.place.offset);
+    return rows;
+  }
+
+  /// Returns a list with room for its elements.
+  Value list(size_t count) {
+    Value made;
+    made.kind = ValueKind::kList;
+    made.count = static_cast<uint32_t>(count);
+    made.first = tree_.values.size();
+    tree_.values.resize(tree_.values.size() + count);
+    return made;
+  }
+
+  Value list_of(std::span<const double> numbers) {
+    const Value made = list(numbers.size());
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      Value& element = tree_.values[made.first + i];
+      element.kind = ValueKind::kNumber;
+      element.number = numbers[i];
+    }
+    return made;
   }
 
   /// Returns a value; the elements of its lists are added to the tree level by level.
@@ -108,10 +144,7 @@ class TreeBuilder {
         tree_.strings.insert(tree_.strings.end(), value.text().begin(), value.text().end());
         break;
       case language::ValueType::kVector:
-        made.kind = ValueKind::kList;
-        made.count = static_cast<uint32_t>(value.elements().size());
-        made.first = tree_.values.size();
-        tree_.values.resize(tree_.values.size() + made.count);
+        made = list(value.elements().size());
         lists_.emplace_back(value.elements(), made.first);
         break;
       default:
@@ -120,15 +153,15 @@ class TreeBuilder {
     return made;
   }
 
+  const language::NodeTree& from_;
   const language::SourceFiles& files_;
   SyntaxTree& tree_;
-  std::vector<Open> open_;
   std::vector<std::pair<std::span<const language::Value>, size_t>> lists_;  // to be filled
 };
 
 }  // namespace
 
-SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& files,
+SyntaxTree tree_of(const language::NodeTree& from, const language::SourceFiles& files,
                    std::string name) {
   SyntaxTree tree;
   tree.has_all_digits = true;
@@ -136,12 +169,12 @@ SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& file
     tree.file_names.push_back(file == 0 ? name : shown_name(files[file].path));
   }
   tree.file_name = std::move(name);
-  TreeBuilder builder(files, tree);
-  if (const language::Node* const shown = language::root_modifiers(root).shown) {
-    builder.add(*shown);
+  TreeBuilder builder(from, files, tree);
+  if (const std::optional<uint32_t> shown = language::root_modifiers(from).shown) {
+    builder.add(*shown, from.nodes[*shown].end);
     tree.nodes.front().modifiers = 0;
   } else {
-    for (const std::shared_ptr<language::Node>& node : root.children) builder.add(*node);
+    builder.add(0, from.size());
   }
   return tree;
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "frontend/syntax_tree.hpp"
-#include "language/node.hpp"
+#include "language/node_tree.hpp"
 #include "language/source_files.hpp"
 
 namespace frontend {
@@ -12,7 +12,7 @@ namespace frontend {
 /// Returns the tree that a .csg of the same design would have, with all digits of its numbers, and
 /// with places in the design's own files. `name` is what messages call the main file, the first of
 /// `files`. Values that no node takes, ranges and functions, become undef. Needs no recursion.
-SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& files,
+SyntaxTree tree_of(const language::NodeTree& tree, const language::SourceFiles& files,
                    std::string name);
 
 }  // namespace frontend

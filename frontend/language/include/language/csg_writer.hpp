@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "language/node.hpp"
+#include "language/node_tree.hpp"
 
 namespace language {
 
-/// Returns the text of the tree below `root`, which itself is not written: a line for each node,
-/// and an empty line at the end. A tree with a root modifier (!) is written as that node alone.
-/// Needs no recursion: trees may be arbitrarily deep.
-std::string csg_text(const Node& root);
+/// Returns the text of a tree: a line for each node, one for the end of each that has children, and
+/// an empty line at the end. A tree with a root modifier (!) is written as that node alone. Needs
+/// no recursion: trees may be arbitrarily deep.
+std::string csg_text(const NodeTree& tree);
 
 }  // namespace language

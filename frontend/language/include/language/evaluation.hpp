@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "language/node.hpp"
+#include "language/node_tree.hpp"
 #include "language/source_files.hpp"
 
 namespace language {
@@ -44,8 +44,7 @@ struct DesignCamera {
 
 struct Evaluation {
   Outcome outcome = Outcome::kDone;
-  /// Its children are the design's top-level nodes; itself it is none. Never null.
-  std::shared_ptr<Node> root;
+  NodeTree tree;
   std::shared_ptr<const SourceFiles> files;  // what the nodes' places refer to
   /// Absolute paths of all files that were read, the main one first: sources, parameter sets,
   /// fonts, and what import() and surface() name.

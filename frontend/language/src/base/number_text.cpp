@@ -1,5 +1,6 @@
 #include "base/number_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -95,10 +96,10 @@ Decimal round_away(double number) {
   return carried(longer.digits / 10 + 1, longer.exponent);
 }
 
-// Writes decimals in place and appends them once.
+// Writes decimals to where the text is wanted.
 class Writer {
  public:
-  explicit Writer(Decimal decimal) : exponent_(decimal.exponent) {
+  Writer(Decimal decimal, char* out) : exponent_(decimal.exponent), end_(out) {
     while (count_ > 1 && decimal.digits % 10 == 0) {
       decimal.digits /= 10;
       --count_;
@@ -107,20 +108,22 @@ class Writer {
       digits_[i] = static_cast<char>('0' + decimal.digits % 10);
   }
 
-  void plain() {
+  // Each returns the end of the text.
+  char* plain() {
     if (exponent_ < 0) {
       put("0.");
       for (int i = exponent_ + 1; i < 0; ++i) put('0');
       for (int i = 0; i < count_; ++i) put(digits_[i]);
-      return;
+      return end_;
     }
     for (int i = 0; i <= exponent_ || i < count_; ++i) {
       if (i == exponent_ + 1) put('.');
       put(i < count_ ? digits_[i] : '0');
     }
+    return end_;
   }
 
-  void scientific(int least_exponent_digits) {
+  char* scientific(int least_exponent_digits) {
     put(digits_[0]);
     if (count_ > 1) put('.');
     for (int i = 1; i < count_; ++i) put(digits_[i]);
@@ -128,13 +131,11 @@ class Writer {
     put(exponent_ < 0 ? '-' : '+');
     const int size = std::abs(exponent_);
     if (size < 10 && least_exponent_digits == 2) put('0');
-    end_ = std::to_chars(end_, text_ + sizeof text_, size).ptr;
+    constexpr int kMostDigits = 3;
+    return std::to_chars(end_, end_ + kMostDigits, size).ptr;
   }
 
-  void append_to(std::string& out) const { out.append(text_, size()); }
-
  private:
-  size_t size() const { return static_cast<size_t>(end_ - text_); }
   void put(char c) { *end_++ = c; }
   void put(std::string_view text) {
     for (const char c : text) put(c);
@@ -143,59 +144,56 @@ class Writer {
   int exponent_;
   int count_ = kDigits;
   char digits_[kDigits];
-  char text_[32];
-  char* end_ = text_;
+  char* end_;
 };
 
-bool append_small_integer(std::string& out, double number) {
+char* put(char* out, std::string_view text) { return std::copy(text.begin(), text.end(), out); }
+
+// Returns the end of the text, or null if the number is none of few digits.
+char* put_small_integer(char* out, double number) {
   constexpr double kMost = 1e6;
-  if (!(std::abs(number) < kMost) || number != std::trunc(number)) return false;
-  char text[16];
-  const auto end = std::to_chars(text, text + sizeof text, static_cast<int>(number));
-  out.append(text, static_cast<size_t>(end.ptr - text));
-  return true;
+  constexpr int kMostCharacters = 7;
+  if (!(std::abs(number) < kMost)) return nullptr;
+  const int integer = static_cast<int>(number);
+  if (integer != number) return nullptr;
+  return std::to_chars(out, out + kMostCharacters, integer).ptr;
+}
+
+char* put_general_number(char* out, double number) {
+  if (std::signbit(number)) *out++ = '-';
+  const double size = std::abs(number);
+  if (char* const end = put_small_integer(out, size)) return end;
+  if (!std::isfinite(size)) return put(out, std::isnan(size) ? "nan" : "inf");
+  const auto quick = round_quickly(size);
+  const Decimal decimal = quick ? *quick : round_to_even(size, kDigits);
+  Writer writer(decimal, out);
+  constexpr int kLeastExponent = -4;
+  const bool is_plain = decimal.exponent >= kLeastExponent && decimal.exponent <= kMostExponent;
+  return is_plain ? writer.plain() : writer.scientific(2);
 }
 
 }  // namespace
 
-void append_echo_number(std::string& out, double number) {
-  if (append_small_integer(out, number)) return;
-  if (std::isnan(number)) {
-    out += "nan";
-    return;
-  }
-  if (number < 0) out += '-';
-  if (std::isinf(number)) {
-    out += "inf";
-    return;
-  }
+char* put_echo_number(char* out, double number) {
+  if (char* const end = put_small_integer(out, number)) return end;
+  if (std::isnan(number)) return put(out, "nan");
+  if (number < 0) *out++ = '-';
+  if (std::isinf(number)) return put(out, "inf");
   const Decimal decimal = round_away(std::abs(number));
-  Writer writer(decimal);
+  Writer writer(decimal, out);
   constexpr int kLeastExponent = -5;
-  if (decimal.exponent < kLeastExponent || decimal.exponent > kMostExponent)
-    writer.scientific(1);
-  else
-    writer.plain();
-  writer.append_to(out);
+  const bool is_plain = decimal.exponent >= kLeastExponent && decimal.exponent <= kMostExponent;
+  return is_plain ? writer.plain() : writer.scientific(1);
+}
+
+void append_echo_number(std::string& out, double number) {
+  char text[kMostNumberText];
+  out.append(text, put_echo_number(text, number));
 }
 
 void append_general_number(std::string& out, double number) {
-  if (std::signbit(number)) out += '-';
-  const double size = std::abs(number);
-  if (append_small_integer(out, size)) return;
-  if (!std::isfinite(size)) {
-    out += std::isnan(size) ? "nan" : "inf";
-    return;
-  }
-  const auto quick = round_quickly(size);
-  const Decimal decimal = quick ? *quick : round_to_even(size, kDigits);
-  Writer writer(decimal);
-  constexpr int kLeastExponent = -4;
-  if (decimal.exponent < kLeastExponent || decimal.exponent > kMostExponent)
-    writer.scientific(2);
-  else
-    writer.plain();
-  writer.append_to(out);
+  char text[kMostNumberText];
+  out.append(text, put_general_number(text, number));
 }
 
 }  // namespace language

@@ -25,7 +25,6 @@ class Session {
         standard_input_(standard_input),
         program_(std::make_shared<Program>()),
         messages_(program_->files, [this](const Message& message) { take(message); }) {
-    result_.root = std::make_shared<Node>();
     result_.files = std::shared_ptr<const SourceFiles>(program_, &program_->files);
   }
 
@@ -122,7 +121,7 @@ void Session::read_camera(const Machine& machine) {
 }
 
 void Session::say_root_modifiers() {
-  if (const auto other = root_modifiers(*result_.root).other)
+  if (const auto other = root_modifiers(result_.tree).other)
     messages_.warn("More than one Root Modifier (!)", *other);
 }
 
@@ -137,7 +136,7 @@ void Session::evaluate_program() {
   Compiler compiler(*program_, builtin_shapes(program_->names), options_.check_parameters);
   const std::string& folder = program_->units[0].folder;
   ModuleEnvironment modules{messages_, folder, folder, options_.check_ranges};
-  Machine machine(compiler, messages_, modules, options_.stop);
+  Machine machine(compiler, messages_, modules, result_.tree, options_.stop);
   machine_ = &machine;
   preset_names(machine);
   try {
@@ -146,14 +145,14 @@ void Session::evaluate_program() {
                           [&](const Expression& value) { return machine.type_of(value); });
     }
     machine.run_assignments();
-    machine.run_calls(result_.root);
+    machine.run_calls();
   } catch (const Aborted&) {
     result_.outcome = Outcome::kAborted;
-    result_.root = std::make_shared<Node>();
+    result_.tree = {};
     machine.end_early();
   } catch (const Unsupported& unsupported) {
     result_.unknown = unsupported.what();
-    result_.root = std::make_shared<Node>();
+    result_.tree = {};
     return;
   }
   machine_ = nullptr;

@@ -34,11 +34,12 @@ double remainder_of(double left, double right) {
 
 }  // namespace
 
-Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules,
+Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, NodeTree& tree,
                  std::stop_token stop)
     : compiler_(compiler),
       messages_(messages),
       modules_(modules),
+      tree_(tree),
       functions_{messages, seeded_generator(), {}},
       stop_(std::move(stop)),
       builtin_functions_(builtin_functions()),
@@ -89,13 +90,11 @@ void Machine::run_assignments() {
   main_trail_ = dynamic_.trail();
 }
 
-void Machine::run_calls(std::shared_ptr<Node> root) {
-  nodes_.push_back(std::move(root));
+void Machine::run_calls() {
   const Code& code = compiler_.code_of(compiler_.unit(0).calls);
   push_frame(code, stack_.size(), HeapScopes::acquire(main_scope_), FrameKind::kBlock,
              kNoActivation);
   run_guarded();
-  nodes_.pop_back();
 }
 
 void Machine::end_early() {

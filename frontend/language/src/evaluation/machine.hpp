@@ -16,7 +16,7 @@
 #include "evaluation/unit_cache.hpp"
 #include "evaluation/value_stack.hpp"
 #include "functions/builtin_functions.hpp"
-#include "language/node.hpp"
+#include "language/node_tree.hpp"
 #include "messages/messages.hpp"
 #include "modules/builtin_modules.hpp"
 #include "values/make.hpp"
@@ -51,7 +51,9 @@ class HardWarning : public std::exception {
 
 class Machine {
  public:
-  Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, std::stop_token stop);
+  /// Adds its nodes to `tree`.
+  Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modules, NodeTree& tree,
+          std::stop_token stop);
   ~Machine();
 
   /// Gives a `$` name its value before the program begins.
@@ -64,8 +66,8 @@ class Machine {
   void run_assignments();
   /// Returns the value that the top level has assigned to a `$` name: unset if it has not.
   Value top_level_value(std::string_view name) const;
-  /// Evaluates the module calls of the main file, whose nodes become children of `root`.
-  void run_calls(std::shared_ptr<Node> root);
+  /// Evaluates the module calls of the main file. Throws like run_assignments().
+  void run_calls();
   /// Forgets the `$` names of calls that Aborted has ended.
   void end_early();
   /// How many messages have been said, which the sink counts.
@@ -168,7 +170,8 @@ class Machine {
   void keep_unit(const UnitRecord& record, HeapScope* scope);
 
   // modules.cpp
-  void begin_node(const NodeSite& site);
+  void begin_node(const NodeSite& site) { begin_node(site.name, site.modifiers); }
+  void begin_node(std::string_view name, uint8_t modifiers);
   void end_node(bool drop_if_empty);
   void make_node(const NodeSite& site, uint32_t no_children, bool takes_children);
   bool wants_first(const NodeSite& site);
@@ -209,6 +212,7 @@ class Machine {
   Compiler& compiler_;
   Messages& messages_;
   ModuleEnvironment& modules_;
+  NodeTree& tree_;
   FunctionEnvironment functions_;
   std::stop_token stop_;
   std::span<const BuiltinFunction> builtin_functions_;
@@ -221,7 +225,7 @@ class Machine {
   std::vector<Activation> activations_;
   std::vector<HeapScope*> unit_scopes_;   // of used files whose functions are about to be called
   std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called
-  std::vector<std::shared_ptr<Node>> nodes_;
+  std::vector<uint32_t> open_nodes_;      // of the tree, from outside in
   std::vector<std::string_view> module_names_;
   std::vector<Value> parameters_;    // of the call that is being made
   std::vector<UnitRecord> records_;  // of the top levels that are being evaluated

@@ -3,19 +3,15 @@
 
 namespace language {
 
-void Machine::begin_node(const NodeSite& site) {
-  auto node = std::make_shared<Node>();
-  node->name = site.name;
-  node->modifiers = site.modifiers;
-  node->place = place();
-  nodes_.push_back(std::move(node));
+void Machine::begin_node(std::string_view name, uint8_t modifiers) {
+  open_nodes_.push_back(tree_.open(name, modifiers, place()));
 }
 
 void Machine::end_node(bool drop_if_empty) {
-  std::shared_ptr<Node> node = std::move(nodes_.back());
-  nodes_.pop_back();
-  if (drop_if_empty && node->children.empty()) return;
-  nodes_.back()->children.push_back(std::move(node));
+  const uint32_t node = open_nodes_.back();
+  open_nodes_.pop_back();
+  tree_.close(node);
+  if (drop_if_empty && tree_.nodes[node].end == node + 1) tree_.remove_last();
 }
 
 BuiltinCall Machine::builtin_call(const NodeSite& site, bool has_first) {
@@ -41,17 +37,13 @@ Value Machine::dynamic_value(Name name) const {
 
 void Machine::make_node(const NodeSite& site, uint32_t no_children, bool takes_children) {
   count_step();
-  auto node = std::make_shared<Node>();
-  node->modifiers = site.modifiers;
-  node->place = place();
-  const Made made = builtin_modules_[site.module].make(builtin_call(site, true), *node);
+  begin_node({}, site.modifiers);
+  const Made made = builtin_modules_[site.module].make(builtin_call(site, true), tree_);
   stack_.drop_to(stack_.size() - site.parameters - 1);
-  if (made == Made::kNode && takes_children) {
-    nodes_.push_back(std::move(node));
-    return;
-  }
+  if (made == Made::kNode && takes_children) return;
   next_ = no_children;
-  if (made != Made::kNothing) nodes_.back()->children.push_back(std::move(node));
+  end_node(false);
+  if (made == Made::kNothing) tree_.remove_last();
 }
 
 void Machine::refuse_children(const NodeSite& site) {
@@ -92,11 +84,7 @@ void Machine::call_module(const CallSite& site) {
   }
   HeapScope* const scope = take_scope(site);
   activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
-  auto node = std::make_shared<Node>();
-  node->name = "group";
-  node->modifiers = site.modifiers;
-  node->place = place();
-  nodes_.push_back(std::move(node));
+  begin_node("group", site.modifiers);
   const Code& code = compiler_.code_of(module);
   const uint32_t base = stack_.size() - site.slots;
   push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));

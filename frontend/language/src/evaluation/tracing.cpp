@@ -2,6 +2,7 @@
 #include "evaluation/machine.hpp"
 #include "language/stopped.hpp"
 #include "syntax/expression_text.hpp"
+#include "values/object_memory.hpp"
 
 namespace language {
 namespace {
@@ -55,6 +56,7 @@ void Machine::set_unit(uint32_t unit) {
 void Machine::check_limits() {
   steps_ = kStepsPerCheck;
   if (stop_.stop_requested()) throw Stopped();
+  if (tree_.bytes() > static_cast<size_t>(object_memory.limit)) throw OutOfValueMemory();
 }
 
 }  // namespace language

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "language/node.hpp"
+#include "language/node_tree.hpp"
 #include "language/place.hpp"
 #include "language/value.hpp"
 #include "messages/messages.hpp"
@@ -57,8 +57,8 @@ struct BuiltinModule {
   std::span<const std::string_view> positional;  // declared parameters, in order
   std::span<const std::string_view> named_only;
   ChildRule children;
-  /// Fills in the node's name and arguments and says what is wrong with them.
-  Made (*make)(const BuiltinCall& call, Node& node);
+  /// Fills in the name and the arguments of the tree's last node, and says what is wrong with them.
+  Made (*make)(const BuiltinCall& call, NodeTree& tree);
   /// What to use instead of a deprecated module: "linear_extrude()"; empty if it is not deprecated.
   /// Said before the arguments are evaluated.
   std::string_view successor{};

@@ -51,15 +51,15 @@ Rgba color_of_text(const BuiltinCall& call, std::string_view name) {
 
 }  // namespace
 
-Made make_color(const BuiltinCall& call, Node& node) {
+Made make_color(const BuiltinCall& call, NodeTree& tree) {
   const Value& c = call.parameters[0];
   const Value& alpha = call.parameters[1];
-  node.name = "color";
+  set_name(tree, "color");
   Rgba color = kNoColor;
   if (c.is_vector()) color = color_of_vector(call, c.elements());
   if (c.is_string()) color = color_of_text(call, c.text());
   if (alpha.is_number()) color[3] = static_cast<float>(alpha.number());
-  add(node, "", numbers({color[0], color[1], color[2], color[3]}));
+  add_numbers(tree, "", {color[0], color[1], color[2], color[3]});
   return Made::kNode;
 }
 

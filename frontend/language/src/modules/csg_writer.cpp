@@ -1,8 +1,10 @@
 #include "language/csg_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <utility>
+#include <vector>
 
 #include "base/number_text.hpp"
 #include "values/value_text.hpp"
@@ -10,21 +12,37 @@
 namespace language {
 namespace {
 
-/// Appends a number, a boolean, or a vector of these.
-void append_general(std::string& out, const Value& value, std::string_view separator) {
+/// Appends a number or a boolean.
+void append_general(std::string& out, const Value& value) {
   if (value.is_number()) {
     append_general_number(out, value.number());
-  } else if (value.is_vector()) {
-    out += '[';
-    std::string_view before;
-    for (const Value& element : value.elements()) {
-      out += std::exchange(before, separator);
-      append_general(out, element, separator);
-    }
-    out += ']';
   } else {
     append_echo_text(out, value);
   }
+}
+
+void append_list(std::string& out, std::span<const double> numbers, std::string_view separator) {
+  out += '[';
+  std::string_view before;
+  for (const double number : numbers) {
+    out += std::exchange(before, separator);
+    append_general_number(out, number);
+  }
+  out += ']';
+}
+
+// Most of a tree's text is matrices: each is put together first and appended once.
+void append_matrix(std::string& out, std::span<const double> numbers) {
+  constexpr size_t kColumns = 4, kNumbers = 16, kMostBetween = 4;
+  std::array<char, kNumbers*(kMostNumberText + kMostBetween)> text;
+  char* end = text.data();
+  const auto put = [&](std::string_view part) { end = std::copy(part.begin(), part.end(), end); };
+  for (size_t i = 0; i < kNumbers; ++i) {
+    put(i == 0 ? "[[" : i % kColumns == 0 ? "], [" : ", ");
+    end = put_echo_number(end, numbers[i]);
+  }
+  put("]]");
+  out.append(text.data(), end);
 }
 
 void append_integer(std::string& out, double number) {
@@ -43,14 +61,18 @@ void append_escaped(std::string& out, std::string_view text) {
   }
 }
 
-void append_value(std::string& out, const NodeArgument& argument) {
+void append_value(std::string& out, const NodeTree& tree, const NodeArgument& argument) {
+  const std::span<const double> numbers = tree.numbers_of(argument);
   switch (argument.style) {
     case ArgumentStyle::kGeneral:
-      return append_general(out, argument.value, ", ");
+      if (numbers.empty()) return append_general(out, argument.value);
+      return append_list(out, numbers, ", ");
     case ArgumentStyle::kGeneralTight:
-      return append_general(out, argument.value, ",");
+      return append_list(out, numbers, ",");
     case ArgumentStyle::kEcho:
       return append_echo_text(out, argument.value);
+    case ArgumentStyle::kMatrix:
+      return append_matrix(out, numbers);
     case ArgumentStyle::kInteger:
       return append_integer(out, argument.value.number());
     case ArgumentStyle::kRawString:
@@ -67,7 +89,8 @@ void append_value(std::string& out, const NodeArgument& argument) {
 }
 
 /// Appends modifiers, indentation, name and arguments. A root (!) has lost its other modifiers.
-void append_head(std::string& out, const Node& node, size_t depth) {
+void append_head(std::string& out, const NodeTree& tree, uint32_t index, size_t depth) {
+  const Node& node = tree.nodes[index];
   const bool is_root = depth == 0 && (node.modifiers & kRootModifier) != 0;
   if (!is_root && (node.modifiers & kBackgroundModifier) != 0) out += '%';
   if (!is_root && (node.modifiers & kHighlightModifier) != 0) out += '#';
@@ -75,50 +98,44 @@ void append_head(std::string& out, const Node& node, size_t depth) {
   out += node.name;
   out += '(';
   std::string_view before;
-  for (const NodeArgument& argument : node.arguments) {
+  for (const NodeArgument& argument : tree.arguments_of(index)) {
     out += std::exchange(before, ", ");
     if (!argument.name.empty()) out.append(argument.name).append(" = ");
-    append_value(out, argument);
+    append_value(out, tree, argument);
   }
   out += ')';
 }
 
-/// Appends a node and everything below it.
-void append_tree(std::string& out, const Node& top) {
-  struct Open {
-    const Node* node;
-    size_t next;  // child
-  };
-  std::vector<Open> open;
-  const auto begin = [&](const Node& node) {
-    append_head(out, node, open.size());
-    if (node.children.empty()) {
-      out += ";\n";
-    } else {
-      out += " {\n";
-      open.push_back({&node, 0});
+/// Appends the nodes from `begin` to `end`, which are siblings and all below them.
+void append_nodes(std::string& out, const NodeTree& tree, uint32_t begin, uint32_t end) {
+  std::vector<uint32_t> ends;  // of the nodes that are open
+  const auto close_until = [&](uint32_t node) {
+    while (!ends.empty() && ends.back() <= node) {
+      ends.pop_back();
+      out.append(ends.size(), '\t') += "}\n";
     }
   };
-  begin(top);
-  while (!open.empty()) {
-    Open& innermost = open.back();
-    if (innermost.next < innermost.node->children.size()) {
-      begin(*innermost.node->children[innermost.next++]);
-      continue;
-    }
-    open.pop_back();
-    out.append(open.size(), '\t') += "}\n";
+  for (uint32_t i = begin; i < end; ++i) {
+    close_until(i);
+    append_head(out, tree, i, ends.size());
+    const bool has_children = tree.nodes[i].end > i + 1;
+    out += has_children ? " {\n" : ";\n";
+    if (has_children) ends.push_back(tree.nodes[i].end);
   }
+  close_until(end);
 }
 
 }  // namespace
 
-std::string csg_text(const Node& root) {
+std::string csg_text(const NodeTree& tree) {
   std::string out;
-  if (const Node* const shown = root_modifiers(root).shown) {
-    append_tree(out, *shown);
+  // Room that is not used is not touched; growing copies.
+  constexpr size_t kBytesPerNode = 80;
+  out.reserve(kBytesPerNode * tree.size());
+  if (const std::optional<uint32_t> shown = root_modifiers(tree).shown) {
+    append_nodes(out, tree, *shown, tree.nodes[*shown].end);
   } else {
-    for (const std::shared_ptr<Node>& node : root.children) append_tree(out, *node);
+    append_nodes(out, tree, 0, tree.size());
   }
   out += '\n';
   return out;

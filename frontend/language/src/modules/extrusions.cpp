@@ -25,12 +25,12 @@ void note_file(const BuiltinCall& call, const char* module) {
 }
 
 /// The arguments of an extrusion that reads a file itself, up to `origin`.
-NamedFile add_file(const BuiltinCall& call, Node& node, const std::string& name, const Value& layer,
-                   double x, double y) {
+NamedFile add_file(const BuiltinCall& call, NodeTree& tree, const std::string& name,
+                   const Value& layer, double x, double y) {
   const NamedFile file = find_named_file(call, name);
-  add_escaped(node, "file", file.path);
-  add_escaped(node, "layer", str_or_nothing(layer));
-  add(node, "origin", numbers({x, y}));
+  add_escaped(tree, "file", file.path);
+  add_escaped(tree, "layer", str_or_nothing(layer));
+  add_numbers(tree, "origin", {x, y});
   return file;
 }
 
@@ -86,48 +86,48 @@ bool wants_height(const BuiltinCall& call) {
   return !is_given(call.parameters[linear::kHeight]);
 }
 
-Made make_linear_extrude(const BuiltinCall& call, Node& node) {
+Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
   const auto& given = call.parameters;
-  node.name = "linear_extrude";
+  set_name(tree, "linear_extrude");
   const std::string name(text_or(given[linear::kFile], ""));
   if (given[linear::kFile].is_string()) note_file(call, "linear_extrude");
   double x = 0, y = 0;
   read_origin(call, given[linear::kOrigin], "linear_extrude", x, y);
   const std::array<double, 2> scale = linear::read_scale(call);
   if (!name.empty()) {
-    const NamedFile file = add_file(call, node, name, given[linear::kLayer], x, y);
-    add_integer(node, "timestamp", file.timestamp);
+    const NamedFile file = add_file(call, tree, name, given[linear::kLayer], x, y);
+    add_integer(tree, "timestamp", file.timestamp);
   }
-  add(node, "height", linear::read_height(call));
-  add_bool(node, "center", is_true_bool(given[linear::kCenter]));
-  add_integer(node, "convexity", std::max(integer_or(given[linear::kConvexity], 0), 1));
+  add(tree, "height", linear::read_height(call));
+  add_bool(tree, "center", is_true_bool(given[linear::kCenter]));
+  add_integer(tree, "convexity", std::max(integer_or(given[linear::kConvexity], 0), 1));
   const Value& twist = given[linear::kTwist];
-  if (is_finite_number(twist) && twist.number() != 0) add(node, "twist", twist);
+  if (is_finite_number(twist) && twist.number() != 0) add(tree, "twist", twist);
   const int slices = integer_or(given[linear::kSlices], 0);
-  if (slices >= 1) add_integer(node, "slices", slices);
-  add(node, "scale", numbers(scale));
-  if (slices < 1) add_fragments(node, fragments_of(call));
+  if (slices >= 1) add_integer(tree, "slices", slices);
+  add_numbers(tree, "scale", scale);
+  if (slices < 1) add_fragments(tree, fragments_of(call));
   return name.empty() ? Made::kNode : Made::kLeaf;
 }
 
-Made make_rotate_extrude(const BuiltinCall& call, Node& node) {
+Made make_rotate_extrude(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
   const auto& given = call.parameters;
-  node.name = "rotate_extrude";
+  set_name(tree, "rotate_extrude");
   const std::string name = str_or_nothing(given[kFile]);
   if (is_given(given[kFile])) note_file(call, "rotate_extrude");
   double x = 0, y = 0;
   read_origin(call, given[kOrigin], "rotate_extrude", x, y);
   if (!name.empty()) {
-    const NamedFile file = add_file(call, node, name, given[kLayer], x, y);
+    const NamedFile file = add_file(call, tree, name, given[kLayer], x, y);
     const double scale = number_or(given[kScale], 1);
-    add(node, "scale", scale <= 0 ? 1 : scale);
-    add_integer(node, "timestamp", file.timestamp);
+    add(tree, "scale", scale <= 0 ? 1 : scale);
+    add_integer(tree, "timestamp", file.timestamp);
   }
   const int convexity = integer_or(given[kConvexity], 0);
-  add(node, "angle", read_angle(given[kAngle]));
-  add_integer(node, "convexity", convexity <= 0 ? 2 : convexity);
-  add_fragments(node, fragments_of(call));
+  add(tree, "angle", read_angle(given[kAngle]));
+  add_integer(tree, "convexity", convexity <= 0 ? 2 : convexity);
+  add_fragments(tree, fragments_of(call));
   return name.empty() ? Made::kNode : Made::kLeaf;
 }
 

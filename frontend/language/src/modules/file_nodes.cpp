@@ -49,7 +49,7 @@ double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) 
   return kDefault;
 }
 
-Made make_import_node(const BuiltinCall& call, Node& node, bool knows_svg) {
+Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
   enum : size_t {
     kFile,
     kLayer,
@@ -64,7 +64,7 @@ Made make_import_node(const BuiltinCall& call, Node& node, bool knows_svg) {
     kDpi
   };
   const auto& given = call.parameters;
-  node.name = "import";
+  set_name(tree, "import");
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
   const NamedFile file = find_named_file(call, name);
   const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
@@ -75,37 +75,39 @@ Made make_import_node(const BuiltinCall& call, Node& node, bool knows_svg) {
   }
   const double scale = number_or(given[kScale], 0);
   const double dpi = read_dpi(call, given[kDpi], given[kOrigin]);
-  add_escaped(node, "file", file.path);
-  add_escaped(node, "layer", layer);
-  add(node, "origin", numbers({x, y}));
+  add_escaped(tree, "file", file.path);
+  add_escaped(tree, "layer", layer);
+  add_numbers(tree, "origin", {x, y});
   if (knows_svg && is_svg(file.path)) {
-    add_bool(node, "center", is_true_bool(given[kCenter]));
-    add(node, "dpi", dpi);
+    add_bool(tree, "center", is_true_bool(given[kCenter]));
+    add(tree, "dpi", dpi);
   }
-  add(node, "scale", scale <= 0 ? 1 : scale);
-  add_integer(node, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
-  add_fragments(node, fragments_of(call));
-  add_integer(node, "timestamp", file.timestamp);
+  add(tree, "scale", scale <= 0 ? 1 : scale);
+  add_integer(tree, "convexity", std::max(integer_or(given[kConvexity], 0), 1));
+  add_fragments(tree, fragments_of(call));
+  add_integer(tree, "timestamp", file.timestamp);
   return Made::kNode;
 }
 
 }  // namespace
 
-Made make_import(const BuiltinCall& call, Node& node) { return make_import_node(call, node, true); }
-
-Made make_typed_import(const BuiltinCall& call, Node& node) {
-  return make_import_node(call, node, false);
+Made make_import(const BuiltinCall& call, NodeTree& tree) {
+  return make_import_node(call, tree, true);
 }
 
-Made make_surface(const BuiltinCall& call, Node& node) {
+Made make_typed_import(const BuiltinCall& call, NodeTree& tree) {
+  return make_import_node(call, tree, false);
+}
+
+Made make_surface(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kFile, kCenter, kConvexity, kInvert };
   const auto& given = call.parameters;
-  node.name = "surface";
+  set_name(tree, "surface");
   const NamedFile file = find_named_file(call, str_or_nothing(given[kFile]));
-  add_escaped(node, "file", file.path);
-  add_bool(node, "center", is_true_bool(given[kCenter]));
-  add_bool(node, "invert", is_true_bool(given[kInvert]));
-  add_integer(node, "timestamp", file.timestamp);
+  add_escaped(tree, "file", file.path);
+  add_bool(tree, "center", is_true_bool(given[kCenter]));
+  add_bool(tree, "invert", is_true_bool(given[kInvert]));
+  add_integer(tree, "timestamp", file.timestamp);
   return Made::kNode;
 }
 

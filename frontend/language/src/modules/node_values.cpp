@@ -91,36 +91,30 @@ Fragments clamped_fragments(const BuiltinCall& call) {
   return fragments;
 }
 
-Value numbers(std::span<const double> list) {
-  Value vector = make_vector(list.size());
-  for (const double number : list) append_element(vector, number);
-  return vector;
+void add(NodeTree& tree, std::string_view name, Value value, ArgumentStyle style) {
+  tree.add(name, std::move(value), style);
 }
 
-void add(Node& node, std::string_view name, Value value, ArgumentStyle style) {
-  node.arguments.push_back({name, std::move(value), style});
+void add_bool(NodeTree& tree, std::string_view name, bool value) {
+  add(tree, name, Value::boolean(value));
 }
 
-void add_bool(Node& node, std::string_view name, bool value) {
-  add(node, name, Value::boolean(value));
+void add_integer(NodeTree& tree, std::string_view name, int64_t value) {
+  add(tree, name, static_cast<double>(value), ArgumentStyle::kInteger);
 }
 
-void add_integer(Node& node, std::string_view name, int64_t value) {
-  add(node, name, static_cast<double>(value), ArgumentStyle::kInteger);
+void add_raw(NodeTree& tree, std::string_view name, std::string_view text) {
+  add(tree, name, make_string(text), ArgumentStyle::kRawString);
 }
 
-void add_raw(Node& node, std::string_view name, std::string_view text) {
-  add(node, name, make_string(text), ArgumentStyle::kRawString);
+void add_escaped(NodeTree& tree, std::string_view name, std::string_view text) {
+  add(tree, name, make_string(text), ArgumentStyle::kEscapedString);
 }
 
-void add_escaped(Node& node, std::string_view name, std::string_view text) {
-  add(node, name, make_string(text), ArgumentStyle::kEscapedString);
-}
-
-void add_fragments(Node& node, const Fragments& fragments) {
-  add(node, "$fn", fragments.number);
-  add(node, "$fa", fragments.angle);
-  add(node, "$fs", fragments.size);
+void add_fragments(NodeTree& tree, const Fragments& fragments) {
+  add(tree, "$fn", fragments.number);
+  add(tree, "$fa", fragments.angle);
+  add(tree, "$fs", fragments.size);
 }
 
 }  // namespace language

@@ -51,18 +51,21 @@ Fragments clamped_fragments(const BuiltinCall& call);
 /// Says what clamped_fragments() would: primitives without fragments check these, too.
 inline void check_fragments(const BuiltinCall& call) { clamped_fragments(call); }
 
-/// Returns a vector value of numbers.
-Value numbers(std::span<const double> numbers);
-inline Value numbers(std::initializer_list<double> list) {
-  return numbers(std::span<const double>(list.begin(), list.size()));
-}
-
-void add(Node& node, std::string_view name, Value value,
+// The following fill in the last node of a tree.
+inline void set_name(NodeTree& tree, std::string_view name) { tree.nodes.back().name = name; }
+void add(NodeTree& tree, std::string_view name, Value value,
          ArgumentStyle style = ArgumentStyle::kGeneral);
-void add_bool(Node& node, std::string_view name, bool value);
-void add_integer(Node& node, std::string_view name, int64_t value);
-void add_raw(Node& node, std::string_view name, std::string_view text);
-void add_escaped(Node& node, std::string_view name, std::string_view text);
-void add_fragments(Node& node, const Fragments& fragments);
+inline void add_numbers(NodeTree& tree, std::string_view name, std::span<const double> numbers,
+                        ArgumentStyle style = ArgumentStyle::kGeneral) {
+  tree.add(name, numbers, style);
+}
+inline void add_numbers(NodeTree& tree, std::string_view name, std::initializer_list<double> list) {
+  tree.add(name, std::span<const double>(list.begin(), list.size()), ArgumentStyle::kGeneral);
+}
+void add_bool(NodeTree& tree, std::string_view name, bool value);
+void add_integer(NodeTree& tree, std::string_view name, int64_t value);
+void add_raw(NodeTree& tree, std::string_view name, std::string_view text);
+void add_escaped(NodeTree& tree, std::string_view name, std::string_view text);
+void add_fragments(NodeTree& tree, const Fragments& fragments);
 
 }  // namespace language

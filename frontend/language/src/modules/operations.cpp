@@ -28,47 +28,47 @@ std::array<double, 3> read_auto(const Value& value) {
 
 }  // namespace
 
-Made make_projection(const BuiltinCall& call, Node& node) {
-  node.name = "projection";
-  add_bool(node, "cut", is_true_bool(call.parameters[0]));
-  add_integer(node, "convexity", integer_or(call.parameters[1], 0));
+Made make_projection(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "projection");
+  add_bool(tree, "cut", is_true_bool(call.parameters[0]));
+  add_integer(tree, "convexity", integer_or(call.parameters[1], 0));
   return Made::kNode;
 }
 
-Made make_offset(const BuiltinCall& call, Node& node) {
+Made make_offset(const BuiltinCall& call, NodeTree& tree) {
   const Value& r = call.parameters[0];
   const Value& delta = call.parameters[1];
-  node.name = "offset";
+  set_name(tree, "offset");
   if (delta.is_number() && !r.is_number()) {
-    add(node, "delta", delta);
-    add_bool(node, "chamfer", is_true_bool(call.parameters[2]));
+    add(tree, "delta", delta);
+    add_bool(tree, "chamfer", is_true_bool(call.parameters[2]));
   } else {
-    add(node, "r", number_or(r, 1));
+    add(tree, "r", number_or(r, 1));
   }
-  add_fragments(node, fragments_of(call));
+  add_fragments(tree, fragments_of(call));
   return Made::kNode;
 }
 
-Made make_hull(const BuiltinCall&, Node& node) {
-  node.name = "hull";
+Made make_hull(const BuiltinCall&, NodeTree& tree) {
+  set_name(tree, "hull");
   return Made::kNode;
 }
 
-Made make_minkowski(const BuiltinCall& call, Node& node) {
-  node.name = "minkowski";
-  add_integer(node, "convexity", unsigned_convexity(call.parameters[0]));
+Made make_minkowski(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "minkowski");
+  add_integer(tree, "convexity", unsigned_convexity(call.parameters[0]));
   return Made::kNode;
 }
 
-Made make_render(const BuiltinCall& call, Node& node) {
-  node.name = "render";
-  add_integer(node, "convexity", integer_or(call.parameters[0], 1));
+Made make_render(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "render");
+  add_integer(tree, "convexity", integer_or(call.parameters[0], 1));
   return Made::kNode;
 }
 
-Made make_resize(const BuiltinCall& call, Node& node) {
+Made make_resize(const BuiltinCall& call, NodeTree& tree) {
   const Value& new_size = call.parameters[0];
-  node.name = "resize";
+  set_name(tree, "resize");
   std::array<double, 3> sizes = {0, 0, 0};
   if (new_size.is_vector()) {
     const std::span<const Value> elements = new_size.elements();
@@ -76,9 +76,9 @@ Made make_resize(const BuiltinCall& call, Node& node) {
       sizes[i] = number_or(elements[i], 0);
     }
   }
-  add(node, "newsize", numbers(sizes), ArgumentStyle::kGeneralTight);
-  add(node, "auto", numbers(read_auto(call.parameters[1])), ArgumentStyle::kGeneralTight);
-  add_integer(node, "convexity", unsigned_convexity(call.parameters[2]));
+  add_numbers(tree, "newsize", sizes, ArgumentStyle::kGeneralTight);
+  add_numbers(tree, "auto", read_auto(call.parameters[1]), ArgumentStyle::kGeneralTight);
+  add_integer(tree, "convexity", unsigned_convexity(call.parameters[2]));
   return Made::kNode;
 }
 

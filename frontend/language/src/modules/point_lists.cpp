@@ -36,22 +36,22 @@ bool holds_function(const Value& value) {
   return false;
 }
 
-void add_list(Node& node, std::string_view name, const Value& list) {
+void add_list(NodeTree& tree, std::string_view name, const Value& list) {
   Value kept = list.is_set() ? list : Value::undef();
   if (holds_function(kept)) kept = Value::adopt(new SpelledValue(echo_text(kept)));
-  add(node, name, std::move(kept), ArgumentStyle::kEcho);
+  add(tree, name, std::move(kept), ArgumentStyle::kEcho);
 }
 
-void add_convexity(Node& node, const Value& convexity) {
-  add_integer(node, "convexity", std::max(integer_or(convexity, 0), 1));
+void add_convexity(NodeTree& tree, const Value& convexity) {
+  add_integer(tree, "convexity", std::max(integer_or(convexity, 0), 1));
 }
 
 }  // namespace
 
-Made make_polyhedron(const BuiltinCall& call, Node& node) {
+Made make_polyhedron(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kPoints, kFaces, kConvexity, kTriangles };
   const auto& given = call.parameters;
-  node.name = "polyhedron";
+  set_name(tree, "polyhedron");
   check_fragments(call);
   const bool has_triangles = !is_given(given[kFaces]) && is_given(given[kTriangles]);
   if (has_triangles) {
@@ -59,18 +59,18 @@ Made make_polyhedron(const BuiltinCall& call, Node& node) {
               "polyhedron(triangles=[]) will be removed in future releases. Use "
               "polyhedron(faces=[]) instead.");
   }
-  add_list(node, "points", given[kPoints]);
-  add_list(node, "faces", given[has_triangles ? kTriangles : kFaces]);
-  add_convexity(node, given[kConvexity]);
+  add_list(tree, "points", given[kPoints]);
+  add_list(tree, "faces", given[has_triangles ? kTriangles : kFaces]);
+  add_convexity(tree, given[kConvexity]);
   return Made::kNode;
 }
 
-Made make_polygon(const BuiltinCall& call, Node& node) {
-  node.name = "polygon";
+Made make_polygon(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "polygon");
   check_fragments(call);
-  add_list(node, "points", call.parameters[0]);
-  add_list(node, "paths", call.parameters[1]);
-  add_convexity(node, call.parameters[2]);
+  add_list(tree, "points", call.parameters[0]);
+  add_list(tree, "paths", call.parameters[1]);
+  add_convexity(tree, call.parameters[2]);
   return Made::kNode;
 }
 

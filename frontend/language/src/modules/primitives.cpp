@@ -31,23 +31,23 @@ bool make_a_solid(double lower, double upper) {
   return are_radii && std::isfinite(lower) && std::isfinite(upper);
 }
 
-Made make_round(const BuiltinCall& call, Node& node, std::string_view name) {
-  node.name = name;
+Made make_round(const BuiltinCall& call, NodeTree& tree, std::string_view name) {
+  set_name(tree, name);
   const Fragments fragments = clamped_fragments(call);
   const Value radius = read_radius(call, call.parameters[0], call.parameters[1], "r", "d");
   if (radius.is_set()) {
     check_range(call, is_positive(radius.number()),
                 std::string(name) + "(r=" + shown(radius) + ")");
   }
-  add_fragments(node, fragments);
-  add(node, "r", number_or(radius, 1));
+  add_fragments(tree, fragments);
+  add(tree, "r", number_or(radius, 1));
   return Made::kNode;
 }
 
 }  // namespace
 
-Made make_cube(const BuiltinCall& call, Node& node) {
-  node.name = "cube";
+Made make_cube(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "cube");
   check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 3> sizes = {1, 1, 1};
@@ -63,13 +63,13 @@ Made make_cube(const BuiltinCall& call, Node& node) {
                   "cube(size=" + shown(size) + ", ...)");
     }
   }
-  add(node, "size", numbers(sizes));
-  add_bool(node, "center", is_true_bool(call.parameters[1]));
+  add_numbers(tree, "size", sizes);
+  add_bool(tree, "center", is_true_bool(call.parameters[1]));
   return Made::kNode;
 }
 
-Made make_square(const BuiltinCall& call, Node& node) {
-  node.name = "square";
+Made make_square(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "square");
   check_fragments(call);
   const Value& size = call.parameters[0];
   std::array<double, 2> sizes = {1, 1};
@@ -84,17 +84,21 @@ Made make_square(const BuiltinCall& call, Node& node) {
                   "square(size=" + shown(size) + ", ...)");
     }
   }
-  add(node, "size", numbers(sizes));
-  add_bool(node, "center", is_true_bool(call.parameters[1]));
+  add_numbers(tree, "size", sizes);
+  add_bool(tree, "center", is_true_bool(call.parameters[1]));
   return Made::kNode;
 }
 
-Made make_sphere(const BuiltinCall& call, Node& node) { return make_round(call, node, "sphere"); }
+Made make_sphere(const BuiltinCall& call, NodeTree& tree) {
+  return make_round(call, tree, "sphere");
+}
 
-Made make_circle(const BuiltinCall& call, Node& node) { return make_round(call, node, "circle"); }
+Made make_circle(const BuiltinCall& call, NodeTree& tree) {
+  return make_round(call, tree, "circle");
+}
 
-Made make_cylinder(const BuiltinCall& call, Node& node) {
-  node.name = "cylinder";
+Made make_cylinder(const BuiltinCall& call, NodeTree& tree) {
+  set_name(tree, "cylinder");
   enum : size_t { kH, kR1, kR2, kCenter, kR, kD, kD1, kD2 };
   const auto& given = call.parameters;
   const Fragments fragments = clamped_fragments(call);
@@ -109,11 +113,11 @@ Made make_cylinder(const BuiltinCall& call, Node& node) {
   check_range(call, make_a_solid(lower, upper),
               "cylinder(r1=" + shown(r1.is_set() ? r1 : r) + ", r2=" + shown(r2.is_set() ? r2 : r) +
                   ", ...)");
-  add_fragments(node, fragments);
-  add(node, "h", h);
-  add(node, "r1", lower);
-  add(node, "r2", upper);
-  add_bool(node, "center", is_true_bool(given[kCenter]));
+  add_fragments(tree, fragments);
+  add(tree, "h", h);
+  add(tree, "r1", lower);
+  add(tree, "r2", upper);
+  add_bool(tree, "center", is_true_bool(given[kCenter]));
   return Made::kNode;
 }
 

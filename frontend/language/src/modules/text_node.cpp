@@ -26,7 +26,7 @@ std::string_view direction_named(std::string_view name) {
 
 }  // namespace
 
-Made make_text(const BuiltinCall& call, Node& node) {
+Made make_text(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kText, kSize, kFont, kDirection, kLanguage, kScript, kHalign, kValign, kSpacing };
   const auto& given = call.parameters;
   const std::string_view text = text_or(given[kText], "");
@@ -36,17 +36,17 @@ Made make_text(const BuiltinCall& call, Node& node) {
   const std::string_view script = code.empty() ? script_name : code;
   std::string_view direction = direction_named(text_or(given[kDirection], ""));
   if (direction.empty()) direction = direction_of_script(code);
-  node.name = "text";
-  add_raw(node, "text", text);
-  add(node, "size", number_or(given[kSize], 10));
-  add(node, "spacing", number_or(given[kSpacing], 1));
-  add_raw(node, "font", text_or(given[kFont], ""));
-  add_raw(node, "direction", direction);
-  add_raw(node, "language", text_or(given[kLanguage], "en"));
-  if (!script.empty()) add_raw(node, "script", script);
-  add_raw(node, "halign", text_or(given[kHalign], "left"));
-  add_raw(node, "valign", text_or(given[kValign], "baseline"));
-  add_fragments(node, fragments_of(call));
+  set_name(tree, "text");
+  add_raw(tree, "text", text);
+  add(tree, "size", number_or(given[kSize], 10));
+  add(tree, "spacing", number_or(given[kSpacing], 1));
+  add_raw(tree, "font", text_or(given[kFont], ""));
+  add_raw(tree, "direction", direction);
+  add_raw(tree, "language", text_or(given[kLanguage], "en"));
+  if (!script.empty()) add_raw(tree, "script", script);
+  add_raw(tree, "halign", text_or(given[kHalign], "left"));
+  add_raw(tree, "valign", text_or(given[kValign], "baseline"));
+  add_fragments(tree, fragments_of(call));
   return Made::kNode;
 }
 

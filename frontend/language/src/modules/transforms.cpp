@@ -18,11 +18,9 @@ using Matrix = std::array<std::array<double, 4>, 4>;  // by rows
 
 constexpr Matrix kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
-Made finish(Node& node, const Matrix& matrix) {
-  node.name = "multmatrix";
-  Value rows = make_vector(4);
-  for (const auto& row : matrix) append_element(rows, numbers(row));
-  add(node, "", std::move(rows), ArgumentStyle::kEcho);
+Made finish(NodeTree& tree, const Matrix& matrix) {
+  set_name(tree, "multmatrix");
+  add_numbers(tree, "", {matrix.front().data(), 16}, ArgumentStyle::kMatrix);
   return Made::kNode;
 }
 
@@ -86,7 +84,7 @@ bool read_angles(std::span<const Value> elements, Vec3& angles_deg) {
   return is_good;
 }
 
-Made rotate_by_vector(const BuiltinCall& call, Node& node) {
+Made rotate_by_vector(const BuiltinCall& call, NodeTree& tree) {
   const Value& a = call.parameters[0];
   const Value& v = call.parameters[1];
   Vec3 angles_deg = {0, 0, 0};
@@ -98,12 +96,12 @@ Made rotate_by_vector(const BuiltinCall& call, Node& node) {
   } else if (is_given(v)) {
     warn(call, "When parameter a is supplied as vector, v is ignored " + arguments);
   }
-  return finish(node, times_identity(rotation(angles_deg)));
+  return finish(tree, times_identity(rotation(angles_deg)));
 }
 
 }  // namespace
 
-Made make_translate(const BuiltinCall& call, Node& node) {
+Made make_translate(const BuiltinCall& call, NodeTree& tree) {
   const Value& v = call.parameters[0];
   Vec3 move = {0, 0, 0};
   Matrix matrix = kIdentity;
@@ -113,10 +111,10 @@ Made make_translate(const BuiltinCall& call, Node& node) {
     warn(call,
          "Unable to convert translate(" + shown(v) + ") parameter to a vec3 or vec2 of numbers");
   }
-  return finish(node, matrix);
+  return finish(tree, matrix);
 }
 
-Made make_scale(const BuiltinCall& call, Node& node) {
+Made make_scale(const BuiltinCall& call, NodeTree& tree) {
   const Value& v = call.parameters[0];
   Vec3 factors = {1, 1, 1};
   if (v.is_number()) {
@@ -133,13 +131,13 @@ Made make_scale(const BuiltinCall& call, Node& node) {
   for (size_t row = 0; row < 3; ++row) {
     for (size_t column = 0; column < 3; ++column) matrix[row][column] *= factors[column];
   }
-  return finish(node, matrix);
+  return finish(tree, matrix);
 }
 
-Made make_rotate(const BuiltinCall& call, Node& node) {
+Made make_rotate(const BuiltinCall& call, NodeTree& tree) {
   const Value& a = call.parameters[0];
   const Value& v = call.parameters[1];
-  if (a.is_vector()) return rotate_by_vector(call, node);
+  if (a.is_vector()) return rotate_by_vector(call, tree);
   Vec3 axis = {0, 0, 1};
   const bool is_angle = is_finite_number(a);
   const bool is_axis = !is_given(v) || read_vec3(v, axis, 0);
@@ -150,10 +148,10 @@ Made make_rotate(const BuiltinCall& call, Node& node) {
   } else if (!is_axis) {
     warn(call, "Problem converting rotate(..., v=" + shown(v) + ") parameter");
   }
-  return finish(node, times_identity(rotation_about(is_angle ? a.number() : 0, axis)));
+  return finish(tree, times_identity(rotation_about(is_angle ? a.number() : 0, axis)));
 }
 
-Made make_mirror(const BuiltinCall& call, Node& node) {
+Made make_mirror(const BuiltinCall& call, NodeTree& tree) {
   const Value& v = call.parameters[0];
   Vec3 n = {1, 0, 0};
   if (!read_vec3(v, n, 0)) {
@@ -169,10 +167,10 @@ Made make_mirror(const BuiltinCall& call, Node& node) {
       }
     }
   }
-  return finish(node, matrix);
+  return finish(tree, matrix);
 }
 
-Made make_multmatrix(const BuiltinCall& call, Node& node) {
+Made make_multmatrix(const BuiltinCall& call, NodeTree& tree) {
   const Value& m = call.parameters[0];
   Matrix matrix = kIdentity;
   if (m.is_vector()) {
@@ -191,7 +189,7 @@ Made make_multmatrix(const BuiltinCall& call, Node& node) {
       }
     }
   }
-  return finish(node, matrix);
+  return finish(tree, matrix);
 }
 
 }  // namespace language

@@ -1,0 +1,94 @@
+// The tree of nodes that a design evaluates to: what OpenSCAD writes as .csg.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "language/call_modifier.hpp"
+#include "language/growing_array.hpp"
+#include "language/place.hpp"
+#include "language/value.hpp"
+
+namespace language {
+
+/// How the .csg writer spells an argument (LANGUAGE.md, "Builtin modules").
+enum class ArgumentStyle : uint8_t {
+  kGeneral,        // "%g" numbers, vectors as [G, G]
+  kGeneralTight,   // the same without blanks: [G,G,G]
+  kEcho,           // as echo() spells values
+  kMatrix,         // 16 numbers: four rows, as echo() spells them
+  kInteger,        // a whole number, with all of its digits
+  kRawString,      // in quotes, nothing escaped
+  kEscapedString,  // in quotes, with \t \n \r \" \\ escaped
+};
+
+struct NodeArgument {
+  std::string_view name;  // static storage; empty: positional
+  Value value;            // in full double precision; undef if numbers stand in its place
+  ArgumentStyle style = ArgumentStyle::kGeneral;
+  uint8_t number_count = 0;  // not 0: the argument is that many of the tree's numbers
+  uint32_t first_number = 0;
+};
+
+struct Node {
+  std::string_view name;  // as .csg spells it, static storage: "cube", "group"
+  Place place;            // of the module call that made it
+  uint32_t first_argument = 0;
+  uint32_t end = 0;       // index behind its last descendant
+  uint8_t modifiers = 0;  // CallModifier
+};
+
+/// Nodes in preorder: the first child of node i is i + 1, the sibling behind child c is
+/// nodes[c].end, and the last child's end is nodes[i].end. The design's top-level nodes begin at 0.
+/// Arguments and numbers are in the order of their nodes, so whatever is taken off the end of the
+/// tree is the last that was added.
+struct NodeTree {
+  GrowingArray<Node> nodes;
+  GrowingArray<NodeArgument> arguments;
+  GrowingArray<double> numbers;
+
+  /// Returns a node's arguments in the order in which .csg lists them.
+  std::span<const NodeArgument> arguments_of(uint32_t node) const {
+    const size_t first = nodes[node].first_argument;
+    const bool is_last = node + 1 == nodes.size();
+    return {arguments.data() + first,
+            (is_last ? arguments.size() : nodes[node + 1].first_argument) - first};
+  }
+  std::span<const double> numbers_of(const NodeArgument& argument) const {
+    return {numbers.data() + argument.first_number, argument.number_count};
+  }
+  uint32_t size() const { return static_cast<uint32_t>(nodes.size()); }
+  /// Returns what the tree takes, without the strings and vectors of its arguments.
+  size_t bytes() const {
+    return nodes.size() * sizeof(Node) + arguments.size() * sizeof(NodeArgument) +
+           numbers.size() * sizeof(double);
+  }
+
+  /// Adds a node behind all others. Its end is not known yet.
+  uint32_t open(std::string_view name, uint8_t modifiers, Place place);
+  /// All nodes behind it are its descendants.
+  void close(uint32_t node) { nodes[node].end = size(); }
+  /// Removes the last node, which must have no descendants.
+  void remove_last();
+  /// Adds an argument to the last node.
+  void add(std::string_view name, Value value, ArgumentStyle style);
+  /// The same with numbers in place of the value, of which there must be 1 to 255.
+  void add(std::string_view name, std::span<const double> values, ArgumentStyle style);
+};
+
+/// What a tree's root modifiers (!) ask for.
+struct RootModifiers {
+  std::optional<uint32_t> shown{};  // the first node that has one
+  /// The first one after it that stems from another call: OpenSCAD warns of it.
+  std::optional<Place> other{};
+};
+
+/// Finds the nodes with root modifiers.
+RootModifiers root_modifiers(const NodeTree& tree);
+
+/// Returns whether two trees are the same to the last bit, their places among it.
+bool are_same(const NodeTree& a, const NodeTree& b);
+
+}  // namespace language

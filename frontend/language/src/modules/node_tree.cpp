@@ -1,0 +1,76 @@
+#include "language/node_tree.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "values/operators.hpp"
+
+namespace language {
+
+uint32_t NodeTree::open(std::string_view name, uint8_t modifiers, Place place) {
+  nodes.push_back({name, place, static_cast<uint32_t>(arguments.size()), 0, modifiers});
+  return size() - 1;
+}
+
+void NodeTree::remove_last() {
+  for (const NodeArgument& argument : arguments_of(size() - 1)) {
+    if (argument.number_count == 0) continue;
+    numbers.truncate(argument.first_number);
+    break;
+  }
+  arguments.truncate(nodes.back().first_argument);
+  nodes.truncate(size() - 1);
+}
+
+void NodeTree::add(std::string_view name, Value value, ArgumentStyle style) {
+  arguments.push_back({name, std::move(value), style});
+}
+
+void NodeTree::add(std::string_view name, std::span<const double> values, ArgumentStyle style) {
+  arguments.push_back({name,
+                       {},
+                       style,
+                       static_cast<uint8_t>(values.size()),
+                       static_cast<uint32_t>(numbers.size())});
+  numbers.append(values);
+}
+
+namespace {
+
+bool is_same(const Node& a, const Node& b) {
+  return a.name == b.name && a.place == b.place && a.first_argument == b.first_argument &&
+         a.end == b.end && a.modifiers == b.modifiers;
+}
+
+bool is_same(const NodeArgument& a, const NodeArgument& b) {
+  return a.name == b.name && a.style == b.style && a.number_count == b.number_count &&
+         a.value.type() == b.value.type() && equal(a.value, b.value);
+}
+
+}  // namespace
+
+bool are_same(const NodeTree& a, const NodeTree& b) {
+  const auto is_equal = [](const auto& x, const auto& y) { return is_same(x, y); };
+  return std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end()) &&
+
+         std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), is_equal) &&
+         std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
+                    is_equal);
+}
+
+RootModifiers root_modifiers(const NodeTree& tree) {
+  RootModifiers found;
+  for (uint32_t i = 0; i < tree.size(); ++i) {
+    const Node& node = tree.nodes[i];
+    if ((node.modifiers & kRootModifier) == 0) continue;
+    if (!found.shown) {
+      found.shown = i;
+    } else if (node.place != tree.nodes[*found.shown].place) {
+      found.other = node.place;
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace language

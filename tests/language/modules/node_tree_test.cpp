@@ -1,0 +1,83 @@
+#include "language/node_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <utility>
+
+#include "values/make.hpp"
+
+namespace language {
+namespace {
+
+constexpr std::array<double, 3> kSizes = {1, 2, 3};
+
+/// Returns two nodes, the second of which is a child of the first.
+NodeTree tree_of_two(double radius = 4, uint32_t offset = 7) {
+  NodeTree tree;
+  const uint32_t cube = tree.open("cube", 0, {0, 3});
+  tree.add("size", kSizes, ArgumentStyle::kGeneral);
+  const uint32_t sphere = tree.open("sphere", kHighlightModifier, {0, offset});
+  tree.add("r", radius, ArgumentStyle::kGeneral);
+  tree.add("also", kSizes, ArgumentStyle::kGeneral);
+  tree.close(sphere);
+  tree.close(cube);
+  return tree;
+}
+
+TEST(NodeTree, KeepsArgumentsApart) {
+  const NodeTree tree = tree_of_two();
+  EXPECT_EQ(tree.nodes[0].end, 2u);
+  ASSERT_EQ(tree.arguments_of(0).size(), 1u);
+  ASSERT_EQ(tree.arguments_of(1).size(), 2u);
+  EXPECT_EQ(tree.numbers_of(tree.arguments_of(0)[0])[2], 3);
+  EXPECT_EQ(tree.arguments_of(1)[0].value.number(), 4);
+  EXPECT_TRUE(tree.numbers_of(tree.arguments_of(1)[0]).empty());
+}
+
+TEST(NodeTree, RemovesTheLastNodeAsAWhole) {
+  NodeTree tree = tree_of_two();
+  tree.remove_last();
+  EXPECT_EQ(tree.size(), 1u);
+  EXPECT_EQ(tree.arguments.size(), 1u);
+  EXPECT_EQ(tree.numbers.size(), 3u);
+  EXPECT_EQ(tree.arguments_of(0).size(), 1u);
+}
+
+TEST(NodeTree, TellsTreesApart) {
+  EXPECT_TRUE(are_same(tree_of_two(), tree_of_two()));
+  EXPECT_FALSE(are_same(tree_of_two(), tree_of_two(5)));
+  EXPECT_FALSE(are_same(tree_of_two(), tree_of_two(4, 8)));
+  NodeTree other = tree_of_two();
+  other.numbers[1] = 9;
+  EXPECT_FALSE(are_same(tree_of_two(), other));
+}
+
+TEST(NodeTree, FindsRootModifiers) {
+  NodeTree tree = tree_of_two();
+  EXPECT_FALSE(root_modifiers(tree).shown);
+  tree.close(tree.open("cube", kRootModifier, {0, 20}));
+  tree.close(tree.open("cube", kRootModifier, {0, 20}));
+  EXPECT_EQ(root_modifiers(tree).shown, 2u);
+  EXPECT_FALSE(root_modifiers(tree).other) << "both stem from one call";
+  tree.close(tree.open("cube", kRootModifier, {0, 30}));
+  EXPECT_EQ(root_modifiers(tree).other, (Place{0, 30}));
+}
+
+TEST(GrowingArray, KeepsItsElementsWhereverTheyLie) {
+  constexpr int kCount = 5000;
+  const Value text = make_string("text");
+  GrowingArray<Value> array;
+  for (int i = 0; i < kCount; ++i) array.push_back(text);
+  EXPECT_EQ(text.object()->references, kCount + 1u);
+  array.truncate(10);
+  EXPECT_EQ(text.object()->references, 11u);
+  GrowingArray<Value> moved = std::move(array);
+  ASSERT_EQ(moved.size(), 10u);
+  EXPECT_EQ(moved.back().text(), "text");
+  moved = {};
+  EXPECT_EQ(text.object()->references, 1u);
+}
+
+}  // namespace
+}  // namespace language
