@@ -32,6 +32,23 @@ ECHO: 2
 )");
 }
 
+TEST(Functions, ElementsOfVariablesAreTheirs) {
+  const Evaluated result = evaluated(R"(function f(v, i) = [v.x, v.z, v[i], v.begin, v.w, v[i].y];
+echo(f([1, 2], 1), f([[3, 4]], 0), f([5 : 6], 2), f("ab", 1), f(undef, 0), f([1, 2], "a"));
+)");
+  EXPECT_EQ(
+      result.messages,
+      R"(ECHO: [1, undef, 2, undef, undef, undef], [[3, 4], undef, [3, 4], undef, undef, 4], [undef, undef, 6, 5, undef, undef], [undef, undef, "b", undef, undef, undef], [undef, undef, undef, undef, undef, undef], [1, undef, undef, undef, undef, undef]
+)");
+}
+
+TEST(Functions, LoopsInAVectorAppendBehindWhatIsThere) {
+  const Evaluated result = evaluated(R"(echo([0, for (i = [1 : 2]) i, for (i = "ab") let (j = i) j,
+  for (i = [0 : 1], j = [0 : 2]) i * 3 + j, for (i = []) i, 7]);
+)");
+  EXPECT_EQ(result.messages, "ECHO: [0, 1, 2, \"a\", \"b\", 0, 1, 2, 3, 4, 5, 7]\n");
+}
+
 TEST(Functions, TailCallsNeedNoStack) {
   const Evaluated result = evaluated(R"(function f(n, a = 0) = n == 0 ? a : f(n - 1, a + n);
 g = function(n) n == 0 ? "end" : g(n - 1);

@@ -91,6 +91,12 @@ class Value {
   /// Returns whether this is the only reference to its object, which may then be changed.
   bool is_unique() const { return is_shared() && payload_.object->references == 1; }
 
+  /// Gives up the reference to an object without counting it, and becomes undef.
+  SharedObject* disown() {
+    type_ = ValueType::kUndef;
+    return payload_.object;
+  }
+
   /// Returns OpenSCAD's truth: false are false, 0, "", [] and undef (LANGUAGE.md, "Values").
   bool is_true() const {
     if (type_ == ValueType::kBool) return payload_.boolean;

@@ -28,6 +28,14 @@ class CodeBuilder {
     set_depth(depth_ + static_cast<uint32_t>(pushed));
     return here() - 1;
   }
+  /// Removes the last instruction, which has pushed one value and to which nothing jumps.
+  Instruction take_back() {
+    const Instruction last = code_.instructions.back();
+    code_.instructions.pop_back();
+    code_.places.pop_back();
+    --depth_;
+    return last;
+  }
   /// Lets the jump at a position go to the next instruction.
   void land(uint32_t position) { code_.instructions[position].b = here(); }
   Instruction& at(uint32_t position) { return code_.instructions[position]; }

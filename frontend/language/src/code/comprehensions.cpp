@@ -4,6 +4,16 @@
 #include "code/code_compiler.hpp"
 
 namespace language {
+namespace {
+
+// Returns whether an element of a comprehension appends exactly one value.
+bool appends_one(const Expression* element) {
+  while (element && element->kind >= ExpressionKind::kLet && element->kind <= ExpressionKind::kEcho)
+    element = as<BodyExpression>(*element).body;
+  return !element || element->kind < ExpressionKind::kLet;
+}
+
+}  // namespace
 
 void CodeCompiler::element(const Expression& value, uint32_t vector) {
   switch (value.kind) {
@@ -76,6 +86,7 @@ void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExp
   expression(*source.value);
   const uint32_t state = out_.depth() - 1;
   out_.emit(Op::kBeginLoop, loop.place, 2, 0, 0, kElementLoop);
+  if (sources.size() == 1 && appends_one(loop.body)) out_.emit(Op::kReserve, loop.place, 0, vector);
   ScopeLayout& scope = open_scope(is_in_heap && has_name && !is_dynamic, source.place);
   const uint32_t open = out_.here() - 1;
   const uint32_t next = out_.emit(Op::kNextRound, loop.place, 1, 0, state);
@@ -102,9 +113,11 @@ void CodeCompiler::for_elements(std::span<const Argument> sources, const BodyExp
 // that they set are forgotten.
 void CodeCompiler::for_c_elements(const ForCExpression& loop, uint32_t vector) {
   const uint32_t base = out_.depth();
-  out_.emit(Op::kMarkTrail, loop.place, 1);
+  const bool has_dynamic = names_dynamic(loop.init, compiler_.names()) ||
+                           names_dynamic(loop.increment, compiler_.names());
+  if (has_dynamic) out_.emit(Op::kMarkTrail, loop.place, 1);
+  const uint32_t rounds = out_.depth();
   out_.constant(0.0, loop.place);
-  const uint32_t rounds = base + 1;
   ScopeLayout& scope = open_scope(contains_literal(loop), loop.place);
   const uint32_t open = out_.here() - 1;
   declare_for_c(loop, scope);
@@ -115,17 +128,17 @@ void CodeCompiler::for_c_elements(const ForCExpression& loop, uint32_t vector) {
     if (variable && !variable->is_set) variable->is_optional = true;
   }
   const uint32_t inner_mark = out_.depth();
-  out_.emit(Op::kMarkTrail, loop.place, 1);
+  if (has_dynamic) out_.emit(Op::kMarkTrail, loop.place, 1);
   const uint32_t start = out_.here();
   const uint32_t done = jump_if_false(*loop.condition);
   element_or_undef(loop.body, loop.place, vector);
   out_.emit(Op::kCountRound, loop.place, 0, rounds);
   for_c_assignments(loop.increment, scope);
-  out_.emit(Op::kUndoTrail, loop.place, 0, inner_mark);
+  if (has_dynamic) out_.emit(Op::kUndoTrail, loop.place, 0, inner_mark);
   out_.emit(Op::kJump, loop.place, 0, start);
   out_.land(done);
   close_scope(loop.place);
-  out_.emit(Op::kUndoTrail, loop.place, 0, base);
+  if (has_dynamic) out_.emit(Op::kUndoTrail, loop.place, 0, base);
   drop_to(base, loop.place);
 }
 

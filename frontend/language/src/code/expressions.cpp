@@ -44,6 +44,12 @@ bool is_arithmetic(const Expression& expression) {
   return expression.kind == ExpressionKind::kBinary && !is_logical(expression);
 }
 
+MemberPosition member_position(std::string_view name) {
+  if (name == "x") return kX;
+  if (name == "y") return kY;
+  return name == "z" ? kZ : kNoPosition;
+}
+
 }  // namespace
 
 void CodeCompiler::expression(const Expression& expression) {
@@ -150,12 +156,19 @@ void CodeCompiler::index_chain(const Expression& outermost) {
       container = as<MemberExpression>(*container).container;
     }
   }
+  const uint32_t start = out_.here();
   expression(*container);
   for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+    // Elements of a variable need no copy of it.
+    const bool is_local = out_.here() == start + 1 && out_.at(start).op == Op::kLocal;
+    const uint32_t slot = is_local ? out_.take_back().b : 0;
     if ((*link)->kind == ExpressionKind::kIndex) {
-      out_.emit(Op::kIndex, (*link)->place, -1);
+      out_.emit(is_local ? Op::kIndexLocal : Op::kIndex, (*link)->place, is_local ? 0 : -1, 0,
+                slot);
     } else {
-      out_.emit(Op::kMember, (*link)->place, 0, as<MemberExpression>(**link).member);
+      const Name name = as<MemberExpression>(**link).member;
+      out_.emit(is_local ? Op::kMemberLocal : Op::kMember, (*link)->place, is_local ? 1 : 0, name,
+                slot, member_position(compiler_.names().text(name)));
     }
   }
 }

@@ -48,7 +48,9 @@ enum class Op : uint8_t {
   kEqual,
   kNotEqual,
   kIndex,
-  kMember,        // replace the top by its member named b
+  kIndexLocal,    // replace the top, an index, by the element of slot a
+  kMember,        // replace the top by its member named b; flag: a MemberPosition
+  kMemberLocal,   // push that of slot a
   kRange,         // pop begin, end and perhaps step, as RangeFlag says; push a range
   kUnlessNumber,  // go to b unless the top is a number
   kVector,        // pop b values into a vector
@@ -68,6 +70,7 @@ enum class Op : uint8_t {
   kAppendEachOfAll,  // pop a vector, and do so with each of its elements
   kBeginLoop,        // replace the top by what it iterates over, push how many rounds are done (0)
                      // and how many there are
+  kReserve,          // make room in the vector in slot b for as many elements as the top says
   kNextRound,        // push the next element, or go to b; the loop's three values begin in slot a
   kCountRound,       // slot b counts the rounds of a C-style for
   // Calls
@@ -119,6 +122,8 @@ enum class Op : uint8_t {
   kEndUnit,          // the assignments of a top level have been evaluated
 };
 
+/// Flags of kMember and kMemberLocal: the element of a vector that the name means, if there is one.
+enum MemberPosition : uint16_t { kX, kY, kZ, kNoPosition };
 /// Flags of kBeginLoop: which limit of rounds holds.
 enum LoopKind : uint16_t { kElementLoop, kStatementLoop };
 /// Flags of kRange.

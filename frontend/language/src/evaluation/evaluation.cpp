@@ -129,6 +129,7 @@ void Session::say_root_modifiers() {
 constexpr int64_t kMemoryLimit = int64_t{2} << 30;
 
 void Session::evaluate_program() {
+  keep_freed_memory();
   object_memory.limit = kMemoryLimit;
   for (const std::string_view name :
        {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})

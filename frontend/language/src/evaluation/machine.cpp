@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "code/constants.hpp"
 #include "values/make.hpp"
@@ -19,17 +18,6 @@ constexpr uint32_t kNoUnit = 0xFFFFFFFFu;
 std::mt19937 seeded_generator() {
   const auto time = std::chrono::system_clock::now().time_since_epoch().count();
   return std::mt19937(static_cast<uint32_t>(time ^ getpid()));
-}
-
-// fmod, which is slow, where whole numbers do not tell the same.
-double remainder_of(double left, double right) {
-  constexpr double kLimit = 4294967296.0;
-  if (left >= 0 && left < kLimit && right >= 1 && right < kLimit) {
-    const auto whole_left = static_cast<uint32_t>(left), whole_right = static_cast<uint32_t>(right);
-    if (whole_left == left && whole_right == right && !std::signbit(left))
-      return whole_left % whole_right;
-  }
-  return std::fmod(left, right);
 }
 
 }  // namespace
@@ -115,47 +103,12 @@ void Machine::run_guarded() {
 }
 
 // Each case does what the instruction's comment in code/instruction.hpp says.
-void Machine::run() {
-  for (;;) {
-    const Instruction& step = code_[next_++];
+bool Machine::execute(const Instruction& step) {
     switch (step.op) {
-      case Op::kConstant:
-        stack_.push_copy(frames_.back().code->constants[step.b]);
-        break;
-      case Op::kUndef:
-        stack_.push(Value::undef());
-        break;
-      case Op::kFalse:
-        stack_.push(Value::boolean(false));
-        break;
-      case Op::kPop:
-        stack_.drop();
-        break;
       case Op::kSlide: {
         Value value = stack_.pop();
         stack_.drop_to(stack_.size() - step.b);
         stack_.push(std::move(value));
-        break;
-      }
-      case Op::kToBool:
-        stack_.top() = Value::boolean(stack_.top().is_true());
-        break;
-      case Op::kLocal:
-        stack_.push_copy(stack_[base_ + step.b]);
-        break;
-      case Op::kTryLocal:
-        if (!stack_[base_ + step.b].is_set()) break;
-        stack_.push_copy(stack_[base_ + step.b]);
-        next_ += step.flag;
-        break;
-      case Op::kScoped:
-        stack_.push_copy(scope_at(step.a)->values()[step.b]);
-        break;
-      case Op::kTryScoped: {
-        const Value& value = scope_at(step.a)->values()[step.b];
-        if (!value.is_set()) break;
-        stack_.push_copy(value);
-        next_ += step.flag;
         break;
       }
       case Op::kDynamic:
@@ -167,11 +120,6 @@ void Machine::run() {
       case Op::kUnknownVariable:
         unknown_variable(step.b);
         break;
-      case Op::kStoreLocal: {
-        Value value = stack_.pop();
-        stack_[base_ + step.b] = std::move(value);
-        break;
-      }
       case Op::kStoreScoped:
         store_scoped(step);
         break;
@@ -199,38 +147,35 @@ void Machine::run() {
       case Op::kNegate:
         negate_top();
         break;
-      case Op::kNot:
-        stack_.top() = Value::boolean(!stack_.top().is_true());
-        break;
       case Op::kPower:
-        binary([](double a, double b) { return Value(std::pow(a, b)); }, operators::power);
+      binary(operators::power);
         break;
       case Op::kMultiply:
-        binary([](double a, double b) { return Value(a * b); }, operators::multiply);
+      binary(operators::multiply);
         break;
       case Op::kDivide:
-        binary([](double a, double b) { return Value(a / b); }, operators::divide);
+      binary(operators::divide);
         break;
       case Op::kModulo:
-        binary([](double a, double b) { return Value(remainder_of(a, b)); }, operators::modulo);
+      binary(operators::modulo);
         break;
       case Op::kAdd:
-        binary([](double a, double b) { return Value(a + b); }, operators::add);
+      binary(operators::add);
         break;
       case Op::kSubtract:
-        binary([](double a, double b) { return Value(a - b); }, operators::subtract);
+      binary(operators::subtract);
         break;
       case Op::kLess:
-        binary([](double a, double b) { return Value::boolean(a < b); }, operators::less);
+      binary(operators::less);
         break;
       case Op::kLessEqual:
-        binary([](double a, double b) { return Value::boolean(a <= b); }, operators::less_equal);
+      binary(operators::less_equal);
         break;
       case Op::kGreater:
-        binary([](double a, double b) { return Value::boolean(a > b); }, operators::greater);
+      binary(operators::greater);
         break;
       case Op::kGreaterEqual:
-        binary([](double a, double b) { return Value::boolean(a >= b); }, operators::greater_equal);
+      binary(operators::greater_equal);
         break;
       case Op::kEqual:
       case Op::kNotEqual: {
@@ -246,26 +191,20 @@ void Machine::run() {
       case Op::kMember:
         stack_.top() = member(stack_.top(), compiler_.names().text(step.b));
         break;
+    case Op::kIndexLocal:
+      stack_.top() = element_at(stack_[base_ + step.a], stack_.top());
+      break;
+    case Op::kMemberLocal:
+      stack_.push(member(stack_[base_ + step.a], compiler_.names().text(step.b)));
+      break;
       case Op::kRange:
         make_range(step.flag);
-        break;
-      case Op::kUnlessNumber:
-        if (!stack_.top().is_number()) next_ = step.b;
         break;
       case Op::kVector:
         make_vector(step.b);
         break;
       case Op::kFunction:
         make_closure(step.b);
-        break;
-      case Op::kIsUndef:
-        stack_.top() = Value::boolean(stack_.top().is_undef());
-        break;
-      case Op::kJump:
-        next_ = step.b;
-        break;
-      case Op::kJumpIfFalse:
-        if (!stack_.pop().is_true()) next_ = step.b;
         break;
       case Op::kAssert:
         assert_top(frames_.back().code->asserts[step.b], step.flag);
@@ -283,7 +222,7 @@ void Machine::run() {
         stack_.push(language::make_vector());
         break;
       case Op::kAppend:
-        append(stack_[base_ + step.b]);
+      append_element(stack_[base_ + step.b], stack_.pop());
         break;
       case Op::kAppendEach:
         append_each(step.b);
@@ -294,6 +233,9 @@ void Machine::run() {
       case Op::kBeginLoop:
         begin_loop(step.flag);
         break;
+    case Op::kReserve:
+      make_room(stack_[base_ + step.b], static_cast<size_t>(stack_.top().number()));
+      break;
       case Op::kNextRound:
         if (!next_round(base_ + step.a)) next_ = step.b;
         break;
@@ -360,8 +302,7 @@ void Machine::run() {
         break;
       case Op::kReturn:
         return_value();
-        if (frames_.empty()) return;
-        break;
+      return frames_.empty();
       case Op::kReturnDefaults:
         return_defaults();
         break;
@@ -423,13 +364,13 @@ void Machine::run() {
         end_selection();
         break;
       case Op::kEndChild:
-        if (end_child(step.flag) && frames_.empty()) return;
-        break;
+      return end_child(step.flag) && frames_.empty();
       case Op::kEndUnit:
-        if (end_unit()) return;
-        break;
-    }
+      return end_unit();
+    default:
+      break;  // run() does the others
   }
+  return false;
 }
 
 }  // namespace language

@@ -74,8 +74,11 @@ class Machine {
   void count_message() { ++messages_said_; }
 
  private:
-  // machine.cpp
+  // run.cpp
   void run();  // until the first frame has ended
+
+  // machine.cpp
+  bool execute(const Instruction& step);  // true: the first frame has ended
   void run_guarded();
 
   // variables.cpp
@@ -91,16 +94,7 @@ class Machine {
 
   // operators.cpp
   using Operator = Value (*)(const Value&, const Value&, OperatorProblem&);
-  /// Applies `of_numbers` where both operands are numbers, which the compiler inlines.
-  template <typename OfNumbers>
-  void binary(OfNumbers of_numbers, Operator of_values) {
-    const Value& left = stack_.top();
-    Value& right = stack_.below(1);
-    if (!are_numbers(left, right)) return binary_of_values(of_values);
-    right = of_numbers(left.number(), right.number());
-    stack_.drop();
-  }
-  void binary_of_values(Operator op);
+  void binary(Operator op);
   void say_problem(const OperatorProblem& problem);
   void negate_top();
   void make_range(uint16_t flags);
@@ -114,15 +108,6 @@ class Machine {
   // loops.cpp
   void begin_loop(uint16_t kind);
   bool next_round(uint32_t state);  // false: there is none
-  /// Pops a value and appends it to a vector, which mostly has room.
-  void append(Value& target) {
-    auto& vector = static_cast<VectorObject&>(*target.object());
-    if (vector.references == 1 && vector.size < vector.capacity) {
-      new (vector.elements() + vector.size++) Value(stack_.pop());
-    } else {
-      append_element(target, stack_.pop());
-    }
-  }
   void append_each(uint32_t slot);
   void append_each_of_all(uint32_t slot);
   void append_expanded(Value& vector, const Value& value);

@@ -15,7 +15,7 @@ void Machine::say_problem(const OperatorProblem& problem) {
   if (!problem.text.empty()) warn(problem.text, PathBase::kUnit);
 }
 
-void Machine::binary_of_values(Operator op) {
+void Machine::binary(Operator op) {
   const Value left = stack_.pop();
   OperatorProblem problem;
   stack_.top() = op(left, stack_.top(), problem);

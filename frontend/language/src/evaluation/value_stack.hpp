@@ -26,7 +26,10 @@ class ValueStack {
   Value& operator[](uint32_t index) { return values_[index]; }
   Value& top() { return top_[-1]; }
   Value& below(uint32_t depth) { return top_[-1 - static_cast<ptrdiff_t>(depth)]; }
+  Value* begin() { return values_; }
   Value* end() { return top_; }
+  /// Makes values objects or no longer ones: those below `end` are.
+  void set_end(Value* end) { top_ = end; }
 
   // The next two need room that reserve() has made.
   void push(Value value) { new (top_++) Value(std::move(value)); }

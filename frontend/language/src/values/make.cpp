@@ -13,9 +13,15 @@ namespace {
 
 constexpr size_t kMostElements = 0xFFFFFFFFu;
 
-VectorObject* allocate_vector(size_t capacity) {
+size_t checked(size_t capacity) {
   if (capacity > kMostElements) throw OutOfValueMemory();
-  void* block = allocate_object(sizeof(VectorObject) + capacity * sizeof(Value));
+  return capacity;
+}
+
+size_t block_size(size_t capacity) { return sizeof(VectorObject) + capacity * sizeof(Value); }
+
+VectorObject* allocate_vector(size_t capacity) {
+  void* block = allocate_object(block_size(checked(capacity)));
   auto* vector = new (block) VectorObject;
   vector->type = ValueType::kVector;
   vector->size = 0;
@@ -24,29 +30,6 @@ VectorObject* allocate_vector(size_t capacity) {
 }
 
 VectorObject& vector_of(const Value& value) { return static_cast<VectorObject&>(*value.object()); }
-
-// Makes `value` the only reference to a vector with room for `capacity` elements: its elements are
-// moved there if they were its own, else copied.
-void move_to_new_block(Value& value, size_t capacity) {
-  VectorObject& old = vector_of(value);
-  Value moved = make_vector(capacity);
-  VectorObject& vector = vector_of(moved);
-  if (value.is_unique())
-    std::uninitialized_move_n(old.elements(), old.size, vector.elements());
-  else
-    std::uninitialized_copy_n(old.elements(), old.size, vector.elements());
-  vector.size = old.size;
-  value = std::move(moved);
-}
-
-void make_room(Value& value, size_t count, bool grows_further) {
-  const VectorObject& vector = vector_of(value);
-  const size_t needed = vector.size + count;
-  if (value.is_unique() && needed <= vector.capacity) return;
-  constexpr size_t kLeastGrown = 4;
-  move_to_new_block(
-      value, grows_further ? std::max({needed, 2 * size_t{vector.size}, kLeastGrown}) : needed);
-}
 
 }  // namespace
 
@@ -68,22 +51,35 @@ Value make_vector(std::span<const Value> elements) {
   return Value::adopt(vector);
 }
 
-void append_element(Value& value, Value element) {
-  make_room(value, 1, true);
+void make_room(Value& value, size_t count) {
+  constexpr size_t kLeastGrown = 4;
   VectorObject& vector = vector_of(value);
-  std::construct_at(vector.elements() + vector.size, std::move(element));
-  ++vector.size;
+  const size_t size = vector.size, needed = size + count;
+  if (value.is_unique() && needed <= vector.capacity) return;
+  const size_t capacity = std::max({needed, 2 * size, kLeastGrown});
+  if (!value.is_unique()) {
+    Value copied = make_vector(capacity);
+    VectorObject& copy = vector_of(copied);
+    std::uninitialized_copy_n(vector.elements(), size, copy.elements());
+    copy.size = vector.size;
+    value = std::move(copied);
+    return;
+  }
+  // Values may be moved as bytes: none refers to its own place.
+  auto* const moved = static_cast<VectorObject*>(
+      resize_object(&vector, block_size(vector.capacity), block_size(checked(capacity))));
+  moved->capacity = static_cast<uint32_t>(capacity);
+  static_cast<void>(value.disown());
+  value = Value::adopt(moved);
 }
 
 void append_elements(Value& value, std::span<const Value> elements) {
   // The elements may be the vector's own, which move or vanish with the old block.
   const Value kept = vector_of(value).elements() == elements.data() ? value : Value();
-  make_room(value, elements.size(), true);
+  make_room(value, elements.size());
   VectorObject& vector = vector_of(value);
   std::uninitialized_copy(elements.begin(), elements.end(), vector.elements() + vector.size);
   vector.size += static_cast<uint32_t>(elements.size());
 }
-
-void reserve_elements(Value& value, size_t count) { make_room(value, count, false); }
 
 }  // namespace language

@@ -1,8 +1,10 @@
 // How strings and vectors are made.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "language/value.hpp"
 
@@ -13,12 +15,22 @@ Value make_string(std::string_view text);
 Value make_vector(size_t capacity = 0);
 Value make_vector(std::span<const Value> elements);
 
+/// Makes `vector` the only reference to its object, with room for `count` more elements and, where
+/// it has to move, for as many again as it has.
+void make_room(Value& vector, size_t count);
+
 /// Appends to a vector: in place, in amortised constant time, if `vector` is its only reference;
 /// else `vector` becomes a copy with one more element.
-void append_element(Value& vector, Value element);
+inline void append_element(Value& vector, Value element) {
+  auto* object = static_cast<VectorObject*>(vector.object());
+  if (object->references != 1 || object->size == object->capacity) [[unlikely]] {
+    make_room(vector, 1);
+    object = static_cast<VectorObject*>(vector.object());
+  }
+  std::construct_at(object->elements() + object->size, std::move(element));
+  ++object->size;
+}
 /// The same with all elements of a span, which may be the vector's own.
 void append_elements(Value& vector, std::span<const Value> elements);
-/// Makes room for `count` more elements.
-void reserve_elements(Value& vector, size_t count);
 
 }  // namespace language

@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <new>
+
+#include "values/small_blocks.hpp"
 
 namespace language {
 
@@ -19,14 +22,35 @@ struct ObjectMemory {
   int64_t used = 0;
   int64_t limit = int64_t{4} << 30;
 };
-extern thread_local ObjectMemory object_memory;
-
-/// Returns a block that is aligned for any object. Throws OutOfValueMemory.
-void* allocate_object(size_t bytes);
-/// Frees a block of allocate_object, of the size that it was asked for.
-void free_object(void* block, size_t bytes) noexcept;
+extern constinit thread_local ObjectMemory object_memory;
 
 /// Throws OutOfValueMemory if a text of that size, made of values, would not fit.
-void check_text_size(size_t bytes);
+inline void check_text_size(size_t bytes) {
+  if (object_memory.used + static_cast<int64_t>(bytes) > object_memory.limit)
+    throw OutOfValueMemory();
+}
+
+/// Returns a block that is aligned for any object, of more than 0 bytes. Throws OutOfValueMemory.
+inline void* allocate_object(size_t bytes) {
+  check_text_size(bytes);
+  void* block = SmallBlocks::holds(bytes) ? small_blocks.take(bytes) : std::malloc(bytes);
+  if (!block) throw OutOfValueMemory();
+  object_memory.used += static_cast<int64_t>(bytes);
+  return block;
+}
+
+/// Frees a block of allocate_object, of the size that it was asked for.
+inline void free_object(void* block, size_t bytes) noexcept {
+  object_memory.used -= static_cast<int64_t>(bytes);
+  SmallBlocks::holds(bytes) ? small_blocks.give(block, bytes) : std::free(block);
+}
+
+/// Returns a block of another size that holds the bytes of a block, as many as both have; that
+/// block is freed. Throws OutOfValueMemory, which leaves the block as it was.
+void* resize_object(void* block, size_t bytes, size_t new_bytes);
+
+/// Lets malloc keep some MiB of what the process frees. Without this it may give pages back at each
+/// free and take them again at the next malloc, where large lists are copied over and over.
+void keep_freed_memory();
 
 }  // namespace language

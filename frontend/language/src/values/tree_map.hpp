@@ -10,68 +10,71 @@
 
 namespace language {
 
+/// Lets levels of nested vectors be filled, each of which has
+///   bool fill(): appends leaves to its `result`; false: the level that next() returns comes first.
+template <typename Level>
+Value fill_levels(Level first) {
+  if (first.fill()) return std::move(first.result);
+  LevelStack<Level> levels;
+  levels.push(std::move(first));
+  while (true) {
+    if (!levels.top().fill()) {
+      levels.push(levels.top().next());
+      continue;
+    }
+    Value result = std::move(levels.top().result);
+    levels.pop();
+    if (levels.empty()) return result;
+    append_element(levels.top().result, std::move(result));
+  }
+}
+
 /// Returns a vector of the same nesting as `vector` whose leaves are leaf(element) of the leaves:
 /// of the elements that are no vectors.
 template <typename Leaf>
 Value map_leaves(const Value& vector, Leaf leaf) {
   struct Level {
     std::span<const Value> rest;
+    const Leaf& leaf;
     Value result;
-    explicit Level(const Value& source)
-        : rest(source.elements()), result(make_vector(rest.size())) {}
-  };
-  LevelStack<Level> levels;
-  levels.push(vector);
-  while (true) {
-    Level& level = levels.top();
-    if (level.rest.empty()) {
-      Value result = std::move(level.result);
-      levels.pop();
-      if (levels.empty()) return result;
-      append_element(levels.top().result, std::move(result));
-      continue;
+    Level(const Value& source, const Leaf& of_leaf)
+        : rest(source.elements()), leaf(of_leaf), result(make_vector(rest.size())) {}
+    bool fill() {
+      for (; !rest.empty() && !rest.front().is_vector(); rest = rest.subspan(1))
+        append_element(result, leaf(rest.front()));
+      return rest.empty();
     }
-    const Value& element = level.rest.front();
-    level.rest = level.rest.subspan(1);
-    if (element.is_vector())
-      levels.push(element);
-    else
-      append_element(level.result, leaf(element));
-  }
+    Level next() {
+      const Value& inner = rest.front();
+      rest = rest.subspan(1);
+      return Level(inner, leaf);
+    }
+  };
+  return fill_levels(Level(vector, leaf));
 }
 
 /// Returns the vector of what becomes of each pair of elements of two vectors, as long as the
 /// shorter: of two vectors again such a vector, of any others leaf(left, right).
 template <typename Leaf>
-Value map_pairs(const Value& left, const Value& right, Leaf leaf) {
+Value map_pairs(const Value& left_vector, const Value& right_vector, Leaf leaf) {
   struct Level {
-    std::span<const Value> left, right;
-    size_t next = 0, end;
+    const Value *left, *right, *end;
+    const Leaf& leaf;
     Value result;
-    Level(const Value& left_vector, const Value& right_vector)
-        : left(left_vector.elements()),
-          right(right_vector.elements()),
-          end(std::min(left.size(), right.size())),
-          result(make_vector(end)) {}
-  };
-  LevelStack<Level> levels;
-  levels.push(left, right);
-  while (true) {
-    Level& level = levels.top();
-    if (level.next == level.end) {
-      Value result = std::move(level.result);
-      levels.pop();
-      if (levels.empty()) return result;
-      append_element(levels.top().result, std::move(result));
-      continue;
+    Level(std::span<const Value> lefts, std::span<const Value> rights, const Leaf& of_leaf)
+        : left(lefts.data()),
+          right(rights.data()),
+          end(left + std::min(lefts.size(), rights.size())),
+          leaf(of_leaf),
+          result(make_vector(static_cast<size_t>(end - left))) {}
+    bool fill() {
+      for (; left != end && !(left->is_vector() && right->is_vector()); ++left, ++right)
+        append_element(result, leaf(*left, *right));
+      return left == end;
     }
-    const Value &a = level.left[level.next], &b = level.right[level.next];
-    ++level.next;
-    if (a.is_vector() && b.is_vector())
-      levels.push(a, b);
-    else
-      append_element(level.result, leaf(a, b));
-  }
+    Level next() { return Level(left++->elements(), right++->elements(), leaf); }
+  };
+  return fill_levels(Level(left_vector.elements(), right_vector.elements(), leaf));
 }
 
 }  // namespace language
