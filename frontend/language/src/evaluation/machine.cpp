@@ -39,7 +39,7 @@ Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modu
     : compiler_(compiler),
       messages_(messages),
       modules_(modules),
-      functions_{messages, seeded_generator(), {}},
+      functions_{messages, modules.files, seeded_generator()},
       stop_(std::move(stop)),
       builtin_functions_(builtin_functions()),
       builtin_modules_(builtin_modules()),
@@ -319,9 +319,6 @@ void Machine::run() {
       case Op::kKeepLazy:
         keep_lazy(frames_.back().code->lazy_calls[step.b]);
         break;
-      case Op::kUnsupported:
-        throw Unsupported(std::string(compiler_.names().text(step.b)) + "()" +
-                          messages_.place_suffix(place(), PathBase::kMainFile));
       case Op::kWarnCount:
         warn_count(step.b);
         break;
