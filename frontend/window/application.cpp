@@ -34,6 +34,11 @@ constexpr double kLeastAxis_px = 0.25;
 /// The longest wait for a picture that was ordered; then the window is drawn without it.
 constexpr std::chrono::milliseconds kShortPainting{50};
 
+/// Work that takes longer is shown, and can be stopped.
+constexpr std::chrono::seconds kLongWork{1};
+/// How often that display is brought up to date.
+constexpr std::chrono::milliseconds kProgressInterval{250};
+
 /// A reading that takes less is not shown.
 constexpr std::chrono::milliseconds kShortReading{150};
 
@@ -73,8 +78,9 @@ Application::Application(const frontend::Options& options)
     : options_(options),
       state_(options),
       window_(file_name(options.input) + " - scadray", window_size(options), *this),
-      panels_([this](Command command) { run_command(command); },
-              [this](const std::string& path) { save_picture(path); }),
+      actions_{.run = [this](Command command) { run_command(command); },
+               .save = [this](const std::string& path) { save_picture(path); },
+               .open = [this](const MessagePlace& place) { open_place(place); }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
@@ -100,19 +106,31 @@ void Application::run() {
 }
 
 void Application::wait_for_news() {
-  const auto seconds_until = [](Clock::time_point end) {
-    return std::chrono::duration<double>(end - Clock::now()).count();
-  };
-  if (const double rest = seconds_until(awaited_until_); rest > 0) {
-    window_.wait(rest);
+  const std::chrono::duration<double> rest = awaited_until_ - Clock::now();
+  if (rest.count() > 0) {
+    window_.wait(rest.count());
   } else if (frames_due_ > 0) {
     window_.poll();
-  } else if (const double reading = seconds_until(reading_since_ + kShortReading);
-             is_reading_ && reading > 0) {
-    window_.wait(reading);
+  } else if (const auto seconds = seconds_to_next_look()) {
+    window_.wait(*seconds);
   } else {
     window_.wait();
   }
+}
+
+/// Returns the time until what is shown of unfinished work may have to change; nothing while there
+/// is no work.
+std::optional<double> Application::seconds_to_next_look() const {
+  std::optional<Clock::time_point> next;
+  const auto look_at = [&next](Clock::time_point when) {
+    next = std::min(next.value_or(when), when);
+  };
+  if (is_reading_ && !state_.is_reading) look_at(reading_since_ + kShortReading);
+  for (const auto& activity : {follower_.activity(), painter_.activity()}) {
+    if (activity) look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
+  }
+  if (!next) return std::nullopt;
+  return std::max(std::chrono::duration<double>(*next - Clock::now()).count(), 1e-3);
 }
 
 /// Returns whether the display of the reading has to change.
@@ -122,6 +140,25 @@ bool Application::watch_reading() {
   if (is_reading_ && !was_reading) reading_since_ = Clock::now();
   const bool is_long = is_reading_ && Clock::now() - reading_since_ >= kShortReading;
   return std::exchange(state_.is_reading, is_long) != is_long;
+}
+
+/// Returns whether the display of long work has to change.
+bool Application::watch_long_work() {
+  const bool was_shown = state_.long_activity.has_value();
+  state_.long_activity.reset();
+  for (auto& activity : {follower_.activity(), painter_.activity()}) {
+    if (activity && Clock::now() - activity->since >= kLongWork && !state_.long_activity) {
+      state_.long_activity = activity;
+    }
+  }
+  if (!state_.long_activity) return was_shown;
+  return Clock::now() >= last_frame_ + kProgressInterval;
+}
+
+void Application::stop_long_work() {
+  follower_.stop();
+  painter_.stop();
+  state_.notice = "stopped; a save, or F5, starts again";
 }
 
 /// Waits for the display if the driver does not, as a software renderer does not.
@@ -140,13 +177,14 @@ void Application::draw_frame() {
   csgcore::View view = state_.navigation.view(size);
   view.width_px = static_cast<uint32_t>(std::lround(size.width_px / scale));
   view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
-  panels_.draw(state_, view);
+  draw_panels(state_, view, actions_);
   window_.end_frame();
   if (std::exchange(has_new_picture_, false)) report_picture();
 }
 
 bool Application::take_news() {
   bool any = watch_reading();
+  any |= watch_long_work();
   if (auto version = follower_.take()) {
     take_version(std::move(*version));
     any = true;
@@ -164,19 +202,14 @@ bool Application::take_news() {
 }
 
 void Application::take_version(frontend::DesignVersion version) {
-  state_.notice.clear();
-  if (version.design) {
-    if (state_.design != version.design) state_.points.clear();
-    state_.design = version.design;
-    texts_ = version.texts;
-    if (!has_camera_ && !state_.bounds().empty()) {
-      state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
-                                     state_.navigation.projection());
-      has_camera_ = true;
-    }
-  }
   const bool leaves_picture = !version.design || version.unchanged;
-  state_.version = std::move(version);
+  if (version.design) texts_ = version.texts;
+  state_.take(std::move(version));
+  if (!has_camera_ && !state_.bounds().empty()) {
+    state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
+                                   state_.navigation.projection());
+    has_camera_ = true;
+  }
   show_title();
   // The picture stays, and the next frame shows what there is to say of the version.
   if (leaves_picture) has_new_picture_ = true;
@@ -274,9 +307,19 @@ std::vector<frontend::NamedPath> Application::inputs() const {
   return inputs;
 }
 
+/// Returns the file that a message names: messages name files from the design's folder.
+std::string Application::path_of(const MessagePlace& place) const {
+  const std::filesystem::path folder = std::filesystem::path(options_.input).parent_path();
+  return (folder / place.file).string();
+}
+
+void Application::open_place(const MessagePlace& place) { state_.notice = path_of(place); }
+
 void Application::run_command(Command command) {
   state_.notice.clear();
+  if (command == Command::kForgetPoints && state_.long_activity) command = Command::kStop;
   if (state_.apply(command)) return;
+  if (command == Command::kStop) stop_long_work();
   if (command == Command::kReload) follower_.reload();
   if (command == Command::kQuit) window_.close();
 }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "glfw_window.hpp"
 #include "motion_meter.hpp"
 #include "painter.hpp"
-#include "panels.hpp"
+#include "panels/panels.hpp"
 #include "report.hpp"
 #include "screen.hpp"
 #include "state.hpp"
@@ -39,10 +40,15 @@ class Application final : private WindowEvents {
 
   void run_command(Command command);
   void save_picture(const std::string& path);
+  std::string path_of(const MessagePlace& place) const;
+  void open_place(const MessagePlace& place);
   void drag_section(double dx_px, double dy_px);
 
   void wait_for_news();
+  std::optional<double> seconds_to_next_look() const;
   bool watch_reading();
+  bool watch_long_work();
+  void stop_long_work();
   bool take_news();
   void take_version(frontend::DesignVersion version);
   void take_painting(Painting painting);
@@ -62,7 +68,7 @@ class Application final : private WindowEvents {
   State state_;
   GlfwWindow window_;
   Screen screen_;
-  Panels panels_;
+  const PanelActions actions_;
   Report report_;
   MotionMeter motion_;
   const double frame_s_;  // time of a frame; asking the display for it takes a round trip to the X

@@ -11,6 +11,7 @@ namespace {
 // The keys are OpenSCAD's (frontend/OPENSCAD.md, "Window") where it has them.
 constexpr CommandRow kRows[] = {
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
+    {Command::kStop, Menu::kFile, "Stop what takes long", "Esc", 0, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},
     {Command::kQuit, Menu::kFile, "Quit", "Ctrl+Q", GLFW_KEY_Q, kControl, true},
 

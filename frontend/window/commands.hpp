@@ -9,6 +9,7 @@ namespace window {
 
 enum class Command : uint8_t {
   kReload,
+  kStop,
   kSavePicture,
   kQuit,
   kViewAll,

@@ -69,6 +69,12 @@ void Painter::order(PaintOrder order) {
   wake_.notify_all();
 }
 
+void Painter::stop() {
+  const std::lock_guard lock(mutex_);
+  ordered_.reset();
+  outdated_.request_stop();
+}
+
 void Painter::probe(Probe probe) {
   {
     const std::lock_guard lock(mutex_);
@@ -148,7 +154,9 @@ void Painter::paint(PaintOrder order, const std::stop_token& stop) {
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
   // While the camera moves, every picture is shown, even if others have been ordered.
+  activity_.begin("drawing");
   Painting painting = paint_at(order, size, samples, order.is_moving ? std::stop_token() : stop);
+  activity_.end();
   if (!order.is_moving && stop.stop_requested()) return;
   painting.is_final = size == order.size && samples == order.settings.samples;
   if (!painting.is_final && painting.error.empty()) coarse_ = std::move(order);
@@ -176,6 +184,9 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
   frontend::RenderSettings settings = order.settings;
   settings.samples = samples;
   settings.stop = stop;
+  settings.progress = [this](const char* stage, double fraction) {
+    activity_.update(stage, fraction);
+  };
   settings.measured_channels |= is_channel(settings.show) || order.overlays.any();
   const Clock::time_point start = Clock::now();
   try {

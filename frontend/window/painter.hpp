@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "csgcore/image.hpp"
+#include "frontend/activity.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
@@ -82,6 +83,10 @@ class Painter {
   /// Returns the newest painting, once.
   std::optional<Painting> take_painting();
   std::optional<Finding> take_finding();
+  /// Returns what is being drawn.
+  std::optional<frontend::Activity> activity() const { return activity_.current(); }
+  /// Ends what is being drawn. The picture before it stays.
+  void stop();
 
  private:
   using ScenePointer = std::shared_ptr<const csgcore::Scene>;
@@ -106,6 +111,7 @@ class Painter {
   std::vector<Probe> probes_;
   std::optional<Painting> painted_;
   std::vector<Finding> findings_;
+  frontend::ActivityMeter activity_;
   std::stop_source outdated_;  // stops what is being painted, unless it is to be finished
 
   // Used by the painter's thread alone.

@@ -100,6 +100,19 @@ State::State(const frontend::Options& options)
       overlays(options.overlays),
       name(options.input) {}
 
+void State::take(frontend::DesignVersion newest) {
+  if (newest.design) {
+    if (design != newest.design) points.clear();
+    design = newest.design;
+  }
+  std::vector<std::string> lines;
+  if (!newest.error.empty()) lines.push_back(newest.error);
+  lines.insert(lines.end(), newest.messages.begin(), newest.messages.end());
+  messages = messages_of(lines);
+  notice.clear();
+  version = std::move(newest);
+}
+
 csgcore::Box State::bounds() const { return design ? design->view_box : csgcore::Box{}; }
 
 void State::set_section_axis(uint8_t axis) {

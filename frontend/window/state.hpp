@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "frontend/activity.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/options.hpp"
 #include "frontend/overlays.hpp"
+#include "message_list.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
 #include "section_plane.hpp"
@@ -35,6 +37,7 @@ struct State {
   bool shows_messages = true;
   bool shows_status = true;
   bool shows_help = false;
+  std::string message_filter;  // the messages that are shown contain it
   bool asks_for_path = false;  // shows the dialogue for the path of a picture
   std::string picture_path;
 
@@ -42,7 +45,9 @@ struct State {
   std::string name;                                        // the file's name
   std::shared_ptr<const frontend::ImportedDesign> design;  // the last that could be read
   std::optional<frontend::DesignVersion> version;          // the newest
+  std::vector<Message> messages;  // its error, if it has one, then what its evaluation has said
   bool is_reading = false;
+  std::optional<frontend::Activity> long_activity;  // what the user waits for, beyond a second
 
   // The picture.
   std::optional<Painting> painting;  // the one shown, without its image
@@ -52,6 +57,8 @@ struct State {
   /// Does a command that needs nothing but this state. Returns whether it was one.
   bool apply(Command command);
   bool is_checked(Command command) const;
+  /// Takes the newest version of the design.
+  void take(frontend::DesignVersion newest);
   /// The design's bounds; empty without a design.
   csgcore::Box bounds() const;
   /// Turns the section on, across the middle of the design. The side towards the eye is cut off.

@@ -45,7 +45,8 @@ TEST_F(StateTest, EveryCommandIsOfOneKind) {
   for (const CommandRow& row : command_rows()) {
     State state(frontend::Options{});
     state.design = block();
-    const bool is_applications = row.command == Command::kReload || row.command == Command::kQuit;
+    const bool is_applications = row.command == Command::kReload || row.command == Command::kStop ||
+                                 row.command == Command::kQuit;
     EXPECT_EQ(state.apply(row.command), !is_applications) << row.label;
   }
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/activity.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
@@ -52,8 +53,12 @@ class DesignFollower {
   std::optional<DesignVersion> take();
   /// kReading lasts from the notice of a save until its version can be taken.
   State state() const;
+  /// Returns what is being done: reading, or what openscad renders after a version was published.
+  std::optional<Activity> activity() const;
   /// Reads the design again, as after a save.
   void reload();
+  /// Ends what is being done. The last version stays, and the next save is followed.
+  void stop();
 
  private:
   class Follower;

@@ -71,8 +71,15 @@ class DesignFollower::Follower {
 
   State state() const { return state_; }
 
+  std::optional<Activity> activity() const { return activity_.current(); }
+
   void reload() {
     wants_reload_ = true;
+    wake_.raise();
+  }
+
+  void stop() {
+    wants_stop_ = true;
     wake_.raise();
   }
 
@@ -82,6 +89,7 @@ class DesignFollower::Follower {
     start_reading();
     while (!stop.stop_requested()) {
       wait();
+      if (wants_stop_.exchange(false)) give_up();
       if (is_followed_ && watch_.update()) notice(Clock::now());
       if (is_followed_ && wants_reload_.exchange(false)) notice(Clock::now());
       if (has_read_.exchange(false)) finish_reading();
@@ -123,6 +131,13 @@ class DesignFollower::Follower {
     set_state(State::kReading);
   }
 
+  /// Ends what is being done, at the user's wish.
+  void give_up() {
+    stop_reading();
+    noticed_.reset();
+    set_state(State::kIdle);
+  }
+
   /// Runs `read`, which returns a DesignReading, in a thread of its own.
   template <typename Read>
   void start(const Read& read) {
@@ -142,6 +157,7 @@ class DesignFollower::Follower {
     if (is_followed_) watch_.set_files(paths_to_watch());
     reading_since_ns_ = system_time_ns();
     set_state(State::kReading);
+    activity_.begin("reading");
     start([this, noticed, before = good_](const std::stop_token& stop) {
       DesignReading reading = read_anew(path_, file_options(), before, stop);
       reading.version.noticed = noticed;
@@ -151,17 +167,24 @@ class DesignFollower::Follower {
 
   /// After a reading that lacks what openscad still has to render.
   void start_rendering(DesignReading before) {
+    activity_.begin("openscad renders");
     start([this, before = std::move(before)](const std::stop_token& stop) {
       return render_missing(path_, file_options(), before, stop);
     });
   }
 
-  DesignFileOptions file_options() const {
+  DesignFileOptions file_options() {
     DesignFileOptions options;
     options.import = options_.import;
     options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
+    options.progress = [this](const char* stage) { activity_.update(stage); };
+    options.import.rendering.progress = [this](const RenderingProgress& progress) {
+      activity_.update("openscad renders line " + std::to_string(progress.line),
+                       static_cast<double>(progress.finished) /
+                           static_cast<double>(std::max<std::size_t>(progress.parts, 1)));
+    };
     return options;
   }
 
@@ -169,11 +192,13 @@ class DesignFollower::Follower {
     if (!reading_.joinable()) return;
     reading_.request_stop();
     reading_.join();
+    activity_.end();
     has_read_ = false;
   }
 
   void finish_reading() {
     reading_.join();
+    activity_.end();
     DesignReading reading = result_;
     good_ = std::move(result_.good);
     is_scad_ = is_scad(path_) || result_.is_scad;
@@ -225,6 +250,8 @@ class DesignFollower::Follower {
   Event wake_;
   std::atomic<State> state_{State::kReading};
   std::atomic<bool> wants_reload_{false};
+  std::atomic<bool> wants_stop_{false};
+  ActivityMeter activity_;
   std::mutex mutex_;
   std::optional<DesignVersion> news_;
 
@@ -260,6 +287,10 @@ std::optional<DesignVersion> DesignFollower::take() { return follower_->take(); 
 
 DesignFollower::State DesignFollower::state() const { return follower_->state(); }
 
+std::optional<Activity> DesignFollower::activity() const { return follower_->activity(); }
+
 void DesignFollower::reload() { follower_->reload(); }
+
+void DesignFollower::stop() { follower_->stop(); }
 
 }  // namespace frontend

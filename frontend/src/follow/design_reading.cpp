@@ -63,7 +63,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   file_options.wants_files = true;
   file_options.import.rendering.waits = false;
   file_options.message = keeping_messages(version);
-  file_options.progress = [](const char*) {};
+  if (!file_options.progress) file_options.progress = [](const char*) {};
   DesignText text = read_design_text(path, file_options, stop);
   std::optional<TextImport> import;
   try {
@@ -76,6 +76,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     export_design_text(path, file_options, text, stop);
     import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   }
+  file_options.progress("importing");
   if (import) reading.good = finish_import(*import, text, version, stop);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;

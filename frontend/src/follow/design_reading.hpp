@@ -28,8 +28,8 @@ struct DesignReading {
 };
 
 /// Reads the design. What openscad has to render of it, and has not rendered before, is missing
-/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator` and
-/// `openscad_arguments` are used. Every failure is reported in version.error; only Stopped
+/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator`,
+/// `openscad_arguments` and `progress`, which may be empty, are used. Every failure is reported in version.error; only Stopped
 /// (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);

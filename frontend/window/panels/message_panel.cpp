@@ -1,0 +1,142 @@
+#include "panels/message_panel.hpp"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+
+#include "panels/style.hpp"
+
+namespace window {
+namespace {
+
+/// Laying out more messages than these would take longer than a frame; the filter finds the rest.
+constexpr std::size_t kMostShown = 500;
+
+/// Fewer messages than these need no filter.
+constexpr std::size_t kLeastFiltered = 4;
+
+ImU32 color_of(MessageKind kind) {
+  if (kind == MessageKind::kError) return kErrorColor;
+  if (kind == MessageKind::kWarning) return kWarningColor;
+  return kTextColor;
+}
+
+/// Writes a line, wrapped. A click on it opens its place.
+void line(ImU32 color, const std::string& text, const MessagePlace& place, const OpenPlace& open) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (place.file.empty() || !ImGui::IsItemHovered()) return;
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  ImGui::GetWindowDrawList()->AddLine({from.x, to.y}, to, color);
+  if (ImGui::IsItemClicked()) open(place);
+}
+
+void message_line(const Message& message, const OpenPlace& open) {
+  std::string text = message.text;
+  if (message.count > 1) text = std::to_string(message.count) + " × " + text;
+  line(color_of(message.kind), text, message.place, open);
+  if (message.traces.empty()) return;
+  const std::size_t calls = message.traces.size();
+  ImGui::PushID(&message);
+  if (ImGui::TreeNode("##traces", calls == 1 ? "1 call led to it" : "%zu calls led to it", calls)) {
+    for (const std::string& trace : message.traces) {
+      line(kTextColor, trace, place_of_message(trace), open);
+    }
+    ImGui::TreePop();
+  }
+  ImGui::PopID();
+}
+
+void message_lines(const State& state, bool echoes, const OpenPlace& open) {
+  std::size_t shown = 0, hidden = 0;
+  for (const Message& message : state.messages) {
+    if ((message.kind == MessageKind::kEcho) != echoes) continue;
+    if (!contains(message, state.message_filter)) continue;
+    if (shown == kMostShown) {
+      ++hidden;
+      continue;
+    }
+    ++shown;
+    message_line(message, open);
+  }
+  if (hidden > 0) {
+    ImGui::Text("… and %zu more; the filter finds them, scadray -o x.echo writes all", hidden);
+  }
+}
+
+/// Returns "2 errors, 1 warning".
+std::string words_of(const MessageCounts& counts) {
+  std::string words;
+  const auto add = [&words](std::size_t count, const char* one) {
+    if (count == 0) return;
+    if (!words.empty()) words += ", ";
+    words += std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+  };
+  add(counts.errors, "error");
+  add(counts.warnings, "warning");
+  add(counts.others, "message");
+  return words;
+}
+
+/// Draws a tab with its messages. The name that follows "###" stays while the count changes.
+void tab(State& state, const std::string& words, bool echoes, const OpenPlace& open) {
+  if (words.empty()) return;
+  if (!ImGui::BeginTabItem((words + (echoes ? "###echo" : "###messages")).c_str())) return;
+  message_lines(state, echoes, open);
+  ImGui::EndTabItem();
+}
+
+void all_messages(State& state, const OpenPlace& open) {
+  const MessageCounts counts = count_messages(state.messages);
+  if (state.messages.size() >= kLeastFiltered) {
+    ImGui::SetNextItemWidth(std::min(12 * ImGui::GetFontSize(), ImGui::GetContentRegionAvail().x));
+    ImGui::InputTextWithHint("##filter", "filter", &state.message_filter);
+  } else {
+    state.message_filter.clear();
+  }
+  if (!ImGui::BeginTabBar("##kinds")) return;
+  tab(state, words_of(counts), false, open);
+  const std::string echoes = counts.echoes == 0 ? "" : "Echo " + std::to_string(counts.echoes);
+  tab(state, echoes, true, open);
+  ImGui::EndTabBar();
+}
+
+void errors_alone(const State& state, const OpenPlace& open) {
+  for (const Message& message : state.messages) {
+    if (message.kind == MessageKind::kError) message_line(message, open);
+  }
+}
+
+bool has_error(const State& state) {
+  return std::any_of(state.messages.begin(), state.messages.end(),
+                     [](const Message& message) { return message.kind == MessageKind::kError; });
+}
+
+}  // namespace
+
+void draw_messages(State& state, float bottom, const OpenPlace& open) {
+  const bool has_something = state.shows_messages ? !state.messages.empty() : has_error(state);
+  const std::string no_picture = state.painting ? state.painting->error : "";
+  if (!has_something && no_picture.empty()) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float width = std::max(display.x - 20, 50.0f);
+  ImGui::SetNextWindowPos({10, bottom - 8}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, display.y / 2});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  if (ImGui::Begin("##messages", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {
+    if (!no_picture.empty()) line(kErrorColor, no_picture, {}, open);
+    if (!state.shows_messages) {
+      errors_alone(state, open);
+    } else if (has_something) {
+      all_messages(state, open);
+    }
+  }
+  ImGui::End();
+}
+
+}  // namespace window

@@ -1,0 +1,22 @@
+#include "panels/panels.hpp"
+
+#include "panels/help_sheet.hpp"
+#include "panels/point_labels.hpp"
+#include "panels/progress_panel.hpp"
+#include "panels/section_panel.hpp"
+#include "panels/status_bar.hpp"
+
+namespace window {
+
+void draw_panels(State& state, const csgcore::View& view, const PanelActions& actions) {
+  draw_points(state, view);
+  draw_menu_bar(state, actions.run);
+  const float status_top = draw_status_line(state);
+  draw_messages(state, status_top, actions.open);
+  draw_section(state);
+  draw_progress(state, actions.run);
+  draw_help(state);
+  draw_save_dialogue(state, actions.save);
+}
+
+}  // namespace window

@@ -1,0 +1,22 @@
+// Draws everything that lies over the picture; each panel has a file of its own.
+#pragma once
+
+#include "csgcore/view.hpp"
+#include "panels/menu_bar.hpp"
+#include "panels/message_panel.hpp"
+#include "panels/save_dialogue.hpp"
+#include "state.hpp"
+
+namespace window {
+
+/// What the panels ask of the application.
+struct PanelActions {
+  RunCommand run;  // for commands that State::apply() does not do
+  SavePicture save;
+  OpenPlace open;
+};
+
+/// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units.
+void draw_panels(State& state, const csgcore::View& view, const PanelActions& actions);
+
+}  // namespace window

@@ -1,0 +1,86 @@
+// Tests how the lines of an evaluation become the messages of the panel.
+#include "message_list.hpp"
+
+#include <gmock/gmock.h>
+
+namespace window {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+TEST(MessageList, FindsThePlaceOfOpenScadsMessages) {
+  const MessagePlace place =
+      place_of_message("WARNING: Ignoring unknown variable 'x', in file a, line 1.scad, line 12");
+  EXPECT_EQ(place.file, "a, line 1.scad");
+  EXPECT_EQ(place.line, 12u);
+  EXPECT_EQ(place.column, 0u);
+  EXPECT_EQ(
+      place_of_message("ERROR: Parser error in file \"/tmp/b.scad\", line 3: syntax error").file,
+      "/tmp/b.scad");
+}
+
+TEST(MessageList, FindsThePlaceOfScadraysMessages) {
+  const MessagePlace place = place_of_message("c:d.scad:4:9: error: no such file (look for it)");
+  EXPECT_EQ(place.file, "c:d.scad");
+  EXPECT_EQ(place.line, 4u);
+  EXPECT_EQ(place.column, 9u);
+}
+
+TEST(MessageList, NamesNoPlaceWhereThereIsNone) {
+  EXPECT_EQ(place_of_message("ECHO: \"in file x, line 3\"").file, "");
+  EXPECT_EQ(place_of_message("WARNING: Viewall and autocenter disabled").file, "");
+  EXPECT_EQ(place_of_message("WARNING: x, in file a.scad, line none").file, "");
+  EXPECT_EQ(place_of_message("12:30:15: time").file, "");
+}
+
+TEST(MessageList, TellsKindsApart) {
+  const auto kind = [](const char* line) { return messages_of({line}).front().kind; };
+  EXPECT_EQ(kind("ERROR: Assertion 'false' failed in file a.scad, line 1"), MessageKind::kError);
+  EXPECT_EQ(kind("a.scad:1:1: error: out of memory (try a smaller design)"), MessageKind::kError);
+  EXPECT_EQ(kind("WARNING: undefined operation, in file a.scad, line 1"), MessageKind::kWarning);
+  EXPECT_EQ(kind("DEPRECATED: child() will be removed, in file a, line 1"), MessageKind::kWarning);
+  EXPECT_EQ(kind("a.scad:1:1: warning: left out (…)"), MessageKind::kWarning);
+  EXPECT_EQ(kind("ECHO: \"WARNING: mine\""), MessageKind::kEcho);
+  EXPECT_EQ(kind("Saved"), MessageKind::kOther);
+}
+
+TEST(MessageList, FoldsWhatRepeatsWithItsTraces) {
+  const std::vector<Message> messages = messages_of({
+      "WARNING: a, in file x, line 1",
+      "TRACE: called by 'f', in file x, line 2",
+      "WARNING: b, in file x, line 1",
+      "WARNING: a, in file x, line 1",
+      "TRACE: called by 'f', in file x, line 2",
+      "WARNING: a, in file x, line 1",
+      "TRACE: called by 'g', in file x, line 3",
+  });
+  ASSERT_THAT(messages, SizeIs(3));
+  EXPECT_EQ(messages[0].count, 2u);
+  EXPECT_THAT(messages[0].traces, ElementsAre("TRACE: called by 'f', in file x, line 2"));
+  EXPECT_EQ(messages[1].count, 1u);
+  EXPECT_THAT(messages[2].traces, ElementsAre("TRACE: called by 'g', in file x, line 3"));
+}
+
+TEST(MessageList, KeepsTheOrderOfEchoes) {
+  const std::vector<Message> messages =
+      messages_of({"ECHO: 1", "ECHO: 1", "ECHO: 2", "WARNING: w", "ECHO: 1"});
+  ASSERT_THAT(messages, SizeIs(4));
+  EXPECT_EQ(messages[0].count, 2u);
+  EXPECT_EQ(messages[3].text, "ECHO: 1");
+}
+
+TEST(MessageList, CountsAndFilters) {
+  const std::vector<Message> messages =
+      messages_of({"ECHO: 1", "WARNING: Wide", "TRACE: by 'Module'", "WARNING: w", "WARNING: w"});
+  const MessageCounts counts = count_messages(messages);
+  EXPECT_EQ(counts.echoes, 1u);
+  EXPECT_EQ(counts.warnings, 3u);
+  EXPECT_EQ(counts.without_echoes(), 3u);
+  EXPECT_TRUE(contains(messages[1], "wide"));
+  EXPECT_TRUE(contains(messages[1], "MODULE"));
+  EXPECT_FALSE(contains(messages[2], "wide"));
+}
+
+}  // namespace
+}  // namespace window
