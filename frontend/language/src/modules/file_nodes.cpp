@@ -48,9 +48,8 @@ double read_dpi(const BuiltinCall& call, const Value& dpi, const Value& origin) 
   return kDefault;
 }
 
-}  // namespace
-
-Made make_import(const BuiltinCall& call, Node& node) {
+/// Only import() looks at the path's suffix.
+Made make_any_import(const BuiltinCall& call, Node& node, bool looks_at_suffix) {
   enum : size_t {
     kFile,
     kLayer,
@@ -79,7 +78,7 @@ Made make_import(const BuiltinCall& call, Node& node) {
   add_escaped(node, "file", file.path);
   add_escaped(node, "layer", layer);
   add(node, "origin", numbers({x, y}));
-  if (is_svg(file.path)) {
+  if (looks_at_suffix && is_svg(file.path)) {
     add_bool(node, "center", is_true_bool(given[kCenter]));
     add(node, "dpi", dpi);
   }
@@ -88,6 +87,14 @@ Made make_import(const BuiltinCall& call, Node& node) {
   add_fragments(node, fragments_of(call));
   add_integer(node, "timestamp", file.timestamp);
   return Made::kNode;
+}
+
+}  // namespace
+
+Made make_import(const BuiltinCall& call, Node& node) { return make_any_import(call, node, true); }
+
+Made make_deprecated_import(const BuiltinCall& call, Node& node) {
+  return make_any_import(call, node, false);
 }
 
 Made make_surface(const BuiltinCall& call, Node& node) {

@@ -57,6 +57,7 @@ Made make_resize(const BuiltinCall& call, Node& node);
 // file_nodes.cpp; file, layer, convexity, origin, scale, width, height, filename, layername,
 // center, dpi
 Made make_import(const BuiltinCall& call, Node& node);
+Made make_deprecated_import(const BuiltinCall& call, Node& node);  // import_stl() and others
 // file, center, convexity, invert
 Made make_surface(const BuiltinCall& call, Node& node);
 
