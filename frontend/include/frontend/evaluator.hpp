@@ -6,7 +6,7 @@
 namespace frontend {
 
 enum class Evaluator : uint8_t {
-  kOwn,       // frontend/language; openscad for what that does not know
+  kOwn,       // frontend/language
   kOpenScad,  // the installed openscad
 };
 

@@ -78,17 +78,12 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
   return {text_of(tree), text_of(messages)};
 }
 
-std::optional<Result> by_scadray(const std::string& file, const std::vector<std::string>& options) {
+Result by_scadray(const std::string& file, const std::vector<std::string>& options) {
   const std::optional<language::EvaluationOptions> known = evaluation_options(options);
   if (!known) throw Error("", {}, "an option of check is not known", "see scadray check --help");
   Result result;
   const language::Evaluation evaluation = language::evaluate(
       file, *known, [&](std::string_view line) { result.messages.append(line) += '\n'; });
-  if (!evaluation.unknown.empty()) {
-    std::printf("%s: not compared, since scadray does not know %s\n", file.c_str(),
-                evaluation.unknown.c_str());
-    return std::nullopt;
-  }
   const bool is_read = evaluation.outcome == language::Outcome::kDone ||
                        evaluation.outcome == language::Outcome::kAborted;
   if (is_read) result.tree = language::csg_text(evaluation.tree);
@@ -121,11 +116,10 @@ bool show_difference(const std::string& file, const char* what, std::string_view
 
 bool check_design(const std::string& file, const std::vector<std::string>& options) {
   check_input(file);
-  const std::optional<Result> own = by_scadray(file, options);
-  if (!own) return true;
+  const Result own = by_scadray(file, options);
   const Result openscad = by_openscad(file, options);
-  const bool trees = show_difference(file, "trees", own->tree, openscad.tree);
-  const bool messages = show_difference(file, "messages", own->messages, openscad.messages);
+  const bool trees = show_difference(file, "trees", own.tree, openscad.tree);
+  const bool messages = show_difference(file, "messages", own.messages, openscad.messages);
   if (!trees && !messages) std::printf("%s: the same\n", file.c_str());
   return !trees && !messages;
 }

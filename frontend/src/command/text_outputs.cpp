@@ -58,25 +58,14 @@ class TextRun {
     const FileText input = options_.input == "-" ? read_file("-") : FileText();
     language::Evaluation evaluation = language::evaluate(
         options_.input, *known, [&](std::string_view line) { add(line); }, input.view());
-    if (!evaluation.unknown.empty()) {
-      std::fprintf(stderr, "openscad evaluates the design, since scadray does not know %s\n",
-                   evaluation.unknown.c_str());
-      return write_by_openscad(options_, output_);
-    }
-    pass_on();
     return write(evaluation);
   }
 
  private:
+  /// The messages of a tree go to stderr.
   void add(std::string_view line) {
     if (options_.quiet && !line.starts_with("ERROR")) return;
     messages_.append(line) += '\n';
-    constexpr std::size_t kMostHeldBytes = std::size_t{1} << 20;
-    if (output_.kind == TextKind::kCsg && messages_.size() > kMostHeldBytes) pass_on();
-  }
-
-  /// The messages of a tree go to stderr; they are held as long as openscad may say them.
-  void pass_on() {
     if (output_.kind != TextKind::kCsg) return;
     std::fwrite(messages_.data(), 1, messages_.size(), stderr);
     messages_.clear();
@@ -108,7 +97,7 @@ class TextRun {
 
   const Options& options_;
   const TextOutput& output_;
-  std::string messages_;
+  std::string messages_;  // which are the output, or a line that is being said
 };
 
 }  // namespace

@@ -14,28 +14,6 @@
 namespace frontend {
 namespace {
 
-/// Keeps messages until it is known that the evaluation counts, or until they are many.
-class HeldMessages {
- public:
-  explicit HeldMessages(OpenScadMessages& messages) : messages_(messages) {}
-
-  void add(std::string_view line) {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 20;
-    held_.append(line) += '\n';
-    if (is_through_ || held_.size() > kMostBytes) pass_on();
-  }
-  void pass_on() {
-    is_through_ = true;
-    messages_.add(held_);
-    held_.clear();
-  }
-
- private:
-  OpenScadMessages& messages_;
-  std::string held_;
-  bool is_through_ = false;
-};
-
 /// Sets a flag by OpenSCAD's words for true and false, in any case; any other word leaves it.
 void read_flag(std::string_view value, bool& flag) {
   std::string lower(value);
@@ -90,21 +68,16 @@ std::shared_ptr<const language::Evaluation> evaluate_design(
   if (!known) return nullptr;
   known->is_preview = is_preview;
   known->stop = stop;
-  OpenScadMessages messages(message);
-  HeldMessages held(messages);
+  OpenScadMessages messages(message, OpenScadMessages::AfterError::kHolds);
   language::Evaluation evaluation;
   try {
-    evaluation = language::evaluate(path, *known, [&](std::string_view line) { held.add(line); });
+    evaluation = language::evaluate(
+        path, *known, [&](std::string_view line) { messages.add(std::string(line) + "\n"); });
   } catch (const language::Stopped&) {
     throw Stopped{};
   }
-  if (!evaluation.unknown.empty()) {
-    message("openscad evaluates the design, since scadray does not know " + evaluation.unknown);
-    return nullptr;
-  }
   // A syntax error in a used file, or a parameter file that cannot be read, ends nothing.
   if (evaluation.outcome == language::Outcome::kDone) messages.pass_errors();
-  held.pass_on();
   messages.finish();
   if (messages.first_error()) throw openscad_error(path, *messages.first_error());
   if (evaluation.outcome != language::Outcome::kDone) {

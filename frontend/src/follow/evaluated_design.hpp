@@ -18,8 +18,8 @@ namespace frontend {
 std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments);
 
-/// Evaluates a design; its messages go to `message`. Returns null, and says so there, if openscad
-/// has to do it. Throws Error where openscad would report an error, and Stopped (stop.hpp) once
+/// Evaluates a design; its messages go to `message`. Returns null if the arguments are none of the
+/// own evaluator's. Throws Error where openscad would report an error, and Stopped (stop.hpp) once
 /// `stop` is requested.
 std::shared_ptr<const language::Evaluation> evaluate_design(
     const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,

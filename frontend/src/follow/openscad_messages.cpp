@@ -27,15 +27,28 @@ void OpenScadMessages::line(const std::string& text) {
   const bool is_error = text.starts_with(kError) && !text.starts_with(kMissingFont);
   if (is_error && !passes_errors_ && !first_error_) {
     first_error_ = text.substr(kError.size());
+  } else if (first_error_ && after_error_ == AfterError::kHolds) {
+    held_.push_back(text);
+    held_bytes_ += text.size();
+    if (held_bytes_ > kMostHeld) {
+      release();
+      after_error_ = AfterError::kPasses;
+    }
   } else {
     message_(text);
   }
+}
+
+void OpenScadMessages::release() {
+  for (const std::string& text : held_) message_(text);
+  held_.clear();
 }
 
 void OpenScadMessages::pass_errors() {
   passes_errors_ = true;
   if (first_error_) message_(std::string(kError) + *first_error_);
   first_error_.reset();
+  release();
 }
 
 Error openscad_error(const std::string& scad_path, const std::string& text) {

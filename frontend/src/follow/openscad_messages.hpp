@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/error.hpp"
 
@@ -15,8 +17,13 @@ namespace frontend {
 /// Collects openscad's messages line by line. The first ERROR is kept, to be thrown.
 class OpenScadMessages {
  public:
-  explicit OpenScadMessages(const std::function<void(const std::string&)>& message)
-      : message_(message) {}
+  /// What happens to the lines that follow the first ERROR. They are held where pass_errors() may
+  /// still put the ERROR before them.
+  enum class AfterError : uint8_t { kPasses, kHolds };
+
+  explicit OpenScadMessages(const std::function<void(const std::string&)>& message,
+                            AfterError after_error = AfterError::kPasses)
+      : message_(message), after_error_(after_error) {}
   void add(std::string_view text) {
     pending_ += text;
     std::size_t start = 0;
@@ -30,6 +37,7 @@ class OpenScadMessages {
   void finish() {
     if (!pending_.empty()) line(pending_);
     pending_.clear();
+    release();
   }
   /// Shows the ERROR that is kept and all later ones like other messages.
   void pass_errors();
@@ -39,11 +47,18 @@ class OpenScadMessages {
   /// A longer line is shown in pieces, so that it is shown even if it never ends.
   static constexpr std::size_t kLongestLine = std::size_t{1} << 16;
 
+  /// More than these bytes are not held: endless recursion is traced at length.
+  static constexpr std::size_t kMostHeld = std::size_t{1} << 20;
+
   void line(const std::string& text);
+  void release();  // what is held
 
   const std::function<void(const std::string&)>& message_;
   std::string pending_;
+  AfterError after_error_;
   std::optional<std::string> first_error_;
+  std::vector<std::string> held_;
+  std::size_t held_bytes_ = 0;
   bool passes_errors_ = false;
 };
 

@@ -137,14 +137,6 @@ TEST_F(EvaluatedDesign, IsDrawnAfterErrorsThatOpenScadGoesOnAfter) {
   EXPECT_EQ(failed.code, ExitCode::kFailure);
 }
 
-TEST_F(EvaluatedDesign, IsGivenToOpenScadWhereScadrayDoesNotKnowIt) {
-  const Environment openscad("OPENSCAD", folder_.script("openscad", "echo 'sphere(r = 1);'"));
-  const Said said = run({"-o", folder_ / "x.png", design("echo(dxf_dim(file = \"a.dxf\"));")});
-  EXPECT_EQ(said.code, ExitCode::kDone);
-  EXPECT_THAT(said.err, HasSubstr("openscad evaluates the design, since scadray does not know"));
-  EXPECT_EQ(scene_.primitives.at(0).shape, csgcore::Shape::kSphere);
-}
-
 TEST_F(EvaluatedDesign, IsComparedWithOpenScads) {
   const Environment same("OPENSCAD", folder_.script("same",
                                                     "printf '\\\\'\n"  // as its lexer does

@@ -66,7 +66,6 @@ TEST(Evaluation, TellsOutcomeAndFiles) {
   ASSERT_EQ(result.evaluation.files_read.size(), 2u);
   EXPECT_TRUE(result.evaluation.files_read[1].ends_with("/quiet.scad"));
   EXPECT_FALSE(result.evaluation.lookups.empty());
-  EXPECT_EQ(result.evaluation.unknown, "");
   EXPECT_EQ(evaluated("cube(").evaluation.outcome, Outcome::kNotParsed);
   EXPECT_EQ(evaluated("assert(false);").evaluation.outcome, Outcome::kAborted);
 }
@@ -94,11 +93,6 @@ TEST(Evaluation, AppliesParameterSets) {
   evaluate(folder.write("design.scad", "a = 1; b = \"x\"; c = 3; d = 1 + 1; echo(a, b, c, d);\n"),
            options, sink);
   EXPECT_EQ(messages, "ECHO: 5, \"hi\", 3, 7\n");
-}
-
-TEST(Evaluation, NamesWhatItDoesNotKnow) {
-  const Evaluated result = evaluated("cube(1);\nx = dxf_dim(file = \"a.dxf\");\n");
-  EXPECT_EQ(result.evaluation.unknown, "dxf_dim() in file design.scad, line 2");
 }
 
 TEST(Evaluation, NestsDeeplyAndEnds) {

@@ -60,7 +60,8 @@ class BuiltinFunctions : public ::testing::Test {
   Messages messages_{files_, [this](const Message& message) { said_ += " | " + message.text; }};
 
  protected:
-  FunctionEnvironment environment_{messages_, std::mt19937(), {}};
+  NamedFiles named_files_{messages_, "/folder"};
+  FunctionEnvironment environment_{messages_, named_files_, std::mt19937()};
 };
 
 TEST_F(BuiltinFunctions, AreSortedByName) {

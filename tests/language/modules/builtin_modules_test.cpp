@@ -470,8 +470,8 @@ TEST(BuiltinModules, MakeFiles) {
        "import(file = \"\", layer = \"\", origin = [0, 0], scale = 1, convexity = 1, $fn = 0, $fa "
        "= 12, $fs = 2, timestamp = 0);\n",
        ""},
-      {"import_stl(\"no.stl\");",
-       "import(file = \"no.stl\", layer = \"\", origin = [0, 0], scale = 1, convexity = 1, $fn = "
+      {"import_stl(\"no.svg\");",
+       "import(file = \"no.svg\", layer = \"\", origin = [0, 0], scale = 1, convexity = 1, $fn = "
        "0, $fa = 12, $fs = 2, timestamp = 0);\n",
        "DEPRECATED: The import_stl() module will be removed in future releases. Use import() "
        "instead. in file <stdin>, line 1\n"},

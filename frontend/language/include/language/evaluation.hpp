@@ -47,12 +47,10 @@ struct Evaluation {
   NodeTree tree;
   std::shared_ptr<const SourceFiles> files;  // what the nodes' places refer to
   /// Absolute paths of all files that were read, the main one first: sources, parameter sets,
-  /// fonts, and what import() and surface() name.
+  /// fonts, and what import(), surface(), dxf_dim() and others name. None is listed twice.
   std::vector<std::string> files_read;
-  std::vector<std::string> lookups;  // absolute paths that were tried and did not exist
+  std::vector<std::string> lookups;  // absolute paths that were tried and did not exist, once each
   DesignCamera camera;
-  /// What the design uses and this evaluator does not know, with its place; empty: nothing.
-  std::string unknown;
 };
 
 /// Takes the lines that OpenSCAD would print, in order, without the line feed.

@@ -25,10 +25,6 @@ void CodeCompiler::named_call(const CallExpression& call, Name name) {
   if (const auto found = compiler_.find_function(*scope_, name); found.entry)
     return static_call(call, found);
   if (name == compiler_.known().is_undef) return is_undef_call(call);
-  if (name == compiler_.known().dxf_dim || name == compiler_.known().dxf_cross) {
-    out_.emit(Op::kUnsupported, call.place, 1, name);
-    return;
-  }
   if (compiler_.builtins().functions.count(name)) return builtin_call(call, name);
   out_.emit(Op::kUnknownFunction, call.place, 1, name);
 }
@@ -60,6 +56,8 @@ void CodeCompiler::lazy_call(const CallExpression& call, uint32_t builtin) {
   for (const Argument& argument : call.arguments) {
     out_.set_depth(full);
     site.argument_code.push_back(out_.here());
+    site.argument_names.push_back(argument.name == kNoName ? std::string_view()
+                                                           : compiler_.names().text(argument.name));
     expression(*argument.value);
     out_.emit(Op::kKeepLazy, argument.place, -1, number);
     out_.emit(Op::kJump, argument.place, 0, next);

@@ -88,6 +88,7 @@ struct LazyCall {
   uint32_t slot;
   uint32_t room;
   std::vector<uint32_t> argument_code{};
+  std::vector<std::string_view> argument_names{};  // empty: it has none
 };
 
 struct NodeSite {

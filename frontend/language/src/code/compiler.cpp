@@ -19,9 +19,7 @@ Compiler::KnownNames::KnownNames(NameTable& names)
       group(names.intern("group")),
       union_(names.intern("union")),
       difference(names.intern("difference")),
-      intersection(names.intern("intersection")),
-      dxf_dim(names.intern("dxf_dim")),
-      dxf_cross(names.intern("dxf_cross")) {}
+      intersection(names.intern("intersection")) {}
 
 Compiler::Compiler(Program& program, Builtins builtins, bool check_parameters)
     : program_(program),

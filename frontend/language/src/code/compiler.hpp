@@ -71,7 +71,7 @@ class Compiler {
   struct KnownNames {
     explicit KnownNames(NameTable& names);
     Name pi, is_undef, children, child, child_count, let, assign, for_, intersection_for, echo,
-        assert_, group, union_, difference, intersection, dxf_dim, dxf_cross;
+        assert_, group, union_, difference, intersection;
   };
   const KnownNames& known() const { return known_; }
 

@@ -80,7 +80,6 @@ enum class Op : uint8_t {
   kCallBuiltin,       // call builtin function b with the a values on top
   kNextLazy,          // go to the argument that lazy_calls[b] evaluates next, or call it
   kKeepLazy,          // pop a value and add it to the arguments of lazy_calls[b]
-  kUnsupported,       // end the evaluation at the function named b, which only OpenSCAD knows
   kWarnCount,         // say that builtin function b got a wrong number of arguments; push undef
   kUnknownFunction,   // warn of the name b; push undef
   kArgumentWarnings,  // say the warnings of plans[b]; once if flag

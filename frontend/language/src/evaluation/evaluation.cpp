@@ -1,6 +1,8 @@
 #include "language/evaluation.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_set>
 
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
@@ -39,7 +41,7 @@ class Session {
   void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
                          Converted (*convert)(const Value&, bool&), Converted& target);
   void say_root_modifiers();
-  void list_files(const ModuleEnvironment& modules);
+  void list_files(const NamedFiles& named);
 
   const std::string& path_;
   const EvaluationOptions& options_;
@@ -136,7 +138,8 @@ void Session::evaluate_program() {
     program_->names.intern(name);
   Compiler compiler(*program_, builtin_shapes(program_->names), options_.check_parameters);
   const std::string& folder = program_->units[0].folder;
-  ModuleEnvironment modules{messages_, folder, folder, options_.check_ranges};
+  NamedFiles files(messages_, folder);
+  ModuleEnvironment modules{messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, result_.tree, options_.stop);
   machine_ = &machine;
   preset_names(machine);
@@ -151,26 +154,31 @@ void Session::evaluate_program() {
     result_.outcome = Outcome::kAborted;
     result_.tree = {};
     machine.end_early();
-  } catch (const Unsupported& unsupported) {
-    result_.unknown = unsupported.what();
-    result_.tree = {};
-    return;
   }
   machine_ = nullptr;
   read_camera(machine);
   say_root_modifiers();
-  list_files(modules);
+  list_files(files);
 }
 
-void Session::list_files(const ModuleEnvironment& modules) {
+// A loop may name the same files again and again.
+void append_new(std::vector<std::string>& list, const std::vector<std::string>& paths) {
+  std::unordered_set<std::string_view> known(list.begin(), list.end());
+  std::vector<std::string> added;
+  for (const std::string& path : paths)
+    if (known.insert(path).second) added.push_back(path);
+  list.insert(list.end(), added.begin(), added.end());
+}
+
+void Session::list_files(const NamedFiles& named) {
+  std::vector<std::string> sources;
   for (FileId file = 0; file < program_->files.size(); ++file)
-    result_.files_read.push_back(program_->files[file].path);
-  for (const Unit& unit : program_->units)
-    result_.files_read.insert(result_.files_read.end(), unit.fonts.begin(), unit.fonts.end());
-  result_.files_read.insert(result_.files_read.end(), modules.files_read.begin(),
-                            modules.files_read.end());
-  result_.lookups = program_->lookups;
-  result_.lookups.insert(result_.lookups.end(), modules.lookups.begin(), modules.lookups.end());
+    sources.push_back(program_->files[file].path);
+  append_new(result_.files_read, sources);
+  for (const Unit& unit : program_->units) append_new(result_.files_read, unit.fonts);
+  append_new(result_.files_read, named.files_read());
+  append_new(result_.lookups, program_->lookups);
+  append_new(result_.lookups, named.lookups());
 }
 
 Evaluation Session::run() {

@@ -120,7 +120,8 @@ void Machine::next_lazy(const LazyCall& site) {
   const uint32_t base = base_ + site.slot;
   const auto count = static_cast<uint32_t>(stack_[base].number());
   const std::span<Value> arguments(&stack_[base + 1], count);
-  const FunctionCall call{function.name, site.written, arguments, place(), functions_};
+  const FunctionCall call{function.name, site.written, arguments,
+                          place(),       functions_,   site.argument_names};
   const size_t next = count == site.room ? kNoArgument : function.next_argument(call);
   if (next != kNoArgument) {
     next_ = site.argument_code[next];

@@ -28,7 +28,7 @@ Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modu
       messages_(messages),
       modules_(modules),
       tree_(tree),
-      functions_{messages, seeded_generator(), {}},
+      functions_{messages, modules.files, seeded_generator(), {}},
       stop_(std::move(stop)),
       builtin_functions_(builtin_functions()),
       builtin_modules_(builtin_modules()),
@@ -260,9 +260,6 @@ bool Machine::execute(const Instruction& step) {
       case Op::kKeepLazy:
         keep_lazy(frames_.back().code->lazy_calls[step.b]);
         break;
-      case Op::kUnsupported:
-        throw Unsupported(std::string(compiler_.names().text(step.b)) + "()" +
-                          messages_.place_suffix(place(), PathBase::kMainFile));
       case Op::kWarnCount:
         warn_count(step.b);
         break;

@@ -33,16 +33,6 @@ class Aborted : public std::exception {
   const char* what() const noexcept override { return "aborted"; }
 };
 
-/// Thrown where a design uses what this evaluator does not know.
-class Unsupported : public std::exception {
- public:
-  explicit Unsupported(std::string what) : what_(std::move(what)) {}
-  const char* what() const noexcept override { return what_.c_str(); }
-
- private:
-  std::string what_;
-};
-
 /// Thrown by the sink of messages at a warning, if warnings end the evaluation.
 class HardWarning : public std::exception {
  public:

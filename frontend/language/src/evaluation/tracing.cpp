@@ -50,7 +50,7 @@ void Machine::say_traces() {
 void Machine::set_unit(uint32_t unit) {
   unit_ = unit;
   messages_.set_unit_folder(compiler_.program().units[unit].folder);
-  modules_.unit_folder = compiler_.program().units[unit].folder;
+  modules_.files.set_unit_folder(compiler_.program().units[unit].folder);
 }
 
 void Machine::check_limits() {

@@ -8,8 +8,8 @@
 
 namespace language {
 
-/// All but those which the evaluator has to see through: is_undef, echo, assert, let, dxf_dim and
-/// dxf_cross. Sorted by name.
+/// All but those which the evaluator has to see through: is_undef, echo, assert, let. Sorted by
+/// name.
 std::span<const BuiltinFunction> builtin_functions();
 
 /// Returns the function of that name, or null.

@@ -7,8 +7,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
+#include "files/named_files.hpp"
 #include "language/place.hpp"
 #include "language/value.hpp"
 #include "messages/messages.hpp"
@@ -18,18 +20,24 @@ namespace language {
 /// What builtin functions use besides their arguments; one per evaluation.
 struct FunctionEnvironment {
   Messages& messages;
+  NamedFiles& files;
   std::mt19937 random;  // of rands(), seeded by time and process unless a call seeds it
   /// Names of the user modules on the stack, outermost first: parent_module() reads them.
-  std::span<const std::string_view> module_names;
+  std::span<const std::string_view> module_names{};
+  /// What dxf_dim() and dxf_cross() have found.
+  std::unordered_map<std::string, Value> measures{};
 };
 
 struct FunctionCall {
   std::string_view name;  // of the function
-  size_t written;         // arguments that the call has; names of arguments are ignored
+  size_t written;         // arguments that the call has
   /// The arguments that have been evaluated, in that order. A call may move them away.
   std::span<Value> arguments;
   Place place;  // of the call
   FunctionEnvironment& environment;
+  /// Of the written arguments; empty: it has none. Only of functions with next_argument(); others
+  /// ignore names.
+  std::span<const std::string_view> names{};
 
   /// Says a warning at the call.
   void warn(std::string text) const { environment.messages.warn(std::move(text), place); }

@@ -42,6 +42,10 @@ Value lookup(const FunctionCall& call);
 Value search(const FunctionCall& call);
 Value random_numbers(const FunctionCall& call);
 
+// drawings.cpp
+Value drawing_dimension(const FunctionCall& call);
+Value drawing_cross(const FunctionCall& call);
+
 // facts.cpp
 Value version(const FunctionCall& call);
 Value version_number(const FunctionCall& call);
@@ -63,9 +67,11 @@ size_t next_of_exactly_one(const FunctionCall& call);
 size_t next_of_exactly_two(const FunctionCall& call);
 size_t next_of_lookup(const FunctionCall& call);
 
-/// The same of chr() and rands(), which warn of an argument before the next one is evaluated.
+/// The same of chr(), rands(), dxf_dim() and dxf_cross(), which warn of an argument before the next
+/// one is evaluated.
 size_t next_of_characters(const FunctionCall& call);
 size_t next_of_random_numbers(const FunctionCall& call);
+size_t next_of_drawing(const FunctionCall& call);
 
 /// Warns that an argument has the wrong type, and returns undef.
 Value not_converted(const FunctionCall& call);

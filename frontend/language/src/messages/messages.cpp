@@ -12,6 +12,7 @@ std::string_view group_prefix(MessageGroup group) {
     case MessageGroup::kError:
       return "ERROR: ";
     case MessageGroup::kWarning:
+    case MessageGroup::kSoftWarning:
       return "WARNING: ";
     case MessageGroup::kDeprecated:
       return "DEPRECATED: ";
@@ -66,6 +67,7 @@ bool Messages::is_repeat(const Message& message) {
       return !deprecations_.insert(message.line).second;
     case MessageGroup::kError:
     case MessageGroup::kWarning:
+    case MessageGroup::kSoftWarning:
     case MessageGroup::kTrace:
       break;
     case MessageGroup::kEcho:

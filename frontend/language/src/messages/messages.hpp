@@ -14,7 +14,15 @@
 
 namespace language {
 
-enum class MessageGroup : uint8_t { kError, kWarning, kDeprecated, kTrace, kEcho, kPlain };
+enum class MessageGroup : uint8_t {
+  kError,
+  kWarning,
+  kSoftWarning,  // looks like a warning, but --hardwarnings does not stop there
+  kDeprecated,
+  kTrace,
+  kEcho,
+  kPlain
+};
 
 struct Message {
   MessageGroup group;

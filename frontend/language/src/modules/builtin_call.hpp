@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/named_files.hpp"
 #include "language/node_tree.hpp"
 #include "language/place.hpp"
 #include "language/value.hpp"
@@ -17,13 +18,8 @@ namespace language {
 /// What builtin modules use besides their arguments; one per evaluation.
 struct ModuleEnvironment {
   Messages& messages;
-  std::string main_folder;     // absolute; paths in the .csg are relative to it
-  std::string unit_folder;     // of the code being evaluated: where imports are looked up first
+  NamedFiles& files;
   bool checks_ranges = false;  // --check-parameter-ranges
-  /// Absolute paths of the files that import() and surface() have named: those that are there, and
-  /// those that were tried and are not.
-  std::vector<std::string> files_read{};
-  std::vector<std::string> lookups{};
 };
 
 /// A call whose arguments are resolved and evaluated.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "modules/makers.hpp"
-#include "modules/named_file.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {
@@ -27,7 +26,7 @@ void note_file(const BuiltinCall& call, const char* module) {
 /// The arguments of an extrusion that reads a file itself, up to `origin`.
 NamedFile add_file(const BuiltinCall& call, NodeTree& tree, const std::string& name,
                    const Value& layer, double x, double y) {
-  const NamedFile file = find_named_file(call, name);
+  const NamedFile file = call.environment.files.find(name);
   add_escaped(tree, "file", file.path);
   add_escaped(tree, "layer", str_or_nothing(layer));
   add_numbers(tree, "origin", {x, y});

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "modules/makers.hpp"
-#include "modules/named_file.hpp"
 #include "modules/node_values.hpp"
 
 namespace language {
@@ -66,7 +65,7 @@ Made make_import_node(const BuiltinCall& call, NodeTree& tree, bool knows_svg) {
   const auto& given = call.parameters;
   set_name(tree, "import");
   const std::string name = text_of(call, given[kFile], given[kFilename], "file", "filename");
-  const NamedFile file = find_named_file(call, name);
+  const NamedFile file = call.environment.files.find(name);
   const std::string layer = text_of(call, given[kLayer], given[kLayername], "layer", "layername");
   double x = 0, y = 0;
   const bool is_origin = read_vec2(given[kOrigin], x, y) && std::isfinite(x) && std::isfinite(y);
@@ -103,7 +102,7 @@ Made make_surface(const BuiltinCall& call, NodeTree& tree) {
   enum : size_t { kFile, kCenter, kConvexity, kInvert };
   const auto& given = call.parameters;
   set_name(tree, "surface");
-  const NamedFile file = find_named_file(call, str_or_nothing(given[kFile]));
+  const NamedFile file = call.environment.files.find(str_or_nothing(given[kFile]));
   add_escaped(tree, "file", file.path);
   add_bool(tree, "center", is_true_bool(given[kCenter]));
   add_bool(tree, "invert", is_true_bool(given[kInvert]));

@@ -1,11 +1,9 @@
-#include "modules/named_file.hpp"
+#include "files/named_files.hpp"
 
 #include <sys/stat.h>
 
 #include <filesystem>
 #include <system_error>
-
-#include "modules/node_values.hpp"
 
 namespace language {
 namespace {
@@ -43,41 +41,42 @@ std::string relative_to(const fs::path& folder, const fs::path& path) {
   return relative;
 }
 
-int64_t seconds_of_last_change(const fs::path& path) {
-  struct stat status {};
-  return stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
-}
-
 bool is_there(const fs::path& path) {
   std::error_code failed;
   return fs::exists(path, failed);
 }
 
-/// Returns the path that a name stands for.
-fs::path find(const BuiltinCall& call, const std::string& name) {
-  ModuleEnvironment& environment = call.environment;
-  fs::path first = fs::path(environment.unit_folder) / name;  // `name` alone if it is absolute
+}  // namespace
+
+std::string NamedFiles::path_of(const std::string& name) {
+  fs::path first = fs::path(unit_folder_) / name;  // `name` alone if it is absolute
   if (is_there(first)) return first;
-  environment.lookups.push_back(first.lexically_normal().string());
-  const fs::path second = fs::path(environment.main_folder) / name;
+  lookups_.push_back(first.lexically_normal().string());
+  const fs::path second = fs::path(main_folder_) / name;
   if (second == first) return first;
   if (!is_there(second)) {
-    environment.lookups.push_back(second.lexically_normal().string());
+    lookups_.push_back(second.lexically_normal().string());
     return first;
   }
-  deprecate(call, "Imported file (" + name +
-                      ") found in document root instead of relative to the importing module. This "
-                      "behavior is deprecated");
+  messages_.say(MessageGroup::kDeprecated,
+                "Imported file (" + name +
+                    ") found in document root instead of relative to the importing module. This "
+                    "behavior is deprecated");
   return second;
 }
 
-}  // namespace
-
-NamedFile find_named_file(const BuiltinCall& call, const std::string& name) {
-  if (name.empty()) return {};
-  const fs::path path = resolved_file(find(call, name));
-  if (is_there(path)) call.environment.files_read.push_back(path.string());
-  return {relative_to(resolved(call.environment.main_folder), path), seconds_of_last_change(path)};
+NamedFile NamedFiles::find(const std::string& name) {
+  NamedFile file;
+  if (name.empty()) return file;
+  file.opened = path_of(name);
+  const fs::path path = resolved_file(file.opened);
+  struct stat status {};
+  file.exists = stat(path.c_str(), &status) == 0;
+  if (file.exists) files_read_.push_back(path.string());
+  file.path = relative_to(resolved(main_folder_), path);
+  file.timestamp = status.st_mtime;
+  file.size = status.st_size;
+  return file;
 }
 
 }  // namespace language

@@ -1,0 +1,52 @@
+// The files that a design names besides its sources: by import(), surface(), extrusions of files,
+// dxf_dim() and dxf_cross().
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "messages/messages.hpp"
+
+namespace language {
+
+struct NamedFile {
+  std::string path;    // as the .csg names it: relative to the main file's folder
+  std::string opened;  // as OpenSCAD opens it: a folder and the name
+  bool exists = false;
+  int64_t timestamp = 0;  // when it was changed last, in whole seconds; 0: it is not there
+  int64_t size = 0;       // bytes
+};
+
+/// Finds those of one evaluation, and notes what was looked at.
+class NamedFiles {
+ public:
+  /// The main file's folder is absolute.
+  NamedFiles(Messages& messages, std::string main_folder)
+      : messages_(messages), main_folder_(std::move(main_folder)), unit_folder_(main_folder_) {}
+
+  /// Sets the folder of the main or used file whose code is being evaluated.
+  void set_unit_folder(std::string_view folder) { unit_folder_ = folder; }
+
+  /// Finds a file in the folder of the code's unit, else in the main file's. An empty name is no
+  /// file.
+  NamedFile find(const std::string& name);
+
+  /// Absolute paths of the files that were named: those that are there, and those that were tried
+  /// and are not.
+  const std::vector<std::string>& files_read() const { return files_read_; }
+  const std::vector<std::string>& lookups() const { return lookups_; }
+
+ private:
+  std::string path_of(const std::string& name);
+
+  Messages& messages_;
+  std::string main_folder_;
+  std::string unit_folder_;
+  std::vector<std::string> files_read_;
+  std::vector<std::string> lookups_;
+};
+
+}  // namespace language
