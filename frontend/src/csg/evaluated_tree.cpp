@@ -35,6 +35,12 @@ class TreeBuilder {
  public:
   TreeBuilder(const language::SourceFiles& files, SyntaxTree& tree) : files_(files), tree_(tree) {}
 
+  void add_without_children(const language::Node& node) {
+    open(node);
+    tree_.nodes.back().subtree_end = static_cast<uint32_t>(tree_.nodes.size());
+    open_.pop_back();
+  }
+
   /// Adds a node and all below it.
   void add(const language::Node& top) {
     open(top);
@@ -143,6 +149,12 @@ SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& file
   } else {
     for (const std::shared_ptr<language::Node>& node : root.children) builder.add(*node);
   }
+  return tree;
+}
+
+SyntaxTree tree_without_children(const language::Node& node, const language::SourceFiles& files) {
+  SyntaxTree tree;
+  TreeBuilder(files, tree).add_without_children(node);
   return tree;
 }
 

@@ -15,4 +15,7 @@ namespace frontend {
 SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& files,
                    std::string name);
 
+/// Returns the tree of the node alone, as if it had no children.
+SyntaxTree tree_without_children(const language::Node& node, const language::SourceFiles& files);
+
 }  // namespace frontend

@@ -37,6 +37,7 @@ struct Node {
 
   std::string_view name;                // as .csg spells it, static storage: "cube", "group"
   uint8_t modifiers = 0;                // CallModifier
+  bool is_module_call = false;          // of a module that the design itself defines
   Place place;                          // of the module call that made it
   std::vector<NodeArgument> arguments;  // in the order in which .csg lists them
   std::vector<std::shared_ptr<Node>>

@@ -88,6 +88,7 @@ void Machine::call_module(const CallSite& site) {
   activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
   auto node = std::make_shared<Node>();
   node->name = "group";
+  node->is_module_call = true;
   node->modifiers = site.modifiers;
   node->place = place();
   nodes_.push_back(std::move(node));
