@@ -86,6 +86,16 @@ TEST(Surface, OfAnExtrusionIsRoundWhereItsEdgeIs) {
   EXPECT_EQ(surface_at(solid, {0.1, 0.1, 5}, Vec3(0, 0, 1)).kind, Surface::Kind::kPlane);
 }
 
+TEST(Surface, ObliqueConesAndShearedCylindersAreNotRound) {
+  // At the middle of its height the hole has radius 0.375, about (0.75, 0.75).
+  const csgcore::Primitive tapered = csgcore::make_extrusion(plate(), 0, 4, 1, 0.5);
+  EXPECT_EQ(surface_at(tapered, {0.75, 1.125, 2}, glm::normalize(Vec3(0, -1, 0.1))).kind,
+            Surface::Kind::kOther);
+  const Affine sheared{Mat3{{1, 0, 0}, {0, 1, 0}, {0.5, 0, 1}}, Vec3(0)};
+  const csgcore::Primitive leaning = csgcore::make_frustum(0, 4, 1, 1, sheared);
+  EXPECT_EQ(surface_at(leaning, {1, 1, 2}, Vec3(0, 1, 0)).kind, Surface::Kind::kOther);
+}
+
 TEST(Surface, OfARevolutionHasItsAxis) {
   using Kind = csgcore::ProfileEdge::Kind;
   // A half disc of radius 2 at the axis: a ball.

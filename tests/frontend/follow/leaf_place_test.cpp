@@ -121,6 +121,15 @@ TEST_F(LeafPlaceTest, CallsAreShownAsTheyAreSpelled) {
             "m(\"ääääääääääääääääää… a.scad:1:24");
 }
 
+TEST(LeafPlace, OfTheStandardInputCannotBeOpened) {
+  DesignTexts texts;
+  texts.evaluation = std::make_shared<const language::Evaluation>(language::evaluate(
+      "-", {}, [](std::string_view) {}, "\n cube(1);"));
+  const LeafPlace found = leaf_place(texts, PrimitivePlace{0, 2, 2, 0});
+  EXPECT_EQ(text_of(found.step().place), "<stdin>:2:2");
+  EXPECT_EQ(found.step().place.path, "");
+}
+
 /// The design has no other text then.
 TEST(LeafPlace, OfACsgIsInTheCsg) {
   const std::string csg = "group() {\n\tsphere($fn = 0, $fa = 12, $fs = 2, r = 10);\n}\n}} (";
