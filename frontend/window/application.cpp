@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <thread>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
-#include "projection.hpp"
 
 namespace window {
 namespace {
@@ -25,12 +23,6 @@ constexpr double kDrawingShare = 0.6;
 
 /// ImGui answers an event in the next frame, and lays out a new panel in the one after that.
 constexpr int kFramesAfterEvent = 3;
-
-/// The step by which a plane is moved, as a share of the design's size, to see how its axis runs on
-/// the screen.
-constexpr double kSectionStep = 0.01;
-/// An axis along which that step is shorter than this is seen end-on.
-constexpr double kLeastAxis_px = 0.25;
 
 /// The longest wait for a picture that was ordered; then the window is drawn without it.
 constexpr std::chrono::milliseconds kShortPainting{50};
@@ -91,6 +83,7 @@ Application::Application(const frontend::Options& options)
                .open = [this](const MessagePlace& place) { open_place(place); }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
+      editor_(options.editor, GlfwWindow::wake),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
       follower_(options.input, follow_options(options), GlfwWindow::wake),
       has_camera_(!frontend::sees_all(options.camera)) {
@@ -103,6 +96,7 @@ void Application::run() {
   frames_due_ = kFramesAfterEvent;
   while (!window_.is_closing()) {
     wait_for_news();
+    probe_hover();
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
     order_picture();
     if (window_.size().width_px == 0) frames_due_ = 0;
@@ -126,14 +120,15 @@ void Application::wait_for_news() {
   }
 }
 
-/// Returns the time until what is shown of unfinished work may have to change; nothing while there
-/// is no work.
+/// Returns the time until something may have to change though nothing happens: what is shown of
+/// unfinished work, or of what is under the resting mouse. Nothing: the window may sleep.
 std::optional<double> Application::seconds_to_next_look() const {
   std::optional<Clock::time_point> next;
   const auto look_at = [&next](Clock::time_point when) {
     next = std::min(next.value_or(when), when);
   };
   if (is_reading_ && !state_.is_reading) look_at(reading_since_ + kShortReading);
+  if (const auto due = hover_.due()) look_at(*due);
   for (const auto& activity : {follower_.activity(), painter_.activity()}) {
     if (activity) look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
   }
@@ -188,7 +183,7 @@ void Application::draw_frame() {
   csgcore::View view = state_.navigation.view(size);
   view.width_px = static_cast<uint32_t>(std::lround(size.width_px / scale));
   view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
-  draw_panels(state_, view, actions_);
+  draw_panels(state_, view, static_cast<float>(scale), actions_);
   window_.end_frame();
   if (std::exchange(has_new_picture_, false)) report_picture();
 }
@@ -205,6 +200,10 @@ bool Application::take_news() {
     take_painting(std::move(*painting));
     any = true;
   }
+  if (auto problem = editor_.take_problem()) {
+    state_.notice = std::move(*problem);
+    any = true;
+  }
   while (const auto finding = painter_.take_finding()) {
     take_finding(*finding);
     any = true;
@@ -216,6 +215,7 @@ void Application::take_version(frontend::DesignVersion version) {
   const bool leaves_picture = !version.design || version.unchanged;
   if (version.design) texts_ = version.texts;
   if (options_.prints_echoes) print_echoes(version);
+  end_hover();
   state_.take(std::move(version));
   if (!has_camera_ && !state_.bounds().empty()) {
     state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
@@ -327,7 +327,20 @@ std::string Application::path_of(const MessagePlace& place) const {
   return is_beside ? (folder / place.file).string() : place.file;
 }
 
-void Application::open_place(const MessagePlace& place) { state_.notice = path_of(place); }
+void Application::open_place(const MessagePlace& place) {
+  state_.notice = editor_.open({path_of(place), place.line, std::max(place.column, 1u)});
+}
+
+void Application::open_chosen_place() {
+  const frontend::SourcePlace* const place = state_.place_to_open();
+  if (place == nullptr) {
+    state_.notice = "click on the design first: the editor opens the place that is found there";
+  } else if (place->path.empty()) {
+    state_.notice = "no file has that place: openscad has evaluated the design";
+  } else {
+    state_.notice = editor_.open({place->path, place->line, place->column});
+  }
+}
 
 void Application::run_command(Command command) {
   state_.notice.clear();
@@ -336,89 +349,13 @@ void Application::run_command(Command command) {
   if (state_.apply(command)) return;
   if (command == Command::kStop) stop_long_work();
   if (command == Command::kReload) follower_.reload();
+  if (command == Command::kOpenEditor) open_chosen_place();
   if (command == Command::kQuit) window_.close();
 }
 
 void Application::key(int key, uint8_t modifiers) {
+  hover_.stop();
   if (const CommandRow* row = find_command(key, modifiers)) run_command(row->command);
-}
-
-void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy_px) {
-  const Size size = window_.size();
-  const bool with_shift = (modifiers & kShift) != 0;
-  is_moving_ = true;
-  if (button == Button::kLeft && (modifiers & kControl) && state_.section.is_on) {
-    drag_section(dx_px, dy_px);
-  } else if (button == Button::kLeft) {
-    state_.navigation.turn(dx_px, dy_px, with_shift);
-  } else if (button == Button::kMiddle || with_shift) {
-    state_.navigation.move_along(dy_px, size);
-  } else {
-    state_.navigation.pan(dx_px, dy_px, size);
-  }
-}
-
-/// Moves the plane so that it follows the mouse along its axis, as that is seen.
-void Application::drag_section(double dx_px, double dy_px) {
-  const csgcore::Box bounds = state_.bounds();
-  if (bounds.empty()) return;
-  SectionPlane& section = state_.section;
-  const csgcore::View view = state_.navigation.view(window_.size());
-  csgcore::Vec3 on_plane = bounds.center();
-  on_plane[section.axis] = section.position;
-  csgcore::Vec3 further = on_plane;
-  const double step = bounds.diagonal() * kSectionStep;
-  further[section.axis] += step;
-  const auto from = project(view, on_plane), to = project(view, further);
-  if (!from || !to) return;
-  const double x = to->x_px - from->x_px, y = to->y_px - from->y_px;
-  const double length_px = std::hypot(x, y);
-  // A plane that is seen along its axis does not move on the screen: a drag downwards moves it
-  // forward.
-  const double moved_px = length_px >= kLeastAxis_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
-  const double position = section.position + step * moved_px / std::max(length_px, kLeastAxis_px);
-  section.position = std::clamp(position, bounds.min[section.axis], bounds.max[section.axis]);
-}
-
-void Application::wheel(double notches, double x_px, double y_px) {
-  is_moving_ = true;
-  state_.navigation.zoom(notches, x_px, y_px, window_.size());
-}
-
-void Application::click(double x_px, double y_px) { probe(x_px, y_px, false); }
-
-void Application::double_click(double x_px, double y_px) {
-  state_.points.clear();
-  probe(x_px, y_px, true);
-}
-
-void Application::probe(double x_px, double y_px, bool centers) {
-  if (!state_.design) return;
-  Probe probe;
-  probe.number = ++probes_;
-  probe.order = wanted_picture();
-  probe.x_px = x_px;
-  probe.y_px = y_px;
-  probe.texts = texts_;
-  if (centers) centering_ = probe.number;
-  painter_.probe(std::move(probe));
-}
-
-void Application::take_finding(const Finding& finding) {
-  // The finding belongs to a design that is gone.
-  if (finding.probe.order.design != state_.design) return;
-  if (finding.probe.number == centering_) {
-    if (finding.is_hit) state_.navigation.look_at(finding.position);
-    state_.points.clear();  // the first of the two clicks has measured a point
-    return;
-  }
-  if (!finding.is_hit) {
-    state_.points.clear();
-  } else {
-    if (state_.points.size() == 2) state_.points.clear();
-    state_.points.push_back({finding.position, finding.normal, finding.line});
-  }
-  has_new_picture_ = true;
 }
 
 }  // namespace window

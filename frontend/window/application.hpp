@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "editor.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/files.hpp"
 #include "frontend/options.hpp"
 #include "glfw_window.hpp"
+#include "hover_timer.hpp"
 #include "motion_meter.hpp"
 #include "painter.hpp"
 #include "panels/panels.hpp"
@@ -35,6 +37,8 @@ class Application final : private WindowEvents {
   void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) override;
   void click(double x_px, double y_px) override;
   void double_click(double x_px, double y_px) override;
+  void move(double x_px, double y_px) override;
+  void leave() override;
   void wheel(double notches, double x_px, double y_px) override;
   void key(int key, uint8_t modifiers) override;
 
@@ -42,6 +46,7 @@ class Application final : private WindowEvents {
   void save_picture(const std::string& path);
   std::string path_of(const MessagePlace& place) const;
   void open_place(const MessagePlace& place);
+  void open_chosen_place();
   void drag_section(double dx_px, double dy_px);
 
   void wait_for_news();
@@ -58,7 +63,9 @@ class Application final : private WindowEvents {
 
   void order_picture();
   PaintOrder wanted_picture() const;
-  void probe(double x_px, double y_px, bool centers);
+  void probe(const PicturePoint& place, Probe::Purpose purpose);
+  void probe_hover();
+  void end_hover();
   void draw_frame();
   void report_picture();
   void wait_for_display();
@@ -73,13 +80,15 @@ class Application final : private WindowEvents {
   MotionMeter motion_;
   const double frame_s_;  // time of a frame; asking the display for it takes a round trip to the X
                           // server
+  Editor editor_;
   Painter painter_;
   frontend::DesignFollower follower_;
 
   frontend::DesignTexts texts_;  // of the design that is shown
   PaintOrder ordered_;           // the last order
-  uint64_t centering_ = 0;       // number of the probe at whose finding the camera will look
   uint64_t probes_ = 0;
+  HoverTimer hover_;
+  uint64_t hovering_ = 0;    // number of the probe at the mouse's place; 0: none
   bool is_moving_ = false;   // the mouse has moved the camera since the last order
   bool has_camera_ = false;  // the command line or the first design has chosen the camera
   std::string save_path_;    // where to save the next final picture; empty: nowhere

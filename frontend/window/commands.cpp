@@ -13,6 +13,7 @@ constexpr CommandRow kRows[] = {
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
     {Command::kStop, Menu::kFile, "Stop what takes long (Esc)", "", 0, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},
+    {Command::kOpenEditor, Menu::kFile, "Open in the editor", "E", GLFW_KEY_E, kNone, false},
     {Command::kQuit, Menu::kFile, "Quit", "Ctrl+Q", GLFW_KEY_Q, kControl, true},
 
     {Command::kViewAll, Menu::kView, "View all", "Ctrl+Shift+V", GLFW_KEY_V, kControl | kShift,
@@ -43,6 +44,7 @@ constexpr CommandRow kRows[] = {
     {Command::kPhongShading, Menu::kShow, "Phong's shading", "", 0, kNone, false},
     {Command::kStatus, Menu::kShow, "Status line", "", 0, kNone, true},
     {Command::kMessages, Menu::kShow, "Messages", "M", GLFW_KEY_M, kNone, false},
+    {Command::kPlace, Menu::kShow, "Place of the point", "I", GLFW_KEY_I, kNone, false},
 
     {Command::kSection, Menu::kSection, "Section plane", "C", GLFW_KEY_C, kNone, false},
     {Command::kSectionX, Menu::kSection, "Across x", "X", GLFW_KEY_X, kNone, true},

@@ -10,6 +10,7 @@ namespace window {
 enum class Command : uint8_t {
   kReload,
   kStop,
+  kOpenEditor,
   kSavePicture,
   kQuit,
   kViewAll,
@@ -43,6 +44,7 @@ enum class Command : uint8_t {
   kSectionFlip,
   kForgetPoints,
   kMessages,
+  kPlace,
   kStatus,
   kHelp,
 };

@@ -139,7 +139,10 @@ void GlfwWindow::Impl::open(const std::string& title, Size size) {
   glfwSetWindowCloseCallback(window, activity);
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).is_active = true; });
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).is_active = true; });
-  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w).is_active = true; });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int is_inside) {
+    of(w).is_active = true;
+    if (!is_inside) of(w).events.leave();
+  });
 }
 
 void GlfwWindow::Impl::set_up_imgui() {
@@ -243,13 +246,13 @@ void GlfwWindow::Impl::on_cursor(double x, double y) {
   is_active = true;
   cursor_x = x;
   cursor_y = y;
-  if (pressed < 0) return;
+  const double scale = pixels_per_unit();
+  if (pressed < 0) return events.move(x * scale, y * scale);
   if (!has_moved && std::hypot(x - press_x, y - press_y) < kClickReach) return;
   has_moved = true;
   const double dx = x - std::exchange(last_x, x), dy = y - std::exchange(last_y, y);
   constexpr WindowEvents::Button kButtons[] = {
       WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
-  const double scale = pixels_per_unit();
   events.drag(kButtons[pressed], modifiers, dx * scale, dy * scale);
 }
 
@@ -284,6 +287,8 @@ void GlfwWindow::wait(double timeout_s) { glfwWaitEventsTimeout(timeout_s); }
 void GlfwWindow::poll() { glfwPollEvents(); }
 void GlfwWindow::wake() { glfwPostEmptyEvent(); }
 bool GlfwWindow::take_activity() { return std::exchange(impl_->is_active, false); }
+
+bool GlfwWindow::is_over_panel() const { return impl_->is_over_panel(); }
 
 void GlfwWindow::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();

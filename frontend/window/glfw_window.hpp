@@ -20,6 +20,9 @@ class WindowEvents {
   /// The left button was pressed and released at the same place.
   virtual void click(double x_px, double y_px) = 0;
   virtual void double_click(double x_px, double y_px) = 0;
+  /// The mouse has moved without a button.
+  virtual void move(double x_px, double y_px) = 0;
+  virtual void leave() = 0;
   virtual void wheel(double notches, double x_px, double y_px) = 0;
   virtual void key(int key, uint8_t modifiers) = 0;
 };
@@ -51,6 +54,9 @@ class GlfwWindow {
   /// Returns whether anything has happened since the last call, so that ImGui needs frames to
   /// follow it.
   bool take_activity();
+
+  /// Returns whether the mouse is over a panel.
+  bool is_over_panel() const;
 
   void begin_frame();
   /// Draws ImGui's frame over the contents of the framebuffer, and shows both.

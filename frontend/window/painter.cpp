@@ -8,6 +8,7 @@
 
 #include "base/elapsed.hpp"
 #include "frontend/channel_picture.hpp"
+#include "primitive_around.hpp"
 
 namespace window {
 namespace {
@@ -20,28 +21,11 @@ using frontend::Show;
 /// between two events of a moving mouse.
 constexpr std::chrono::milliseconds kRest{80};
 
-/// The most bytes of a primitive's text that are shown.
-constexpr std::size_t kLongestLine = 80;
-
 /// The least share of the picture's width and height: in a coarser picture nothing could be
 /// recognised.
 constexpr double kLeastShare = 1.0 / 6;
 /// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
-
-/// Returns "line 12: sphere(…)" of the primitive at that place.
-std::string line_of(const frontend::DesignTexts& texts, const frontend::PrimitivePlace& place) {
-  const std::string_view csg = texts.text(place.file);
-  std::size_t start = csg.rfind('\n', place.offset) + 1;  // npos + 1 = 0 on the first line
-  start = csg.find_first_not_of(" \t", start);
-  std::string text = "line " + std::to_string(place.line) + ": " +
-                     std::string(csg.substr(
-                         start, std::min(csg.find_first_of("\r\n", start) - start, kLongestLine)));
-  if (place.leaf_line == 0) return text;
-  const std::string_view leaf = texts.text(place.leaf_file).substr(place.leaf_offset);
-  return text + " in " + std::string(leaf.substr(0, leaf.find('('))) + "() of line " +
-         std::to_string(place.leaf_line);
-}
 
 bool is_channel(Show show) { return show != Show::kSurface && show != Show::kCells; }
 
@@ -222,14 +206,32 @@ Finding Painter::find(const Probe& probe) {
     finding.is_hit = true;
     finding.position = hits.position[0];
     finding.normal = hits.normal[0];
-    finding.id = scene_->primitives[hits.primitive[0]].id;
-    finding.line = finding.id == kSectionId
-                       ? "section plane"
-                       : line_of(probe.texts, probe.order.design->places.at(finding.id));
+    describe(hits.primitive[0], finding);
   } catch (const std::exception&) {
     // There is no picture either in this case, and its error is shown.
   }
   return finding;
+}
+
+/// Says which leaf a hit primitive of the scene belongs to. On the section plane it is the one
+/// whose inside is seen there.
+void Painter::describe(uint32_t primitive, Finding& finding) const {
+  const frontend::ImportedDesign& design = *finding.probe.order.design;
+  finding.is_cut = scene_->primitives[primitive].id == kSectionId;
+  if (finding.is_cut) {
+    const std::optional<uint32_t> around = primitive_around(
+        design.scene.model,
+        [&](uint32_t operand) { return renderer_.contains(operand, finding.position); });
+    finding.surface = {Surface::Kind::kPlane, finding.position, finding.normal, 0};
+    finding.place.trail.push_back({"section plane", {}});
+    if (!around) return;
+    primitive = *around;
+  } else {
+    finding.surface =
+        surface_at(design.scene.primitives[primitive], finding.position, finding.normal);
+  }
+  finding.place = frontend::leaf_place(finding.probe.texts,
+                                       design.places.at(design.scene.primitives[primitive].id));
 }
 
 void Painter::publish(Painting painting) {

@@ -16,10 +16,12 @@
 #include "frontend/design_version.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/leaf_place.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "navigation.hpp"
 #include "section_plane.hpp"
+#include "surface.hpp"
 
 namespace window {
 
@@ -48,7 +50,9 @@ struct Painting {
 
 /// A place in a picture, to be examined.
 struct Probe {
+  enum class Purpose : uint8_t { kMeasure, kCenter, kHover };
   uint64_t number = 0;
+  Purpose purpose = Purpose::kMeasure;
   PaintOrder order;
   double x_px = 0;
   double y_px = 0;
@@ -61,8 +65,9 @@ struct Finding {
   bool is_hit = false;
   csgcore::Vec3 position{0.0};  // world space
   csgcore::Vec3 normal{0.0};    // unit, outward
-  uint32_t id = 0;              // Primitive::id, or kSectionId
-  std::string line;             // the primitive's number and text in the .csg
+  bool is_cut = false;          // the section plane shows the inside of the leaf there
+  frontend::LeafPlace place;
+  Surface surface;
 };
 
 class Painter {
@@ -98,6 +103,7 @@ class Painter {
   void load(const PaintOrder& order);
   double affordable_share(const PaintOrder& order) const;
   Finding find(const Probe& probe);
+  void describe(uint32_t primitive, Finding& finding) const;
   void publish(Painting painting);
   bool waits_for_refinement(std::unique_lock<std::mutex>& lock);
 

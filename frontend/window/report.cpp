@@ -32,10 +32,27 @@ json edit_of(const csgcore::EditStats& edit) {
           {"comparisons", edit.comparisons}};
 }
 
+json step_of(const frontend::TrailStep& step) {
+  return {{"what", step.what},
+          {"file", step.place.file},
+          {"line", step.place.line},
+          {"column", step.place.column}};
+}
+
+json leaf_of(const frontend::LeafPlace& place, bool is_cut) {
+  json leaf = step_of(place.step());
+  leaf["is_cut"] = is_cut;
+  for (const frontend::TrailStep& step : place.trail) leaf["trail"].push_back(step_of(step));
+  return leaf;
+}
+
 json points_of(const State& state) {
   json points = json::array();
   for (const MeasuredPoint& point : state.points) {
-    points.push_back({{"position", array_of(point.position)}, {"primitive", point.primitive}});
+    json one = leaf_of(point.place, point.is_cut);
+    one["position"] = array_of(point.position);
+    one["surface"] = words_of(point.surface);
+    points.push_back(std::move(one));
   }
   return points;
 }
@@ -69,18 +86,20 @@ Report::Report(const std::string& path) {
 
 void Report::write(const State& state, double save_to_screen_ms) {
   if (!file_) return;
-  json line = {{"version", state.version ? state.version->number : 0},
-               {"error", state.version ? state.version->error : ""},
-               {"messages", state.version ? state.version->messages : std::vector<std::string>{}},
-               {"unchanged", state.version && state.version->unchanged},
-               {"primitives", state.design ? state.design->scene.primitives.size() : 0},
-               {"camera", camera_of(state.navigation)},
-               {"section_on", state.section.is_on},
-               {"section_position", state.section.position},
-               {"points", points_of(state)},
-               {"frames_per_second", state.frames_per_second},
-               {"times_ms", times_of(state)},
-               {"status", status_line(state)}};
+  json line = {
+      {"version", state.version ? state.version->number : 0},
+      {"error", state.version ? state.version->error : ""},
+      {"messages", state.version ? state.version->messages : std::vector<std::string>{}},
+      {"unchanged", state.version && state.version->unchanged},
+      {"primitives", state.design ? state.design->scene.primitives.size() : 0},
+      {"camera", camera_of(state.navigation)},
+      {"section_on", state.section.is_on},
+      {"section_position", state.section.position},
+      {"points", points_of(state)},
+      {"hovered", state.hovered ? leaf_of(state.hovered->place, state.hovered->is_cut) : json()},
+      {"frames_per_second", state.frames_per_second},
+      {"times_ms", times_of(state)},
+      {"status", status_line(state)}};
   if (const auto& painting = state.painting) {
     line["renderer"] = painting->stats.renderer;
     line["edit"] = edit_of(painting->stats.edit);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace window {
 namespace {
@@ -75,6 +76,8 @@ auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) 
       return &state.overlays.edges;
     case Command::kMessages:
       return &state.shows_messages;
+    case Command::kPlace:
+      return &state.shows_place;
     case Command::kStatus:
       return &state.shows_status;
     case Command::kHelp:
@@ -94,6 +97,15 @@ std::string text(const char* format, double value) {
 
 }  // namespace
 
+std::string hover_text(const HoveredLeaf& hovered) {
+  const std::vector<frontend::TrailStep>& trail = hovered.place.trail;
+  const std::size_t leaf = hovered.place.leaf;
+  std::string text = (hovered.is_cut ? "cut: " : "") + trail[leaf].what;
+  if (trail[leaf].place.line > 0) text += '\n' + frontend::text_of(trail[leaf].place);
+  if (leaf + 1 < trail.size()) text += "\nin " + trail[leaf + 1].what;
+  return text;
+}
+
 State::State(const frontend::Options& options)
     : navigation(options.camera.camera.value_or(frontend::Camera{}), options.camera.projection),
       look(options.render),
@@ -112,6 +124,19 @@ void State::take(frontend::DesignVersion newest) {
   notice.clear();
   is_stopped = false;
   version = std::move(newest);
+}
+
+void State::measure(MeasuredPoint point) {
+  if (points.size() == 2) points.clear();
+  chosen_step = point.place.leaf;
+  points.push_back(std::move(point));
+}
+
+const frontend::SourcePlace* State::place_to_open() const {
+  if (!points.empty() && chosen_step < points.back().place.trail.size()) {
+    return &points.back().place.trail[chosen_step].place;
+  }
+  return hovered ? &hovered->place.step().place : nullptr;
 }
 
 csgcore::Box State::bounds() const { return design ? design->view_box : csgcore::Box{}; }

@@ -14,6 +14,7 @@
 #include "message_list.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
+#include "projection.hpp"
 #include "section_plane.hpp"
 
 namespace window {
@@ -22,8 +23,20 @@ namespace window {
 struct MeasuredPoint {
   csgcore::Vec3 position{0.0};  // world space
   csgcore::Vec3 normal{0.0};    // unit, outward
-  std::string primitive;        // its kind, and its line in the .csg
+  frontend::LeafPlace place;
+  Surface surface;
+  bool is_cut = false;  // it is on the section plane, inside of the leaf
 };
+
+/// The leaf under the resting mouse.
+struct HoveredLeaf {
+  PicturePoint at{};
+  frontend::LeafPlace place;
+  bool is_cut = false;
+};
+
+/// Returns the leaf, its place, and the innermost module that it stands in, a line each.
+std::string hover_text(const HoveredLeaf& hovered);
 
 struct State {
   explicit State(const frontend::Options& options);
@@ -34,6 +47,9 @@ struct State {
   frontend::Overlays overlays;
   SectionPlane section;
   std::vector<MeasuredPoint> points;  // at most two
+  std::size_t chosen_step = 0;        // in the trail of the last of them
+  std::optional<HoveredLeaf> hovered;
+  bool shows_place = true;
   bool shows_messages = true;
   bool shows_status = true;
   bool shows_help = false;
@@ -62,6 +78,11 @@ struct State {
   void take(frontend::DesignVersion newest);
   /// The design's bounds; empty without a design.
   csgcore::Box bounds() const;
+  /// Forgets a pair of points before.
+  void measure(MeasuredPoint point);
+  /// Returns the place that the editor is to show: the chosen one of the last measured point, or
+  /// that under the mouse; null if there is none.
+  const frontend::SourcePlace* place_to_open() const;
   /// Turns the section on, across the middle of the design. The side towards the eye is cut off.
   void set_section_axis(uint8_t axis);
 };

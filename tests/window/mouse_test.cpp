@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "designs.hpp"
 #include "live_window.hpp"
@@ -109,7 +110,9 @@ TEST_F(MouseOnABall, ClicksMeasure) {
   click(210, 140);
   const json one = next_points(1);
   expect_near(one[0]["position"], surface_at(210, 140));
-  EXPECT_EQ(one[0]["primitive"], "line 1: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+  EXPECT_EQ(one[0]["what"], "sphere(r = 10)");
+  EXPECT_EQ(one[0]["file"], "a.csg");
+  EXPECT_EQ(one[0]["line"], 1);
   wait_until_other(before);                                     // the place is shown
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // so that it is not a double click
   click(190, 160);
@@ -119,6 +122,18 @@ TEST_F(MouseOnABall, ClicksMeasure) {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   click(20, 60);  // beside the ball: forgotten
   next_points(0);
+  expect_shown(before);
+}
+
+/// The mouse names the leaf once it rests, and not before it has moved.
+TEST_F(MouseOnABall, RestNamesTheLeaf) {
+  open_ball();
+  const Picture before = shown();
+  display().drive({"mousemove", "--window", window_id(), "210", "140"});
+  const json line = next([](const json& any) { return !any["hovered"].is_null(); });
+  EXPECT_EQ(line["hovered"]["what"], "sphere(r = 10)");
+  wait_until_other(before);
+  display().drive({"mousemove", "--window", window_id(), "20", "60"});
   expect_shown(before);
 }
 
@@ -138,6 +153,30 @@ TEST_F(MouseOnABall, DoubleClickCentres) {
   frontend::Camera camera = camera_;
   camera.target = surface_at(230, 120);
   expect_camera(camera, true);
+}
+
+/// A click finds the place in the design, and E opens it.
+TEST_F(Mouse, APlaceIsOpenedInTheEditor) {
+  const std::string editor = folder_.script(
+      "my editor", "for word; do echo \"$word\"; done > \"$0.new\"; mv \"$0.new\" \"$0.words\"");
+  design_ = folder_.write("a b.scad", "module ball(r) {\n  sphere(r);\n}\n  ball(10);\n");
+  open(design_,
+       {"--editor='" + editor + "' -g '{file}:{line}:{column}'", "--camera=0,0,0,0,0,0,100"});
+  next_of(1);
+  click(200, 150);
+  const json points = next([](const json& line) { return line["points"].size() == 1; })["points"];
+  EXPECT_EQ(points[0]["what"], "sphere(r = 10)");
+  EXPECT_EQ(points[0]["file"], "a b.scad");
+  EXPECT_EQ(points[0]["line"], 2);
+  EXPECT_EQ(points[0]["column"], 3);
+  ASSERT_EQ(points[0]["trail"].size(), 2u);
+  EXPECT_EQ(points[0]["trail"][1]["what"], "ball(10)");
+  EXPECT_EQ(points[0]["trail"][1]["line"], 4);
+  key("e");
+  EXPECT_TRUE(wait_until([&] { return folder_.has("my editor.words"); }));
+  EXPECT_EQ(folder_.read("my editor.words"),
+            "-g\n" + std::filesystem::canonical(design_).string() + ":2:3\n");
+  EXPECT_TRUE(wait_until([&] { return children(program().pid()) == 0; })) << "a zombie is left";
 }
 
 }  // namespace

@@ -337,8 +337,12 @@ TEST_F(ProbeTest, FindsPointNormalAndLine) {
   EXPECT_NEAR(glm::length(finding.position), 10, 1e-12);
   EXPECT_GT(finding.position.z, 0);
   EXPECT_LE(glm::length(finding.normal - finding.position / 10.0), 1e-12);
-  EXPECT_EQ(finding.id, 0u);
-  EXPECT_EQ(finding.line, "line 2: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+  EXPECT_FALSE(finding.is_cut);
+  EXPECT_EQ(finding.place.step().what, "sphere(r = 10)");
+  EXPECT_EQ(finding.place.step().place.line, 2u);
+  EXPECT_EQ(finding.place.step().place.column, 2u);
+  EXPECT_EQ(finding.surface.kind, Surface::Kind::kCenter);
+  EXPECT_NEAR(finding.surface.radius, 10, 1e-12);
 }
 
 TEST_F(ProbeTest, BesideTheModelThereIsNothing) {
@@ -347,24 +351,18 @@ TEST_F(ProbeTest, BesideTheModelThereIsNothing) {
   EXPECT_FALSE(next_finding().is_hit);
 }
 
-TEST_F(ProbeTest, ThePlaneIsNoPrimitive) {
+TEST_F(ProbeTest, TheCutNamesTheLeafThatIsCut) {
   Painter& painter = this->painter();
-  Probe probe = probe_of(window_test::kBall, 80, 60);
+  const std::string shell = "difference() {\n" + window_test::kBall + "sphere(r = 3);\n}\ncube(1);";
+  Probe probe = probe_of(shell, 90, 60);  // at x = 3.3
   probe.order.section = {true, 2, false, 1.5};
   painter.probe(probe);
   const Finding finding = next_finding();
-  EXPECT_EQ(finding.id, kSectionId);
-  EXPECT_EQ(finding.line, "section plane");
+  EXPECT_TRUE(finding.is_cut);
+  EXPECT_EQ(finding.place.step().what, "sphere(r = 10)");
+  EXPECT_EQ(finding.place.step().place.line, 2u);
+  EXPECT_EQ(finding.surface.kind, Surface::Kind::kPlane);
   EXPECT_NEAR(finding.position.z, 1.5, 1e-12);
-}
-
-TEST_F(ProbeTest, LongLinesAreCut) {
-  const std::string list = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
-  Painter& painter = this->painter();
-  painter.probe(probe_of("multmatrix(" + list + ") multmatrix(" + list + ") cube(100);", 80, 60));
-  EXPECT_LE(next_finding().line.size(), 100u);
-  painter.probe(probe_of("sphere(r = 10);", 80, 60));  // the text has no line break
-  EXPECT_EQ(next_finding().line, "line 1: sphere(r = 10);");
 }
 
 TEST_F(ProbeTest, NoClickParsesTheDesign) {
@@ -374,7 +372,7 @@ TEST_F(ProbeTest, NoClickParsesTheDesign) {
   probe.texts.csg = std::make_shared<frontend::FileText>(
       frontend::read_file(folder_.write("broken.csg", "\n" + window_test::kBall + "}} (")));
   painter.probe(probe);
-  EXPECT_EQ(next_finding().line, "line 2: sphere($fn = 0, $fa = 12, $fs = 2, r = 10);");
+  EXPECT_EQ(next_finding().place.step().what, "sphere(r = 10)");
 }
 
 TEST_F(ProbeTest, EachIsAnsweredInTurn) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "frontend/parser.hpp"
+#include "hover_timer.hpp"
 
 namespace window {
 namespace {
@@ -46,6 +47,7 @@ TEST_F(StateTest, EveryCommandIsOfOneKind) {
     State state(frontend::Options{});
     state.design = block();
     const bool is_applications = row.command == Command::kReload || row.command == Command::kStop ||
+                                 row.command == Command::kOpenEditor ||
                                  row.command == Command::kQuit;
     EXPECT_EQ(state.apply(row.command), !is_applications) << row.label;
   }
@@ -67,10 +69,60 @@ TEST_F(StateTest, ChoicesExcludeEachOther) {
   }
 }
 
+/// A linear_extrude in a module, of a circle.
+frontend::LeafPlace some_leaf() {
+  return {{{"circle(r = 1)", {"/f/a.scad", "a.scad", 1, 2}},
+           {"linear_extrude()", {"/f/a.scad", "a.scad", 3, 4}},
+           {"post(5)", {"/f/b.scad", "b.scad", 5, 6}}},
+          1};
+}
+
+TEST_F(StateTest, TheEditorOpensTheChosenPlace) {
+  EXPECT_EQ(state_.place_to_open(), nullptr);
+  state_.hovered = HoveredLeaf{{}, {{{"cube()", {"/f/c.scad", "c.scad", 7, 8}}}, 0}, false};
+  EXPECT_EQ(state_.place_to_open()->line, 7u);
+  MeasuredPoint point;
+  point.place = some_leaf();
+  state_.measure(point);
+  EXPECT_EQ(state_.place_to_open()->line, 3u) << "the leaf itself";
+  state_.chosen_step = 2;
+  EXPECT_EQ(state_.place_to_open()->path, "/f/b.scad");
+  state_.measure(point);
+  EXPECT_EQ(state_.points.size(), 2u);
+  EXPECT_EQ(state_.place_to_open()->line, 3u);
+  state_.measure(point);
+  EXPECT_EQ(state_.points.size(), 1u);
+}
+
+TEST_F(StateTest, AHoveredLeafIsNamedWithItsModule) {
+  EXPECT_EQ(hover_text({{}, some_leaf(), false}), "linear_extrude()\na.scad:3:4\nin post(5)");
+  EXPECT_EQ(hover_text({{}, {{{"cube()", {"", "", 0, 0}}}, 0}, true}), "cut: cube()");
+}
+
+TEST(HoverTimer, IsDueOnceTheMouseRests) {
+  using std::chrono::milliseconds;
+  const HoverTimer::Clock::time_point start{};
+  HoverTimer timer;
+  EXPECT_FALSE(timer.due());
+  EXPECT_FALSE(timer.take(start + milliseconds(1000))) << "it has not moved";
+  timer.move({1, 2}, start);
+  timer.move({3, 4}, start + milliseconds(200));
+  EXPECT_EQ(timer.due(), start + milliseconds(500));
+  EXPECT_FALSE(timer.take(start + milliseconds(499)));
+  const auto place = timer.take(start + milliseconds(500));
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->y_px, 4);
+  EXPECT_FALSE(timer.due()) << "once";
+  timer.move({1, 2}, start);
+  timer.stop();
+  EXPECT_FALSE(timer.due());
+}
+
 TEST_F(StateTest, SwitchesAreTurnedOnAndOff) {
   for (const Command command :
        {Command::kAxes, Command::kCrosshairs, Command::kScales, Command::kEdges, Command::kMessages,
-        Command::kStatus, Command::kHelp, Command::kSection, Command::kSectionFlip}) {
+        Command::kPlace, Command::kStatus, Command::kHelp, Command::kSection,
+        Command::kSectionFlip}) {
     const bool before = state_.is_checked(command);
     EXPECT_TRUE(state_.apply(command));
     EXPECT_NE(state_.is_checked(command), before);
@@ -137,7 +189,8 @@ TEST_F(StateTest, APlaneStartsAcrossTheMiddle) {
 }
 
 TEST_F(StateTest, EscapeForgetsPointsAndHelp) {
-  state_.points.resize(2);
+  state_.measure({});
+  state_.measure({});
   state_.shows_help = true;
   state_.apply(Command::kForgetPoints);
   EXPECT_TRUE(state_.points.empty());

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "frontend/file_text.hpp"
@@ -22,10 +21,8 @@ namespace frontend {
 /// evaluated .scad.
 struct DesignTexts {
   std::shared_ptr<const FileText> csg;
+  std::string csg_path;  // absolute, where the design's own file is that .csg; else ""
   std::shared_ptr<const language::Evaluation> evaluation;  // counts where it is not null
-
-  /// Returns the text of a file, as PrimitivePlace::file counts them.
-  std::string_view text(uint32_t file) const;
 };
 
 /// Returns whether a message is what echo() has said.

@@ -12,14 +12,13 @@
 
 namespace frontend {
 
-/// Where a primitive node stands in its file.
+/// Where the node stands that a primitive is made of: a primitive node, or the root of a subtree
+/// that is one solid or figure (a hull, an extrusion, an offset).
 struct PrimitivePlace {
+  uint32_t node = 0;    // index into SyntaxTree::nodes
   uint32_t line = 0;    // from 1
   uint32_t offset = 0;  // of its name, in bytes from the text's start
-  /// The same of the compound leaf that the node is a part of; 0: the node is a leaf by itself.
-  uint32_t leaf_line = 0;
-  uint32_t leaf_offset = 0;
-  uint32_t file = 0, leaf_file = 0;  // Location::file
+  uint32_t file = 0;    // Location::file
 };
 
 struct ImportedDesign {
@@ -45,7 +44,8 @@ struct ImportedDesign {
   std::vector<uint32_t> lines_to_render;
   /// The time that openscad took, or the search for what it has rendered before.
   double rendering_ms = 0;
-  /// Of all these nodes, by Primitive::id, where ImportOptions::keeps_places asks for it.
+  /// By Primitive::id, as many as there are such nodes, where ImportOptions::keeps_places asks for
+  /// it.
   std::vector<PrimitivePlace> places;
   std::vector<Warning> warnings;
   /// The files that its nodes name, and the fonts that it brings along if it has text, whether or

@@ -37,6 +37,7 @@ struct Options {
   std::vector<TextOutput> texts;  // written before the pictures
   Evaluator evaluator = kDefaultEvaluator;
   std::string stats_path;  // empty: none; "-": standard output
+  std::string editor;      // --editor; empty: the environment tells it
   std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given

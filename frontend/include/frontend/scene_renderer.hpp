@@ -47,6 +47,9 @@ class SceneRenderer {
   /// `y_px` count from the upper left corner; a pixel's centre is at ½.
   csgcore::Hits pick(const csgcore::View& view, double x_px, double y_px) const;
 
+  /// Returns whether a point lies in a primitive of the scene, named by its index.
+  bool contains(uint32_t primitive, const csgcore::Vec3& point) const;
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

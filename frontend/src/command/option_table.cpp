@@ -97,6 +97,10 @@ constexpr OptionRow kOwnOptions[] = {
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
     {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
+    {"editor", Takes::kText, "COMMAND",
+     "the window's editor, a command line with {file}, {line} and {column}, or one whose form is "
+     "known (code, subl, emacsclient, gvim, kate …); default: $SCADRAY_EDITOR, $VISUAL, $EDITOR",
+     kAnyCommand},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"echo", Takes::kNothing, "",
      "write what the design echoes to standard output; the window does after each save"},

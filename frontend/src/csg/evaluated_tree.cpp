@@ -41,27 +41,31 @@ class TreeBuilder {
   /// Adds the nodes from `begin` to `end`, which are siblings and all below them.
   void add(uint32_t begin, uint32_t end) {
     reserve(begin, end);
-    for (uint32_t i = begin; i < end; ++i) {
-      const language::Node& node = from_.nodes[i];
-      SyntaxNode made;
-      made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
-      made.modifiers = modifiers_of(node.modifiers);
-      if (node.place.file < files_.size()) {
-        made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
-      }
-      made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
-      made.subtree_end = node.end - begin;
-      for (const language::NodeArgument& argument : from_.arguments_of(i)) {
-        tree_.arguments.push_back({argument.name, value_of(argument)});
-      }
-      made.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - made.first_argument;
-      tree_.nodes.push_back(made);
-      tree_.offsets.push_back(node.place.offset);
-    }
+    for (uint32_t i = begin; i < end; ++i) add_node(i, from_.nodes[i].end - begin);
   }
+
+  void add_without_children(uint32_t node) { add_node(node, 1); }
 
  private:
   static constexpr uint32_t kRows = 4;  // of a matrix, and its columns
+
+  void add_node(uint32_t index, uint32_t subtree_end) {
+    const language::Node& node = from_.nodes[index];
+    SyntaxNode made;
+    made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
+    made.modifiers = modifiers_of(node.modifiers);
+    if (node.place.file < files_.size()) {
+      made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
+    }
+    made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
+    made.subtree_end = subtree_end;
+    for (const language::NodeArgument& argument : from_.arguments_of(index)) {
+      tree_.arguments.push_back({argument.name, value_of(argument)});
+    }
+    made.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - made.first_argument;
+    tree_.nodes.push_back(made);
+    tree_.offsets.push_back(node.place.offset);
+  }
 
   /// Makes room for the nodes and the numbers, whose arrays are large: growing would copy them.
   void reserve(uint32_t begin, uint32_t end) {
@@ -176,6 +180,13 @@ SyntaxTree tree_of(const language::NodeTree& from, const language::SourceFiles& 
   } else {
     builder.add(0, from.size());
   }
+  return tree;
+}
+
+SyntaxTree tree_without_children(const language::NodeTree& from, uint32_t node,
+                                 const language::SourceFiles& files) {
+  SyntaxTree tree;
+  TreeBuilder(from, files, tree).add_without_children(node);
   return tree;
 }
 

@@ -15,4 +15,8 @@ namespace frontend {
 SyntaxTree tree_of(const language::NodeTree& tree, const language::SourceFiles& files,
                    std::string name);
 
+/// Returns the tree of one node alone, as if it had no children.
+SyntaxTree tree_without_children(const language::NodeTree& from, uint32_t node,
+                                 const language::SourceFiles& files);
+
 }  // namespace frontend

@@ -1,9 +1,11 @@
 #include "follow/design_reading.hpp"
 
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "base/elapsed.hpp"
@@ -47,12 +49,21 @@ std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions
   return import;
 }
 
-GoodVersion finish_import(TextImport& import, DesignText& text, DesignVersion& version,
-                          const std::stop_token& stop) {
+/// Returns the path of the file that a text was read from, unless a program has made the text.
+std::string csg_path(const std::string& path, const DesignText& text) {
+  if (text.is_exported || path == "-") return {};
+  std::error_code failed;  // the working folder is gone
+  const std::filesystem::path absolute = std::filesystem::absolute(path, failed);
+  return failed ? std::string() : absolute.lexically_normal().string();
+}
+
+GoodVersion finish_import(TextImport& import, const std::string& path, DesignText& text,
+                          DesignVersion& version, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
   version.import_ms = ms_since(start) - design->rendering_ms;
-  DesignTexts texts{std::make_shared<const FileText>(std::move(text.csg)), text.evaluation};
+  DesignTexts texts{std::make_shared<const FileText>(std::move(text.csg)), csg_path(path, text),
+                    text.evaluation};
   return {std::move(texts), std::move(design), import.nodes(), text.name, text.is_exported};
 }
 
@@ -77,7 +88,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   }
   file_options.progress("importing");
-  if (import) reading.good = finish_import(*import, text, version, stop);
+  if (import) reading.good = finish_import(*import, path, text, version, stop);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;
   version.files = std::move(text.files);
@@ -126,11 +137,6 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
 }
 
 }  // namespace
-
-std::string_view DesignTexts::text(uint32_t file) const {
-  if (!evaluation) return csg->view();
-  return file < evaluation->files->size() ? (*evaluation->files)[file].text : std::string_view();
-}
 
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop) {

@@ -103,7 +103,7 @@ Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::
       options_(options),
       text_(text),
       hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
-  contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false, 0, 0});
+  contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
 }
 
 void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
@@ -124,9 +124,7 @@ void Collector::take(uint32_t index, uint32_t offset) {
   const uint32_t id = primitive_nodes;
   if (has_place(tree_, node)) {
     ++primitive_nodes;
-    if (options_.keeps_places) {
-      places.push_back({node.location.line, offset, 0, 0, node.location.file, 0});
-    }
+    if (options_.keeps_places) places.push_back(place_of(index, offset));
   }
   if (root_ && !is_within(index, *root_)) return;
   if (disabled_ && is_within(index, *disabled_)) return;
@@ -206,7 +204,6 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
   if (!candidate_ && may_be_plane(index)) enter_candidate(index, offset);
   if (candidate_) take_into_candidate(index, id);
   if (plane_) {
-    if (has_place(tree_, node)) note_leaf_place(plane_context_);
     plane_->take(index, id, options_, {fonts, files}, problems);
     return true;
   }
@@ -218,7 +215,7 @@ bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
     case Role::kOperation:
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
-      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index, offset);
+      if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index);
       if (node.kind == NodeKind::kFill) solid_fills_.push_back(index);
       return true;
     case Role::kPlane:
@@ -260,13 +257,12 @@ void Collector::enter_color(uint32_t node) {
   contexts_.push_back(context);
 }
 
-void Collector::enter_leaf(uint32_t node, uint32_t offset) {
+void Collector::enter_leaf(uint32_t node) {
   if (contexts_.back().in_leaf) return;
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = true;
   context.leaf_color = context.color;
-  context.set_leaf_place(tree_.nodes[node].location, offset);
   compound_leaves.push_back({node, context.frame});
   contexts_.push_back(context);
 }
@@ -276,7 +272,6 @@ void Collector::leave_leaf(uint32_t node) {
   Context context = contexts_.back();
   context.node = node;
   context.in_leaf = false;
-  context.set_leaf_place({}, 0);
   contexts_.push_back(context);
 }
 
@@ -332,16 +327,13 @@ const SolidOfFaces* Collector::read_file(uint32_t index) {
   return file.solid;
 }
 
-void Collector::note_leaf_place(const Context& context) {
-  if (!options_.keeps_places) return;
-  places.back().leaf_line = context.leaf_line;
-  places.back().leaf_offset = context.leaf_offset;
-  places.back().leaf_file = context.leaf_file;
+PrimitivePlace Collector::place_of(uint32_t node, uint32_t offset) const {
+  const Location location = tree_.nodes[node].location;
+  return {node, location.line, offset, location.file};
 }
 
 void Collector::add_solid(uint32_t index, uint32_t id) {
   const Context& context = contexts_.back();
-  note_leaf_place(context);
   Primitive primitive;
   csgcore::FacetSettings facets;
   const SolidOfFaces* faces = nullptr;
@@ -414,11 +406,6 @@ void Collector::enter_plane(uint32_t node, uint32_t offset) {
   plane_.emplace(tree_, node);
   plane_context_ = contexts_.back();
   plane_place_ = {node, offset};
-  const bool is_leaf_by_itself = has_place(tree_, tree_.nodes[node]);
-  if (plane_context_.leaf_line == 0 && !is_leaf_by_itself) {
-    plane_context_.set_leaf_place(tree_.nodes[node].location, offset);
-  }
-  if (is_leaf_by_itself) note_leaf_place(plane_context_);
 }
 
 /// After the last node of the subtree.
@@ -452,13 +439,9 @@ bool Collector::may_be_plane(uint32_t node) {
 }
 
 void Collector::enter_candidate(uint32_t node, uint32_t offset) {
-  Context context = contexts_.back();
-  if (context.leaf_line == 0) {
-    context.set_leaf_place(tree_.nodes[node].location, offset);
-  }
   candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
                                {node, offset},
-                               context,
+                               contexts_.back(),
                                {},
                                primitives.size(),
                                plane_leaves.size(),
@@ -530,6 +513,9 @@ void Collector::forget_since(const Candidate& candidate) {
 void Collector::add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place,
                                const Context& context, NodeProblems& told) {
   PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
+  // Its primitives have the id of its first primitive node. A part inside keeps its own place.
+  const uint32_t id = subtree.first_id(subtree.root());
+  if (id < places.size() && place.node == leaf.node) places[id] = place_of(leaf.node, place.offset);
   Missing missing;
   leaf.presence = lower_plane(subtree, context, told, leaf, missing);
   if (!missing.nodes.empty() && !context.flattened && asks_for(subtree)) {

@@ -100,16 +100,8 @@ class Collector final : public NodeSink {
     uint32_t frame;  // coordinates
     std::optional<csgcore::Color> color;
     std::optional<csgcore::Color> leaf_color;  // of the compound leaf, where in_leaf is true
-    bool flattened;                   // a matrix with inf or nan on the way: nothing is left
-    bool in_leaf;                     // a compound one, whose nodes have no colours of their own
-    uint32_t leaf_line, leaf_offset;  // of that one
-    uint32_t leaf_file = 0;
-
-    void set_leaf_place(Location location, uint32_t offset) {
-      leaf_line = location.line;
-      leaf_offset = offset;
-      leaf_file = location.file;
-    }
+    bool flattened;  // a matrix with inf or nan on the way: nothing is left
+    bool in_leaf;    // a compound one, whose nodes have no colours of their own
   };
   struct LeftOut {
     uint32_t node;
@@ -125,14 +117,14 @@ class Collector final : public NodeSink {
   void leave_out(uint32_t node, std::string_view why, bool unless_empty = false);
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
-  void enter_leaf(uint32_t node, uint32_t offset);
+  void enter_leaf(uint32_t node);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
   uint32_t typed_frame(uint32_t node, uint32_t frame);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
-  void note_leaf_place(const Context& context);
+  PrimitivePlace place_of(uint32_t node, uint32_t offset) const;
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   const SolidOfFaces*& faces);
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -12,60 +11,9 @@
 #include <utility>
 
 #include "frontend/interrupt.hpp"
-
-extern char** environ;
+#include "process/spawn.hpp"
 
 namespace frontend {
-namespace {
-
-/// Owns posix_spawn's file actions.
-class FileActions {
- public:
-  FileActions() { posix_spawn_file_actions_init(&actions_); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-  void open(int number, const char* path, int flags) {
-    posix_spawn_file_actions_addopen(&actions_, number, path, flags, 0);
-  }
-  /// A descriptor that is given its own number stays open in the child.
-  void give(int descriptor, int number) {
-    posix_spawn_file_actions_adddup2(&actions_, descriptor, number);
-  }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
-
-/// Starts a program in a process group (0: one of its own), with the signals set as they were
-/// before this program changed them. Throws std::system_error.
-pid_t spawn(std::vector<std::string> command, const FileActions& files, pid_t group,
-            const HoldInterrupts& hold) {
-  std::vector<char*> arguments;
-  for (std::string& argument : command) arguments.push_back(argument.data());
-  arguments.push_back(nullptr);
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) {
-    sigaddset(&defaults, number);
-  }
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  posix_spawnattr_setpgroup(&attributes, group);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setsigmask(&attributes, &hold.blocked_before());
-  pid_t pid = 0;
-  const int failed =
-      posix_spawnp(&pid, arguments[0], files.get(), &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  if (failed != 0) throw std::system_error(failed, std::generic_category(), command[0]);
-  return pid;
-}
-
-}  // namespace
 
 Pipe::Pipe() {
   if (pipe2(ends_.data(), O_CLOEXEC) != 0) {

@@ -88,6 +88,11 @@ class SceneRenderer::Impl {
     return hits;
   }
 
+  bool contains(uint32_t primitive, const csgcore::Vec3& point) const {
+    return csgcore::contains(scene_->model().primitives()[primitive],
+                             std::ldexp(1, exponent_) * point);
+  }
+
  private:
   /// A picture, not scaled back, and what it shows.
   struct Kept {
@@ -237,6 +242,10 @@ Image SceneRenderer::redraw(const csgcore::View& view, const RenderSettings& set
 
 csgcore::Hits SceneRenderer::pick(const csgcore::View& view, double x_px, double y_px) const {
   return impl_->pick(view, x_px, y_px);
+}
+
+bool SceneRenderer::contains(uint32_t primitive, const csgcore::Vec3& point) const {
+  return impl_->contains(primitive, point);
 }
 
 }  // namespace frontend

@@ -13,8 +13,9 @@ constexpr const char* kMouse[][2] = {
     {"Right drag", "pan"},
     {"Middle drag", "forward and back; also shift + right drag"},
     {"Wheel", "zoom at the cursor"},
-    {"Click", "measure: the place, the primitive, its line in the .csg"},
+    {"Click", "measure: the point, its leaf, and the place of that in the design"},
     {"Second click", "the distance between the two"},
+    {"Rest", "name the leaf under the mouse"},
     {"Double click", "centre on the point"},
     {"Ctrl + left drag", "drag the section plane"},
 };

@@ -1,6 +1,8 @@
 #include "panels/panels.hpp"
 
 #include "panels/help_sheet.hpp"
+#include "panels/hover_tip.hpp"
+#include "panels/place_panel.hpp"
 #include "panels/point_labels.hpp"
 #include "panels/progress_panel.hpp"
 #include "panels/section_panel.hpp"
@@ -8,12 +10,15 @@
 
 namespace window {
 
-void draw_panels(State& state, const csgcore::View& view, const PanelActions& actions) {
+void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
+                 const PanelActions& actions) {
   draw_points(state, view);
   draw_menu_bar(state, actions.run);
   const float status_top = draw_status_line(state);
   draw_messages(state, status_top, actions.open);
   draw_section(state);
+  draw_place(state, view, status_top, actions.run);
+  draw_hover_tip(state, pixels_per_unit);
   draw_progress(state, actions.run);
   draw_help(state);
   draw_save_dialogue(state, actions.save);

@@ -16,7 +16,9 @@ struct PanelActions {
   OpenPlace open;
 };
 
-/// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units.
-void draw_panels(State& state, const csgcore::View& view, const PanelActions& actions);
+/// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units,
+/// each of which is `pixels_per_unit` of the picture's pixels.
+void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
+                 const PanelActions& actions);
 
 }  // namespace window

@@ -19,12 +19,6 @@ using csgcore::Vec3;
 constexpr ImU32 kPointColor = IM_COL32(220, 30, 90, 255);
 constexpr ImU32 kShadowColor = IM_COL32(255, 255, 255, 220);
 
-std::string coordinates(const Vec3& v) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, "[%.6g, %.6g, %.6g]", v.x, v.y, v.z);
-  return buffer;
-}
-
 /// Writes a label, moved to the left if it would leave the window.
 void label(ImDrawList& list, ImVec2 at, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -57,11 +51,9 @@ void draw_points(const State& state, const csgcore::View& view) {
     if (!places[i]) continue;
     list.AddCircleFilled(*places[i], 5, kShadowColor);
     list.AddCircleFilled(*places[i], 3.5f, kPointColor);
-    // Labels are above the first point and below the second, which leaves room between them.
-    const float line = ImGui::GetTextLineHeight() + 4;
-    const float top = places[i]->y + (i == 0 ? -2 * line - 8 : 12);
+    // The label is above the first point and below the second, which leaves room between them.
+    const float top = places[i]->y + (i == 0 ? -ImGui::GetTextLineHeight() - 12 : 12);
     label(list, {places[i]->x, top}, coordinates(state.points[i].position));
-    label(list, {places[i]->x, top + line}, state.points[i].primitive);
   }
 }
 

@@ -108,6 +108,11 @@ TEST(Options, OutputsThatCannotBe) {
   EXPECT_THAT(error_of(many), HasSubstr("for each of 2 frames (give -o at most 4096 times)"));
 }
 
+TEST(Options, TheEditorIsACommandLine) {
+  EXPECT_EQ(parse_options({"a.scad"}).editor, "");
+  EXPECT_EQ(parse_options({"--editor=code -g", "a.scad"}).editor, "code -g");
+}
+
 TEST(Options, WithoutAnOutputAWindowIsOpened) {
   EXPECT_EQ(parse_options({"a.csg"}).action, Action::kOpenWindow);
   EXPECT_EQ(parse_options({"-o", "x.png", "a.csg"}).action, Action::kDraw);

@@ -105,8 +105,7 @@ TEST(EvaluatedTree, FillsPlaces) {
   ASSERT_EQ(design.places.size(), 2u);
   EXPECT_EQ(design.places[1].line, 3u);
   EXPECT_EQ(design.places[1].offset, 21u);
-  EXPECT_EQ(design.places[1].leaf_line, 2u);
-  EXPECT_EQ(design.places[1].leaf_offset, 10u);
+  EXPECT_EQ(design.places[1].node, 2u);
 }
 
 TEST(EvaluatedDesigns, MatricesStayAsTheyAre) {

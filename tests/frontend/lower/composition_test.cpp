@@ -191,18 +191,6 @@ TEST(Leaves, AreCounted) {
   EXPECT_EQ(design.compound_leaves, 2u);
 }
 
-TEST(Leaves, APlaceNamesTheLeafAroundIt) {
-  ImportOptions options;
-  options.keeps_places = true;
-  const std::string text = "cube();\nrender() {\n  render() {\n    cube(); } }\ncube();";
-  const ImportedDesign design = TextImport(text, "a.csg", options).finish();
-  ASSERT_THAT(design.places, SizeIs(3));
-  EXPECT_EQ(design.places[0].leaf_line, 0u);
-  EXPECT_EQ(design.places[1].leaf_line, 2u);
-  EXPECT_EQ(text.substr(design.places[1].leaf_offset, 6), "render");
-  EXPECT_EQ(design.places[2].leaf_line, 0u);
-}
-
 TEST(LeafBoxes, AreThoseOfWhatTheOperationsLeave) {
   const std::string cut =
       "render() { difference() { cube(size = 10);"

@@ -473,17 +473,24 @@ TEST(PlaneImport, IgnoresModifiersInside) {
   EXPECT_EQ(trees_of(extruded("*hull() { offset() { circle(1); } } square(2);")), "1 | - | -");
 }
 
-TEST(PlaneImport, NamesTheLeafThatANodeIsAPartOf) {
+/// Solids keep places of their own in render(), whose surfaces are theirs.
+TEST(PlaneImport, APlaceIsThatOfTheNodeThatMakesTheSurface) {
   const std::string text =
       "circle(1);\nlinear_extrude(height = 1) { hull() { square(1); } }\n"
-      "render() { hull() { circle(2); } }";
+      "render() { hull() { circle(2); } }\nrender() { cube(); hull() { %sphere(); cube(); } }";
   const ImportedDesign design = TextImport(text, "a.csg", {.keeps_places = true}).finish();
-  ASSERT_THAT(design.places, SizeIs(3));
-  EXPECT_EQ(design.places[0].leaf_line, 0u) << "a leaf by itself";
-  EXPECT_EQ(design.places[1].leaf_line, 2u);
-  EXPECT_EQ(design.places[1].leaf_offset, text.find("linear_extrude"));
-  EXPECT_EQ(design.places[2].leaf_offset, text.find("render"));
-  EXPECT_EQ(design.scene.primitives.back().id, 2u);
+  ASSERT_THAT(design.places, SizeIs(6));
+  EXPECT_EQ(design.places[0].offset, 0u);
+  EXPECT_EQ(design.places[0].node, 0u);
+  EXPECT_EQ(design.places[1].line, 2u);
+  EXPECT_EQ(design.places[1].offset, text.find("linear_extrude"));
+  EXPECT_EQ(design.places[1].node, 1u);
+  EXPECT_EQ(design.places[2].offset, text.find("render"));
+  EXPECT_EQ(design.places[2].node, 4u);
+  EXPECT_EQ(design.places[3].offset, text.find("cube"));
+  EXPECT_EQ(design.places[3].node, 8u);
+  EXPECT_EQ(design.places[4].offset, text.rfind("hull"));
+  EXPECT_EQ(design.places[5].offset, text.rfind("cube"));
 }
 
 TEST(PlaneImport, ForgetsColoursInside) {

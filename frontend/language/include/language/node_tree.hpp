@@ -36,8 +36,9 @@ struct Node {
   std::string_view name;  // as .csg spells it, static storage: "cube", "group"
   Place place;            // of the module call that made it
   uint32_t first_argument = 0;
-  uint32_t end = 0;       // index behind its last descendant
-  uint8_t modifiers = 0;  // CallModifier
+  uint32_t end = 0;             // index behind its last descendant
+  uint8_t modifiers = 0;        // CallModifier
+  bool is_module_call = false;  // of a module that the design itself defines
 };
 
 /// Nodes in preorder: the first child of node i is i + 1, the sibling behind child c is

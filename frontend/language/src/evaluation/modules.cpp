@@ -85,6 +85,7 @@ void Machine::call_module(const CallSite& site) {
   HeapScope* const scope = take_scope(site);
   activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
   begin_node("group", site.modifiers);
+  tree_.nodes[open_nodes_.back()].is_module_call = true;
   const Code& code = compiler_.code_of(module);
   const uint32_t base = stack_.size() - site.slots;
   push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));

@@ -1,0 +1,42 @@
+// Where a leaf of a design stands in the design's text, and the calls that led to it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frontend/design_version.hpp"
+#include "frontend/imported_design.hpp"
+
+namespace frontend {
+
+struct SourcePlace {
+  std::string path;     // absolute; empty: no file that could be opened has it
+  std::string file;     // its name, without folders
+  uint32_t line = 0;    // from 1
+  uint32_t column = 0;  // in characters, from 1
+};
+
+/// Returns "name:line:column"; empty if there is no place.
+std::string text_of(const SourcePlace& place);
+
+struct TrailStep {
+  std::string what;  // the node in few words, or the call as the design spells it
+  SourcePlace place;
+};
+
+/// The way to a leaf, from the inside out: what it is made of, if that is one primitive; the calls
+/// of the design's own modules that stand in between; the leaf; and the calls that it stands in.
+/// Control structures, transformations and operations are no steps.
+struct LeafPlace {
+  std::vector<TrailStep> trail;  // never empty
+  std::size_t leaf = 0;          // its index in the trail
+
+  const TrailStep& step() const { return trail[leaf]; }
+};
+
+/// Of a design that scadray did not evaluate itself the trail is the leaf alone, in the .csg.
+LeafPlace leaf_place(const DesignTexts& texts, const PrimitivePlace& place);
+
+}  // namespace frontend

@@ -1,0 +1,134 @@
+// What the mouse does: it moves the camera and the section plane, measures, and names leaves.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "application.hpp"
+#include "projection.hpp"
+
+namespace window {
+namespace {
+
+/// The step by which a plane is moved, as a share of the design's size, to see how its axis runs on
+/// the screen.
+constexpr double kSectionStep = 0.01;
+/// An axis along which that step is shorter than this is seen end-on.
+constexpr double kLeastAxis_px = 0.25;
+
+}  // namespace
+
+void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy_px) {
+  const Size size = window_.size();
+  const bool with_shift = (modifiers & kShift) != 0;
+  is_moving_ = true;
+  end_hover();
+  if (button == Button::kLeft && (modifiers & kControl) && state_.section.is_on) {
+    drag_section(dx_px, dy_px);
+  } else if (button == Button::kLeft) {
+    state_.navigation.turn(dx_px, dy_px, with_shift);
+  } else if (button == Button::kMiddle || with_shift) {
+    state_.navigation.move_along(dy_px, size);
+  } else {
+    state_.navigation.pan(dx_px, dy_px, size);
+  }
+}
+
+/// Moves the plane so that it follows the mouse along its axis, as that is seen.
+void Application::drag_section(double dx_px, double dy_px) {
+  const csgcore::Box bounds = state_.bounds();
+  if (bounds.empty()) return;
+  SectionPlane& section = state_.section;
+  const csgcore::View view = state_.navigation.view(window_.size());
+  csgcore::Vec3 on_plane = bounds.center();
+  on_plane[section.axis] = section.position;
+  csgcore::Vec3 further = on_plane;
+  const double step = bounds.diagonal() * kSectionStep;
+  further[section.axis] += step;
+  const auto from = project(view, on_plane), to = project(view, further);
+  if (!from || !to) return;
+  const double x = to->x_px - from->x_px, y = to->y_px - from->y_px;
+  const double length_px = std::hypot(x, y);
+  // A plane that is seen along its axis does not move on the screen: a drag downwards moves it
+  // forward.
+  const double moved_px = length_px >= kLeastAxis_px ? (dx_px * x + dy_px * y) / length_px : dy_px;
+  const double position = section.position + step * moved_px / std::max(length_px, kLeastAxis_px);
+  section.position = std::clamp(position, bounds.min[section.axis], bounds.max[section.axis]);
+}
+
+void Application::wheel(double notches, double x_px, double y_px) {
+  is_moving_ = true;
+  end_hover();
+  state_.navigation.zoom(notches, x_px, y_px, window_.size());
+}
+
+void Application::click(double x_px, double y_px) {
+  end_hover();
+  probe({x_px, y_px}, Probe::Purpose::kMeasure);
+}
+
+void Application::double_click(double x_px, double y_px) {
+  end_hover();
+  state_.points.clear();
+  probe({x_px, y_px}, Probe::Purpose::kCenter);
+}
+
+void Application::move(double x_px, double y_px) {
+  end_hover();
+  hover_.move({x_px, y_px}, Clock::now());
+}
+
+void Application::leave() { end_hover(); }
+
+void Application::end_hover() {
+  hover_.stop();
+  hovering_ = 0;
+  state_.hovered.reset();
+}
+
+/// Asks for the leaf under the mouse once it rests.
+void Application::probe_hover() {
+  const std::optional<PicturePoint> place = hover_.take(Clock::now());
+  if (!place || window_.is_over_panel()) return;
+  probe(*place, Probe::Purpose::kHover);
+  hovering_ = probes_;
+}
+
+void Application::probe(const PicturePoint& place, Probe::Purpose purpose) {
+  if (!state_.design) return;
+  Probe probe;
+  probe.number = ++probes_;
+  probe.purpose = purpose;
+  probe.order = wanted_picture();
+  probe.x_px = place.x_px;
+  probe.y_px = place.y_px;
+  probe.texts = texts_;
+  painter_.probe(std::move(probe));
+}
+
+void Application::take_finding(const Finding& finding) {
+  const Probe& probe = finding.probe;
+  // The finding belongs to a design that is gone.
+  if (probe.order.design != state_.design) return;
+  switch (probe.purpose) {
+    case Probe::Purpose::kCenter:
+      if (finding.is_hit) state_.navigation.look_at(finding.position);
+      state_.points.clear();  // the first of the two clicks has measured a point
+      return;
+    case Probe::Purpose::kHover:
+      if (!finding.is_hit || probe.number != hovering_) return;
+      state_.hovered = {{probe.x_px, probe.y_px}, finding.place, finding.is_cut};
+      break;
+    case Probe::Purpose::kMeasure:
+      if (finding.is_hit) {
+        state_.measure(
+            {finding.position, finding.normal, finding.place, finding.surface, finding.is_cut});
+      } else {
+        state_.points.clear();
+      }
+      break;
+  }
+  has_new_picture_ = true;
+}
+
+}  // namespace window

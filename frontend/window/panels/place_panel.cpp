@@ -1,0 +1,132 @@
+#include "panels/place_panel.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "panels/style.hpp"
+#include "projection.hpp"
+
+namespace window {
+namespace {
+
+constexpr float kMargin = 10;
+constexpr ImU32 kPlaceColor = IM_COL32(170, 190, 215, 255);
+
+/// Returns the text as far as it fits into a width.
+std::string cut_to(std::string text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80; };
+  while (!text.empty() && ImGui::CalcTextSize((text + "…").c_str()).x > width) {
+    while (text.size() > 1 && continues()) text.pop_back();
+    text.pop_back();
+  }
+  return text + "…";
+}
+
+/// The widths of the trail's two columns, and the gap between them.
+struct Columns {
+  float left = 0, gap = 0, right = 0;
+  float width() const { return left + gap + right; }
+};
+
+/// Returns columns that fit into a width.
+Columns columns_of(const frontend::LeafPlace& place, float width) {
+  Columns columns;
+  for (const frontend::TrailStep& step : place.trail) {
+    columns.left = std::max(columns.left, ImGui::CalcTextSize(step.what.c_str()).x);
+    columns.right = std::max(columns.right, ImGui::CalcTextSize(text_of(step.place).c_str()).x);
+  }
+  columns.gap = ImGui::GetFontSize();
+  columns.left = std::min(columns.left, std::max(width - columns.gap - columns.right, width / 3));
+  columns.right = std::min(columns.right, std::max(width - columns.gap - columns.left, 0.0f));
+  return columns;
+}
+
+/// The trail, a line for each step, of which one is chosen.
+void draw_trail(State& state, const frontend::LeafPlace& place, const Columns& columns) {
+  for (std::size_t i = 0; i < place.trail.size(); ++i) {
+    const frontend::TrailStep& step = place.trail[i];
+    ImGui::PushID(static_cast<int>(i));
+    const float start = ImGui::GetCursorPosX();
+    if (ImGui::Selectable("##step", i == state.chosen_step, 0, {columns.width(), 0})) {
+      state.chosen_step = i;
+    }
+    ImGui::SameLine(start);
+    ImGui::TextUnformatted(cut_to(step.what, columns.left).c_str());
+    ImGui::SameLine(start + columns.left + columns.gap);
+    ImGui::PushStyleColor(ImGuiCol_Text, kPlaceColor);
+    ImGui::TextUnformatted(cut_to(text_of(step.place), columns.right).c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+  }
+}
+
+/// Returns what is measured, a line for the last point, and one for its relation to the one before.
+std::vector<std::string> measured_lines(const State& state) {
+  std::vector<std::string> lines;
+  for (const std::string& words : words_of(state.points.back().surface)) {
+    if (lines.empty()) {
+      lines.push_back(words);
+    } else {
+      lines.back() += ", " + words;
+    }
+  }
+  if (state.points.size() < 2) return lines;
+  if (auto relation = relation_of(state.points[0].surface, state.points[1].surface)) {
+    lines.push_back(std::move(*relation));
+  }
+  return lines;
+}
+
+/// Returns the panel's corner at the left: below the menu, and below the section panel if there is
+/// no room beside it; or above the status line if the point would be hidden.
+ImVec2 corner_of(const State& state, const csgcore::View& view, float status_top,
+                 const ImVec2& size) {
+  float top = ImGui::GetFrameHeight() + kMargin;
+  const float section_width = 20 * ImGui::GetFontSize();
+  if (state.section.is_on && size.x + section_width > ImGui::GetIO().DisplaySize.x) {
+    top += 4 * ImGui::GetFrameHeightWithSpacing();
+  }
+  const auto point = project(view, state.points.back().position);
+  const bool hides = point && point->x_px < kMargin + size.x + kMargin && point->y_px > top &&
+                     point->y_px < top + size.y + kMargin;
+  const float bottom = status_top - size.y - kMargin;
+  return {kMargin, hides && bottom > point->y_px + kMargin ? bottom : top};
+}
+
+}  // namespace
+
+void draw_place(State& state, const csgcore::View& view, float status_top, const RunCommand& run) {
+  if (!state.shows_place || state.points.empty()) return;
+  const MeasuredPoint& point = state.points.back();
+  const std::vector<std::string> lines = measured_lines(state);
+  const frontend::SourcePlace* const place = state.place_to_open();
+  const bool has_file = place != nullptr && !place->path.empty();
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float most = std::max(display.x - 2 * kMargin - 2 * padding.x, 50.0f);
+  const Columns columns = columns_of(point.place, most);
+  const auto rows = static_cast<float>(point.place.trail.size() + lines.size() + point.is_cut);
+  const ImVec2 size(columns.width() + 2 * padding.x, rows * ImGui::GetTextLineHeightWithSpacing() +
+                                                         ImGui::GetFrameHeightWithSpacing() +
+                                                         2 * padding.y);
+  ImGui::SetNextWindowPos(corner_of(state, view, status_top, size));
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kMargin, display.y / 2});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  if (ImGui::Begin("##place", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {
+    if (point.is_cut) ImGui::TextUnformatted("cut by the section plane:");
+    draw_trail(state, point.place, columns);
+    if (!lines.empty()) ImGui::Separator();
+    ImGui::PushTextWrapPos(padding.x + most);
+    for (const std::string& line : lines) ImGui::TextUnformatted(line.c_str());
+    ImGui::PopTextWrapPos();
+    if (has_file && ImGui::SmallButton("Open in the editor (E)")) run(Command::kOpenEditor);
+  }
+  ImGui::End();
+}
+
+}  // namespace window

@@ -1,0 +1,250 @@
+#include "surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "csgcore/profile.hpp"
+
+namespace window {
+namespace {
+
+using csgcore::Affine;
+using csgcore::Primitive;
+using csgcore::ProfileEdge;
+using csgcore::Shape;
+using csgcore::Vec2;
+using csgcore::Vec3;
+
+/// The relative rounding of a hit and of a matrix that a design has multiplied: far above that of
+/// doubles, and below what anyone measures.
+constexpr double kRounding = 1e-7;
+
+bool are_parallel(const Vec3& a, const Vec3& b) {
+  return glm::length(glm::cross(a, b)) <= kRounding * glm::length(a) * glm::length(b);
+}
+
+bool are_perpendicular(const Vec3& a, const Vec3& b) {
+  return std::abs(glm::dot(a, b)) <= kRounding * glm::length(a) * glm::length(b);
+}
+
+bool are_equal(double a, double b) {
+  return std::abs(a - b) <= kRounding * std::max(std::abs(a), std::abs(b));
+}
+
+/// The factor by which a map scales circles about the local z axis, which stay circles about its
+/// image; nothing if they do not.
+std::optional<double> scale_about_axis(const Affine& map) {
+  const Vec3 &x = map.linear[0], &y = map.linear[1], &z = map.linear[2];
+  const bool is_round = are_equal(glm::length(x), glm::length(y)) && are_perpendicular(x, y) &&
+                        are_perpendicular(x, z) && are_perpendicular(y, z);
+  return is_round ? std::optional(glm::length(x)) : std::nullopt;
+}
+
+/// A point of a primitive's surface.
+struct SurfacePoint {
+  const Primitive& primitive;
+  Vec3 world, normal, local;
+
+  const Affine& map() const { return primitive.local_to_world; }
+  Surface plane() const { return {Surface::Kind::kPlane, world, normal, 0}; }
+  /// Of the map's image of a circle about a local axis that is parallel to z.
+  Surface about_axis(const Vec2& axis, double radius_local) const {
+    const std::optional<double> scale = scale_about_axis(map());
+    if (!scale) return {};
+    return {Surface::Kind::kAxis, map().point({axis.x, axis.y, local.z}),
+            glm::normalize(map().linear[2]), *scale * radius_local};
+  }
+  Surface about_center(const Vec3& center, double radius_local) const {
+    const std::optional<double> scale = scale_about_axis(map());
+    if (!scale || !are_equal(*scale, glm::length(map().linear[2]))) return {};
+    return {Surface::Kind::kCenter, map().point(center), {}, *scale * radius_local};
+  }
+  /// Whether the point is on a face across the local z axis.
+  bool is_on_end() const {
+    return are_parallel(normal, glm::cross(map().linear[0], map().linear[1]));
+  }
+};
+
+Surface frustum_surface(const SurfacePoint& point) {
+  const Primitive& frustum = point.primitive;
+  const double share = (point.local.z - frustum.z_min) / (frustum.z_max - frustum.z_min);
+  const double radius = frustum.r_bottom + share * (frustum.r_top - frustum.r_bottom);
+  Surface round = point.about_axis({0, 0}, radius);
+  if (!point.is_on_end()) return round;
+  Surface end = point.plane();
+  if (round.kind == Surface::Kind::kAxis) {
+    end.origin = round.origin;
+    end.radius = round.radius;
+  }
+  return end;
+}
+
+/// The circle of an arc of the profile that the point lies on.
+struct Circle {
+  Vec2 center;
+  double radius;
+};
+std::optional<Circle> arc_through(const csgcore::Profile& profile, const Vec2& point) {
+  for (const csgcore::ProfileLoop& loop : profile.loops()) {
+    for (const ProfileEdge& edge : loop) {
+      if (edge.kind != ProfileEdge::Kind::kArc) continue;
+      const double radius = glm::length(edge.end - edge.control);
+      if (are_equal(glm::length(point - edge.control), radius)) return Circle{edge.control, radius};
+    }
+  }
+  return std::nullopt;
+}
+
+bool has_beziers(const csgcore::Profile& profile) {
+  const auto is_bezier = [](const ProfileEdge& edge) {
+    return edge.kind == ProfileEdge::Kind::kBezier;
+  };
+  return std::any_of(profile.loops().begin(), profile.loops().end(),
+                     [&](const csgcore::ProfileLoop& loop) {
+                       return std::any_of(loop.begin(), loop.end(), is_bezier);
+                     });
+}
+
+Surface extrusion_surface(const SurfacePoint& point) {
+  if (point.is_on_end()) return point.plane();
+  const Primitive& extrusion = point.primitive;
+  const double share = (point.local.z - extrusion.z_min) / (extrusion.z_max - extrusion.z_min);
+  const double scale = extrusion.r_bottom + share * (extrusion.r_top - extrusion.r_bottom);
+  const Vec2 in_profile = Vec2(point.local) / scale;
+  if (const std::optional<Circle> arc = arc_through(*extrusion.profile, in_profile)) {
+    const bool is_cylinder = extrusion.r_bottom == extrusion.r_top;
+    const bool is_about_axis = arc->center == Vec2(0.0);
+    if (!is_cylinder && !is_about_axis) return {};  // an oblique cone
+    return point.about_axis(scale * arc->center, scale * arc->radius);
+  }
+  return has_beziers(*extrusion.profile) ? Surface{} : point.plane();
+}
+
+Surface revolution_surface(const SurfacePoint& point) {
+  if (point.is_on_end()) return point.plane();
+  const double distance = std::hypot(point.local.x, point.local.y);
+  const std::optional<Circle> arc =
+      arc_through(*point.primitive.profile, {distance, point.local.z});
+  if (arc && arc->center.x == 0) return point.about_center({0, 0, arc->center.y}, arc->radius);
+  return point.about_axis({0, 0}, distance);
+}
+
+std::string number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value == 0 ? 0.0 : value);  // no -0
+  return buffer;
+}
+
+/// Without the rounding of numbers that are 0 beside others.
+Vec3 cleaned(Vec3 v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(v[axis]) <= 1e-12 * largest) v[axis] = 0;
+  }
+  return v;
+}
+
+/// The angle of two lines, from 0 to 90 degrees.
+double angle_deg(const Vec3& a, const Vec3& b) {
+  const double angle = std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
+  return angle * 180 / M_PI;
+}
+
+double distance_to_line(const Vec3& point, const Surface& axis) {
+  return glm::length(glm::cross(point - axis.origin, axis.direction));
+}
+
+double distance_to_plane(const Vec3& point, const Surface& plane) {
+  return std::abs(glm::dot(point - plane.origin, plane.direction));
+}
+
+std::string relation_of_axes(const Surface& a, const Surface& b) {
+  if (are_parallel(a.direction, b.direction)) {
+    const double distance = distance_to_line(a.origin, b);
+    const double size = std::max({a.radius, b.radius, glm::length(a.origin - b.origin)});
+    if (distance <= kRounding * size) return "the same axis";
+    return "axes " + number(distance) + " apart";
+  }
+  const Vec3 across = glm::normalize(glm::cross(a.direction, b.direction));
+  return "axes at " + number(angle_deg(a.direction, b.direction)) + "°, " +
+         number(std::abs(glm::dot(across, cleaned(b.origin - a.origin)))) + " apart";
+}
+
+std::string relation_of_planes(const Surface& a, const Surface& b) {
+  if (are_parallel(a.direction, b.direction)) {
+    return "parallel faces, " + number(distance_to_plane(b.origin, a)) + " apart";
+  }
+  return "faces at " + number(angle_deg(a.direction, b.direction)) + "°";
+}
+
+std::string relation_of_plane_and_axis(const Surface& plane, const Surface& axis) {
+  if (are_perpendicular(plane.direction, axis.direction)) {
+    return "axis " + number(distance_to_plane(axis.origin, plane)) + " from the face";
+  }
+  return "axis at " + number(90 - angle_deg(plane.direction, axis.direction)) + "° to the face";
+}
+
+}  // namespace
+
+Surface surface_at(const Primitive& primitive, const Vec3& position, const Vec3& normal) {
+  const Affine& map = primitive.local_to_world;
+  const SurfacePoint point{primitive, position, normal,
+                           csgcore::inverse(map.linear) * (position - map.translation)};
+  switch (primitive.shape) {
+    case Shape::kSphere:
+      return point.about_center(Vec3(0.0), primitive.r_bottom);
+    case Shape::kFrustum:
+      return frustum_surface(point);
+    case Shape::kExtrusion:
+      return extrusion_surface(point);
+    case Shape::kRevolution:
+      return revolution_surface(point);
+    case Shape::kPolyhedron:
+    case Shape::kMesh:
+      return point.plane();
+  }
+  return {};
+}
+
+std::string coordinates(const Vec3& v) {
+  const Vec3 c = cleaned(v);
+  return "[" + number(c.x) + ", " + number(c.y) + ", " + number(c.z) + "]";
+}
+
+std::vector<std::string> words_of(const Surface& surface) {
+  const std::string at = coordinates(surface.origin);
+  switch (surface.kind) {
+    case Surface::Kind::kOther:
+      break;
+    case Surface::Kind::kPlane:
+      if (surface.radius > 0)
+        return {"round face, radius " + number(surface.radius), "centre " + at};
+      return {"flat, normal " + coordinates(surface.direction)};
+    case Surface::Kind::kAxis:
+      return {"radius " + number(surface.radius), "axis " + coordinates(surface.direction),
+              "centre " + at};
+    case Surface::Kind::kCenter:
+      return {"radius " + number(surface.radius), "centre " + at};
+  }
+  return {};
+}
+
+std::optional<std::string> relation_of(const Surface& a, const Surface& b) {
+  using Kind = Surface::Kind;
+  if (a.kind > b.kind) return relation_of(b, a);
+  if (a.kind == Kind::kOther) return std::nullopt;
+  if (b.kind == Kind::kPlane) return relation_of_planes(a, b);
+  if (b.kind == Kind::kAxis && a.kind == Kind::kAxis) return relation_of_axes(a, b);
+  if (b.kind == Kind::kAxis) return relation_of_plane_and_axis(a, b);
+  if (a.kind == Kind::kPlane) {
+    return "centre " + number(distance_to_plane(b.origin, a)) + " from the face";
+  }
+  if (a.kind == Kind::kAxis)
+    return "centre " + number(distance_to_line(b.origin, a)) + " from the axis";
+  return "centres " + number(glm::length(a.origin - b.origin)) + " apart";
+}
+
+}  // namespace window
