@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "language/customizer.hpp"
 #include "language/node.hpp"
 #include "language/source_files.hpp"
 
@@ -19,6 +20,7 @@ namespace language {
 struct EvaluationOptions {
   std::vector<std::string> definitions;       // -D, in order, as typed
   std::string parameter_file, parameter_set;  // -p, -P; empty: none
+  std::optional<ParameterSet> parameters;     // in place of that set
   bool hard_warnings = false;                 // --hardwarnings
   bool check_parameters = true;               // --check-parameters
   bool check_ranges = false;                  // --check-parameter-ranges
