@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
+#include "frontend/design_inputs.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
@@ -48,6 +49,7 @@ struct DesignFileOptions {
   ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
+  DesignInputs inputs;
   bool wants_files = false;
   /// Called with each line that the evaluation prints.
   std::function<void(const std::string& line)> message;

@@ -83,14 +83,16 @@ std::optional<language::EvaluationOptions> evaluation_options(
   return options;
 }
 
-std::shared_ptr<const language::Evaluation> evaluate_design(
-    const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
-    const std::function<void(const std::string& line)>& message, const std::stop_token& stop) {
-  std::optional<language::EvaluationOptions> known = evaluation_options(openscad_arguments);
+std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const DesignFileOptions& options,
+                                                            const std::stop_token& stop) {
+  std::optional<language::EvaluationOptions> known = evaluation_options(options.openscad_arguments);
   if (!known) return nullptr;
-  known->is_preview = is_preview;
+  known->parameters = options.inputs.parameters;
+  known->time = options.inputs.time.value_or(0);
+  known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
-  OpenScadMessages messages(message);
+  OpenScadMessages messages(options.message);
   HeldMessages held(messages);
   language::Evaluation evaluation;
   try {
@@ -99,7 +101,8 @@ std::shared_ptr<const language::Evaluation> evaluate_design(
     throw Stopped{};
   }
   if (!evaluation.unknown.empty()) {
-    message("openscad evaluates the design, since scadray does not know " + evaluation.unknown);
+    options.message("openscad evaluates the design, since scadray does not know " +
+                    evaluation.unknown);
     return nullptr;
   }
   held.pass_on();
