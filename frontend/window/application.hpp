@@ -63,6 +63,10 @@ class Application final : private WindowEvents {
   void report_picture();
   void wait_for_display();
   void show_title();
+  void take_camera(const frontend::DesignCamera& asked);
+  bool shows_inputs() const;
+  bool play();
+  void update_inputs();
 
   const frontend::Options& options_;
   State state_;
@@ -76,9 +80,11 @@ class Application final : private WindowEvents {
   Painter painter_;
   frontend::DesignFollower follower_;
 
-  frontend::DesignTexts texts_;  // of the design that is shown
-  PaintOrder ordered_;           // the last order
-  uint64_t centering_ = 0;       // number of the probe at whose finding the camera will look
+  frontend::DesignTexts texts_;          // of the design that is shown
+  frontend::DesignInputs inputs_;        // that the follower has been given
+  frontend::DesignCamera asked_camera_;  // that the newest version asks for
+  PaintOrder ordered_;                   // the last order
+  uint64_t centering_ = 0;  // number of the probe at whose finding the camera will look
   uint64_t probes_ = 0;
   bool is_moving_ = false;   // the mouse has moved the camera since the last order
   bool has_camera_ = false;  // the command line or the first design has chosen the camera

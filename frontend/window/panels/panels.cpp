@@ -1,5 +1,7 @@
 #include "panels/panels.hpp"
 
+#include "panels/animation_panel.hpp"
+#include "panels/customizer_panel.hpp"
 #include "panels/help_sheet.hpp"
 #include "panels/point_labels.hpp"
 #include "panels/progress_panel.hpp"
@@ -12,7 +14,9 @@ void draw_panels(State& state, const csgcore::View& view, const PanelActions& ac
   draw_points(state, view);
   draw_menu_bar(state, actions.run);
   const float status_top = draw_status_line(state);
-  draw_messages(state, status_top, actions.open);
+  const float messages_top = draw_messages(state, status_top, actions.open);
+  const float animation_top = draw_animation(state, messages_top);
+  draw_customizer(state, animation_top);
   draw_section(state);
   draw_progress(state, actions.run);
   draw_help(state);
