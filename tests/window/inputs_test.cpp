@@ -23,11 +23,18 @@ TEST_F(WindowInputs, ASliderMovesTheDesign) {
   key("ctrl+p");
   wait_until_settled(before);
   // The slider is the last thing in the panel.
-  constexpr int kSliderX = 30, kSliderY = 133;
-  display().drive({"mousemove", std::to_string(kSliderX + 40), std::to_string(kSliderY)});
-  wait_until_settled(before);
-  drag(1, kSliderX + 40, kSliderY, 390, kSliderY);
+  const auto point_at = [this](const char* x) { display().drive({"mousemove", x, "133"}); };
+  const Picture panel = shown();
+  point_at("60");
+  wait_until_settled(panel);
+  display().drive({"mousedown", "1"});
+  point_at("390");
   EXPECT_EQ(next_of(9)["error"], "");
+  point_at("20");
+  next_of(1);
+  point_at("390");
+  next_of(9);
+  display().drive({"mouseup", "1"});
   EXPECT_EQ(folder_.read("a.scad"), kDesign);
   folder_.write("a.scad", std::string(kDesign) + "cube();");
   next_of(10);
@@ -40,7 +47,6 @@ TEST_F(WindowInputs, AnAnimationPlaysAndTurnsTheCamera) {
   key("space");
   next([](const json& line) { return line["camera"]["rotation_deg"][2].get<double>() > 30; });
   key("space");
-  const Picture paused = shown();
   key("a");  // closes the panel, and the time is 0 again
   next([](const json& line) { return line["camera"]["rotation_deg"][2].get<double>() == 0; });
 }
