@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/design_version.hpp"
-#include "language/customizer.hpp"
+#include "language/customizer_parameter.hpp"
 
 namespace language {
 class ParameterSetFile;

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "frontend/error.hpp"
+#include "language/customizer.hpp"
 #include "number_grid.hpp"
 #include "temporary_folder.hpp"
 

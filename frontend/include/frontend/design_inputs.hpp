@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "language/customizer.hpp"
+#include "language/parameter_value.hpp"
 
 namespace frontend {
 

@@ -13,6 +13,7 @@
 #include "frontend/design_inputs.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/imported_design.hpp"
+#include "language/customizer_parameter.hpp"
 
 namespace language {
 struct Evaluation;

@@ -13,6 +13,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/stop.hpp"
+#include "language/customizer.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {

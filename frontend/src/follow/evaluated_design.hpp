@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
-#include "frontend/design_file.hpp"
+#include "frontend/design_file_options.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "language/customizer.hpp"
+#include "language/customizer_parameter.hpp"
 #include "parameter_edit.hpp"
 
 namespace window {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "language/customizer.hpp"
 #include "language/node.hpp"
+#include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
 
 namespace language {

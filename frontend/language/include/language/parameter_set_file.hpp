@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "language/customizer.hpp"
+#include "language/parameter_value.hpp"
 
 namespace language {
 

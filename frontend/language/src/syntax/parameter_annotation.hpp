@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "language/customizer.hpp"
+#include "language/customizer_parameter.hpp"
 
 namespace language {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "language/customizer.hpp"
+#include "language/parameter_value.hpp"
 #include "language/value.hpp"
 #include "messages/messages.hpp"
 #include "syntax/program.hpp"
