@@ -161,7 +161,7 @@ void draw_customizer(State& state, float bottom) {
   constexpr float kMargin = 10;
   const float display = ImGui::GetIO().DisplaySize.x;
   const float top = ImGui::GetFrameHeight() + kMargin;
-  const float width = std::min(18 * ImGui::GetFontSize(), 0.5f * display);
+  const float width = std::min(18 * ImGui::GetFontSize(), 0.46f * display);
   const float height = std::max(bottom - kMargin - top, 5 * ImGui::GetFrameHeight());
   ImGui::SetNextWindowPos({kMargin, top});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
