@@ -86,9 +86,9 @@ std::string ParameterComments::group(size_t offset) const {
   for (;;) {
     const size_t begin = comment.find('[');
     const size_t end = comment.find(']', begin);
-    if (end == comment.npos) return name;
-    if (!name.empty()) name += " - ";
-    name += trimmed(comment.substr(begin + 1, end - begin - 1));
+    if (end == comment.npos) return std::string(trimmed(name));
+    if (!name.empty()) name += '-';
+    name += comment.substr(begin + 1, end - begin - 1);
     comment.remove_prefix(end + 1);
   }
 }
