@@ -132,6 +132,7 @@ std::optional<double> Application::seconds_to_next_look() const {
   for (const auto& activity : {follower_.activity(), painter_.activity()}) {
     if (activity) look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
   }
+  if (state_.animation.is_playing() && shows_inputs()) look_at(state_.animation.due());
   if (!next) return std::nullopt;
   return std::max(std::chrono::duration<double>(*next - Clock::now()).count(), 1e-3);
 }
@@ -165,6 +166,7 @@ void Application::stop_long_work() {
   follower_.stop();
   painter_.stop();
   state_.is_stopped = true;
+  state_.animation.pause();
 }
 
 /// Waits for the display if the driver does not, as a software renderer does not.
@@ -185,12 +187,14 @@ void Application::draw_frame() {
   view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
   draw_panels(state_, view, static_cast<float>(scale), actions_);
   window_.end_frame();
+  update_inputs();
   if (std::exchange(has_new_picture_, false)) report_picture();
 }
 
 bool Application::take_news() {
   bool any = watch_reading();
   any |= watch_long_work();
+  any |= play();
   if (auto version = follower_.take()) {
     take_version(std::move(*version));
     any = true;
@@ -216,15 +220,55 @@ void Application::take_version(frontend::DesignVersion version) {
   if (version.design) texts_ = version.texts;
   if (options_.prints_echoes) print_echoes(version);
   end_hover();
+  is_moving_ |= state_.version && state_.version->inputs != version.inputs;
+  reading_since_ = Clock::now();
+  const frontend::DesignCamera camera = version.camera;
   state_.take(std::move(version));
   if (!has_camera_ && !state_.bounds().empty()) {
-    state_.navigation = Navigation(frontend::choose_camera(options_.camera, state_.bounds()),
+    const frontend::CameraOptions options = frontend::with_camera_of(camera, options_.camera);
+    state_.navigation = Navigation(frontend::choose_camera(options, state_.bounds()),
                                    state_.navigation.projection());
     has_camera_ = true;
+    asked_camera_ = camera;
+  } else if (state_.version->error.empty()) {
+    take_camera(camera);
   }
+  update_inputs();  // the new version may lack parameters
   show_title();
   // The picture stays, and the next frame shows what there is to say of the version.
   if (leaves_picture) has_new_picture_ = true;
+}
+
+/// Follows the camera that the design asks for when it asks for another one, as one does that turns
+/// itself with $t.
+void Application::take_camera(const frontend::DesignCamera& asked) {
+  if (std::exchange(asked_camera_, asked) == asked || options_.camera.camera) return;
+  frontend::Camera camera = state_.navigation.camera();
+  camera.target = asked.target.value_or(camera.target);
+  camera.rotation_deg = asked.rotation_deg.value_or(camera.rotation_deg);
+  camera.distance = asked.distance.value_or(camera.distance);
+  state_.navigation = Navigation(camera, state_.navigation.projection());
+}
+
+/// Returns whether the newest version was read with the newest parameters and time.
+bool Application::shows_inputs() const {
+  return state_.version && state_.version->inputs == inputs_;
+}
+
+/// Goes on with the animation, once its last frame could be read. Returns whether it did.
+bool Application::play() {
+  if (!shows_inputs() || !state_.animation.advance(Clock::now())) return false;
+  update_inputs();
+  return true;
+}
+
+void Application::update_inputs() {
+  if (!state_.shows_animation) state_.animation.stop();
+  frontend::DesignInputs wanted{state_.customizer.inputs(), std::nullopt};
+  if (state_.animation.frame() > 0) wanted.time = state_.animation.time();
+  if (wanted == inputs_) return;
+  inputs_ = std::move(wanted);
+  follower_.set_inputs(inputs_);
 }
 
 void Application::show_title() {

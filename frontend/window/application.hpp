@@ -70,6 +70,10 @@ class Application final : private WindowEvents {
   void report_picture();
   void wait_for_display();
   void show_title();
+  void take_camera(const frontend::DesignCamera& asked);
+  bool shows_inputs() const;
+  bool play();
+  void update_inputs();
 
   const frontend::Options& options_;
   State state_;
@@ -84,8 +88,10 @@ class Application final : private WindowEvents {
   Painter painter_;
   frontend::DesignFollower follower_;
 
-  frontend::DesignTexts texts_;  // of the design that is shown
-  PaintOrder ordered_;           // the last order
+  frontend::DesignTexts texts_;          // of the design that is shown
+  frontend::DesignInputs inputs_;        // that the follower has been given
+  frontend::DesignCamera asked_camera_;  // that the newest version asks for
+  PaintOrder ordered_;                   // the last order
   uint64_t probes_ = 0;
   HoverTimer hover_;
   uint64_t hovering_ = 0;    // number of the probe at the mouse's place; 0: none

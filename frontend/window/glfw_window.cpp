@@ -31,6 +31,10 @@ constexpr Size kLeastSize{160, 120};
 /// A font with letters beyond ASCII, which file names may have. Without it ImGui's own font is
 /// used.
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+/// Its letters: Latin, Greek, Cyrillic, and the signs of texts and measures. Pairs of first and
+/// last.
+constexpr ImWchar kLetters[] = {0x0020, 0x024F, 0x0370, 0x052F, 0x2010, 0x2044, 0x20AC,
+                                0x20AC, 0x2190, 0x2195, 0x2200, 0x2265, 0};
 
 std::string last_error;  // GLFW's
 
@@ -155,8 +159,7 @@ void GlfwWindow::Impl::set_up_imgui() {
   glfwGetWindowContentScale(window, &scale, &scale_y);
   std::error_code missing;
   if (std::filesystem::exists(kFont, missing)) {
-    io.Fonts->AddFontFromFileTTF(kFont, std::round(kFontSize * scale), nullptr,
-                                 io.Fonts->GetGlyphRangesCyrillic());
+    io.Fonts->AddFontFromFileTTF(kFont, std::round(kFontSize * scale), nullptr, kLetters);
   } else {
     ImFontConfig own;
     own.SizePixels = std::round(13 * scale);

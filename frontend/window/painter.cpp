@@ -24,6 +24,13 @@ constexpr std::chrono::milliseconds kRest{80};
 /// The least share of the picture's width and height: in a coarser picture nothing could be
 /// recognised.
 constexpr double kLeastShare = 1.0 / 6;
+/// An edit of the design is drawn in the whole size at first, which shows how much it changes, if
+/// that cannot take longer than this.
+constexpr double kLongFirstEdit_ms = 100;
+/// The time of a pixel is known from pictures of which this share was traced: what does not depend
+/// on the pixels counts little then.
+constexpr double kMostOfPicture = 0.5;
+
 /// A share this near to 1 is drawn in full: a little late is better than blurred.
 constexpr double kWholeShare = 0.85;
 
@@ -122,10 +129,33 @@ void Painter::run() {
   }
 }
 
+/// Returns whether the design has changed, and the view has not, since a picture was drawn in its
+/// whole size.
+bool Painter::is_edit_of_drawn(const PaintOrder& order) const {
+  return drawn_.design && drawn_.design != order.design.get() &&
+         drawn_.navigation == order.navigation && drawn_.size == order.size;
+}
+
+/// Returns the time that a picture takes in its whole size; after an edit only what it changes is
+/// traced, and the first one shows how much that is.
+double Painter::expected_ms(const PaintOrder& order) const {
+  const double all_ms = ms_per_pixel_ * order.size.width_px * order.size.height_px;
+  if (!is_edit_of_drawn(order)) return all_ms;
+  if (!drawn_.edit_ms) return all_ms <= kLongFirstEdit_ms ? 0 : all_ms;
+  return std::min(*drawn_.edit_ms, all_ms);
+}
+
+void Painter::note_drawn(const PaintOrder& order, double ms) {
+  const std::optional<double> edit_ms = is_edit_of_drawn(order) ? ms : drawn_.edit_ms;
+  const bool is_same_view = drawn_.navigation == order.navigation && drawn_.size == order.size;
+  drawn_ = {order.design.get(), order.navigation, order.size,
+            is_same_view ? edit_ms : std::nullopt};
+}
+
 /// Returns the share of the picture's width and height that can be drawn within a frame.
 double Painter::affordable_share(const PaintOrder& order) const {
   if (!order.is_moving) return 1;
-  const double whole_ms = ms_per_pixel_ * order.size.width_px * order.size.height_px;
+  const double whole_ms = expected_ms(order);
   const double share = whole_ms > 0 ? std::sqrt(frame_ms_ / whole_ms) : 1;
   return share >= kWholeShare ? 1 : std::max(share, kLeastShare);
 }
@@ -183,9 +213,10 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
     frontend::show_channel(painting.image, settings.show, settings.scheme.background);
     frontend::draw_overlays(painting.image, view, order.navigation.camera(), order.overlays,
                             settings.scheme, *order.design);
-    if (samples == 1 && painting.stats.edit.pixels_traced > 0) {
-      ms_per_pixel_ = ms_since(loaded) / static_cast<double>(painting.stats.edit.pixels_traced);
-    }
+    const auto traced = static_cast<double>(painting.stats.edit.pixels_traced);
+    const bool is_most = traced >= kMostOfPicture * size.width_px * size.height_px;
+    if (samples == 1 && is_most) ms_per_pixel_ = ms_since(loaded) / traced;
+    if (samples == 1 && size == order.size) note_drawn(order, ms_since(start));
   } catch (const std::bad_alloc&) {
     painting.error = "error: out of memory (make the window or the design smaller)";
   } catch (const std::exception& error) {

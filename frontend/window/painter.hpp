@@ -101,7 +101,10 @@ class Painter {
   Painting paint_at(const PaintOrder& order, Size size, uint32_t samples,
                     const std::stop_token& stop);
   void load(const PaintOrder& order);
+  bool is_edit_of_drawn(const PaintOrder& order) const;
+  double expected_ms(const PaintOrder& order) const;
   double affordable_share(const PaintOrder& order) const;
+  void note_drawn(const PaintOrder& order, double ms);
   Finding find(const Probe& probe);
   void describe(uint32_t primitive, Finding& finding) const;
   void publish(Painting painting);
@@ -125,7 +128,14 @@ class Painter {
   std::shared_ptr<const frontend::ImportedDesign> loaded_;
   SectionPlane loaded_section_;
   ScenePointer scene_;       // the loaded design's, cut by the section plane
-  double ms_per_pixel_ = 0;  // of the last picture; 0: unknown
+  double ms_per_pixel_ = 0;  // of the last picture of which most was traced; 0: unknown
+  /// The last picture that was drawn in its whole size.
+  struct Drawn {
+    const frontend::ImportedDesign* design = nullptr;  // to compare with: it may be gone
+    Navigation navigation{{}, csgcore::Projection::kPerspective};
+    Size size{};
+    std::optional<double> edit_ms{};  // what the last edit of the design took in this view
+  } drawn_;
   std::optional<PaintOrder> coarse_;
 
   std::thread thread_;

@@ -82,6 +82,10 @@ auto switch_of(AnyState& state, Command command) -> decltype(&state.shows_help) 
       return &state.shows_status;
     case Command::kHelp:
       return &state.shows_help;
+    case Command::kParameters:
+      return &state.shows_parameters;
+    case Command::kAnimation:
+      return &state.shows_animation;
     default:
       return nullptr;
   }
@@ -110,6 +114,7 @@ State::State(const frontend::Options& options)
     : navigation(options.camera.camera.value_or(frontend::Camera{}), options.camera.projection),
       look(options.render),
       overlays(options.overlays),
+      customizer(options.input, options.openscad_arguments),
       name(options.input) {}
 
 void State::take(frontend::DesignVersion newest) {
@@ -123,6 +128,7 @@ void State::take(frontend::DesignVersion newest) {
   messages = messages_of(lines);
   notice.clear();
   is_stopped = false;
+  customizer.take(newest.parameters);
   version = std::move(newest);
 }
 
@@ -158,6 +164,9 @@ bool State::apply(Command command) {
     set_section_axis(*axis);
   } else if (bool* const turned = switch_of(*this, command)) {
     *turned = !*turned;
+    if (shows_parameters && command == Command::kParameters && customizer.parameters().empty()) {
+      notice = "the design has no parameters";
+    }
   } else {
     switch (command) {
       case Command::kViewAll:
@@ -198,6 +207,14 @@ bool State::apply(Command command) {
         points.clear();
         shows_help = false;
         break;
+      case Command::kPlay:
+        shows_animation = true;
+        if (animation.is_playing()) {
+          animation.pause();
+        } else {
+          animation.play(Animation::Clock::now());
+        }
+        break;
       case Command::kSavePicture:
         asks_for_path = true;
         break;
@@ -225,6 +242,8 @@ bool State::is_checked(Command command) const {
       return section.is_on;
     case Command::kSectionFlip:
       return section.is_flipped;
+    case Command::kPlay:
+      return animation.is_playing();
     default:
       return false;
   }

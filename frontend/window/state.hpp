@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "animation.hpp"
 #include "commands.hpp"
+#include "customizer.hpp"
 #include "frontend/activity.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/options.hpp"
@@ -14,6 +16,7 @@
 #include "message_list.hpp"
 #include "navigation.hpp"
 #include "painter.hpp"
+#include "parameter_edit.hpp"
 #include "projection.hpp"
 #include "section_plane.hpp"
 
@@ -53,6 +56,12 @@ struct State {
   bool shows_messages = true;
   bool shows_status = true;
   bool shows_help = false;
+  Customizer customizer;
+  bool shows_parameters = false;
+  ParameterEdit parameter_edit;
+  std::string new_set;  // the name of a set that is to be saved
+  Animation animation;
+  bool shows_animation = false;
   std::string message_filter;  // the messages that are shown contain it
   bool asks_for_path = false;  // shows the dialogue for the path of a picture
   std::string picture_path;

@@ -26,6 +26,7 @@ std::pair<int, uint8_t> key_of(std::string text) {
   // GLFW's numbers of letters, digits and signs are their ASCII codes.
   if (text.size() == 1) return {text[0], modifiers};
   if (text == "Esc") return {GLFW_KEY_ESCAPE, modifiers};
+  if (text == "Space") return {GLFW_KEY_SPACE, modifiers};
   if (text[0] == 'F') return {GLFW_KEY_F1 + std::stoi(text.substr(1)) - 1, modifiers};
   return {-1, modifiers};
 }

@@ -224,6 +224,27 @@ TEST_F(PainterTest, WhatMovesIsCoarseAndThenRefined) {
   EXPECT_TRUE(refined.image.rgb == command_picture(order).rgb);
 }
 
+TEST_F(PainterTest, TheFirstEditOfAMotionShowsWhetherTheOthersAreQuick) {
+  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
+  PaintOrder order = order_of(design_of(window_test::row_of(1)));
+  painter.order(order);
+  EXPECT_TRUE(next_painting().is_final);
+  const auto edit = [&](int spheres) {
+    order.design = design_of(window_test::row_of(spheres));
+    order.is_moving = true;
+    ++order.number;
+    painter.order(order);
+    return next_painting();
+  };
+  EXPECT_TRUE(edit(2).is_final);
+  EXPECT_FALSE(edit(3).is_final);
+  const Painting refined = next_painting();
+  EXPECT_TRUE(refined.is_final);
+  EXPECT_TRUE(refined.image.rgb == command_picture(order).rgb);
+  order.navigation.turn(10, 5, false);
+  EXPECT_FALSE(edit(4).is_final) << "the view moves, too";
+}
+
 TEST_F(PainterTest, WhatIsQuickEnoughIsDrawnWholeAtOnce) {
   Painter& painter = this->painter();
   PaintOrder order = order_of(design_of(kDesign));

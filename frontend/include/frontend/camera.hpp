@@ -25,6 +25,8 @@ struct DesignCamera {
   std::optional<csgcore::Vec3> target{};
   std::optional<csgcore::Vec3> rotation_deg{};
   std::optional<double> distance{};
+
+  bool operator==(const DesignCamera&) const = default;
 };
 
 /// The largest width and height of a picture; larger ones are refused. GL drivers commonly have no

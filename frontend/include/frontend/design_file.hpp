@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "frontend/camera.hpp"
-#include "frontend/evaluator.hpp"
+#include "frontend/design_file_options.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/files.hpp"
 #include "frontend/importer.hpp"
@@ -42,17 +41,6 @@ struct DesignFile {
   double export_ms = 0;              // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
-};
-
-struct DesignFileOptions {
-  ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
-  Evaluator evaluator = Evaluator::kOpenScad;
-  bool wants_files = false;
-  /// Called with each line that the evaluation prints.
-  std::function<void(const std::string& line)> message;
-  /// Called with the name of the current stage; during a .scad's export, many times.
-  std::function<void(const char* stage)> progress;
 };
 
 /// Returns whether the path has the suffix of a .scad, which openscad has to export.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "frontend/activity.hpp"
+#include "frontend/design_inputs.hpp"
 #include "frontend/design_version.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
@@ -59,6 +60,9 @@ class DesignFollower {
   void reload();
   /// Ends what is being done. The last version stays, and the next save is followed.
   void stop();
+  /// Reads the design with other inputs; the newest ones come next. A reading that is under way is
+  /// shown first, unless it has taken long. What can be read only once is not read again.
+  void set_inputs(DesignInputs inputs);
 
  private:
   class Follower;

@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "frontend/camera.hpp"
+#include "frontend/design_inputs.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/imported_design.hpp"
+#include "language/customizer_parameter.hpp"
 
 namespace language {
 struct Evaluation;
@@ -28,7 +32,13 @@ struct DesignTexts {
 /// Returns whether a message is what echo() has said.
 inline bool is_echo(std::string_view message) { return message.starts_with("ECHO: "); }
 
-/// One reading of a design: at the start, or after a save.
+/// What the main file of a .scad offers to its user.
+struct DesignParameters {
+  std::string text;  // that they are from
+  std::vector<language::CustomizerParameter> list;
+};
+
+/// One reading of a design: at the start, after a save, or with other inputs.
 struct DesignVersion {
   uint64_t number = 0;  // counts up from 1
   /// Null if the design could not be read.
@@ -43,14 +53,18 @@ struct DesignVersion {
   /// The .csg is byte for byte that of the last version that could be read, and `design` is that
   /// version's pointer. The messages may differ.
   bool unchanged = false;
-  DesignTexts texts;      // that `design` was made from
+  DesignTexts texts;    // that `design` was made from
+  DesignInputs inputs;  // that it was read with
+  DesignCamera camera;  // that the design asks for
+  /// Those of the last text that could be parsed; null: there was none, or it is no .scad.
+  std::shared_ptr<const DesignParameters> parameters;
   std::size_t nodes = 0;  // of the .csg; those of the last version if it is unchanged
   double export_ms = 0;   // time that openscad took for a .scad
   double read_ms = 0;
   double parse_ms = 0;
   double import_ms = 0;
   /// When the save was seen, before waiting for its end. Without a save: when the follower was
-  /// started, or reload() called.
+  /// started, or reload() or set_inputs() called.
   std::chrono::steady_clock::time_point noticed;
 };
 

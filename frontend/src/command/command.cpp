@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -59,14 +57,6 @@ std::string frame_path(const std::string& path, uint32_t frame) {
   digits.insert(0, 5 - std::min<std::size_t>(digits.size(), 5), '0');
   return (whole.parent_path() / (whole.stem().string() + digits + whole.extension().string()))
       .string();
-}
-
-/// Assigns the frame's $t, exact to the last bit.
-std::string time_assignment(uint32_t frame, uint32_t frames) {
-  std::array<char, 32> digits;
-  const double t = static_cast<double>(frame) / frames;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), t).ptr;
-  return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
 /// One run of the command that draws.
@@ -184,10 +174,7 @@ class Run {
     };
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
-    if (options_.frames > 0) {
-      reading.openscad_arguments.insert(reading.openscad_arguments.end(),
-                                        {"-D", time_assignment(frame_, options_.frames)});
-    }
+    if (options_.frames > 0) reading.inputs.time = static_cast<double>(frame_) / options_.frames;
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
       if (options_.prints_echoes && is_echo(line)) {

@@ -1,7 +1,11 @@
 #include "frontend/design_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <new>
 #include <set>
@@ -15,6 +19,8 @@
 #include "frontend/error.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
+#include "language/parameter_set_file.hpp"
+#include "process/memory_file.hpp"
 
 namespace frontend {
 
@@ -61,6 +67,38 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   design.file_bytes = text.csg.view().size();
   if (text.evaluation) design.camera = camera_of(*text.evaluation);
   return design;
+}
+
+/// Assigns $t, exact to the last bit.
+std::string time_assignment(double time) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), time).ptr;
+  return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+constexpr const char* kSetName = "scadray";
+
+/// Returns the text of a file with this set alone.
+std::string parameter_file(const language::ParameterSet& set) {
+  language::ParameterSetFile file;
+  static_cast<void>(file.put(kSetName, set));  // a new file can hold sets
+  return file.text();
+}
+
+/// Replaces -p and -P by the set in a file that parameter_file() has made.
+void replace_parameter_set(std::vector<std::string>& arguments, const MemoryFile& file) {
+  for (std::size_t i = 0; i + 1 < arguments.size();) {
+    const auto at = arguments.begin() + static_cast<long>(i);
+    if (*at == "-p" || *at == "-P") {
+      arguments.erase(at, at + 2);
+    } else {
+      i += *at == "-D" ? 2 : 1;
+    }
+  }
+  // The path leads to this program's file: openscad inherits no more than one.
+  const std::string path =
+      "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.descriptor());
+  arguments.insert(arguments.end(), {"-p", path, "-P", kSetName});
 }
 
 /// Returns what `work` returns, and turns a lack of memory into an Error about the design.
@@ -125,9 +163,7 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
   const Clock::time_point start = Clock::now();
   if (options.evaluator == Evaluator::kOwn) {
     options.progress("evaluating");
-    text.evaluation =
-        evaluate_design(path, options.openscad_arguments,
-                        options.import.picture != PictureKind::kRendered, options.message, stop);
+    text.evaluation = evaluate_design(path, options, stop);
     text.name = path;
     text.export_ms = ms_since(start);
     if (text.evaluation) {
@@ -141,6 +177,14 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
   if (options.import.picture == PictureKind::kRendered) {
     // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
     arguments.insert(arguments.begin(), {"-D", "$preview=false"});
+  }
+  if (options.inputs.time) {
+    arguments.insert(arguments.end(), {"-D", time_assignment(*options.inputs.time)});
+  }
+  std::optional<MemoryFile> parameters;
+  if (options.inputs.parameters) {
+    parameters.emplace(parameter_file(*options.inputs.parameters));
+    replace_parameter_set(arguments, *parameters);
   }
   OpenScadExport result = export_with_openscad(
       path, arguments, options.wants_files, options.message,

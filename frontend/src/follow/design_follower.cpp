@@ -16,6 +16,7 @@
 #include "follow/design_reading.hpp"
 #include "follow/file_watch.hpp"
 #include "follow/included_files.hpp"
+#include "follow/input_turn.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/stop.hpp"
 #include "lower/hull_pool.hpp"
@@ -83,6 +84,15 @@ class DesignFollower::Follower {
     wake_.raise();
   }
 
+  void set_inputs(DesignInputs inputs) {
+    {
+      const std::lock_guard lock(mutex_);
+      inputs_ = std::move(inputs);
+    }
+    has_new_inputs_ = true;
+    wake_.raise();
+  }
+
  private:
   void run(const std::stop_token& stop) {
     noticed_ = Clock::now();
@@ -92,7 +102,9 @@ class DesignFollower::Follower {
       if (wants_stop_.exchange(false)) give_up();
       if (is_followed_ && watch_.update()) notice(Clock::now());
       if (is_followed_ && wants_reload_.exchange(false)) notice(Clock::now());
+      if (is_followed_ && has_new_inputs_.exchange(false)) notice_inputs();
       if (has_read_.exchange(false)) finish_reading();
+      if (const auto due = inputs_due(); due && Clock::now() >= *due) read_with_new_inputs();
       if (noticed_ && Clock::now() >= watch_.settled_at().value_or(Clock::time_point::min())) {
         start_reading();
       }
@@ -106,6 +118,8 @@ class DesignFollower::Follower {
     if (noticed_) {
       const Clock::time_point settled = watch_.settled_at().value_or(Clock::time_point::min());
       until = until ? std::min(*until, settled) : settled;
+    } else if (const auto due = inputs_due()) {
+      until = until ? std::min(*until, *due) : due;
     }
     timespec timeout{};
     if (until) {
@@ -135,7 +149,28 @@ class DesignFollower::Follower {
   void give_up() {
     stop_reading();
     noticed_.reset();
+    turn_.give_up();
     set_state(State::kIdle);
+  }
+
+  void notice_inputs() {
+    turn_.notice(Clock::now());
+    set_state(State::kReading);
+  }
+
+  /// What openscad still renders for a version that is shown does not count as a reading.
+  bool is_reading() const { return reading_.joinable() && !is_rendering_; }
+
+  /// Returns when to read with new inputs; nothing if there are none, or a save is read with them.
+  std::optional<Clock::time_point> inputs_due() const {
+    if (noticed_) return std::nullopt;
+    return turn_.due(is_reading() ? std::optional(reading_since_) : std::nullopt);
+  }
+
+  void read_with_new_inputs() {
+    noticed_ = turn_.noticed();
+    turn_.start(is_reading());
+    stop_reading();
   }
 
   /// Runs `read`, which returns a DesignReading, in a thread of its own.
@@ -153,13 +188,17 @@ class DesignFollower::Follower {
 
   void start_reading() {
     const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
+    turn_.start(false);
+    is_rendering_ = false;
+    reading_since_ = Clock::now();
     watch_.forget_changes();
     if (is_followed_) watch_.set_files(paths_to_watch());
     reading_since_ns_ = system_time_ns();
     set_state(State::kReading);
     activity_.begin("reading");
-    start([this, noticed, before = good_](const std::stop_token& stop) {
-      DesignReading reading = read_anew(path_, file_options(), before, stop);
+    has_new_inputs_ = false;
+    start([this, noticed, options = file_options(), before = good_](const std::stop_token& stop) {
+      DesignReading reading = read_anew(path_, options, before, stop);
       reading.version.noticed = noticed;
       return reading;
     });
@@ -168,6 +207,7 @@ class DesignFollower::Follower {
   /// After a reading that lacks what openscad still has to render.
   void start_rendering(DesignReading before) {
     activity_.begin("openscad renders");
+    is_rendering_ = true;
     start([this, before = std::move(before)](const std::stop_token& stop) {
       return render_missing(path_, file_options(), before, stop);
     });
@@ -185,6 +225,10 @@ class DesignFollower::Follower {
                        static_cast<double>(progress.finished) /
                            static_cast<double>(std::max<std::size_t>(progress.parts, 1)));
     };
+    {
+      const std::lock_guard lock(mutex_);
+      options.inputs = inputs_;
+    }
     return options;
   }
 
@@ -199,6 +243,7 @@ class DesignFollower::Follower {
   void finish_reading() {
     reading_.join();
     activity_.end();
+    turn_.finish();
     DesignReading reading = result_;
     good_ = std::move(result_.good);
     is_scad_ = is_scad(path_) || result_.is_scad;
@@ -211,10 +256,11 @@ class DesignFollower::Follower {
       const std::lock_guard lock(mutex_);
       news_ = std::move(version);
     }
-    state_ = State::kIdle;
+    const bool goes_on = turn_.noticed().has_value();
+    state_ = goes_on ? State::kReading : State::kIdle;
     on_news_();
     const ImportedDesign* const design = reading.version.design.get();
-    if (design && !design->lines_to_render.empty()) start_rendering(std::move(reading));
+    if (design && !design->lines_to_render.empty() && !goes_on) start_rendering(std::move(reading));
   }
 
   void set_state(State state) {
@@ -252,8 +298,10 @@ class DesignFollower::Follower {
   std::atomic<bool> wants_reload_{false};
   std::atomic<bool> wants_stop_{false};
   ActivityMeter activity_;
-  std::mutex mutex_;
+  std::atomic<bool> has_new_inputs_{false};
+  std::mutex mutex_;  // of the following
   std::optional<DesignVersion> news_;
+  DesignInputs inputs_;
 
   // Used by the watching thread alone.
   FileWatch watch_;
@@ -266,7 +314,10 @@ class DesignFollower::Follower {
   bool is_scad_ = is_scad(path_);
   uint64_t number_ = 0;
   std::optional<Clock::time_point> noticed_;  // when the save that is still to be read was noticed
+  InputTurn turn_;
   int64_t reading_since_ns_ = 0;
+  Clock::time_point reading_since_{};  // the same by the other clock
+  bool is_rendering_ = false;          // what is under way renders for a version that is shown
 
   // Written by the reading thread, and read after its end.
   DesignReading result_;
@@ -292,5 +343,6 @@ std::optional<Activity> DesignFollower::activity() const { return follower_->act
 void DesignFollower::reload() { follower_->reload(); }
 
 void DesignFollower::stop() { follower_->stop(); }
+void DesignFollower::set_inputs(DesignInputs inputs) { follower_->set_inputs(std::move(inputs)); }
 
 }  // namespace frontend

@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
+#include "follow/evaluated_design.hpp"
 #include "frontend/error.hpp"
+#include "frontend/files.hpp"
 #include "frontend/stop.hpp"
+#include "language/customizer.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {
@@ -57,14 +60,18 @@ std::string csg_path(const std::string& path, const DesignText& text) {
   return failed ? std::string() : absolute.lexically_normal().string();
 }
 
-GoodVersion finish_import(TextImport& import, const std::string& path, DesignText& text,
-                          DesignVersion& version, const std::stop_token& stop) {
+void finish_import(TextImport& import, const std::string& path, DesignText& text,
+                   DesignReading& reading, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
-  version.import_ms = ms_since(start) - design->rendering_ms;
-  DesignTexts texts{std::make_shared<const FileText>(std::move(text.csg)), csg_path(path, text),
-                    text.evaluation};
-  return {std::move(texts), std::move(design), import.nodes(), text.name, text.is_exported};
+  reading.version.import_ms = ms_since(start) - design->rendering_ms;
+  GoodVersion& good = reading.good;
+  good.texts = {std::make_shared<const FileText>(std::move(text.csg)), csg_path(path, text),
+                text.evaluation};
+  good.design = std::move(design);
+  good.nodes = import.nodes();
+  good.text_name = text.name;
+  good.is_exported = text.is_exported;
 }
 
 void read_into(DesignReading& reading, const std::string& path, const DesignFileOptions& options,
@@ -88,7 +95,8 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   }
   file_options.progress("importing");
-  if (import) reading.good = finish_import(*import, path, text, version, stop);
+  if (import) finish_import(*import, path, text, reading, stop);
+  if (text.evaluation) version.camera = camera_of(*text.evaluation);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;
   version.files = std::move(text.files);
@@ -99,6 +107,23 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   for (const Warning& warning : version.design->warnings) {
     version.messages.push_back(warning.text);
   }
+}
+
+/// Finds what the main file of a .scad offers, also of one that cannot be evaluated.
+void find_parameters(DesignReading& reading, const std::string& path) {
+  std::shared_ptr<const DesignParameters>& known = reading.good.parameters;
+  std::error_code failed;
+  if ((is_scad(path) || reading.is_scad) && std::filesystem::is_regular_file(path, failed)) {
+    const FileText text = read_file(path);
+    if (!known || known->text != text.view()) {
+      auto list = language::customizer_parameters(text.view());
+      if (list) {
+        known = std::make_shared<const DesignParameters>(
+            DesignParameters{std::string(text.view()), std::move(*list)});
+      }
+    }
+  }
+  reading.version.parameters = known;
 }
 
 /// Does the work, and reports in the version why it fails.
@@ -142,7 +167,9 @@ DesignReading read_anew(const std::string& path, const DesignFileOptions& option
                         const GoodVersion& before, const std::stop_token& stop) {
   DesignReading reading;
   reading.good = before;
+  reading.version.inputs = options.inputs;
   report_failures(path, reading, [&] { read_into(reading, path, options, stop); });
+  report_failures(path, reading, [&] { find_parameters(reading, path); });
   return reading;
 }
 

@@ -17,6 +17,7 @@ struct GoodVersion {
   std::size_t nodes = 0;
   std::string text_name;     // of the text, for messages
   bool is_exported = false;  // openscad made the text
+  std::shared_ptr<const DesignParameters> parameters;
 };
 
 struct DesignReading {
@@ -28,9 +29,9 @@ struct DesignReading {
 };
 
 /// Reads the design. What openscad has to render of it, and has not rendered before, is missing
-/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator`,
-/// `openscad_arguments` and `progress`, which may be empty, are used. Every failure is reported in version.error; only Stopped
-/// (stop.hpp) is thrown.
+/// (ImportedDesign::lines_to_render). Of `options` only `import`, `evaluator`, `inputs`,
+/// `openscad_arguments` and `progress`, which may be empty, are used. Every failure is reported in
+/// version.error; only Stopped (stop.hpp) is thrown.
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,
                         const GoodVersion& before, const std::stop_token& stop);
 

@@ -61,14 +61,16 @@ std::optional<language::EvaluationOptions> evaluation_options(
   return options;
 }
 
-std::shared_ptr<const language::Evaluation> evaluate_design(
-    const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
-    const std::function<void(const std::string& line)>& message, const std::stop_token& stop) {
-  std::optional<language::EvaluationOptions> known = evaluation_options(openscad_arguments);
+std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const DesignFileOptions& options,
+                                                            const std::stop_token& stop) {
+  std::optional<language::EvaluationOptions> known = evaluation_options(options.openscad_arguments);
   if (!known) return nullptr;
-  known->is_preview = is_preview;
+  known->parameters = options.inputs.parameters;
+  known->time = options.inputs.time.value_or(0);
+  known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
-  OpenScadMessages messages(message, OpenScadMessages::AfterError::kHolds);
+  OpenScadMessages messages(options.message, OpenScadMessages::AfterError::kHolds);
   language::Evaluation evaluation;
   try {
     evaluation = language::evaluate(

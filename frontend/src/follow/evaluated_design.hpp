@@ -1,7 +1,6 @@
 // Has frontend/language evaluate a .scad.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
+#include "frontend/design_file_options.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {
@@ -18,12 +18,12 @@ namespace frontend {
 std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments);
 
-/// Evaluates a design; its messages go to `message`. Returns null if the arguments are none of the
-/// own evaluator's. Throws Error where openscad would report an error, and Stopped (stop.hpp) once
-/// `stop` is requested.
-std::shared_ptr<const language::Evaluation> evaluate_design(
-    const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
-    const std::function<void(const std::string& line)>& message, const std::stop_token& stop);
+/// Evaluates a design; its messages go to `options.message`. Returns null if the arguments are none
+/// of the own evaluator's. Throws Error where openscad would report an error, and Stopped
+/// (stop.hpp) once `stop` is requested.
+std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const DesignFileOptions& options,
+                                                            const std::stop_token& stop);
 
 /// Returns the files that a design was read from, itself last, under the name that it was given.
 std::vector<std::string> files_of(const language::Evaluation& evaluation, const std::string& path);

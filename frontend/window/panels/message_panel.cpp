@@ -130,10 +130,10 @@ bool has_error(const State& state) {
 
 }  // namespace
 
-void draw_messages(State& state, float bottom, const OpenPlace& open) {
+float draw_messages(State& state, float bottom, const OpenPlace& open) {
   const bool has_something = state.shows_messages ? !state.messages.empty() : has_error(state);
   const std::string no_picture = state.painting ? state.painting->error : "";
-  if (!has_something && no_picture.empty()) return;
+  if (!has_something && no_picture.empty()) return bottom;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::max(display.x - 20, 50.0f);
   ImGui::SetNextWindowPos({10, bottom - 8}, ImGuiCond_Always, {0, 1});
@@ -147,7 +147,9 @@ void draw_messages(State& state, float bottom, const OpenPlace& open) {
       all_messages(state, open);
     }
   }
+  const float top = ImGui::GetWindowPos().y;
   ImGui::End();
+  return top;
 }
 
 }  // namespace window

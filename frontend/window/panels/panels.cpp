@@ -1,5 +1,7 @@
 #include "panels/panels.hpp"
 
+#include "panels/animation_panel.hpp"
+#include "panels/customizer_panel.hpp"
 #include "panels/help_sheet.hpp"
 #include "panels/hover_tip.hpp"
 #include "panels/place_panel.hpp"
@@ -15,7 +17,9 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   draw_points(state, view);
   draw_menu_bar(state, actions.run);
   const float status_top = draw_status_line(state);
-  draw_messages(state, status_top, actions.open);
+  const float messages_top = draw_messages(state, status_top, actions.open);
+  const float animation_top = draw_animation(state, messages_top);
+  draw_customizer(state, animation_top);
   draw_section(state);
   draw_place(state, view, status_top, actions.run);
   draw_hover_tip(state, pixels_per_unit);

@@ -626,6 +626,12 @@ TEST_F(Command, AnAnimation) {
   EXPECT_GT(nlohmann::json::parse(folder_.read("s.json"))["times_ms"]["export"], 0);
 }
 
+TEST_F(Command, AnAnimationsTimeIsKnownToTheDesignsOwnVariables) {
+  const std::string scad = folder_.write("a.scad", "r = 1 + $t; sphere(r);");
+  EXPECT_EQ(run({"-o", png_, "--evaluator=own", "--animate=4", scad}).err, "");
+  EXPECT_EQ(scene_.primitives[0].r_bottom, 1.75);
+}
+
 TEST_F(Command, AnAnimationOfACsgShowsTheSameAgainAndAgain) {
   EXPECT_EQ(run({"-o", png_, "--animate=2", file_}).err, "");
   EXPECT_EQ(folder_.read("x00000.png"), folder_.read("x00001.png"));

@@ -117,6 +117,23 @@ TEST(Evaluation, StopsWhenAsked) {
   EXPECT_THROW(evaluate(file, options, sink), Stopped);
 }
 
+TEST(Evaluation, TakesParametersAndTheTime) {
+  const Folder folder;
+  const std::string file = folder.write("design.scad", "a = 1; b = 2; c = $t * 10; echo(a, b, c);");
+  const auto said = [&](const EvaluationOptions& options) {
+    std::string lines;
+    evaluate(file, options, [&](std::string_view line) { lines += line; });
+    return lines;
+  };
+  EvaluationOptions options;
+  options.parameter_file = folder.write("sets.json", R"({"parameterSets": {"s": {"a": "5"}}})");
+  options.parameter_set = "s";
+  EXPECT_EQ(said(options), "ECHO: 5, 2, 0");
+  options.parameters = ParameterSet{{"b", "7"}, {"none", "8"}};
+  options.time = 0.5;
+  EXPECT_EQ(said(options), "ECHO: 1, 7, 5") << "in place of the file's set";
+}
+
 // Function values that hold themselves are no leak: the address sanitizer would say so.
 TEST(Evaluation, FreesFunctionsThatHoldThemselves) {
   const Evaluated result = evaluated(

@@ -22,13 +22,18 @@ ValueType type_of_literal(const Expression& expression) {
   }
 }
 
+void apply_set(ParsedDesign& design, const std::string& file, const std::string& set) {
+  const auto values = read_parameter_set(file, set, design.messages);
+  if (values) apply_parameter_set(design.program, design.messages, *values, type_of_literal);
+}
+
 /// Returns what `x` is assigned where a set gives it a value (JSON) instead of the default.
 std::string applied(const std::string& fallback, const std::string& value) {
   const DesignFolder folder;
   folder.write("main.scad", "x=" + fallback + ";y=1;");
   folder.write("sets.json", R"({"parameterSets": {"s": {"x": )" + value + "}}}");
   ParsedDesign design;
-  apply_parameter_set(design.program, design.messages, "sets.json", "s", type_of_literal);
+  apply_set(design, "sets.json", "s");
   EXPECT_EQ(design.assignments()[1], "y = 1");
   return design.lines.empty() ? design.assignments()[0].substr(4) : design.lines[0];
 }
@@ -59,17 +64,14 @@ TEST(ParameterSets, TellWhatIsWrongWithTheFile) {
   folder.write("main.scad", "x=1;");
   folder.write("bad.json", "\n{");
   ParsedDesign design;
-  const auto apply = [&](const std::string& file, const std::string& set) {
-    apply_parameter_set(design.program, design.messages, file, set, type_of_literal);
-  };
-  apply("none.json", "s");
-  apply("bad.json", "s");
+  apply_set(design, "none.json", "s");
+  apply_set(design, "bad.json", "s");
   EXPECT_EQ(design.lines,
             (Lines{"ERROR: Cannot open Parameter Set 'none.json': none.json: cannot open file",
                    "ERROR: Cannot open Parameter Set 'bad.json': bad.json(2): expected value"}));
   folder.write("good.json", R"({"parameterSets": {"s": {"x": "2"}}})");
-  apply("good.json", "other");
-  apply("good.json", "");
+  apply_set(design, "good.json", "other");
+  apply_set(design, "good.json", "");
   EXPECT_EQ(design.assignments(), Lines{"x = 1"});
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "language/node_tree.hpp"
+#include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
 
 namespace language {
@@ -19,6 +20,7 @@ namespace language {
 struct EvaluationOptions {
   std::vector<std::string> definitions;       // -D, in order, as typed
   std::string parameter_file, parameter_set;  // -p, -P; empty: none
+  std::optional<ParameterSet> parameters;     // in place of that set
   bool hard_warnings = false;                 // --hardwarnings
   bool check_parameters = true;               // --check-parameters
   bool check_ranges = false;                  // --check-parameter-ranges

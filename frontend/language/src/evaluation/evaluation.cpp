@@ -36,6 +36,7 @@ class Session {
   void take(const Message& message);
   void evaluate_program();
   void preset_names(Machine& machine) const;
+  void apply_parameters(Machine& machine);
   void read_camera(const Machine& machine);
   template <typename Converted>
   void read_camera_value(const Machine& machine, std::string_view name, std::string_view type,
@@ -122,6 +123,16 @@ void Session::read_camera(const Machine& machine) {
     messages_.say(MessageGroup::kWarning, "Viewall and autocenter disabled in favor of $vp*");
 }
 
+void Session::apply_parameters(Machine& machine) {
+  const std::optional<ParameterSet> set =
+      options_.parameters
+          ? options_.parameters
+          : read_parameter_set(options_.parameter_file, options_.parameter_set, messages_);
+  if (!set) return;
+  apply_parameter_set(*program_, messages_, *set,
+                      [&](const Expression& value) { return machine.type_of(value); });
+}
+
 void Session::say_root_modifiers() {
   if (const auto other = root_modifiers(result_.tree).other)
     messages_.warn("More than one Root Modifier (!)", *other);
@@ -144,10 +155,7 @@ void Session::evaluate_program() {
   machine_ = &machine;
   preset_names(machine);
   try {
-    if (!options_.parameter_file.empty()) {
-      apply_parameter_set(*program_, messages_, options_.parameter_file, options_.parameter_set,
-                          [&](const Expression& value) { return machine.type_of(value); });
-    }
+    apply_parameters(machine);
     machine.run_assignments();
     machine.run_calls();
   } catch (const Aborted&) {

@@ -1,9 +1,7 @@
 #include "syntax/parameter_text.hpp"
 
 #include <cstring>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "base/decimal_number.hpp"
 #include "syntax/arena_list.hpp"
@@ -12,19 +10,10 @@
 
 namespace language {
 
-namespace {
-
 std::string_view trimmed(std::string_view text) {
   while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
   while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
   return text;
-}
-
-/// Removes a text's first and last bytes if they are the given ones.
-bool strip(std::string_view& text, char first, char last) {
-  if (text.size() < 2 || text.front() != first || text.back() != last) return false;
-  text = trimmed(text.substr(1, text.size() - 2));
-  return true;
 }
 
 std::optional<double> signed_number(std::string_view text) {
@@ -36,7 +25,6 @@ std::optional<double> signed_number(std::string_view text) {
   return number && is_negative ? -*number : number;
 }
 
-/// Splits a text at a sign that stands outside of quotes.
 std::vector<std::string_view> split(std::string_view text, char sign) {
   std::vector<std::string_view> parts;
   bool is_quoted = false;
@@ -53,6 +41,15 @@ std::vector<std::string_view> split(std::string_view text, char sign) {
   }
   parts.push_back(trimmed(text.substr(begin)));
   return parts;
+}
+
+namespace {
+
+/// Removes a text's first and last bytes if they are the given ones.
+bool strip(std::string_view& text, char first, char last) {
+  if (text.size() < 2 || text.front() != first || text.back() != last) return false;
+  text = trimmed(text.substr(1, text.size() - 2));
+  return true;
 }
 
 class LiteralMaker {

@@ -1,0 +1,55 @@
+// Tests the customizer and the animation in the window.
+#include <gmock/gmock.h>
+
+#include "designs.hpp"
+#include "live_window.hpp"
+
+namespace window_test {
+namespace {
+
+constexpr const char* kDesign =
+    "n = 1; // [1:9]\n$vpr = [0, 0, 360 * $t];\n"
+    "for (i = [1 : n]) translate([3 * i, 0, 10 * $t]) sphere();\n";
+
+class WindowInputs : public LiveWindow {
+ protected:
+  std::string design_ = folder_.write("a.scad", kDesign);
+};
+
+TEST_F(WindowInputs, ASliderMovesTheDesign) {
+  open(design_);
+  next_of(1);
+  const Picture before = shown();
+  key("ctrl+p");
+  wait_until_settled(before);
+  // The slider is the last thing in the panel.
+  const auto point_at = [this](const char* x) { display().drive({"mousemove", x, "133"}); };
+  const Picture panel = shown();
+  point_at("60");
+  wait_until_settled(panel);
+  display().drive({"mousedown", "1"});
+  point_at("390");
+  EXPECT_EQ(next_of(9)["error"], "");
+  point_at("20");
+  next_of(1);
+  point_at("390");
+  next_of(9);
+  display().drive({"mouseup", "1"});
+  EXPECT_EQ(folder_.read("a.scad"), kDesign);
+  folder_.write("a.scad", std::string(kDesign) + "cube();");
+  next_of(10);
+}
+
+TEST_F(WindowInputs, AnAnimationPlaysAndTurnsTheCamera) {
+  open(design_);
+  const json first = next_of(1);
+  EXPECT_EQ(first["camera"]["rotation_deg"], json({0.0, 0.0, 0.0}));
+  key("space");
+  next([](const json& line) { return line["camera"]["rotation_deg"][2].get<double>() > 30; });
+  key("space");
+  key("a");  // closes the panel, and the time is 0 again
+  next([](const json& line) { return line["camera"]["rotation_deg"][2].get<double>() == 0; });
+}
+
+}  // namespace
+}  // namespace window_test
