@@ -15,8 +15,9 @@
 #include "frontend/importer.hpp"
 
 namespace language {
+class EvaluationCache;
 struct Evaluation;
-}
+}  // namespace language
 
 namespace frontend {
 
@@ -48,6 +49,8 @@ struct DesignFileOptions {
   ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
+  /// What the own evaluator keeps between readings of the design; null: nothing.
+  std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;
   /// Called with each line that the evaluation prints.
   std::function<void(const std::string& line)> message;

@@ -133,7 +133,9 @@ SyntaxTree tree_of(const language::Node& root, const language::SourceFiles& file
   SyntaxTree tree;
   tree.has_all_digits = true;
   for (language::FileId file = 0; file < files.size(); ++file) {
-    tree.file_names.push_back(file == 0 ? name : shown_name(files[file].path));
+    tree.file_names.push_back(file == 0         ? name
+                              : files.has(file) ? shown_name(files[file].path)
+                                                : std::string());
   }
   tree.file_name = std::move(name);
   TreeBuilder builder(files, tree);

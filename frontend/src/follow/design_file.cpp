@@ -125,9 +125,9 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
   const Clock::time_point start = Clock::now();
   if (options.evaluator == Evaluator::kOwn) {
     options.progress("evaluating");
-    text.evaluation =
-        evaluate_design(path, options.openscad_arguments,
-                        options.import.picture != PictureKind::kRendered, options.message, stop);
+    text.evaluation = evaluate_design(path, options.openscad_arguments,
+                                      options.import.picture != PictureKind::kRendered,
+                                      options.message, stop, options.cache.get());
     text.name = path;
     text.export_ms = ms_since(start);
     if (text.evaluation) {

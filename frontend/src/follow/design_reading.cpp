@@ -129,7 +129,7 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
 
 std::string_view DesignTexts::text(uint32_t file) const {
   if (!evaluation) return csg->view();
-  return file < evaluation->files->size() ? (*evaluation->files)[file].text : std::string_view();
+  return evaluation->files->has(file) ? (*evaluation->files)[file].text : std::string_view();
 }
 
 DesignReading read_anew(const std::string& path, const DesignFileOptions& options,

@@ -85,11 +85,13 @@ std::optional<language::EvaluationOptions> evaluation_options(
 
 std::shared_ptr<const language::Evaluation> evaluate_design(
     const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
-    const std::function<void(const std::string& line)>& message, const std::stop_token& stop) {
+    const std::function<void(const std::string& line)>& message, const std::stop_token& stop,
+    language::EvaluationCache* cache) {
   std::optional<language::EvaluationOptions> known = evaluation_options(openscad_arguments);
   if (!known) return nullptr;
   known->is_preview = is_preview;
   known->stop = stop;
+  known->cache = cache;
   OpenScadMessages messages(message);
   HeldMessages held(messages);
   language::Evaluation evaluation;

@@ -19,11 +19,12 @@ std::optional<language::EvaluationOptions> evaluation_options(
     const std::vector<std::string>& openscad_arguments);
 
 /// Evaluates a design; its messages go to `message`. Returns null, and says so there, if openscad
-/// has to do it. Throws Error where openscad would report an error, and Stopped (stop.hpp) once
-/// `stop` is requested.
+/// has to do it. `cache` holds what is kept for the design's next evaluation. Throws Error where
+/// openscad would report an error, and Stopped (stop.hpp) once `stop` is requested.
 std::shared_ptr<const language::Evaluation> evaluate_design(
     const std::string& path, const std::vector<std::string>& openscad_arguments, bool is_preview,
-    const std::function<void(const std::string& line)>& message, const std::stop_token& stop);
+    const std::function<void(const std::string& line)>& message, const std::stop_token& stop,
+    language::EvaluationCache* cache = nullptr);
 
 /// Returns the files that a design was read from, itself last, under the name that it was given.
 std::vector<std::string> files_of(const language::Evaluation& evaluation, const std::string& path);

@@ -4,6 +4,7 @@
 
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
+#include "evaluation/cache_parts.hpp"
 #include "evaluation/machine.hpp"
 #include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
@@ -23,10 +24,10 @@ class Session {
         options_(options),
         sink_(sink),
         standard_input_(standard_input),
-        program_(std::make_shared<Program>()),
+        kept_(options.cache ? &options.cache->parts() : nullptr),
+        program_(kept_ ? std::make_unique<Program>(kept_->sources) : std::make_unique<Program>()),
         messages_(program_->files, [this](const Message& message) { take(message); }) {
     result_.root = std::make_shared<Node>();
-    result_.files = std::shared_ptr<const SourceFiles>(program_, &program_->files);
   }
 
   Evaluation run();
@@ -46,7 +47,8 @@ class Session {
   const EvaluationOptions& options_;
   const MessageSink& sink_;
   std::string_view standard_input_;
-  std::shared_ptr<Program> program_;
+  EvaluationCache::Parts* kept_;  // null: nothing is kept
+  std::unique_ptr<Program> program_;
   Messages messages_;
   Machine* machine_ = nullptr;  // while it runs
   bool has_camera_ = false;
@@ -56,7 +58,6 @@ class Session {
 void Session::take(const Message& message) {
   sink_(message.line);
   if (!machine_) return;
-  machine_->count_message();
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
 }
 
@@ -140,6 +141,7 @@ void Session::evaluate_program() {
   Machine machine(compiler, messages_, modules, options_.stop);
   machine_ = &machine;
   preset_names(machine);
+  if (kept_) machine.use_kept(kept_->tops);
   try {
     if (!options_.parameter_file.empty()) {
       apply_parameter_set(*program_, messages_, options_.parameter_file, options_.parameter_set,
@@ -160,10 +162,11 @@ void Session::evaluate_program() {
   read_camera(machine);
   say_root_modifiers();
   list_files(modules);
+  if (kept_) machine.save_units(kept_->tops);
 }
 
 void Session::list_files(const ModuleEnvironment& modules) {
-  for (FileId file = 0; file < program_->files.size(); ++file)
+  for (const FileId file : program_->files.order())
     result_.files_read.push_back(program_->files[file].path);
   for (const Unit& unit : program_->units)
     result_.files_read.insert(result_.files_read.end(), unit.fonts.begin(), unit.fonts.end());
@@ -186,6 +189,7 @@ Evaluation Session::run() {
     result_.outcome =
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
   }
+  result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
   return std::move(result_);
 }
 
@@ -193,6 +197,9 @@ Evaluation Session::run() {
 
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
                     const MessageSink& sink, std::string_view standard_input) {
+  if (options.cache)
+    options.cache->parts().begin(
+        {options.check_parameters, options.check_ranges, options.hard_warnings});
   return Session(path, options, sink, standard_input).run();
 }
 

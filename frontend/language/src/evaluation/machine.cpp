@@ -347,6 +347,7 @@ void Machine::run() {
         if (frames_.back().called_as != step.a) next_ = step.b;
         break;
       case Op::kCachedDefault: {
+        note_history();
         const Value& cached = frames_.back().code->caches[step.a];
         if (!cached.is_set()) break;
         stack_.push_copy(cached);
