@@ -15,7 +15,7 @@
 
 namespace language {
 struct Evaluation;
-}
+}  // namespace language
 
 namespace frontend {
 

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "frontend/design_inputs.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
+
+namespace language {
+class EvaluationCache;
+}
 
 namespace frontend {
 
@@ -16,6 +21,8 @@ struct DesignFileOptions {
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
   DesignInputs inputs;
+  /// What the own evaluator keeps between readings of the design; null: nothing.
+  std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;
   /// Called with each line that the evaluation prints.
   std::function<void(const std::string& line)> message;

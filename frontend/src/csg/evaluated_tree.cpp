@@ -54,7 +54,7 @@ class TreeBuilder {
     SyntaxNode made;
     made.kind = static_cast<NodeKind>(kNodeTable.find(node.name));
     made.modifiers = modifiers_of(node.modifiers);
-    if (node.place.file < files_.size()) {
+    if (files_.has(node.place.file)) {
       made.location = {files_.line(node.place), files_.column(node.place), node.place.file};
     }
     made.first_argument = static_cast<uint32_t>(tree_.arguments.size());
@@ -170,7 +170,9 @@ SyntaxTree tree_of(const language::NodeTree& from, const language::SourceFiles& 
   SyntaxTree tree;
   tree.has_all_digits = true;
   for (language::FileId file = 0; file < files.size(); ++file) {
-    tree.file_names.push_back(file == 0 ? name : shown_name(files[file].path));
+    tree.file_names.push_back(file == 0         ? name
+                              : files.has(file) ? shown_name(files[file].path)
+                                                : std::string());
   }
   tree.file_name = std::move(name);
   TreeBuilder builder(from, files, tree);

@@ -19,6 +19,7 @@
 #include "follow/input_turn.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/stop.hpp"
+#include "language/evaluation_cache.hpp"
 #include "lower/hull_pool.hpp"
 
 namespace frontend {
@@ -219,6 +220,7 @@ class DesignFollower::Follower {
     options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
+    options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };
     options.import.rendering.progress = [this](const RenderingProgress& progress) {
       activity_.update("openscad renders line " + std::to_string(progress.line),
@@ -309,6 +311,9 @@ class DesignFollower::Follower {
   std::vector<std::string> files_;  // watched files, by their names
   /// The hulls of the last version that was read to its end.
   const std::shared_ptr<HullPool> hulls_ = std::make_shared<HullPool>(HullPool::Keeps::kAll);
+  /// What the evaluator keeps of the last version.
+  const std::shared_ptr<language::EvaluationCache> cache_ =
+      std::make_shared<language::EvaluationCache>();
   std::vector<std::string> imports_;  // files imported by the last version that could be read
   GoodVersion good_;
   bool is_scad_ = is_scad(path_);

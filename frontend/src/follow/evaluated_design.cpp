@@ -70,6 +70,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   known->time = options.inputs.time.value_or(0);
   known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
+  known->cache = options.cache.get();
   OpenScadMessages messages(options.message, OpenScadMessages::AfterError::kHolds);
   language::Evaluation evaluation;
   try {

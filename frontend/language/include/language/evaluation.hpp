@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "language/evaluation_cache.hpp"
 #include "language/node_tree.hpp"
 #include "language/parameter_value.hpp"
 #include "language/source_files.hpp"
@@ -27,6 +28,7 @@ struct EvaluationOptions {
   bool is_preview = true;                     // $preview
   double time = 0;                            // $t
   std::stop_token stop;
+  EvaluationCache* cache = nullptr;  // null: nothing is kept
 };
 
 enum class Outcome : uint8_t {

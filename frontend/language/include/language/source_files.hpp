@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,16 +19,24 @@ struct SourceFile {
   /// in code, and after each LF in comments and strings. The lexer appends them. Line 1 begins at
   /// 0, which is not listed.
   std::vector<uint32_t> message_line_starts;
+  /// The same as editors count: 0, and after each LF. SourceFiles fills it in.
+  std::vector<uint32_t> line_starts{};
 };
 
-/// Owns the source files of one evaluation. A file that is read twice (included twice) is stored
-/// once.
+/// The source files of one evaluation. A file that is read twice (included twice) is stored once.
+/// Evaluations of one EvaluationCache share the files that have not changed.
 class SourceFiles {
  public:
   FileId add(SourceFile file);
-  SourceFile& operator[](FileId file) { return files_[file]; }
-  const SourceFile& operator[](FileId file) const { return files_[file]; }
+  /// Stores a file under a number that it has in other evaluations, too. Numbers may be left out.
+  void add(FileId number, std::shared_ptr<SourceFile> file);
+  bool has(FileId file) const { return file < files_.size() && files_[file]; }
+  SourceFile& operator[](FileId file) { return *files_[file]; }
+  const SourceFile& operator[](FileId file) const { return *files_[file]; }
+  /// One more than the greatest number.
   FileId size() const { return static_cast<FileId>(files_.size()); }
+  /// The numbers of the files, in the order in which they were added.
+  const std::vector<FileId>& order() const { return order_; }
 
   /// Returns the line that OpenSCAD's messages name for a place; lines count from 1.
   uint32_t message_line(Place place) const;
@@ -45,9 +53,8 @@ class SourceFiles {
   };
   LineStart line_start(Place place) const;
 
-  std::deque<SourceFile> files_;  // a deque, so that texts do not move
-  std::vector<std::vector<uint32_t>>
-      line_starts_;  // by file, as editors count: 0, and after each LF
+  std::vector<std::shared_ptr<SourceFile>> files_;  // null: a number that is left out
+  std::vector<FileId> order_;
 };
 
 }  // namespace language

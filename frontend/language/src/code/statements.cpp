@@ -154,7 +154,10 @@ bool CodeCompiler::special_statement(const ModuleCall& call) {
     node_if_children(call);
   } else if (name == known.group || name == known.union_ || name == known.difference ||
              name == known.intersection) {
-    plain_node(call, compiler_.names().text(name));
+    plain_node(call, name == known.union_         ? "union"
+                     : name == known.difference   ? "difference"
+                     : name == known.intersection ? "intersection"
+                                                  : "group");
   } else {
     return false;
   }

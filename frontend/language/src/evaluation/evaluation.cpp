@@ -6,6 +6,7 @@
 
 #include "base/with_deep_stack.hpp"
 #include "evaluation/builtin_shapes.hpp"
+#include "evaluation/cache_parts.hpp"
 #include "evaluation/machine.hpp"
 #include "syntax/parameter_set.hpp"
 #include "syntax/parse_program.hpp"
@@ -25,10 +26,9 @@ class Session {
         options_(options),
         sink_(sink),
         standard_input_(standard_input),
-        program_(std::make_shared<Program>()),
-        messages_(program_->files, [this](const Message& message) { take(message); }) {
-    result_.files = std::shared_ptr<const SourceFiles>(program_, &program_->files);
-  }
+        kept_(options.cache ? &options.cache->parts() : nullptr),
+        program_(kept_ ? std::make_unique<Program>(kept_->sources) : std::make_unique<Program>()),
+        messages_(program_->files, [this](const Message& message) { take(message); }) {}
 
   Evaluation run();
 
@@ -48,7 +48,8 @@ class Session {
   const EvaluationOptions& options_;
   const MessageSink& sink_;
   std::string_view standard_input_;
-  std::shared_ptr<Program> program_;
+  EvaluationCache::Parts* kept_;  // null: nothing is kept
+  std::unique_ptr<Program> program_;
   Messages messages_;
   Machine* machine_ = nullptr;  // while it runs
   bool has_camera_ = false;
@@ -58,7 +59,6 @@ class Session {
 void Session::take(const Message& message) {
   sink_(message.line);
   if (!machine_) return;
-  machine_->count_message();
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
 }
 
@@ -154,6 +154,7 @@ void Session::evaluate_program() {
   Machine machine(compiler, messages_, modules, result_.tree, options_.stop);
   machine_ = &machine;
   preset_names(machine);
+  if (kept_) machine.use_kept(kept_->tops);
   try {
     apply_parameters(machine);
     machine.run_assignments();
@@ -167,6 +168,7 @@ void Session::evaluate_program() {
   read_camera(machine);
   say_root_modifiers();
   list_files(files);
+  if (kept_) machine.save_units(kept_->tops);
 }
 
 // A loop may name the same files again and again.
@@ -180,8 +182,7 @@ void append_new(std::vector<std::string>& list, const std::vector<std::string>& 
 
 void Session::list_files(const NamedFiles& named) {
   std::vector<std::string> sources;
-  for (FileId file = 0; file < program_->files.size(); ++file)
-    sources.push_back(program_->files[file].path);
+  for (const FileId file : program_->files.order()) sources.push_back(program_->files[file].path);
   append_new(result_.files_read, sources);
   for (const Unit& unit : program_->units) append_new(result_.files_read, unit.fonts);
   append_new(result_.files_read, named.files_read());
@@ -202,6 +203,7 @@ Evaluation Session::run() {
     result_.outcome =
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
   }
+  result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
   return std::move(result_);
 }
 
@@ -209,6 +211,9 @@ Evaluation Session::run() {
 
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
                     const MessageSink& sink, std::string_view standard_input) {
+  if (options.cache)
+    options.cache->parts().begin(
+        {options.check_parameters, options.check_ranges, options.hard_warnings});
   return Session(path, options, sink, standard_input).run();
 }
 

@@ -157,6 +157,7 @@ void Machine::unknown_function(Name name) {
 void Machine::say_argument_warnings(uint32_t plan, bool once) {
   const Code& code = *frames_.back().code;
   if (once) {
+    note_history();
     if (code.said.empty()) code.said.resize(code.plans.size());
     if (code.said[plan]) return;
     code.said[plan] = true;

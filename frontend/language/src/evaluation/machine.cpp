@@ -104,265 +104,266 @@ void Machine::run_guarded() {
 
 // Each case does what the instruction's comment in code/instruction.hpp says.
 bool Machine::execute(const Instruction& step) {
-    switch (step.op) {
-      case Op::kSlide: {
-        Value value = stack_.pop();
-        stack_.drop_to(stack_.size() - step.b);
-        stack_.push(std::move(value));
-        break;
-      }
-      case Op::kDynamic:
-        push_dynamic(step.b, false);
-        break;
-      case Op::kDynamicSilently:
-        push_dynamic(step.b, true);
-        break;
-      case Op::kUnknownVariable:
-        unknown_variable(step.b);
-        break;
-      case Op::kStoreScoped:
-        store_scoped(step);
-        break;
-      case Op::kBindDynamic:
-        dynamic_.bind(step.b, stack_.pop());
-        break;
-      case Op::kMarkTrail:
-        stack_.push(static_cast<double>(dynamic_.trail()));
-        break;
-      case Op::kUndoTrail:
-        dynamic_.undo(static_cast<uint32_t>(stack_[base_ + step.b].number()));
-        break;
-      case Op::kEndDynamic: {
-        Value value = stack_.pop();
-        dynamic_.undo(static_cast<uint32_t>(stack_.pop().number()));
-        stack_.push(std::move(value));
-        break;
-      }
-      case Op::kPushScope:
-        push_scope(step.b);
-        break;
-      case Op::kPopScope:
-        pop_scope();
-        break;
-      case Op::kNegate:
-        negate_top();
-        break;
-      case Op::kPower:
+  switch (step.op) {
+    case Op::kSlide: {
+      Value value = stack_.pop();
+      stack_.drop_to(stack_.size() - step.b);
+      stack_.push(std::move(value));
+      break;
+    }
+    case Op::kDynamic:
+      push_dynamic(step.b, false);
+      break;
+    case Op::kDynamicSilently:
+      push_dynamic(step.b, true);
+      break;
+    case Op::kUnknownVariable:
+      unknown_variable(step.b);
+      break;
+    case Op::kStoreScoped:
+      store_scoped(step);
+      break;
+    case Op::kBindDynamic:
+      dynamic_.bind(step.b, stack_.pop());
+      break;
+    case Op::kMarkTrail:
+      stack_.push(static_cast<double>(dynamic_.trail()));
+      break;
+    case Op::kUndoTrail:
+      dynamic_.undo(static_cast<uint32_t>(stack_[base_ + step.b].number()));
+      break;
+    case Op::kEndDynamic: {
+      Value value = stack_.pop();
+      dynamic_.undo(static_cast<uint32_t>(stack_.pop().number()));
+      stack_.push(std::move(value));
+      break;
+    }
+    case Op::kPushScope:
+      push_scope(step.b);
+      break;
+    case Op::kPopScope:
+      pop_scope();
+      break;
+    case Op::kNegate:
+      negate_top();
+      break;
+    case Op::kPower:
       binary(operators::power);
-        break;
-      case Op::kMultiply:
+      break;
+    case Op::kMultiply:
       binary(operators::multiply);
-        break;
-      case Op::kDivide:
+      break;
+    case Op::kDivide:
       binary(operators::divide);
-        break;
-      case Op::kModulo:
+      break;
+    case Op::kModulo:
       binary(operators::modulo);
-        break;
-      case Op::kAdd:
+      break;
+    case Op::kAdd:
       binary(operators::add);
-        break;
-      case Op::kSubtract:
+      break;
+    case Op::kSubtract:
       binary(operators::subtract);
-        break;
-      case Op::kLess:
+      break;
+    case Op::kLess:
       binary(operators::less);
-        break;
-      case Op::kLessEqual:
+      break;
+    case Op::kLessEqual:
       binary(operators::less_equal);
-        break;
-      case Op::kGreater:
+      break;
+    case Op::kGreater:
       binary(operators::greater);
-        break;
-      case Op::kGreaterEqual:
+      break;
+    case Op::kGreaterEqual:
       binary(operators::greater_equal);
-        break;
-      case Op::kEqual:
-      case Op::kNotEqual: {
-        const Value left = stack_.pop();
-        stack_.top() = Value::boolean(equal(left, stack_.top()) == (step.op == Op::kEqual));
-        break;
-      }
-      case Op::kIndex: {
-        const Value container = stack_.pop();
-        stack_.top() = element_at(container, stack_.top());
-        break;
-      }
-      case Op::kMember:
-        stack_.top() = member(stack_.top(), compiler_.names().text(step.b));
-        break;
+      break;
+    case Op::kEqual:
+    case Op::kNotEqual: {
+      const Value left = stack_.pop();
+      stack_.top() = Value::boolean(equal(left, stack_.top()) == (step.op == Op::kEqual));
+      break;
+    }
+    case Op::kIndex: {
+      const Value container = stack_.pop();
+      stack_.top() = element_at(container, stack_.top());
+      break;
+    }
+    case Op::kMember:
+      stack_.top() = member(stack_.top(), compiler_.names().text(step.b));
+      break;
     case Op::kIndexLocal:
       stack_.top() = element_at(stack_[base_ + step.a], stack_.top());
       break;
     case Op::kMemberLocal:
       stack_.push(member(stack_[base_ + step.a], compiler_.names().text(step.b)));
       break;
-      case Op::kRange:
-        make_range(step.flag);
-        break;
-      case Op::kVector:
-        make_vector(step.b);
-        break;
-      case Op::kFunction:
-        make_closure(step.b);
-        break;
-      case Op::kAssert:
-        assert_top(frames_.back().code->asserts[step.b], step.flag);
-        break;
-      case Op::kEcho:
-        echo(frames_.back().code->echoes[step.b]);
-        break;
-      case Op::kDuplicateLet:
-        duplicate_let(step.b);
-        break;
-      case Op::kUnnamedLet:
-        unnamed_let();
-        break;
-      case Op::kBeginVector:
-        stack_.push(language::make_vector());
-        break;
-      case Op::kAppend:
+    case Op::kRange:
+      make_range(step.flag);
+      break;
+    case Op::kVector:
+      make_vector(step.b);
+      break;
+    case Op::kFunction:
+      make_closure(step.b);
+      break;
+    case Op::kAssert:
+      assert_top(frames_.back().code->asserts[step.b], step.flag);
+      break;
+    case Op::kEcho:
+      echo(frames_.back().code->echoes[step.b]);
+      break;
+    case Op::kDuplicateLet:
+      duplicate_let(step.b);
+      break;
+    case Op::kUnnamedLet:
+      unnamed_let();
+      break;
+    case Op::kBeginVector:
+      stack_.push(language::make_vector());
+      break;
+    case Op::kAppend:
       append_element(stack_[base_ + step.b], stack_.pop());
-        break;
-      case Op::kAppendEach:
-        append_each(step.b);
-        break;
-      case Op::kAppendEachOfAll:
-        append_each_of_all(step.b);
-        break;
-      case Op::kBeginLoop:
-        begin_loop(step.flag);
-        break;
+      break;
+    case Op::kAppendEach:
+      append_each(step.b);
+      break;
+    case Op::kAppendEachOfAll:
+      append_each_of_all(step.b);
+      break;
+    case Op::kBeginLoop:
+      begin_loop(step.flag);
+      break;
     case Op::kReserve:
       make_room(stack_[base_ + step.b], static_cast<size_t>(stack_.top().number()));
       break;
-      case Op::kNextRound:
-        if (!next_round(base_ + step.a)) next_ = step.b;
-        break;
-      case Op::kCountRound:
-        count_round(step.b);
-        break;
-      case Op::kEnterUnit:
-        enter_unit(step.b);
-        break;
-      case Op::kBeginCall:
-        begin_call(frames_.back().code->calls[step.b]);
-        break;
-      case Op::kCall:
-        call_function(frames_.back().code->calls[step.b]);
-        break;
-      case Op::kCallBuiltin:
-        call_builtin(step.b, step.a);
-        break;
-      case Op::kNextLazy:
-        next_lazy(frames_.back().code->lazy_calls[step.b]);
-        break;
-      case Op::kKeepLazy:
-        keep_lazy(frames_.back().code->lazy_calls[step.b]);
-        break;
-      case Op::kWarnCount:
-        warn_count(step.b);
-        break;
-      case Op::kUnknownFunction:
-        unknown_function(step.b);
-        break;
-      case Op::kArgumentWarnings:
-        say_argument_warnings(step.b, step.flag);
-        break;
-      case Op::kIfFunction:
-        if (stack_.top().is_function()) next_ = step.b;
-        break;
-      case Op::kPrepareCall:
-        prepare_call(frames_.back().code->dynamic_calls[step.b]);
-        break;
-      case Op::kNextArgument:
-        next_argument(frames_.back().code->dynamic_calls[step.b]);
-        break;
-      case Op::kCallDynamic:
-        call_dynamic(frames_.back().code->dynamic_calls[step.b]);
-        break;
-      case Op::kUnlessCalledAs:
-        if (frames_.back().called_as != step.a) next_ = step.b;
-        break;
-      case Op::kCachedDefault: {
-        const Value& cached = frames_.back().code->caches[step.a];
-        if (!cached.is_set()) break;
-        stack_.push_copy(cached);
-        next_ = step.b;
-        break;
-      }
-      case Op::kStoreCache:
-        frames_.back().code->caches[step.a] = stack_.top();
-        break;
-      case Op::kTailJump:
-        tail_jump(step.a, step.b);
-        break;
-      case Op::kReturn:
-        return_value();
+    case Op::kNextRound:
+      if (!next_round(base_ + step.a)) next_ = step.b;
+      break;
+    case Op::kCountRound:
+      count_round(step.b);
+      break;
+    case Op::kEnterUnit:
+      enter_unit(step.b);
+      break;
+    case Op::kBeginCall:
+      begin_call(frames_.back().code->calls[step.b]);
+      break;
+    case Op::kCall:
+      call_function(frames_.back().code->calls[step.b]);
+      break;
+    case Op::kCallBuiltin:
+      call_builtin(step.b, step.a);
+      break;
+    case Op::kNextLazy:
+      next_lazy(frames_.back().code->lazy_calls[step.b]);
+      break;
+    case Op::kKeepLazy:
+      keep_lazy(frames_.back().code->lazy_calls[step.b]);
+      break;
+    case Op::kWarnCount:
+      warn_count(step.b);
+      break;
+    case Op::kUnknownFunction:
+      unknown_function(step.b);
+      break;
+    case Op::kArgumentWarnings:
+      say_argument_warnings(step.b, step.flag);
+      break;
+    case Op::kIfFunction:
+      if (stack_.top().is_function()) next_ = step.b;
+      break;
+    case Op::kPrepareCall:
+      prepare_call(frames_.back().code->dynamic_calls[step.b]);
+      break;
+    case Op::kNextArgument:
+      next_argument(frames_.back().code->dynamic_calls[step.b]);
+      break;
+    case Op::kCallDynamic:
+      call_dynamic(frames_.back().code->dynamic_calls[step.b]);
+      break;
+    case Op::kUnlessCalledAs:
+      if (frames_.back().called_as != step.a) next_ = step.b;
+      break;
+    case Op::kCachedDefault: {
+      note_history();
+      const Value& cached = frames_.back().code->caches[step.a];
+      if (!cached.is_set()) break;
+      stack_.push_copy(cached);
+      next_ = step.b;
+      break;
+    }
+    case Op::kStoreCache:
+      frames_.back().code->caches[step.a] = stack_.top();
+      break;
+    case Op::kTailJump:
+      tail_jump(step.a, step.b);
+      break;
+    case Op::kReturn:
+      return_value();
       return frames_.empty();
-      case Op::kReturnDefaults:
-        return_defaults();
-        break;
-      case Op::kUnknownModule:
-        unknown_module(step.b);
-        break;
-      case Op::kBeginNode:
-        begin_node(frames_.back().code->node_sites[step.b]);
-        break;
-      case Op::kEndNode:
-        end_node(step.flag);
-        break;
-      case Op::kSuccessor:
-        say_successor(frames_.back().code->node_sites[step.b]);
-        break;
-      case Op::kRefuseChildren:
-        refuse_children(frames_.back().code->node_sites[step.b]);
-        break;
-      case Op::kWantsFirst:
-        if (!wants_first(frames_.back().code->node_sites[step.a])) next_ = step.b;
-        break;
-      case Op::kMakeNode:
-        make_node(frames_.back().code->node_sites[step.a], step.b, step.flag);
-        break;
-      case Op::kSaveBlock:
-        block_scopes_.push_back(HeapScopes::acquire(scope_));
-        break;
-      case Op::kNameModule:
-        name_module(frames_.back().code->calls[step.b].module->name);
-        break;
-      case Op::kCallModule:
-        call_module(frames_.back().code->calls[step.b]);
-        break;
-      case Op::kChildCount:
-        stack_.push(static_cast<double>(child_count()));
-        break;
-      case Op::kParameterLiteral:
-        parameter_literal(step.b, step.a);
-        break;
-      case Op::kReturnModule:
-        return_module();
-        break;
-      case Op::kUnlessInModule:
-        if (!activation()) next_ = step.b;
-        break;
-      case Op::kAllChildren:
-        all_children(frames_.back().code->node_sites[step.b]);
-        break;
-      case Op::kDeprecatedChild:
-        say_child_is_deprecated();
-        break;
-      case Op::kSelectChildren:
-        if (!select_children(frames_.back().code->node_sites[step.a], step.flag)) next_ = step.b;
-        break;
-      case Op::kNextChild:
-        next_child(base_ + step.a, step.b);
-        break;
-      case Op::kEndSelection:
-        end_selection();
-        break;
-      case Op::kEndChild:
+    case Op::kReturnDefaults:
+      return_defaults();
+      break;
+    case Op::kUnknownModule:
+      unknown_module(step.b);
+      break;
+    case Op::kBeginNode:
+      begin_node(frames_.back().code->node_sites[step.b]);
+      break;
+    case Op::kEndNode:
+      end_node(step.flag);
+      break;
+    case Op::kSuccessor:
+      say_successor(frames_.back().code->node_sites[step.b]);
+      break;
+    case Op::kRefuseChildren:
+      refuse_children(frames_.back().code->node_sites[step.b]);
+      break;
+    case Op::kWantsFirst:
+      if (!wants_first(frames_.back().code->node_sites[step.a])) next_ = step.b;
+      break;
+    case Op::kMakeNode:
+      make_node(frames_.back().code->node_sites[step.a], step.b, step.flag);
+      break;
+    case Op::kSaveBlock:
+      block_scopes_.push_back(HeapScopes::acquire(scope_));
+      break;
+    case Op::kNameModule:
+      name_module(frames_.back().code->calls[step.b].module->name);
+      break;
+    case Op::kCallModule:
+      call_module(frames_.back().code->calls[step.b]);
+      break;
+    case Op::kChildCount:
+      stack_.push(static_cast<double>(child_count()));
+      break;
+    case Op::kParameterLiteral:
+      parameter_literal(step.b, step.a);
+      break;
+    case Op::kReturnModule:
+      return_module();
+      break;
+    case Op::kUnlessInModule:
+      if (!activation()) next_ = step.b;
+      break;
+    case Op::kAllChildren:
+      all_children(frames_.back().code->node_sites[step.b]);
+      break;
+    case Op::kDeprecatedChild:
+      say_child_is_deprecated();
+      break;
+    case Op::kSelectChildren:
+      if (!select_children(frames_.back().code->node_sites[step.a], step.flag)) next_ = step.b;
+      break;
+    case Op::kNextChild:
+      next_child(base_ + step.a, step.b);
+      break;
+    case Op::kEndSelection:
+      end_selection();
+      break;
+    case Op::kEndChild:
       return end_child(step.flag) && frames_.empty();
-      case Op::kEndUnit:
+    case Op::kEndUnit:
       return end_unit();
     default:
       break;  // run() does the others

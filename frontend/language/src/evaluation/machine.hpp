@@ -60,8 +60,10 @@ class Machine {
   void run_calls();
   /// Forgets the `$` names of calls that Aborted has ended.
   void end_early();
-  /// How many messages have been said, which the sink counts.
-  void count_message() { ++messages_said_; }
+  /// Lets the machine use top levels that earlier evaluations have kept. They must not change.
+  void use_kept(const KeptTops& tops) { kept_tops_ = &tops; }
+  /// Keeps the top levels that this evaluation has seen for later ones.
+  void save_units(KeptTops& tops);
 
  private:
   // run.cpp
@@ -143,6 +145,11 @@ class Machine {
   bool end_unit();  // true: of the main file
   bool reuse_unit(uint32_t unit);
   void keep_unit(const UnitRecord& record, HeapScope* scope);
+  void note_history();
+
+  // saved_units.cpp
+  void load_unit(uint32_t unit);
+  void save_unit(uint32_t unit, KeptTops& tops);
 
   // modules.cpp
   void begin_node(const NodeSite& site) { begin_node(site.name, site.modifiers); }
@@ -216,7 +223,7 @@ class Machine {
   uint32_t unit_ = 0;  // whose code runs
   HeapScope* main_scope_ = nullptr;
   uint32_t steps_ = 1;
-  uint64_t messages_said_ = 0;
+  const KeptTops* kept_tops_ = nullptr;  // null: none
   Name fragments_number_, fragments_angle_, fragments_size_, parent_modules_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "evaluation/machine.hpp"
+#include "values/copies.hpp"
 
 namespace language {
 
@@ -10,7 +11,7 @@ void Machine::enter_unit(uint32_t unit) {
   if (reuse_unit(unit)) return;
   UnitEntry& entry = compiler_.unit(unit);
   if (frames_.size() >= kDepthLimit) fail("Recursion detected in a used file", place());
-  records_.push_back({unit, dynamic_.trail(), messages_said_ + messages_.warnings()});
+  records_.push_back({unit, dynamic_.trail(), messages_.said()});
   push_frame(*entry.assignments, stack_.size(), scopes_.make(nullptr, entry.scope->size()),
              FrameKind::kUnit, kNoActivation);
 }
@@ -30,13 +31,14 @@ bool Machine::end_unit() {
 }
 
 void Machine::keep_unit(const UnitRecord& record, HeapScope* scope) {
-  if (!record.is_pure || record.messages != messages_said_ + messages_.warnings()) {
+  if (!record.is_pure || record.messages != messages_.said()) {
     for (UnitRecord& outer : records_) outer.is_pure = false;
     return;
   }
   KeptUnit& kept = kept_units_[record.unit];
   HeapScopes::release(kept.scope);
   kept.scope = HeapScopes::acquire(scope);
+  kept.is_loaded = false;
   kept.reads = record.reads;
   kept.bindings.clear();
   for (const Name name : dynamic_.bound_since(record.trail))
@@ -44,10 +46,11 @@ void Machine::keep_unit(const UnitRecord& record, HeapScope* scope) {
 }
 
 bool Machine::reuse_unit(uint32_t unit) {
+  if (kept_tops_ && !kept_units_[unit].is_looked_up) load_unit(unit);
   const KeptUnit& kept = kept_units_[unit];
   if (!kept.scope) return false;
   const bool is_same = std::all_of(kept.reads.begin(), kept.reads.end(), [&](const auto& read) {
-    return is_identical(dynamic_[read.first], read.second);
+    return are_identical(dynamic_[read.first], read.second);
   });
   if (!is_same) return false;
   if (!records_.empty())
@@ -57,10 +60,16 @@ bool Machine::reuse_unit(uint32_t unit) {
   return true;
 }
 
-// Functions whose results differ from call to call.
-void Machine::note_builtin(const BuiltinFunction& function) {
-  if (function.name != "rands" && function.name != "parent_module") return;
+// What depends on what has happened before in the run.
+void Machine::note_history() {
   for (UnitRecord& record : records_) record.is_pure = false;
+}
+
+// Functions whose results differ from call to call, or with a file.
+void Machine::note_builtin(const BuiltinFunction& function) {
+  constexpr std::string_view kSuch[] = {"rands", "parent_module", "dxf_dim", "dxf_cross"};
+  if (std::find(std::begin(kSuch), std::end(kSuch), function.name) != std::end(kSuch))
+    note_history();
 }
 
 }  // namespace language

@@ -65,7 +65,7 @@ void Machine::make_vector(uint32_t count) {
 }
 
 void Machine::make_closure(uint32_t index) {
-  for (UnitRecord& record : records_) record.is_pure = false;
+  note_history();
   FunctionEntry& function = *frames_.back().code->functions[index];
   stack_.push(Value::adopt(new Closure(function, scope_, compiler_.names())));
 }
@@ -82,7 +82,6 @@ void Machine::echo(const EchoSite& site) {
     append_echo_text(text, stack_.below(count - 1 - number));
   }
   stack_.drop_to(stack_.size() - count);
-  ++messages_said_;
   messages_.say(MessageGroup::kEcho, std::move(text));
 }
 

@@ -55,6 +55,7 @@ void Messages::say_parser_error(std::string text, Place place, uint32_t line) {
 }
 
 void Messages::say(MessageGroup group, std::string text, Place place, const std::string& suffix) {
+  ++said_;
   if (group == MessageGroup::kWarning) ++warnings_;
   std::string line = std::string(group_prefix(group)) + text + suffix;
   const Message message{group, std::move(text), place, std::move(line)};

@@ -60,6 +60,8 @@ class Messages {
   std::string place_suffix(Place place, PathBase base) const;
   /// Returns how many warnings were made, dropped ones too: --hardwarnings stops at the first.
   size_t warnings() const { return warnings_; }
+  /// Returns how many messages were made, dropped ones too.
+  size_t said() const { return said_; }
 
  private:
   bool is_repeat(const Message& message);
@@ -74,6 +76,7 @@ class Messages {
   std::deque<std::string> last_lines_;            // the last five of ERROR, WARNING and TRACE
   std::unordered_set<std::string> deprecations_;  // that were said
   size_t warnings_ = 0;
+  size_t said_ = 0;
 };
 
 }  // namespace language

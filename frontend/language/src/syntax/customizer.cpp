@@ -16,16 +16,17 @@ class NoFiles final : public FileLookup {
  public:
   FileId include(const NamedFile&) override { return kNoFile; }
   void use(const NamedFile&) override {}
+  void leave(FileId) override {}
 };
 
 /// Parses a text into an empty program. Returns null if it has a syntax error.
 const Scope* parse_alone(Program& program, std::string_view text) {
-  add_first_names(program.names);
   const FileId file = program.files.add({{}, std::string(text.substr(0, text.find('\0'))), {}});
+  program.units.emplace_back().file = file;
   Messages messages(program.files, [](const Message&) {});
   NoFiles no_files;
   Lexer lexer(program.files, program.names, program.arena, messages, no_files, {file, {}, false});
-  Parser parser(lexer, program.files, program.names, program.arena, messages, {file, {}});
+  Parser parser(lexer, program, messages, {});
   try {
     return parser.parse_file();
   } catch (const SyntaxError&) {

@@ -24,6 +24,8 @@ class FileLookup {
   virtual FileId include(const NamedFile& file) = 0;
   /// Adds a library, or a font, to those that the file being parsed uses.
   virtual void use(const NamedFile& file) = 0;
+  /// Takes note that a file has been read to its end.
+  virtual void leave(FileId file) = 0;
 };
 
 }  // namespace language

@@ -14,7 +14,7 @@ Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& ar
              Messages& messages, FileLookup& lookup, const Main& main)
     : files_(files),
       names_(names),
-      arena_(arena),
+      arena_(&arena),
       messages_(messages),
       lookup_(lookup),
       hard_warnings_(main.hard_warnings),
@@ -31,10 +31,12 @@ void Lexer::enter(FileId file, const char* cursor) {
   cursor_ = cursor;
   line_starts_ = &source.message_line_starts;
   error_lines_ = {};
+  ++entries_;
 }
 
 /// Goes on in the file that includes the current one. Returns false if none does.
 bool Lexer::leave() {
+  lookup_.leave(file_);
   if (includers_.empty()) return false;
   Includer includer = std::move(includers_.back());
   includers_.pop_back();
@@ -54,6 +56,7 @@ void Lexer::begin_line_at(const char* at) {
 void Lexer::next(Token& token) {
   do {
     token = {};
+    blank_begin_ = offset_of(cursor_);
     const bool is_whole = skip_blank();
     token.place = position();
     if (!is_whole) return lex_unterminated(token, "comment");
@@ -240,7 +243,7 @@ void Lexer::lex_use(Token& token) {
 
 std::string_view Lexer::store(std::string_view text) {
   if (text.empty()) return {};
-  auto* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
+  auto* copy = static_cast<char*>(arena_->allocate(text.size(), 1));
   std::memcpy(copy, text.data(), text.size());
   return {copy, text.size()};
 }

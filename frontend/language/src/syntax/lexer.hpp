@@ -31,6 +31,15 @@ class Lexer {
 
   /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
   void next(Token& token);
+  Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
+  /// Returns where the blanks and comments before the last token begin.
+  uint32_t blank_begin() const { return blank_begin_; }
+  /// Goes on elsewhere in the current file, up to which all has been read before.
+  void go_on_at(uint32_t offset) { cursor_ = begin_ + offset; }
+  /// Returns how often another file was entered: text between which it differs is not of one file.
+  uint32_t entries() const { return entries_; }
+  /// Sets where texts of tokens lie.
+  void set_arena(std::pmr::memory_resource& arena) { arena_ = &arena; }
   /// Says a parser error about the last token, and throws SyntaxError.
   [[noreturn]] void fail(const std::string& text) const;
   /// Fails if there was a warning since the lexer was made, and warnings are errors.
@@ -49,7 +58,6 @@ class Lexer {
     ErrorLines error_lines;
   };
 
-  Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
   NamedFile named_file(std::string_view name) const { return {name, folder_, being_included_}; }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
@@ -74,7 +82,7 @@ class Lexer {
 
   SourceFiles& files_;
   NameTable& names_;
-  std::pmr::memory_resource& arena_;
+  std::pmr::memory_resource* arena_;
   Messages& messages_;
   FileLookup& lookup_;
   bool hard_warnings_;
@@ -88,6 +96,8 @@ class Lexer {
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
   std::vector<uint32_t>* line_starts_ = nullptr;
+  uint32_t blank_begin_ = 0;
+  uint32_t entries_ = 0;
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read
   std::string last_path_name_;  // `use <>` means the last path's name once more

@@ -7,7 +7,7 @@ namespace language {
 
 const Token& Parser::fetch(int position) {
   constexpr uint32_t kTokensBetweenChecks = 4096;
-  if (++taken_ % kTokensBetweenChecks == 0 && settings_.stop.stop_requested()) throw Stopped();
+  if (++taken_ % kTokensBetweenChecks == 0 && stop_.stop_requested()) throw Stopped();
   lexer_.next(tokens_[position]);
   ahead_ = position + 1;
   return tokens_[position];
@@ -58,15 +58,17 @@ int Parser::accept_commas() {
 }
 
 const Scope* Parser::parse_file() {
-  ScopeBuilder scope(scopes_);
-  while (!peek().is(TokenKind::kEnd)) {
+  ScopeBuilder scope(scopes_, &items_);
+  for (;;) {
+    if (take_kept_statement(scope)) continue;
+    if (peek().is(TokenKind::kEnd)) break;
     if (peek().is(TokenKind::kUse)) {
-      consume();  // the lexer has looked the file up
-    } else {
-      parse_statement(scope);
+      consume();                               // the lexer has looked the file up
+    } else if (!take_kept_statement(scope)) {  // of a file that peek() has entered
+      parse_top_statement(scope);
     }
   }
-  return scope.finish(arena_);
+  return scope.finish(*arena_);
 }
 
 void Parser::parse_statement(ScopeBuilder& scope) {
@@ -102,15 +104,21 @@ void Parser::parse_assignment(ScopeBuilder& scope) {
   expect('=');
   const Expression* value = parse_expression();
   expect(';');
-  const Assignment assignment{name.name, value, name.place};
+  add(scope, {name.name, value, name.place});
+}
+
+void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
   const Place first = scope.add(assignment);
-  if (first.file != kNoFile && !is_behind_file_) say_overwritten(assignment, first);
+  if (first.file == kNoFile || is_behind_file_) return;
+  const size_t before = messages_.warnings();
+  say_overwritten(assignment, first);
+  if (scope.is_recorded()) warnings_of_top_level_ += messages_.warnings() - before;
 }
 
 void Parser::say_overwritten(const Assignment& assignment, Place first) {
   const Place second = assignment.place;
   const auto is_main = [&](Place place) {
-    return files_[place.file].path == files_[settings_.design_file].path;
+    return files_[place.file].path == files_[program_.units[0].file].path;
   };
   const uint32_t line = files_.message_line(first);
   std::string text =
@@ -137,7 +145,7 @@ void Parser::parse_module(ScopeBuilder& scope) {
 const Scope* Parser::parse_module_body() {
   ScopeBuilder body(scopes_);
   parse_statement(body);
-  return body.finish(arena_);
+  return body.finish(*arena_);
 }
 
 void Parser::parse_function(ScopeBuilder& scope) {
@@ -235,7 +243,7 @@ const Scope* Parser::parse_children() {
   } else {
     parse_call(scope);
   }
-  return scope.finish(arena_);
+  return scope.finish(*arena_);
 }
 
 void Parser::parse_child_statement(ScopeBuilder& scope) {

@@ -8,6 +8,7 @@
 
 #include "syntax/arena_list.hpp"
 #include "syntax/lexer.hpp"
+#include "syntax/program.hpp"
 #include "syntax/scope_builder.hpp"
 #include "syntax/syntax.hpp"
 
@@ -16,19 +17,14 @@ namespace language {
 /// Parses one file with all that it includes. Throws SyntaxError after the message about it.
 class Parser {
  public:
-  struct Settings {
-    FileId design_file = kNoFile;  // the main file of the design, which warnings treat differently
-    std::stop_token stop;
-  };
-
-  Parser(Lexer& lexer, const SourceFiles& files, const NameTable& names,
-         std::pmr::memory_resource& arena, Messages& messages, const Settings& settings)
+  Parser(Lexer& lexer, Program& program, Messages& messages, std::stop_token stop)
       : lexer_(lexer),
-        files_(files),
-        names_(names),
-        arena_(arena),
+        program_(program),
+        files_(program.files),
+        names_(program.names),
+        arena_(&program.arena),
         messages_(messages),
-        settings_(settings) {}
+        stop_(std::move(stop)) {}
 
   const Scope* parse_file();
 
@@ -55,10 +51,17 @@ class Parser {
   int accept_commas();
   [[noreturn]] void fail_at_token() const { lexer_.fail("syntax error"); }
 
+  // The top level: kept_statements.cpp.
+  Place boundary() const { return ahead_ > 0 ? tokens_[0].place : lexer_.position(); }
+  bool take_kept_statement(ScopeBuilder& scope);
+  void parse_top_statement(ScopeBuilder& scope);
+  void set_arena(std::pmr::memory_resource& arena);
+
   // Statements.
   void parse_statement(ScopeBuilder& scope);
   void parse_block(ScopeBuilder& scope);
   void parse_assignment(ScopeBuilder& scope);
+  void add(ScopeBuilder& scope, const Assignment& assignment);
   void parse_module(ScopeBuilder& scope);
   const Scope* parse_module_body();
   void parse_function(ScopeBuilder& scope);
@@ -103,7 +106,7 @@ class Parser {
 
   template <typename Node, typename... Fields>
   const Expression* make(ExpressionKind kind, Place place, Fields... fields) {
-    void* memory = arena_.allocate(sizeof(Node), alignof(Node));
+    void* memory = arena_->allocate(sizeof(Node), alignof(Node));
     if constexpr (sizeof...(fields) == 0)
       return new (memory) Node{kind, place};
     else
@@ -111,17 +114,20 @@ class Parser {
   }
 
   Lexer& lexer_;
+  Program& program_;
   const SourceFiles& files_;
   const NameTable& names_;
-  std::pmr::memory_resource& arena_;
+  std::pmr::memory_resource* arena_;  // where nodes lie
   Messages& messages_;
-  Settings settings_;
+  std::stop_token stop_;
 
   Token tokens_[2];
-  int ahead_ = 0;                // tokens that were read and not consumed
-  uint32_t depth_ = 0;           // see Nested
-  uint32_t taken_ = 0;           // tokens
-  bool is_behind_file_ = false;  // whether 0x03 was met
+  int ahead_ = 0;                     // tokens that were read and not consumed
+  uint32_t depth_ = 0;                // see Nested
+  uint32_t taken_ = 0;                // tokens
+  bool is_behind_file_ = false;       // whether 0x03 was met
+  std::vector<TopLevelItem> items_;   // of the statement that is parsed at the top level
+  size_t warnings_of_top_level_ = 0;  // about what stands there
   ScopeStacks scopes_;
   std::vector<Argument> arguments_;
   std::vector<Parameter> parameters_;

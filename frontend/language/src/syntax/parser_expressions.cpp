@@ -228,7 +228,7 @@ std::span<const Argument> Parser::parse_arguments() {
     arguments.push(parse_argument());
     if (!peek().is(',')) break;
   }
-  return arguments.finish(arena_);
+  return arguments.finish(*arena_);
 }
 
 Argument Parser::parse_argument() {
@@ -249,7 +249,7 @@ std::span<const Parameter> Parser::parse_parameters() {
     parameters.push(parse_parameter());
     if (accept_commas() == 0) break;
   }
-  return parameters.finish(arena_);
+  return parameters.finish(*arena_);
 }
 
 Parameter Parser::parse_parameter() {

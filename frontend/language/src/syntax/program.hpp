@@ -2,12 +2,14 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <memory_resource>
 #include <string>
 #include <vector>
 
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
+#include "syntax/kept_sources.hpp"
 #include "syntax/syntax.hpp"
 
 namespace language {
@@ -19,11 +21,25 @@ struct Unit {
   const Scope* scope = nullptr;    // null: it could not be parsed, and counts as empty
   std::vector<uint32_t> uses;      // indices into Program::units, in source order
   std::vector<std::string> fonts;  // font files that it names in `use`
+  /// Versions of the files that its text stems from, in the order of reading: two units for which
+  /// they are the same have the same text. 0: the main file, which is never known to be the same.
+  std::vector<uint64_t> versions;
 };
 
 struct Program {
-  std::pmr::monotonic_buffer_resource arena;  // holds the syntax trees and their strings
-  NameTable names;
+  /// `sources` are what programs of a design share.
+  explicit Program(std::shared_ptr<KeptSources> sources = std::make_shared<KeptSources>())
+      : kept(std::move(sources)), names(kept->names) {}
+
+  /// Returns the kept file of a number; null: the main file.
+  KeptFile* kept_file(FileId file) const {
+    return file < kept_files.size() ? kept_files[file].get() : nullptr;
+  }
+
+  std::shared_ptr<KeptSources> kept;
+  NameTable& names;
+  std::vector<std::shared_ptr<KeptFile>> kept_files;  // by number
+  std::pmr::monotonic_buffer_resource arena;          // holds the syntax trees that are not kept
   SourceFiles files;
   std::deque<Unit> units;            // 0 is the main file; each used file stands here once
   std::vector<std::string> lookups;  // absolute paths that were tried and do not exist

@@ -32,20 +32,21 @@ std::string shown_main_path(const fs::path& path) {
 }  // namespace
 
 ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOptions& options)
-    : program_(program), messages_(messages), options_(options), search_(program.lookups) {
-  add_first_names(program.names);
-}
+    : program_(program), messages_(messages), options_(options), search_(program.lookups) {}
 
 bool ProgramReader::read_main(const std::string& path) {
   std::error_code error;
   if (path == "-") {
-    add_unit("<stdin>", fs::current_path(error).string(), options_.standard_input);
+    program_.files.add({"<stdin>", unit_text(options_.standard_input), {}});
+    add_unit(0, fs::current_path(error).string(), 0);
   } else {
     const auto text = read_file(path);
     if (!text) return false;
     const fs::path absolute = fs::absolute(path, error).lexically_normal();
-    add_unit(shown_main_path(absolute), absolute.parent_path().string(), *text);
+    program_.files.add({shown_main_path(absolute), unit_text(*text), {}});
+    add_unit(0, absolute.parent_path().string(), 0);
   }
+  program_.kept->begin(program_.files[0].path, options_.definitions);
   messages_.set_main_folder(program_.units[0].folder);
   return true;
 }
@@ -63,6 +64,7 @@ void ProgramReader::parse_used() {
     const auto& uses = program_.units[unit].uses;
     waiting.insert(waiting.end(), uses.begin(), uses.end());
   }
+  program_.kept->end();
 }
 
 bool ProgramReader::parse(uint32_t unit_number) {
@@ -70,8 +72,7 @@ bool ProgramReader::parse(uint32_t unit_number) {
   Unit& unit = program_.units[unit_number];
   Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
               {unit.file, unit.folder, options_.hard_warnings});
-  Parser parser(lexer, program_.files, program_.names, program_.arena, messages_,
-                {program_.units[0].file, options_.stop});
+  Parser parser(lexer, program_, messages_, options_.stop);
   try {
     unit.scope = parser.parse_file();
     return true;
@@ -82,15 +83,32 @@ bool ProgramReader::parse(uint32_t unit_number) {
 
 FileId ProgramReader::include(const NamedFile& file) {
   const std::string path = search_.find(file.name, file.folder, file.being_included);
-  if (const auto known = included_.find(path); known != included_.end()) return known->second;
-  auto text = path.empty() ? std::nullopt : read_file(path);
-  if (!text) {
+  auto& versions = program_.units[current_unit_].versions;
+  if (const auto known = included_.find(path); known != included_.end()) {
+    versions.push_back(program_.kept_file(known->second)->version());
+    return known->second;
+  }
+  const FileId id = path.empty() ? kNoFile : open(KeptSources::Role::kIncluded, path);
+  if (id == kNoFile) {
     messages_.warn("Can't open include file '" + std::string(file.name) + "'.");
     return kNoFile;
   }
-  const FileId id = program_.files.add({path, std::move(*text), {}});
   included_.emplace(path, id);
+  versions.push_back(program_.kept_file(id)->version());
   return id;
+}
+
+FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
+  const std::shared_ptr<KeptFile> file =
+      program_.kept->open(role, path, [&](std::string_view bytes) {
+        return role == KeptSources::Role::kUsed ? unit_text(bytes) : std::string(bytes);
+      });
+  if (!file) return kNoFile;
+  const FileId number = file->number();
+  if (number >= program_.kept_files.size()) program_.kept_files.resize(number + 1);
+  program_.kept_files[number] = file;
+  program_.files.add(number, file->source());
+  return number;
 }
 
 void ProgramReader::use(const NamedFile& file) {
@@ -100,10 +118,12 @@ void ProgramReader::use(const NamedFile& file) {
   if (path.empty()) return;
   auto known = used_.find(path);
   if (known == used_.end()) {
-    const auto text = read_file(path);
-    if (!text) return messages_.warn("Can't open library '" + std::string(file.name) + "'.");
+    const FileId id = open(KeptSources::Role::kUsed, path);
+    if (id == kNoFile)
+      return messages_.warn("Can't open library '" + std::string(file.name) + "'.");
     const std::string folder = fs::path(path).parent_path().string();
-    known = used_.emplace(path, add_unit(path, folder, *text)).first;
+    const uint64_t version = program_.kept_file(id)->version();
+    known = used_.emplace(path, add_unit(id, folder, version)).first;
   }
   auto& uses = program_.units[current_unit_].uses;
   std::erase(uses, known->second);
@@ -118,10 +138,11 @@ void ProgramReader::use_font(const std::string& name, const std::string& path) {
   }
 }
 
-uint32_t ProgramReader::add_unit(std::string path, std::string folder, std::string_view text) {
+uint32_t ProgramReader::add_unit(FileId file, std::string folder, uint64_t version) {
   Unit& unit = program_.units.emplace_back();
   unit.folder = std::move(folder);
-  unit.file = program_.files.add({std::move(path), unit_text(text), {}});
+  unit.file = file;
+  unit.versions = {version};
   return static_cast<uint32_t>(program_.units.size() - 1);
 }
 

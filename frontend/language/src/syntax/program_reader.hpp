@@ -26,10 +26,14 @@ class ProgramReader : public FileLookup {
 
   FileId include(const NamedFile& file) override;
   void use(const NamedFile& file) override;
+  void leave(FileId file) override {
+    if (KeptFile* kept = program_.kept_file(file)) kept->is_read = true;
+  }
 
  private:
   bool parse(uint32_t unit);
-  uint32_t add_unit(std::string path, std::string folder, std::string_view text);
+  uint32_t add_unit(FileId file, std::string folder, uint64_t version);
+  FileId open(KeptSources::Role role, const std::string& path);
   std::string unit_text(std::string_view file_text) const;
   void use_font(const std::string& name, const std::string& path);
 

@@ -5,6 +5,7 @@
 namespace language {
 
 Place ScopeBuilder::add(const Assignment& assignment) {
+  note(assignment);
   Assignment* older = assignments_.find(assignment.name);
   if (!older) {
     assignments_.push(assignment);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "syntax/arena_list.hpp"
+#include "syntax/kept_file.hpp"
 #include "syntax/syntax.hpp"
 
 namespace language {
@@ -48,24 +49,35 @@ struct ScopeStacks {
 /// One scope being parsed; those within it must be finished before.
 class ScopeBuilder {
  public:
-  explicit ScopeBuilder(ScopeStacks& stacks)
+  /// `record`, if it is not null, gets all that is added, in order.
+  explicit ScopeBuilder(ScopeStacks& stacks, std::vector<TopLevelItem>* record = nullptr)
       : assignments_(stacks.assignments),
         functions_(stacks.functions),
         modules_(stacks.modules),
-        calls_(stacks.calls) {}
+        calls_(stacks.calls),
+        record_(record) {}
+
+  bool is_recorded() const { return record_; }
 
   /// Adds an assignment. Returns the place of the one that it overwrites, which has no file if
   /// there is none: that one keeps its position in the list.
   Place add(const Assignment& assignment);
   void add(const FunctionDefinition& definition) { replace(functions_, definition); }
   void add(const ModuleDefinition& definition) { replace(modules_, definition); }
-  void add(const ModuleCall& call) { calls_.push(call); }
+  void add(const ModuleCall& call) {
+    note(call);
+    calls_.push(call);
+  }
   /// Returns the scope, in an arena.
   const Scope* finish(std::pmr::memory_resource& arena) const;
 
  private:
+  void note(const TopLevelItem& item) {
+    if (record_) record_->push_back(item);
+  }
   template <typename T>
   void replace(NamedArenaList<T>& definitions, const T& definition) {
+    note(definition);
     if (T* older = definitions.find(definition.name)) {
       *older = definition;
     } else {
@@ -77,6 +89,7 @@ class ScopeBuilder {
   NamedArenaList<FunctionDefinition> functions_;
   NamedArenaList<ModuleDefinition> modules_;
   ArenaList<ModuleCall> calls_;
+  std::vector<TopLevelItem>* record_;
 };
 
 }  // namespace language

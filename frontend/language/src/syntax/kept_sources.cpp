@@ -1,0 +1,50 @@
+#include "syntax/kept_sources.hpp"
+
+#include "base/read_file.hpp"
+#include "syntax/token.hpp"
+
+namespace language {
+
+KeptSources::KeptSources() : files_(1) { add_first_names(names); }
+
+void KeptSources::begin(const std::string& main_path, const std::vector<std::string>& definitions) {
+  const bool is_same = main_path == main_path_ && definitions == definitions_;
+  main_path_ = main_path;
+  definitions_ = definitions;
+  for (Entry& entry : files_) {
+    entry.is_open = false;
+    if (!is_same || (entry.file && !entry.file->is_complete)) entry.file = nullptr;
+  }
+}
+
+std::shared_ptr<KeptFile> KeptSources::open(
+    Role role, const std::string& path,
+    const std::function<std::string(std::string_view)>& text_of) {
+  const auto [known, is_new] =
+      numbers_.try_emplace({role, path}, static_cast<FileId>(files_.size()));
+  if (is_new) files_.emplace_back();
+  Entry& entry = files_[known->second];
+  const FileSignature signature(path);
+  const bool is_same = entry.file && entry.signature.is_settled() && signature == entry.signature;
+  if (!is_same) {
+    const auto bytes = read_file(path);
+    if (!bytes) return nullptr;
+    std::string text = text_of(*bytes);
+    if (!entry.file || entry.file->source()->text != text) {
+      entry.file = std::make_shared<KeptFile>(known->second, ++versions_, path, std::move(text));
+    }
+    entry.signature = signature;
+  }
+  entry.is_open = true;
+  return entry.file;
+}
+
+void KeptSources::end() {
+  for (Entry& entry : files_) {
+    if (!entry.file) continue;
+    entry.file->is_complete = entry.file->is_read;
+    if (!entry.is_open || !entry.file->is_read) entry.file = nullptr;
+  }
+}
+
+}  // namespace language

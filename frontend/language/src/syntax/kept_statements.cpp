@@ -1,0 +1,52 @@
+// Statements at the top level of files that do not change are parsed once.
+#include "syntax/parser.hpp"
+
+namespace language {
+
+void Parser::set_arena(std::pmr::memory_resource& arena) {
+  arena_ = &arena;
+  lexer_.set_arena(arena);
+}
+
+/// Adds the statement that begins at the boundary to the scope, and goes on behind it, if it is
+/// kept.
+bool Parser::take_kept_statement(ScopeBuilder& scope) {
+  const Place place = boundary();
+  KeptFile* const file = program_.kept_file(place.file);
+  const KeptStatement* const statement = file ? file->find(place.offset) : nullptr;
+  if (!statement) return false;
+  for (const TopLevelItem& item : file->items(*statement)) {
+    if (const auto* assignment = std::get_if<Assignment>(&item)) {
+      add(scope, *assignment);
+    } else {
+      std::visit([&](const auto& other) { scope.add(other); }, item);
+    }
+  }
+  items_.clear();
+  ahead_ = 0;
+  lexer_.go_on_at(statement->end);
+  return true;
+}
+
+/// Parses the statement whose first token has been read, and keeps it if it may be kept.
+void Parser::parse_top_statement(ScopeBuilder& scope) {
+  const Place begin = tokens_[0].place;
+  KeptFile* const file = program_.kept_file(begin.file);
+  items_.clear();
+  // Behind the end of a file nested scopes do not warn of assignments that are overwritten.
+  if (!file || file->is_complete || is_behind_file_) return parse_statement(scope);
+  const KeptStatement start{lexer_.blank_begin(), begin.offset, 0, 0, 0};
+  const uint32_t entries = lexer_.entries();
+  const size_t warnings = messages_.warnings() - warnings_of_top_level_;
+  set_arena(file->arena());
+  parse_statement(scope);
+  set_arena(program_.arena);
+  const Place end = boundary();
+  const bool is_silent = messages_.warnings() - warnings_of_top_level_ == warnings;
+  if (!is_silent || is_behind_file_ || lexer_.entries() != entries) return;
+  KeptStatement statement = start;
+  statement.end = end.offset;
+  file->add(statement, items_);
+}
+
+}  // namespace language

@@ -1,0 +1,201 @@
+// Random edits of random designs: an evaluation with a cache yields what one without it does.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "evaluation/cache_parts.hpp"
+#include "language/csg_writer.hpp"
+#include "language/evaluation.hpp"
+#include "syntax/parsed_design.hpp"
+
+namespace language {
+namespace {
+
+struct Shown {
+  Evaluation evaluation;
+  Lines lines;
+  Lines places;  // of all nodes, as path, line and column
+};
+
+Lines places_of(const Evaluation& evaluation) {
+  const SourceFiles& files = *evaluation.files;
+  Lines places;
+  for (uint32_t i = 0; i < evaluation.tree.size(); ++i) {
+    const Node& node = evaluation.tree.nodes[i];
+    if (node.place.file == kNoFile || !files.has(node.place.file)) continue;
+    places.push_back(
+        files[node.place.file].path + ":" + std::to_string(files.message_line(node.place)) + ":" +
+        std::to_string(files.line(node.place)) + ":" + std::to_string(files.column(node.place)) +
+        ":" + std::to_string(node.place.offset) + " " + std::string(node.name));
+  }
+  return places;
+}
+
+Shown shown(EvaluationCache* cache) {
+  EvaluationOptions options;
+  options.cache = cache;
+  Shown shown;
+  shown.evaluation = evaluate("main.scad", options,
+                              [&](std::string_view line) { shown.lines.emplace_back(line); });
+  shown.places = places_of(shown.evaluation);
+  return shown;
+}
+
+/// Returns the tree as text: numbers of files differ between caches.
+std::string text_of(const Evaluation& evaluation) { return csg_text(evaluation.tree); }
+
+void expect_same(EvaluationCache& cache) {
+  const Shown kept = shown(&cache), fresh = shown(nullptr);
+  EXPECT_EQ(kept.evaluation.outcome, fresh.evaluation.outcome);
+  EXPECT_EQ(text_of(kept.evaluation), text_of(fresh.evaluation));
+  EXPECT_EQ(kept.lines, fresh.lines);
+  EXPECT_EQ(kept.places, fresh.places);
+  EXPECT_EQ(kept.evaluation.files_read, fresh.evaluation.files_read);
+  EXPECT_EQ(kept.evaluation.lookups, fresh.evaluation.lookups);
+  EXPECT_EQ(kept.evaluation.camera.distance, fresh.evaluation.camera.distance);
+}
+
+class RandomDesign {
+ public:
+  explicit RandomDesign(uint32_t seed) : random_(seed) {
+    for (const char* name : kFiles) files_[name] = file(name);
+  }
+  void write(const DesignFolder& folder) const {
+    for (const auto& [name, text] : files_) folder.write(name, text);
+  }
+  void edit() {
+    std::string& text = files_[kFiles[pick(std::size(kFiles))]];
+    switch (pick(6)) {
+      case 0:
+        text += statement();
+        break;
+      case 1:
+        text = statement() + text;
+        break;
+      case 2:
+        if (!text.empty()) text.erase(pick(text.size()), pick(12));
+        break;
+      case 3:
+        text.insert(pick(text.size() + 1), kPieces[pick(std::size(kPieces))]);
+        break;
+      default:
+        if (const size_t digit = text.find_first_of("0123456789", pick(text.size() + 1));
+            digit != text.npos) {
+          text[digit] = static_cast<char>('0' + pick(10));
+        }
+    }
+  }
+
+ private:
+  static constexpr const char* kFiles[] = {"main.scad", "a.scad", "b.scad", "c.scad", "sub/d.scad"};
+  static constexpr const char* kPieces[] = {"\n",
+                                            "\r\n",
+                                            "// c\n",
+                                            "/* x\n */",
+                                            ";",
+                                            "}",
+                                            "{",
+                                            "include <b.scad>\n",
+                                            "use <c.scad>\n",
+                                            "$x = 3;",
+                                            "else",
+                                            "\"s\n\"",
+                                            "include <sub/d.scad>"};
+
+  size_t pick(size_t count) { return count ? random_() % count : 0; }
+  std::string number() { return std::to_string(pick(10)); }
+  std::string name() { return std::string(1, static_cast<char>('p' + pick(5))); }
+
+  std::string statement() {
+    switch (pick(15)) {
+      case 0:
+        return name() + " = " + name() + " + " + number() + ";\n";
+      case 1:
+        return "function " + name() + "(x = 1) = x * " + name() + " + $x;\n";
+      case 2:
+        return "module " + name() + "(x = " + number() + ") { cube(x + " + name() +
+               "); children(); }\n";
+      case 3:
+        return name() + "(" + number() + ") sphere($x);\n";
+      case 4:
+        return "if (" + name() + " > 3) cube(" + number() + ");\n";
+      case 5:
+        return "echo(" + name() + "(" + number() + "), " + name() + ");\n";
+      case 6:
+        return "include <b.scad>\n";
+      case 7:
+        return "use <c.scad>\n";
+      case 8:
+        return "use <sub/d.scad>\n";
+      case 9:
+        return "{ " + name() + " = 1; cube(" + name() + "); }\n";
+      case 10:
+        return "$x = " + number() + ";\n";
+      case 11:
+        return "module " + name() + "() { y = 1; y = 2; for (i = [0:" + number() +
+               "]) translate([i, y, 0]) cube(i); }\n";
+      case 12:
+        return "include <missing.scad>\n";
+      case 13:
+        return name() + " = [for (i = [" + number() + ":" + number() + "]) [i, \"t\"]];\n";
+      default:
+        return name() + " = " + number() + "; // comment\n";
+    }
+  }
+  std::string file(const std::string& name) {
+    std::string text = name == "main.scad" ? "include <a.scad>\nuse <c.scad>\n" : "";
+    for (size_t count = 2 + pick(8); count > 0; --count) text += statement();
+    return text;
+  }
+
+  std::mt19937 random_;
+  std::map<std::string, std::string> files_;
+};
+
+size_t wanted_edits() {
+  const char* wanted = std::getenv("SCADRAY_KEPT_EDITS");
+  return wanted ? std::stoul(wanted) : 300;
+}
+
+TEST(KeptEvaluation, YieldsWhatAFreshOneDoes) {
+  constexpr size_t kEditsPerDesign = 20;
+  const DesignFolder folder;
+  for (size_t edit = 0; edit < wanted_edits();) {
+    const auto seed = static_cast<uint32_t>(edit);
+    EvaluationCache cache;
+    RandomDesign design(seed);
+    for (size_t i = 0; i < kEditsPerDesign; ++i, ++edit) {
+      design.write(folder);
+      expect_same(cache);
+      if (HasFailure()) FAIL() << "seed " << seed << ", edit " << i;
+      design.edit();
+    }
+  }
+}
+
+TEST(KeptEvaluation, DoesNotGrow) {
+  const DesignFolder folder;
+  folder.write("lib.scad", "v = 1; module m(x) cube(x);\n");
+  EvaluationCache cache;
+  size_t most = 0;
+  for (int save = 0; save < 2000; ++save) {
+    folder.write("main.scad", "use <lib.scad>\nname" + std::to_string(save) + " = 1; m(2);\n");
+    shown(&cache);
+    most = std::max(most, cache.parts().sources->size());
+  }
+  EXPECT_LT(most, 2000u);
+}
+
+TEST(KeptEvaluation, TellsZerosApart) {
+  const DesignFolder folder;
+  folder.write("lib.scad", "inverse = 1 / $x; function f() = inverse;\n");
+  folder.write("main.scad", "use <lib.scad>\nlet ($x = 0) echo(f()); let ($x = -0) echo(f());\n");
+  EvaluationCache cache;
+  EXPECT_EQ(shown(&cache).lines, shown(nullptr).lines);
+  EXPECT_EQ(shown(nullptr).lines, (Lines{"ECHO: inf", "ECHO: -inf"}));
+}
+
+}  // namespace
+}  // namespace language
