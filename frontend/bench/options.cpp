@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "command/arguments.hpp"
+#include "command/option_words.hpp"
 #include "option_rows.hpp"
 
 namespace bench {
@@ -53,6 +54,8 @@ Options parse_options(const std::vector<std::string>& words) {
   if (!warning.empty()) frontend::fail(warning, {});
   options.import.rendering.timeout_s = frontend::read_openscad_timeout(arguments);
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
+  options.evaluator =
+      frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);
   frontend::RenderSettings render;
   frontend::read_cells_and_threads(arguments, render);
   Settings& settings = options.settings;
@@ -76,7 +79,7 @@ std::string help_text() {
           "turning camera; and what the paper measures: S subdivide, T_S traverse and pass the\n"
           "parameters to OpenGL, T_R traverse and render, S_R render while subdividing. FILE is a "
           ".csg,\n"
-          "a .scad (exported by OpenSCAD), or - for a .csg from standard input. The pictures are\n"
+          "a .scad, or - for a .csg from standard input. The pictures are\n"
           "compared first: exit status 1 where they differ, or anything fails.\n"
        << option_table();
   return text.str();

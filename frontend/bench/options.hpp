@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/camera.hpp"
+#include "frontend/evaluator.hpp"
 #include "frontend/importer.hpp"
 #include "measurement.hpp"
 
@@ -19,7 +20,8 @@ struct Options {
   std::vector<std::string> inputs;  // at least one; "-", at most once: a .csg from standard input
   frontend::CameraOptions camera;
   frontend::ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
+  frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
   Settings settings;
   bool json = false;
   bool quiet = false;

@@ -59,6 +59,7 @@ class Run {
     frontend::DesignFileOptions reading;
     reading.import = options_.import;
     reading.openscad_arguments = options_.openscad_arguments;
+    reading.evaluator = options_.evaluator;
     reading.message = [this](const std::string& line) {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };

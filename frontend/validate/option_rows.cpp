@@ -29,6 +29,9 @@ constexpr OptionRow kOptions[] = {
      "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
      "0: it is left out"},
     {"skip-unsupported", Takes::kNothing, "", "without effect: what is not drawn is left out"},
+    {"evaluator", Takes::kText, "WHO",
+     "what evaluates a .scad: own (scadray itself) or openscad; default own",
+     frontend::kOneOf<frontend::kEvaluators>},
     {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
     {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", frontend::kAnyFile},
     {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},

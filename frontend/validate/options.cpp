@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "command/arguments.hpp"
+#include "command/option_words.hpp"
 #include "option_rows.hpp"
 #include "planted_error.hpp"
 
@@ -60,6 +61,8 @@ Options parse_options(const std::vector<std::string>& words) {
   if (const char* error = std::getenv(kPlantedErrorVariable)) settings.planted_error = error;
   options.import.rendering.timeout_s = frontend::read_openscad_timeout(arguments);
   options.openscad_arguments = frontend::openscad_arguments_of(arguments);
+  options.evaluator =
+      frontend::choice(arguments, "evaluator", frontend::kEvaluators, frontend::kDefaultEvaluator);
   return options;
 }
 
@@ -68,7 +71,7 @@ std::string help_text() {
   text << "Usage: scadray validate [options] FILE\n"
           "Compares what scadray draws of a design with exact arithmetic by CGAL. FILE is a .csg, "
           "a\n"
-          ".scad (exported by OpenSCAD), or - for a .csg from standard input. Exit status: 0 "
+          ".scad, or - for a .csg from standard input. Exit status: 0 "
           "agrees,\n"
           "2 disagrees, 1 failed.\n"
        << option_table();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/evaluator.hpp"
 #include "frontend/importer.hpp"
 #include "validation.hpp"
 
@@ -18,7 +19,8 @@ struct Options {
   std::string input;   // "-": a .csg from standard input
   std::string report;  // empty: none; "-": standard output
   frontend::ImportOptions import;
-  std::vector<std::string> openscad_arguments;  // handed on to openscad for a .scad
+  std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad
+  frontend::Evaluator evaluator = frontend::kDefaultEvaluator;
   Settings settings;
   unsigned threads = 0;  // 0: as many as the machine has
   bool quiet = false;

@@ -226,14 +226,15 @@ TEST_F(Bench, WhatCannotBeDrawnIsLeftOut) {
   }
 }
 
-TEST_F(Bench, ExportsAScadAndShowsItsWarningsUnlessQuiet) {
+TEST_F(Bench, EvaluatesAScadAndShowsItsWarningsUnlessQuiet) {
   const Environment environment(
       "OPENSCAD", folder_.script("openscad", "echo 'WARNING: so' >&2; echo 'sphere(r = 1);'"));
-  const std::string file = folder_.write("a.scad", "sphere(1);");
-  const Outcome outcome = run_few({"-D", "a=1", file});
+  const std::string file = folder_.write("a.scad", "sphere(nope);");
+  const Outcome outcome = run_few({"--evaluator=openscad", "-D", "a=1", file});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("WARNING: so"));
   EXPECT_THAT(outcome.out, HasSubstr("1 primitives"));
+  EXPECT_THAT(run_few({file}).err, HasSubstr("'nope'"));
   EXPECT_EQ(run_few({"-q", file}).err, "");
 }
 

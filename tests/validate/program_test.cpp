@@ -326,12 +326,17 @@ TEST_F(Validate, HelpAndVersion) {
   EXPECT_THAT(run({"-v"}).out, MatchesRegex("scadray-validate version [0-9.]+\n"));
 }
 
-TEST_F(Validate, ExportsAScad) {
+TEST_F(Validate, EvaluatesAScad) {
   const std::string openscad = folder_.script("openscad", "echo 'sphere(r = 1, $fn = 0);'");
   const Environment environment("OPENSCAD", openscad);
-  const Outcome outcome = run_few({folder_.write("a.scad", "sphere(1);")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("in facets"));
+  const std::string file = folder_.write("a.scad", "sphere(1, $fn = 0); echo(\"own\");");
+  const Outcome own = run_few({file});
+  EXPECT_EQ(own.code, 0) << own.err;
+  EXPECT_THAT(own.err, HasSubstr("own"));
+  const Outcome exported = run_few({"--evaluator=openscad", file});
+  EXPECT_EQ(exported.code, 0) << exported.err;
+  EXPECT_EQ(exported.err, "");
+  EXPECT_THAT(exported.out, HasSubstr("in facets"));
 }
 
 // Also while CGAL works in a process of its own, which ends as well.

@@ -88,10 +88,11 @@ TEST(Customizer, DescriptionsStandInTheLineAbove) {
 TEST(Customizer, GroupsLastUntilTheNext) {
   EXPECT_EQ(lines_of("a=1;\n/* [ Size ] */\nb=1;\nc=1; /* [Shape] */\nd=1;\n/*[Hidden]*/\ne=1;\n"),
             (Lines{"a=1", "[Size] b=1", "[Size] c=1", "[Shape] d=1", "[Hidden] e=1"}));
-  EXPECT_EQ(lines_of("/* [A] */ /* [B] */\na=1;\n/* two\n[lines] */\nb=1;\n/* plain */\nc=1;\n"
-                     "/* x [ C ] y [ D ] */\nd=1; /* [E] */ e=1;\n// [F]\nf=\"/* [G] */\";\ng=1;\n"),
-            (Lines{"[B] a=1", "[B] b=1", "c=1", "[C - D] d=1", "[C - D] e=1",
-                   "[E] f=/* [G] */ ([F])", "[E] g=1"}));
+  EXPECT_EQ(
+      lines_of("/* [A] */ /* [B] */\na=1;\n/* two\n[lines] */\nb=1;\n/* plain */\nc=1;\n"
+               "/* x [ C ] y [ D ] */\nd=1; /* [E] */ e=1;\n// [F]\nf=\"/* [G] */\";\ng=1;\n"),
+      (Lines{"[B] a=1", "[B] b=1", "c=1", "[C - D] d=1", "[C - D] e=1", "[E] f=/* [G] */ ([F])",
+             "[E] g=1"}));
 }
 
 TEST(Customizer, CommentsBelongToTheOnlyStatementOfALine) {
