@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "language/csg_writer.hpp"
 #include "language/stopped.hpp"
@@ -115,6 +117,30 @@ TEST(Evaluation, StopsWhenAsked) {
   const std::string file = folder.write(
       "endless.scad", "echo(1);\nfor (i = [0:9998], j = [0:9998], k = [0:9998]) let (a = i) { }\n");
   EXPECT_THROW(evaluate(file, options, sink), Stopped);
+}
+
+// Each of these takes minutes to years within one instruction.
+TEST(Evaluation, StopsWithinAnInstruction) {
+  const std::string nested =
+      "echo(1); function twice(n) = n == 0 ? [1] : let (half = twice(n - 1)) [half, half];\n"
+      "m = [for (i = [0:1499]) [for (j = [0:1499]) i + j]]; q = [for (i = [0:500000]) i];\n";
+  for (const char* endless : {"echo(twice(60) == twice(60));", "echo(twice(60) < twice(60));",
+                              "echo(len(search([twice(50)], [twice(50)])));", "echo(len(m * m));",
+                              "echo(len(search([for (i = q) -1], q)));"}) {
+    std::stop_source source;
+    EvaluationOptions options;
+    options.stop = source.get_token();
+    const Folder folder;
+    const std::string file = folder.write("endless.scad", nested + endless);
+    std::jthread stopper;
+    const auto sink = [&](std::string_view) {
+      stopper = std::jthread([&source] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        source.request_stop();
+      });
+    };
+    EXPECT_THROW(evaluate(file, options, sink), Stopped) << endless;
+  }
 }
 
 TEST(Evaluation, TakesParametersAndTheTime) {

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/with_deep_stack.hpp"
+#include "base/work_meter.hpp"
 #include "evaluation/builtin_shapes.hpp"
 #include "evaluation/cache_parts.hpp"
 #include "evaluation/machine.hpp"
@@ -198,7 +199,10 @@ Evaluation Session::run() {
   options.standard_input = standard_input_;
   const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
   if (parsed == ParseOutcome::kParsed) {
-    with_deep_stack([&] { evaluate_program(); });
+    with_deep_stack([&] {
+      const WorkWatch watch(options_.stop);
+      evaluate_program();
+    });
   } else {
     result_.outcome =
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;

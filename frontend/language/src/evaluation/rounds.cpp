@@ -1,5 +1,6 @@
 // Loops: over ranges, vectors, strings and single values.
 #include "base/utf8.hpp"
+#include "base/work_meter.hpp"
 #include "evaluation/machine.hpp"
 #include "values/make.hpp"
 #include "values/range.hpp"
@@ -13,6 +14,7 @@ constexpr double kRoundLimit = 1000000;  // of a C-style for
 
 void append_characters(Value& vector, std::string_view text) {
   while (!text.empty()) {
+    count_work();
     const size_t length = code_point_length(text);
     append_element(vector, make_string(text.substr(0, length)));
     text.remove_prefix(length);

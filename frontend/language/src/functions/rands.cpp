@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "base/work_meter.hpp"
 #include "functions/functions.hpp"
 #include "values/make.hpp"
 
@@ -82,8 +83,10 @@ Value random_numbers(const FunctionCall& call) {
   if (arguments.size() > 3) random.seed(seed_of(arguments[3].number()));
   const size_t count = count_of(arguments[2]);
   Value result = make_vector(count);
-  for (size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i) {
+    count_work();
     append_element(result, least == most ? least : draw(random) * (most - least) + least);
+  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/number_conversions.hpp"
 #include "base/utf8.hpp"
+#include "base/work_meter.hpp"
 #include "functions/functions.hpp"
 #include "values/make.hpp"
 #include "values/operators.hpp"
@@ -10,6 +11,8 @@
 
 namespace language::functions {
 namespace {
+
+constexpr size_t kWorkOfText = 16;  // that is made of a number, to compare its first character
 
 uint32_t unsigned_or(const FunctionCall& call, size_t index, uint32_t otherwise) {
   if (index >= call.arguments.size()) return otherwise;
@@ -30,8 +33,10 @@ class Search {
   Value indices_of(const Value& wanted) const {
     Value indices = make_vector();
     const auto entries = entries_of(table_);
-    for (size_t i = 0; i < entries.size() && !has_enough(indices); ++i)
+    for (size_t i = 0; i < entries.size() && !has_enough(indices); ++i) {
+      count_work();
       if (matches(entries[i], wanted)) append_element(indices, static_cast<double>(i));
+    }
     return indices;
   }
 
@@ -86,6 +91,7 @@ class Search {
     const uint32_t code_point = first_code_point(character);
     std::string_view rest = table_.text();
     for (double i = 0; !has_enough(indices); ++i) {
+      count_work();
       const size_t length = code_point_length(rest);
       if (length == 0) break;
       if (first_code_point(rest) == code_point) append_element(indices, i);
@@ -99,6 +105,7 @@ class Search {
     Value indices = make_vector();
     const auto entries = entries_of(table_);
     for (size_t i = 0; i < entries.size() && !has_enough(indices); ++i) {
+      count_work(kWorkOfText);
       const auto parts = entries_of(entries[i]);
       if (column_ >= parts.size()) {
         warn_of_entry(i, entries[i]);

@@ -5,6 +5,7 @@
 
 #include "base/number_conversions.hpp"
 #include "base/utf8.hpp"
+#include "base/work_meter.hpp"
 #include "functions/functions.hpp"
 #include "values/make.hpp"
 #include "values/object_memory.hpp"
@@ -24,6 +25,7 @@ void append_character(std::string& out, double number) {
 void append_range_characters(std::string& out, const RangeObject& range) {
   if (range.count() >= kMostRangeValues) return;
   const uint32_t steps = range.steps();
+  count_work(steps);
   for (uint32_t i = 0; i < steps; ++i) append_character(out, range.value(i));
 }
 
@@ -33,6 +35,7 @@ template <typename Visit>
 void visit_leaves(const Value& value, Visit visit) {
   std::vector<std::span<const Value>> rests{{&value, 1}};
   while (!rests.empty()) {
+    count_work();
     auto& rest = rests.back();
     if (rest.empty()) {
       rests.pop_back();

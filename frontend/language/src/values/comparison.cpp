@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/work_meter.hpp"
 #include "values/level_stack.hpp"
 #include "values/range.hpp"
 
@@ -89,6 +90,7 @@ Ordering order(const Value& left, std::string_view sign, const Value& right,
   pairs.push(left, right);
   while (true) {
     Ordering ordering = Ordering::kNeither;
+    count_work();
     Pair& pair = pairs.top();
     if (pair.has_both()) {
       const Value &a = pair.left[pair.next], &b = pair.right[pair.next];
@@ -113,6 +115,7 @@ bool are_equal(const Value& left, const Value& right) {
   LevelStack<Pair> pairs;
   pairs.push(left, right);
   while (!pairs.empty()) {
+    count_work();
     Pair& pair = pairs.top();
     if (pair.left.size() != pair.right.size()) return false;
     if (!pair.has_both()) {

@@ -76,6 +76,7 @@ void make_room(Value& value, size_t count) {
 void append_elements(Value& value, std::span<const Value> elements) {
   // The elements may be the vector's own, which move or vanish with the old block.
   const Value kept = vector_of(value).elements() == elements.data() ? value : Value();
+  count_work(elements.size());
   make_room(value, elements.size());
   VectorObject& vector = vector_of(value);
   std::uninitialized_copy(elements.begin(), elements.end(), vector.elements() + vector.size);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/work_meter.hpp"
 #include "values/small_blocks.hpp"
 
 namespace language {
@@ -30,9 +31,12 @@ inline void check_text_size(size_t bytes) {
     throw OutOfValueMemory();
 }
 
-/// Returns a block that is aligned for any object, of more than 0 bytes. Throws OutOfValueMemory.
+/// Returns a block that is aligned for any object, of more than 0 bytes. Throws OutOfValueMemory,
+/// and Stopped: a block is filled.
 inline void* allocate_object(size_t bytes) {
+  constexpr size_t kBytesOfWork = 32;
   check_text_size(bytes);
+  if (!SmallBlocks::holds(bytes)) count_work(bytes / kBytesOfWork);
   void* block = SmallBlocks::holds(bytes) ? small_blocks.take(bytes) : std::malloc(bytes);
   if (!block) throw OutOfValueMemory();
   object_memory.used += static_cast<int64_t>(bytes);

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "base/work_meter.hpp"
 #include "values/level_stack.hpp"
 #include "values/make.hpp"
 
@@ -40,8 +41,10 @@ Value map_leaves(const Value& vector, Leaf leaf) {
     Level(const Value& source, const Leaf& of_leaf)
         : rest(source.elements()), leaf(of_leaf), result(make_vector(rest.size())) {}
     bool fill() {
-      for (; !rest.empty() && !rest.front().is_vector(); rest = rest.subspan(1))
+      for (; !rest.empty() && !rest.front().is_vector(); rest = rest.subspan(1)) {
+        count_work();
         append_element(result, leaf(rest.front()));
+      }
       return rest.empty();
     }
     Level next() {
@@ -68,8 +71,10 @@ Value map_pairs(const Value& left_vector, const Value& right_vector, Leaf leaf) 
           leaf(of_leaf),
           result(make_vector(static_cast<size_t>(end - left))) {}
     bool fill() {
-      for (; left != end && !(left->is_vector() && right->is_vector()); ++left, ++right)
+      for (; left != end && !(left->is_vector() && right->is_vector()); ++left, ++right) {
+        count_work();
         append_element(result, leaf(*left, *right));
+      }
       return left == end;
     }
     Level next() { return Level(left++->elements(), right++->elements(), leaf); }

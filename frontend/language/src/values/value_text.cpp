@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/work_meter.hpp"
 #include "values/function_object.hpp"
 #include "values/object_memory.hpp"
 #include "values/range.hpp"
@@ -50,12 +51,15 @@ void append_leaf(std::string& out, const Value& value) {
   }
 }
 
+constexpr size_t kWorkOfElement = 16;  // a number's text takes some 100 ns
+
 // Appends a vector. What is being written lies on a stack of its own, since vectors nest deeply.
 void append_vector(std::string& out, std::span<const Value> elements) {
   std::vector<std::span<const Value>> rests{elements};  // of each open bracket, what is not written
   out += '[';
   while (true) {
     check_text_size(out.size());
+    count_work(kWorkOfElement);
     std::span<const Value>& rest = rests.back();
     if (rest.empty()) {
       out += ']';

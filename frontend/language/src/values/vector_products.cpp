@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "base/work_meter.hpp"
 #include "values/make.hpp"
 
 namespace language {
@@ -60,6 +61,7 @@ Value matrix_times_vector(Row matrix, Row vector, OperatorProblem& problem) {
                              lengths(columns, vector.size()));
   Value result = make_vector(matrix.size());
   for (size_t i = 0; i < matrix.size(); ++i) {
+    count_work(columns);
     if (!is_row(matrix[i], columns)) return fail(problem, not_rectangular(i));
     const Row row = matrix[i].elements();
     double sum = 0;
@@ -86,6 +88,7 @@ Value vector_times_matrix(Row vector, Row matrix, OperatorProblem& problem) {
   const size_t columns = matrix.front().elements().size();
   Value result = make_vector(columns);
   for (size_t i = 0; i < columns; ++i) {
+    count_work(vector.size());
     double sum = 0;
     for (size_t j = 0; j < vector.size(); ++j) {
       if (!is_row(matrix[j], columns)) return fail_twice(problem, not_rectangular(j));

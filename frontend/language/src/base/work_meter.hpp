@@ -1,0 +1,36 @@
+// Lets long work within one instruction notice that the evaluation is to stop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+
+namespace language {
+
+/// The work that this thread's evaluation may still do before it looks whether it is to stop. A
+/// unit takes some nanoseconds: an element of a vector, or 32 bytes of text.
+struct WorkMeter {
+  int64_t left = 0;
+  const std::stop_token* stop = nullptr;  // null: nothing can stop it
+};
+extern constinit thread_local WorkMeter work_meter;
+
+/// Throws Stopped (language/stopped.hpp) if the evaluation is to stop.
+void look_whether_to_stop();
+
+/// Counts work that has been done. Throws Stopped within some milliseconds of a request to stop.
+inline void count_work(size_t units = 1) {
+  work_meter.left -= static_cast<int64_t>(units);
+  if (work_meter.left < 0) look_whether_to_stop();
+}
+
+/// As long as it lives, the work of this thread can be stopped.
+class WorkWatch {
+ public:
+  explicit WorkWatch(const std::stop_token& stop) { work_meter = {0, &stop}; }
+  ~WorkWatch() { work_meter = {}; }
+  WorkWatch(const WorkWatch&) = delete;
+  WorkWatch& operator=(const WorkWatch&) = delete;
+};
+
+}  // namespace language
