@@ -2,15 +2,16 @@
 #pragma once
 
 #include <algorithm>
-#include <memory_resource>
 #include <span>
 #include <vector>
+
+#include "syntax/arena.hpp"
 
 namespace language {
 
 /// Copies elements to an arena. They need no destruction.
 template <typename T>
-std::span<const T> copy_to_arena(std::pmr::memory_resource& arena, std::span<const T> elements) {
+std::span<const T> copy_to_arena(Arena& arena, std::span<const T> elements) {
   if (elements.empty()) return {};
   auto* copy = static_cast<T*>(arena.allocate(elements.size_bytes(), alignof(T)));
   std::uninitialized_copy(elements.begin(), elements.end(), copy);
@@ -31,7 +32,7 @@ class ArenaList {
   size_t size() const { return shared_.size() - begin_; }
   T& operator[](size_t i) { return shared_[begin_ + i]; }
   /// Returns the elements, copied to an arena.
-  std::span<const T> finish(std::pmr::memory_resource& arena) const {
+  std::span<const T> finish(Arena& arena) const {
     return copy_to_arena(arena, std::span<const T>(shared_).subspan(begin_));
   }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <memory_resource>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "language/source_files.hpp"
+#include "syntax/arena.hpp"
 #include "syntax/syntax.hpp"
 
 namespace language {
@@ -39,7 +39,7 @@ class KeptFile {
   uint64_t version() const { return version_; }
   const std::shared_ptr<SourceFile>& source() const { return source_; }
   /// Where the nodes of statements lie that are to be kept.
-  std::pmr::memory_resource& arena() { return arena_; }
+  Arena& arena() { return arena_; }
 
   /// Whether the file has been read to its end. Statements are added until the evaluation ends in
   /// which that happens.
@@ -65,7 +65,7 @@ class KeptFile {
   const FileId number_;
   const uint64_t version_;
   const std::shared_ptr<SourceFile> source_;
-  std::pmr::monotonic_buffer_resource arena_;
+  Arena arena_;
   std::vector<KeptStatement> statements_;  // in the order of the text
   std::vector<TopLevelItem> items_;
   size_t next_ = 0;  // the statement behind the one that was found last

@@ -3,7 +3,7 @@
 
 namespace language {
 
-void Parser::set_arena(std::pmr::memory_resource& arena) {
+void Parser::set_arena(Arena& arena) {
   arena_ = &arena;
   lexer_.set_arena(arena);
 }

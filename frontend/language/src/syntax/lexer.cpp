@@ -10,8 +10,8 @@
 
 namespace language {
 
-Lexer::Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena,
-             Messages& messages, FileLookup& lookup, const Main& main)
+Lexer::Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messages,
+             FileLookup& lookup, const Main& main)
     : files_(files),
       names_(names),
       arena_(&arena),
@@ -66,7 +66,9 @@ void Lexer::next(Token& token) {
 /// Skips blanks and comments. Returns false if a comment is not terminated.
 bool Lexer::skip_blank() {
   for (;;) {
+    while (*cursor_ == ' ') ++cursor_;
     const char c = *cursor_;
+    if (is_word(c)) return true;
     if (c == '\n' || c == '\r') {
       begin_line_at(++cursor_);
     } else if (is_blank(c)) {

@@ -1,13 +1,13 @@
 // Splits the text of a file, and of the files that it includes, into tokens (LANGUAGE.md, "Text").
 #pragma once
 
-#include <memory_resource>
 #include <string>
 #include <vector>
 
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
 #include "messages/messages.hpp"
+#include "syntax/arena.hpp"
 #include "syntax/file_lookup.hpp"
 #include "syntax/token.hpp"
 
@@ -26,8 +26,8 @@ class Lexer {
 
   /// Lexes a file. `names` must begin with kFirstNames. Texts
   /// of tokens lie in the arena.
-  Lexer(SourceFiles& files, NameTable& names, std::pmr::memory_resource& arena, Messages& messages,
-        FileLookup& lookup, const Main& main);
+  Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messages, FileLookup& lookup,
+        const Main& main);
 
   /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
   void next(Token& token);
@@ -39,7 +39,7 @@ class Lexer {
   /// Returns how often another file was entered: text between which it differs is not of one file.
   uint32_t entries() const { return entries_; }
   /// Sets where texts of tokens lie.
-  void set_arena(std::pmr::memory_resource& arena) { arena_ = &arena; }
+  void set_arena(Arena& arena) { arena_ = &arena; }
   /// Says a parser error about the last token, and throws SyntaxError.
   [[noreturn]] void fail(const std::string& text) const;
   /// Fails if there was a warning since the lexer was made, and warnings are errors.
@@ -82,7 +82,7 @@ class Lexer {
 
   SourceFiles& files_;
   NameTable& names_;
-  std::pmr::memory_resource* arena_;
+  Arena* arena_;
   Messages& messages_;
   FileLookup& lookup_;
   bool hard_warnings_;

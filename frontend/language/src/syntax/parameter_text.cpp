@@ -54,7 +54,7 @@ bool strip(std::string_view& text, char first, char last) {
 
 class LiteralMaker {
  public:
-  LiteralMaker(std::pmr::memory_resource& arena, Place place) : arena_(arena), place_(place) {}
+  LiteralMaker(Arena& arena, Place place) : arena_(arena), place_(place) {}
 
   template <typename Node, typename... Fields>
   const Expression* make(ExpressionKind kind, Fields... fields) {
@@ -81,7 +81,7 @@ class LiteralMaker {
  private:
   const Expression* make_element(std::string_view text);
 
-  std::pmr::memory_resource& arena_;
+  Arena& arena_;
   Place place_;
 };
 
@@ -131,8 +131,8 @@ const Expression* LiteralMaker::make_range(std::string_view text) {
 
 }  // namespace
 
-const Expression* parameter_literal(std::pmr::memory_resource& arena, Place place,
-                                    std::string_view text, ValueType type) {
+const Expression* parameter_literal(Arena& arena, Place place, std::string_view text,
+                                    ValueType type) {
   LiteralMaker maker(arena, place);
   switch (type) {
     case ValueType::kBool:

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <charconv>
-#include <memory_resource>
 
+#include "syntax/arena.hpp"
 #include "syntax/parameter_text.hpp"
 
 namespace language {
@@ -109,7 +109,7 @@ std::string set_text(const ParameterValue& value) {
 }
 
 std::optional<ParameterValue> value_of_text(std::string_view text, const ParameterValue& fallback) {
-  std::pmr::monotonic_buffer_resource arena;
+  Arena arena;
   const Expression* literal = parameter_literal(arena, {}, text, type_of(fallback));
   return literal ? literal_value(*literal) : std::nullopt;
 }

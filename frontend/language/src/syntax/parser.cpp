@@ -18,13 +18,6 @@ const Token& Parser::peek_second() {
   return ahead_ > 1 ? tokens_[1] : fetch(1);
 }
 
-/// Removes the token that peek() returns. The next one is not read before it is needed: reading
-/// may include a file, and say that it is missing.
-void Parser::consume() {
-  peek();
-  if (--ahead_ > 0) tokens_[0] = tokens_[1];
-}
-
 Token Parser::take() {
   const Token token = peek();
   consume();
@@ -42,12 +35,6 @@ Place Parser::expect(char sign) {
 Token Parser::expect_name() {
   if (!peek().is(TokenKind::kName)) fail_at_token();
   return take();
-}
-
-bool Parser::accept(char sign) {
-  if (!peek().is(sign)) return false;
-  consume();
-  return true;
 }
 
 /// Consumes commas, and returns how many.

@@ -1,11 +1,11 @@
 // Makes syntax trees of tokens (LANGUAGE.md, "Grammar").
 #pragma once
 
-#include <memory_resource>
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include "syntax/arena.hpp"
 #include "syntax/arena_list.hpp"
 #include "syntax/lexer.hpp"
 #include "syntax/program.hpp"
@@ -43,11 +43,20 @@ class Parser {
   const Token& peek() { return ahead_ > 0 ? tokens_[0] : fetch(0); }
   const Token& peek_second();
   const Token& fetch(int position);
-  void consume();
+  /// Removes the token that peek() returns. The next one is not read before it is needed: reading
+  /// may include a file, and say that it is missing.
+  void consume() {
+    peek();
+    if (--ahead_ > 0) tokens_[0] = tokens_[1];
+  }
   Token take();
   Place expect(char sign);
   Token expect_name();
-  bool accept(char sign);
+  bool accept(char sign) {
+    if (!peek().is(sign)) return false;
+    consume();
+    return true;
+  }
   int accept_commas();
   [[noreturn]] void fail_at_token() const { lexer_.fail("syntax error"); }
 
@@ -55,7 +64,7 @@ class Parser {
   Place boundary() const { return ahead_ > 0 ? tokens_[0].place : lexer_.position(); }
   bool take_kept_statement(ScopeBuilder& scope);
   void parse_top_statement(ScopeBuilder& scope);
-  void set_arena(std::pmr::memory_resource& arena);
+  void set_arena(Arena& arena);
 
   // Statements.
   void parse_statement(ScopeBuilder& scope);
@@ -117,7 +126,7 @@ class Parser {
   Program& program_;
   const SourceFiles& files_;
   const NameTable& names_;
-  std::pmr::memory_resource* arena_;  // where nodes lie
+  Arena* arena_;  // where nodes lie
   Messages& messages_;
   std::stop_token stop_;
 

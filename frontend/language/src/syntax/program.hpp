@@ -3,12 +3,12 @@
 
 #include <deque>
 #include <memory>
-#include <memory_resource>
 #include <string>
 #include <vector>
 
 #include "base/name_table.hpp"
 #include "language/source_files.hpp"
+#include "syntax/arena.hpp"
 #include "syntax/kept_sources.hpp"
 #include "syntax/syntax.hpp"
 
@@ -39,7 +39,7 @@ struct Program {
   std::shared_ptr<KeptSources> kept;
   NameTable& names;
   std::vector<std::shared_ptr<KeptFile>> kept_files;  // by number
-  std::pmr::monotonic_buffer_resource arena;          // holds the syntax trees that are not kept
+  Arena arena;                                        // holds the syntax trees that are not kept
   SourceFiles files;
   std::deque<Unit> units;            // 0 is the main file; each used file stands here once
   std::vector<std::string> lookups;  // absolute paths that were tried and do not exist

@@ -15,7 +15,7 @@ Place ScopeBuilder::add(const Assignment& assignment) {
   return std::exchange(older->place, assignment.place);
 }
 
-const Scope* ScopeBuilder::finish(std::pmr::memory_resource& arena) const {
+const Scope* ScopeBuilder::finish(Arena& arena) const {
   auto* scope = new (arena.allocate(sizeof(Scope), alignof(Scope))) Scope;
   scope->assignments = assignments_.finish(arena);
   scope->functions = functions_.finish(arena);

@@ -1,10 +1,10 @@
 // Gathers what stands in a scope.
 #pragma once
 
-#include <memory_resource>
 #include <unordered_map>
 #include <vector>
 
+#include "syntax/arena.hpp"
 #include "syntax/arena_list.hpp"
 #include "syntax/kept_file.hpp"
 #include "syntax/syntax.hpp"
@@ -69,7 +69,7 @@ class ScopeBuilder {
     calls_.push(call);
   }
   /// Returns the scope, in an arena.
-  const Scope* finish(std::pmr::memory_resource& arena) const;
+  const Scope* finish(Arena& arena) const;
 
  private:
   void note(const TopLevelItem& item) {
