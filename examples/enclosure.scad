@@ -1,7 +1,8 @@
 // A rounded enclosure: shells that are Minkowski sums, standoffs, vents, and a lip for the lid.
-inner = [64, 42, 22];
-wall = 2;
-corner = 5;
+// The room inside, in mm.
+inner = [64, 42, 22];  // [20:120]
+wall = 2;              // [1:0.5:5]
+corner = 5;            // [1:0.5:10]
 
 $fn = 60;
 
