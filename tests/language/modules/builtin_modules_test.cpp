@@ -197,6 +197,11 @@ TEST(BuiltinModules, MakeTransforms) {
        "\tcube(size = [1, 1, 1], center = false);\n"
        "}\n",
        ""},
+      {"rotate(30, [0/0, 7]) cube(1);",
+       "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n"
+       "\tcube(size = [1, 1, 1], center = false);\n"
+       "}\n",
+       ""},
       {"rotate([10,20,30]) cube(1);",
        "multmatrix([[0.813798, -0.44097, 0.378522, 0], [0.469846, 0.882564, 0.0180283, 0], "
        "[-0.34202, 0.163176, 0.925417, 0], [0, 0, 0, 1]]) {\n"
@@ -355,6 +360,10 @@ TEST(BuiltinModules, MakeColors) {
 TEST(BuiltinModules, MakeExtrusions) {
   expect_each({
       {"linear_extrude(5);",
+       "linear_extrude(height = 5, center = false, convexity = 1, scale = [1, 1], $fn = 0, $fa = "
+       "12, $fs = 2);\n",
+       ""},
+      {"i = 7; linear_extrude(i) { i = 5; }",
        "linear_extrude(height = 5, center = false, convexity = 1, scale = [1, 1], $fn = 0, $fa = "
        "12, $fs = 2);\n",
        ""},

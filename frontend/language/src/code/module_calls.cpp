@@ -71,7 +71,7 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   if (module.refuses_children && !(children.calls.empty() && children.assignments.empty()))
     out_.emit(Op::kRefuseChildren, call.place, 0, number);
   if (!module.successor.empty()) out_.emit(Op::kSuccessor, call.place, 0, number);
-  builtin_arguments(call, module, number);
+  builtin_arguments(call, module);
   ScopeLayout* const outer = scope_;
   if (has_block) {
     ScopeLayout& layout = open_scope(true, call.place);
@@ -81,6 +81,7 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
     set_scope_size(open, layout);
     assign(children, nullptr, {call.arguments, nullptr});
   }
+  repeated_argument(call, module, number);  // which sees the block's variables
   const auto popped = static_cast<int>(module.parameters.size()) + 1;
   const uint32_t made =
       out_.emit(Op::kMakeNode, call.place, -popped, 0, number, takes_children ? 1 : 0);
@@ -94,8 +95,7 @@ void CodeCompiler::builtin_module(const ModuleCall& call, const ModuleShape& mod
   drop_to(start, call.place);
 }
 
-void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module,
-                                     uint32_t site) {
+void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& module) {
   const ArgumentPlan plan = compiler_.plan_builtin(module, call.arguments, call.place);
   warn_of_arguments(plan, call.place, false);
   const uint32_t base = out_.depth();
@@ -113,6 +113,11 @@ void CodeCompiler::builtin_arguments(const ModuleCall& call, const ModuleShape& 
       out_.emit(Op::kPop, argument.place, -1);
     }
   }
+}
+
+/// Pushes the first argument, evaluated once more, if the module wants it; else an unset value.
+void CodeCompiler::repeated_argument(const ModuleCall& call, const ModuleShape& module,
+                                     uint32_t site) {
   const bool may_repeat =
       module.wants_first && !call.arguments.empty() && call.arguments.front().name == kNoName;
   if (!may_repeat) return out_.constant(Value::unset(), call.place);

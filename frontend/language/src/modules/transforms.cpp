@@ -42,7 +42,7 @@ Matrix rotation(const Vec3& angles_deg) {
 /// The rotation about an axis, by Rodrigues' formula; the identity if the axis has no length.
 Matrix rotation_about(double angle_deg, const Vec3& axis) {
   const double squared = axis[0] * axis[0] + (axis[1] * axis[1] + axis[2] * axis[2]);
-  if (squared == 0) return kIdentity;
+  if (!(squared > 0)) return kIdentity;  // also for NaN
   const double sine = sine_of_degrees(angle_deg), cosine = cosine_of_degrees(angle_deg);
   const double turn = (1 - cosine) / squared;
   const double length = std::sqrt(squared);
