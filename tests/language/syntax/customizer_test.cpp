@@ -9,7 +9,7 @@
 namespace language {
 namespace {
 
-using Lines = std::vector<std::string>;
+using ParameterLines = std::vector<std::string>;
 
 /// Returns a parameter as one line: what of it is not empty.
 std::string line_of(const CustomizerParameter& parameter) {
@@ -29,8 +29,8 @@ std::string line_of(const CustomizerParameter& parameter) {
   return line.str();
 }
 
-Lines lines_of(std::string_view text) {
-  Lines lines;
+ParameterLines lines_of(std::string_view text) {
+  ParameterLines lines;
   const auto parameters = customizer_parameters(text);
   if (!parameters) return {"a syntax error"};
   for (const CustomizerParameter& parameter : *parameters) lines.push_back(line_of(parameter));
