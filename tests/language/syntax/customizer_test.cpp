@@ -47,26 +47,27 @@ std::string annotated(const std::string& value, const std::string& comment) {
 }
 
 TEST(Customizer, OffersLiterals) {
-  EXPECT_EQ(lines_of("a=true; b=-1.50; c=\"x\\\"y\"; d=[1,-2]; e=[1,2,3,4,5]; f=[\"s\\\"\", 1];"
-                     "g=[0:2]; h=[0:.5:2]; i=(5); j=- -4; k=+4;"),
-            (Lines{"a=true", "b=-1.5", "c=x\"y", "d=[1, -2]", "e=[1, 2, 3, 4, 5]",
-                   R"(f=["s\"", 1])", "g=[0 : 2]", "h=[0 : 0.5 : 2]", "i=5", "j=4", "k=4"}));
+  EXPECT_EQ(
+      lines_of("a=true; b=-1.50; c=\"x\\\"y\"; d=[1,-2]; e=[1,2,3,4,5]; f=[\"s\\\"\", 1];"
+               "g=[0:2]; h=[0:.5:2]; i=(5); j=- -4; k=+4;"),
+      (ParameterLines{"a=true", "b=-1.5", "c=x\"y", "d=[1, -2]", "e=[1, 2, 3, 4, 5]",
+                      R"(f=["s\"", 1])", "g=[0 : 2]", "h=[0 : 0.5 : 2]", "i=5", "j=4", "k=4"}));
   EXPECT_EQ(lines_of("a=1+1; b=a; c=undef; d=[a]; e=[]; f=[[1]]; g=str(1); h=[true]; i=[0:a];"),
-            Lines{});
-  EXPECT_EQ(lines_of("a=1; cube(a;"), Lines{"a syntax error"});
-  EXPECT_EQ(lines_of(""), Lines{});
+            ParameterLines{});
+  EXPECT_EQ(lines_of("a=1; cube(a;"), ParameterLines{"a syntax error"});
+  EXPECT_EQ(lines_of(""), ParameterLines{});
 }
 
 TEST(Customizer, OffersWhatStandsBeforeTheFirstBrace) {
   EXPECT_EQ(lines_of("a=1;\nfunction f(x)=x;\nmodule m() cube();\nb=2;\nc=1; module n() {}\nd=3;"),
-            (Lines{"a=1", "b=2"}));
-  EXPECT_EQ(lines_of("// {\na=\"{\"; /* { */\nb=1;\n"), (Lines{"a={ ({)", "b=1"}));
-  EXPECT_EQ(lines_of("include <no.scad>\nuse <no.scad>\na=1;"), Lines{"a=1"});
+            (ParameterLines{"a=1", "b=2"}));
+  EXPECT_EQ(lines_of("// {\na=\"{\"; /* { */\nb=1;\n"), (ParameterLines{"a={ ({)", "b=1"}));
+  EXPECT_EQ(lines_of("include <no.scad>\nuse <no.scad>\na=1;"), ParameterLines{"a=1"});
 }
 
 TEST(Customizer, TheLastAssignmentCounts) {
   EXPECT_EQ(lines_of("// one\na=1; // [1:5]\nb=1;\n// two\na=2; // [1:6]\n"),
-            (Lines{"a=2 (two) 1..6", "b=1"}));
+            (ParameterLines{"a=2 (two) 1..6", "b=1"}));
 }
 
 TEST(Customizer, TellsWhereTheAssignmentsAre) {
@@ -80,30 +81,30 @@ TEST(Customizer, TellsWhereTheAssignmentsAre) {
 TEST(Customizer, DescriptionsStandInTheLineAbove) {
   EXPECT_EQ(lines_of("//\tone \na=1;\n// two\n\nb=1;\n // three\nc=1;\n/* four */\nd=1;\n"
                      "// x\n// five\r\n  e=1;\nf=1; // six\ng=1;\n"),
-            (Lines{"a=1 (one)", "b=1", "c=1", "d=1", "e=1 (five)", "f=1", "g=1"}));
+            (ParameterLines{"a=1 (one)", "b=1", "c=1", "d=1", "e=1 (five)", "f=1", "g=1"}));
   EXPECT_EQ(lines_of("a=\"\n// no comment\"; b=1;\n/*\n// none\n*/ c=1;\n"),
-            (Lines{"a=// no comment", "b=1", "c=1"}));
+            (ParameterLines{"a=// no comment", "b=1", "c=1"}));
 }
 
 TEST(Customizer, GroupsLastUntilTheNext) {
   EXPECT_EQ(lines_of("a=1;\n/* [ Size ] */\nb=1;\nc=1; /* [Shape] */\nd=1;\n/*[Hidden]*/\ne=1;\n"),
-            (Lines{"a=1", "[Size] b=1", "[Size] c=1", "[Shape] d=1", "[Hidden] e=1"}));
+            (ParameterLines{"a=1", "[Size] b=1", "[Size] c=1", "[Shape] d=1", "[Hidden] e=1"}));
   EXPECT_EQ(
       lines_of("/* [A] */ /* [B] */\na=1;\n/* two\n[lines] */\nb=1;\n/* plain */\nc=1;\n"
                "/* x [ C ] y [ D ] */\nd=1; /* [E] */ e=1;\n// [F]\nf=\"/* [G] */\";\ng=1;\n"),
-      (Lines{"[B] a=1", "[B] b=1", "c=1", "[C - D] d=1", "[C - D] e=1", "[E] f=/* [G] */ ([F])",
-             "[E] g=1"}));
+      (ParameterLines{"[B] a=1", "[B] b=1", "c=1", "[C - D] d=1", "[C - D] e=1",
+                      "[E] f=/* [G] */ ([F])", "[E] g=1"}));
 }
 
 TEST(Customizer, CommentsBelongToTheOnlyStatementOfALine) {
   EXPECT_EQ(lines_of("a=\"x;y\"; // [b]\nb=\"//\"; //[c]\nc=1 /* x */ ; /* y */ // [3]\n"),
-            (Lines{"a=x;y <b:b>", "b=// <c:c>", "c=1 0..3"}));
+            (ParameterLines{"a=x;y <b:b>", "b=// <c:c>", "c=1 0..3"}));
   EXPECT_EQ(lines_of("a=1; b=1; // [3]\nc=1; cube(); // [3]\nif (a) cube(); d=1; // [3]\n"
                      "e=\n1; // [3]\nf=1\n; // [3]\ng=1; \"\"; // [3]\n"),
-            Lines{"a syntax error"});
+            ParameterLines{"a syntax error"});
   EXPECT_EQ(lines_of("a=1; b=1; // [3]\nc=1; cube(); // [3]\nif (a) cube(); d=1; // [3]\n"
                      "e=\n1; // [3]\nf=1\n; // [3]\n"),
-            (Lines{"a=1", "b=1", "c=1", "d=1", "e=1", "f=1"}));
+            (ParameterLines{"a=1", "b=1", "c=1", "d=1", "e=1", "f=1"}));
 }
 
 TEST(Customizer, NumbersHaveRanges) {
