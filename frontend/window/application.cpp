@@ -32,6 +32,8 @@ constexpr std::chrono::seconds kLongWork{1};
 /// How often that display is brought up to date.
 constexpr std::chrono::milliseconds kProgressInterval{250};
 
+constexpr const char* kNoFile = "no file has that place";
+
 /// A reading that takes less is not shown.
 constexpr std::chrono::milliseconds kShortReading{150};
 
@@ -98,6 +100,7 @@ void Application::run() {
     wait_for_news();
     probe_hover();
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
+    frames_due_ = std::max(frames_due_, watch_long_work());
     order_picture();
     if (window_.size().width_px == 0) frames_due_ = 0;
     if (frames_due_ == 0 || Clock::now() < awaited_until_) continue;
@@ -130,9 +133,11 @@ std::optional<double> Application::seconds_to_next_look() const {
   if (is_reading_ && !state_.is_reading) look_at(reading_since_ + kShortReading);
   if (const auto due = hover_.due()) look_at(*due);
   for (const auto& activity : {follower_.activity(), painter_.activity()}) {
-    if (activity) look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
+    if (activity && window_.size().width_px > 0)
+      look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
   }
-  if (state_.animation.is_playing() && shows_inputs()) look_at(state_.animation.due());
+  if (state_.animation.is_playing() && (shows_inputs() || state_.is_stopped))
+    look_at(state_.animation.due());
   if (!next) return std::nullopt;
   return std::max(std::chrono::duration<double>(*next - Clock::now()).count(), 1e-3);
 }
@@ -149,8 +154,8 @@ bool Application::watch_reading() {
   return std::exchange(state_.is_reading, is_long) != is_long;
 }
 
-/// Returns whether the display of long work has to change.
-bool Application::watch_long_work() {
+/// Returns how many frames the display of long work needs now.
+int Application::watch_long_work() {
   const bool was_shown = state_.long_activity.has_value();
   state_.long_activity.reset();
   for (auto& activity : {follower_.activity(), painter_.activity()}) {
@@ -158,13 +163,23 @@ bool Application::watch_long_work() {
       state_.long_activity = activity;
     }
   }
-  if (!state_.long_activity) return was_shown;
-  return Clock::now() >= last_frame_ + kProgressInterval;
+  if (state_.long_activity.has_value() != was_shown) return kFramesAfterEvent;
+  const bool is_due = was_shown && Clock::now() >= last_frame_ + kProgressInterval;
+  return is_due ? 1 : 0;
 }
 
 void Application::stop_long_work() {
-  follower_.stop();
-  painter_.stop();
+  const bool is_reading = is_reading_ || follower_.activity();
+  const auto drawing = painter_.activity();
+  const bool draws_long = drawing && Clock::now() - drawing->since >= kLongWork;
+  if (is_reading) follower_.stop();
+  if (draws_long) {
+    painter_.stop();
+    is_picture_stopped_ = true;
+    save_path_.clear();
+    saving_ = 0;
+  }
+  if (!is_reading && !draws_long) return;
   state_.is_stopped = true;
   state_.animation.pause();
 }
@@ -193,7 +208,6 @@ void Application::draw_frame() {
 
 bool Application::take_news() {
   bool any = watch_reading();
-  any |= watch_long_work();
   any |= play();
   if (auto version = follower_.take()) {
     take_version(std::move(*version));
@@ -218,7 +232,10 @@ bool Application::take_news() {
 void Application::take_version(frontend::DesignVersion version) {
   const bool leaves_picture = !version.design || version.unchanged;
   if (version.design) texts_ = version.texts;
-  if (options_.prints_echoes) print_echoes(version);
+  // What openscad renders comes as another version of the same reading.
+  const bool is_read_anew = !state_.version || state_.version->noticed != version.noticed;
+  if (options_.prints_echoes && is_read_anew) print_echoes(version);
+  if (is_picture_stopped_) ordered_.design.reset();
   end_hover();
   is_moving_ |= state_.version && state_.version->inputs != version.inputs;
   reading_since_ = Clock::now();
@@ -255,9 +272,10 @@ bool Application::shows_inputs() const {
   return state_.version && state_.version->inputs == inputs_;
 }
 
-/// Goes on with the animation, once its last frame could be read. Returns whether it did.
+/// Goes on with the animation, once its last frame was read or given up. Returns whether it did.
 bool Application::play() {
-  if (!shows_inputs() || !state_.animation.advance(Clock::now())) return false;
+  if (!(shows_inputs() || state_.is_stopped) || !state_.animation.advance(Clock::now()))
+    return false;
   update_inputs();
   return true;
 }
@@ -329,6 +347,7 @@ void Application::order_picture() {
   if (!save_path_.empty()) saving_ = order.number;
   ordered_ = order;
   painter_.order(std::move(order));
+  if (std::exchange(is_picture_stopped_, false)) state_.is_stopped = false;
   awaited_until_ = Clock::now() + kShortPainting;
 }
 
@@ -363,16 +382,24 @@ std::vector<frontend::NamedPath> Application::inputs() const {
   return inputs;
 }
 
-/// Returns the file that a message names: from the design's folder, or else from the working one.
+/// Returns the path of the file that a message names, from the design's folder, or else from the
+/// working one; empty: there is no such file.
 std::string Application::path_of(const MessagePlace& place) const {
   const std::filesystem::path folder = std::filesystem::path(options_.input).parent_path();
-  std::error_code missing;
-  const bool is_beside = std::filesystem::exists(folder / place.file, missing);
-  return is_beside ? (folder / place.file).string() : place.file;
+  for (const std::filesystem::path& path :
+       {folder / place.file, std::filesystem::path(place.file)}) {
+    std::error_code failed;
+    if (std::filesystem::is_regular_file(path, failed)) {
+      return std::filesystem::absolute(path, failed).string();
+    }
+  }
+  return {};
 }
 
 void Application::open_place(const MessagePlace& place) {
-  state_.notice = editor_.open({path_of(place), place.line, std::max(place.column, 1u)});
+  const std::string path = path_of(place);
+  state_.notice =
+      path.empty() ? kNoFile : editor_.open({path, place.line, std::max(place.column, 1u)});
 }
 
 void Application::open_chosen_place() {
@@ -380,7 +407,7 @@ void Application::open_chosen_place() {
   if (place == nullptr) {
     state_.notice = "click on the design first: the editor opens the place that is found there";
   } else if (place->path.empty()) {
-    state_.notice = "no file has that place: openscad has evaluated the design";
+    state_.notice = kNoFile;
   } else {
     state_.notice = editor_.open({place->path, place->line, place->column});
   }

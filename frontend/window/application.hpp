@@ -52,7 +52,7 @@ class Application final : private WindowEvents {
   void wait_for_news();
   std::optional<double> seconds_to_next_look() const;
   bool watch_reading();
-  bool watch_long_work();
+  int watch_long_work();
   void stop_long_work();
   bool take_news();
   void take_version(frontend::DesignVersion version);
@@ -94,11 +94,12 @@ class Application final : private WindowEvents {
   PaintOrder ordered_;                   // the last order
   uint64_t probes_ = 0;
   HoverTimer hover_;
-  uint64_t hovering_ = 0;    // number of the probe at the mouse's place; 0: none
-  bool is_moving_ = false;   // the mouse has moved the camera since the last order
-  bool has_camera_ = false;  // the command line or the first design has chosen the camera
-  std::string save_path_;    // where to save the next final picture; empty: nowhere
-  uint64_t saving_ = 0;      // number of the order for saving; 0: not ordered yet
+  uint64_t hovering_ = 0;            // number of the probe at the mouse's place; 0: none
+  bool is_moving_ = false;           // the mouse has moved the camera since the last order
+  bool has_camera_ = false;          // the command line or the first design has chosen the camera
+  std::string save_path_;            // where to save the next final picture; empty: nowhere
+  uint64_t saving_ = 0;              // number of the order for saving; 0: not ordered yet
+  bool is_picture_stopped_ = false;  // the last order was given up at the user's wish
   uint64_t reported_version_ = 0;
   bool has_new_picture_ = false;
   int frames_due_ = 0;  // frames still to draw: ImGui's answer to an event takes more than one

@@ -207,7 +207,9 @@ std::string Customizer::erase(const std::string& set) {
     ParameterSetFile file = read(file_);
     file.erase(set);
     write(file);
-    if (set_name_ == set) set_name_.clear();
+    if (set_name_ != set) return;
+    set_name_.clear();
+    set_texts_.clear();
   });
 }
 

@@ -38,6 +38,11 @@ constexpr ImWchar kLetters[] = {0x0020, 0x024F, 0x0370, 0x052F, 0x2010, 0x2044, 
 
 std::string last_error;  // GLFW's
 
+/// Returns whether a command is done again and again while its key is held.
+bool repeats(const CommandRow* row) {
+  return row && (row->command == Command::kZoomIn || row->command == Command::kZoomOut);
+}
+
 uint8_t modifiers_of(int glfw_modifiers) {
   return static_cast<uint8_t>(((glfw_modifiers & GLFW_MOD_CONTROL) ? kControl : 0) |
                               ((glfw_modifiers & GLFW_MOD_SHIFT) ? kShift : 0));
@@ -227,7 +232,9 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
 void GlfwWindow::Impl::on_key(const Key& key, int action) {
   is_active = true;
   if (action != GLFW_RELEASE) {
-    if (!ImGui::GetIO().WantTextInput) events.key(key.key, modifiers_of(key.modifiers));
+    const uint8_t held = modifiers_of(key.modifiers);
+    const bool counts = action == GLFW_PRESS || repeats(find_command(key.key, held));
+    if (counts && !ImGui::GetIO().WantTextInput) events.key(key.key, held);
     new_keys.push_back(key.key);
   } else if (std::find(new_keys.begin(), new_keys.end(), key.key) != new_keys.end()) {
     released.push_back(key);

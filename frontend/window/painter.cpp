@@ -46,6 +46,7 @@ Painter::~Painter() {
     const std::lock_guard lock(mutex_);
     is_stopping_ = true;
     outdated_.request_stop();
+    given_up_.request_stop();
   }
   wake_.notify_all();
   thread_.join();
@@ -61,9 +62,14 @@ void Painter::order(PaintOrder order) {
 }
 
 void Painter::stop() {
-  const std::lock_guard lock(mutex_);
-  ordered_.reset();
-  outdated_.request_stop();
+  {
+    const std::lock_guard lock(mutex_);
+    ordered_.reset();
+    drops_coarse_ = true;
+    outdated_.request_stop();
+    given_up_.request_stop();
+  }
+  wake_.notify_all();
 }
 
 void Painter::probe(Probe probe) {
@@ -89,7 +95,10 @@ std::optional<Finding> Painter::take_finding() {
 
 /// Waits for work. Returns true if there is none, and the coarse picture is to be refined.
 bool Painter::waits_for_refinement(std::unique_lock<std::mutex>& lock) {
-  const auto has_work = [this] { return is_stopping_ || ordered_ || !probes_.empty(); };
+  if (std::exchange(drops_coarse_, false)) coarse_.reset();
+  const auto has_work = [this] {
+    return is_stopping_ || ordered_ || drops_coarse_ || !probes_.empty();
+  };
   if (!coarse_) {
     wake_.wait(lock, has_work);
     return false;
@@ -109,7 +118,9 @@ void Painter::run() {
     } else if (ordered_ && !is_stopping_) {
       PaintOrder order = *std::exchange(ordered_, std::nullopt);
       coarse_.reset();
-      const std::stop_token stop = (outdated_ = {}).get_token();
+      // While the view moves, every picture is shown, even if others have been ordered.
+      std::stop_source& stops = order.is_moving ? given_up_ : outdated_;
+      const std::stop_token stop = (stops = {}).get_token();
       lock.unlock();
       paint(std::move(order), stop);
     } else if (!probes_.empty() && !is_stopping_) {
@@ -167,11 +178,10 @@ void Painter::paint(PaintOrder order, const std::stop_token& stop) {
   };
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
-  // While the camera moves, every picture is shown, even if others have been ordered.
   activity_.begin("drawing");
-  Painting painting = paint_at(order, size, samples, order.is_moving ? std::stop_token() : stop);
+  Painting painting = paint_at(order, size, samples, stop);
   activity_.end();
-  if (!order.is_moving && stop.stop_requested()) return;
+  if (stop.stop_requested()) return;
   painting.is_final = size == order.size && samples == order.settings.samples;
   if (!painting.is_final && painting.error.empty()) coarse_ = std::move(order);
   publish(std::move(painting));
@@ -234,10 +244,10 @@ Finding Painter::find(const Probe& probe) {
     const csgcore::Hits hits =
         renderer_.pick(probe.order.navigation.view(probe.order.size), probe.x_px, probe.y_px);
     if (hits.primitive[0] == csgcore::Hits::kMiss) return finding;
-    finding.is_hit = true;
     finding.position = hits.position[0];
     finding.normal = hits.normal[0];
     describe(hits.primitive[0], finding);
+    finding.is_hit = true;
   } catch (const std::exception&) {
     // There is no picture either in this case, and its error is shown.
   }

@@ -121,6 +121,8 @@ class Painter {
   std::optional<Painting> painted_;
   std::vector<Finding> findings_;
   frontend::ActivityMeter activity_;
+  bool drops_coarse_ = false;  // what is coarse_ is not to be refined
+  std::stop_source given_up_;  // stops what is painted while the view moves
   std::stop_source outdated_;  // stops what is being painted, unless it is to be finished
 
   // Used by the painter's thread alone.

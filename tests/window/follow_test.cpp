@@ -132,6 +132,37 @@ TEST_F(Following, EscapeStopsWhatTakesLong) {
   expect_drawn(design, next_of(3));
 }
 
+TEST_F(Following, EscapeStopsAPictureUntilItIsAskedForAgain) {
+  const std::string start = "for (i = [1 : ";
+  const std::string rest = "]) %translate(rands(-20, 20, 3, i)) sphere(15);";
+  const std::string design = folder_.write("a.scad", start + "9" + rest);
+  open(design, {"--renderer=cpu"});
+  next_of(9);
+  const Picture good = shown();
+  folder_.write("a.scad", start + "8000" + rest);  // takes some seconds
+  const Area area = free_area();
+  EXPECT_TRUE(wait_until([&] { return part(shown(), area) != part(good, area); }));
+  key("Escape");
+  expect_shown(good, area);
+  key("F5");
+  next_of(8000);
+}
+
+TEST_F(Following, EchoesOfAReadingArePrintedOnce) {
+  const std::string design = folder_.write("a.scad", "echo(1); cube(); sphere();");
+  ProcessSetup setup;
+  setup.output = folder_ / "output";
+  open(design, {"--echo"}, setup);
+  next_of(2);
+  key("4");  // another picture of the same reading
+  next();
+  folder_.write("a.scad", "echo(\"a\\nb\"); cube();");
+  next_of(1);
+  key("F5");
+  next();
+  EXPECT_EQ(folder_.read("output"), "ECHO: 1\nECHO: \"a\nb\"\nECHO: \"a\nb\"\n");
+}
+
 TEST_F(Following, AnIncludedFile) {
   if (missing_program({"openscad"})) GTEST_SKIP() << "no openscad";
   folder_.write("part.scad", "module part() { cube(10); }\necho(\"one\");\n");

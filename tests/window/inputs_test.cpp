@@ -51,5 +51,21 @@ TEST_F(WindowInputs, AnAnimationPlaysAndTurnsTheCamera) {
   next([](const json& line) { return line["camera"]["rotation_deg"][2].get<double>() == 0; });
 }
 
+TEST_F(WindowInputs, AnAnimationThatWasStoppedPlaysOn) {
+  // Only the second of its hundred frames takes long.
+  folder_.write("a.scad",
+                "function f(n) = n < 2 ? n : f(n - 1) + f(n - 2);\n"
+                "cube($t == 0.01 ? f(99) : 1 + $t); for (i = [0 : 100 * $t]) sphere();\n");
+  open(design_);
+  next_of(2);
+  const Picture before = shown();
+  key("space");
+  wait_until_settled(before);  // the panel, and then the progress
+  wait_until_other(shown());
+  key("Escape");
+  key("space");
+  next([](const json& line) { return line["primitives"].get<int>() > 3; });
+}
+
 }  // namespace
 }  // namespace window_test

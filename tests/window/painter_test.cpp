@@ -245,6 +245,34 @@ TEST_F(PainterTest, TheFirstEditOfAMotionShowsWhetherTheOthersAreQuick) {
   EXPECT_FALSE(edit(4).is_final) << "the view moves, too";
 }
 
+TEST_F(PainterTest, AStoppedPictureIsNeitherFinishedNorRefined) {
+  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
+  PaintOrder order = order_of(design_of(kDesign));
+  painter.order(order);
+  EXPECT_TRUE(next_painting().is_final);
+  for (const bool is_moving : {false, true}) {
+    order.design = design_of(test_support::cylinder_minus_spheres(100000));
+    order.is_moving = is_moving;
+    ++order.number;
+    painter.order(order);
+    while (!painter.activity()) std::this_thread::yield();
+    painter.stop();
+    while (painter.activity()) std::this_thread::yield();
+    EXPECT_FALSE(painter.take_painting());
+  }
+  order.design = design_of(kDesign);
+  ++order.number;
+  painter.order(order);
+  EXPECT_FALSE(next_painting().is_final);
+  painter.stop();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_FALSE(painter.take_painting());
+  order.is_moving = false;
+  ++order.number;
+  painter.order(order);
+  EXPECT_EQ(next_painting().order.number, order.number);
+}
+
 TEST_F(PainterTest, WhatIsQuickEnoughIsDrawnWholeAtOnce) {
   Painter& painter = this->painter();
   PaintOrder order = order_of(design_of(kDesign));

@@ -43,7 +43,7 @@ struct DesignFile {
   double parse_ms = 0;
 };
 
-/// Returns whether the path has the suffix of a .scad, which openscad has to export.
+/// Returns whether the path has the suffix of a .scad, which has to be evaluated.
 bool is_scad(const std::string& path);
 
 /// Returns whether a file that cannot be parsed may be a .scad: a regular file of any name but a
@@ -64,7 +64,7 @@ void add_imported_files(const ImportedDesign& design, std::vector<std::string>& 
 std::vector<NamedPath> design_inputs(const std::string& path,
                                      const std::vector<std::string>& openscad_arguments);
 
-/// Reads and parses a design. `path` is a .csg; a .scad, which the installed openscad exports; or
+/// Reads and parses a design. `path` is a .csg; a .scad, which is evaluated; or
 /// "-", a .csg from standard input. A file of any other name is a .csg if it parses as one, else a
 /// .scad. Throws Error, also if `files` are wanted and openscad does not name them, and if memory
 /// runs out.

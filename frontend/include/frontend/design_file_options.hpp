@@ -24,8 +24,8 @@ struct DesignFileOptions {
   /// What the own evaluator keeps between readings of the design; null: nothing.
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;
-  /// Called with each line that the evaluation prints.
-  std::function<void(const std::string& line)> message;
+  /// Called with each message of the evaluation; an echoed string can give it several lines.
+  std::function<void(const std::string& message)> message;
   /// Called with the name of the current stage; during a .scad's export, many times.
   std::function<void(const char* stage)> progress;
 };

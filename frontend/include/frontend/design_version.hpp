@@ -45,13 +45,13 @@ struct DesignVersion {
   std::shared_ptr<const ImportedDesign> design;
   /// "file:line:column: error: what (what to do)" if the design could not be read; else empty.
   std::string error;
-  /// openscad's messages, then the importer's warnings, without the error.
+  /// The evaluation's messages, then the importer's warnings, without the error.
   std::vector<std::string> messages;
   /// The files that the design is known to be read from, the design first. Files that it asks for
   /// and that are missing are included.
   std::vector<std::string> files;
-  /// The .csg is byte for byte that of the last version that could be read, and `design` is that
-  /// version's pointer. The messages may differ.
+  /// The .csg is byte for byte, or the evaluated tree node for node, that of the last version that
+  /// could be read, and `design` is that version's pointer. The messages may differ.
   bool unchanged = false;
   DesignTexts texts;    // that `design` was made from
   DesignInputs inputs;  // that it was read with
@@ -59,7 +59,7 @@ struct DesignVersion {
   /// Those of the last text that could be parsed; null: there was none, or it is no .scad.
   std::shared_ptr<const DesignParameters> parameters;
   std::size_t nodes = 0;  // of the .csg; those of the last version if it is unchanged
-  double export_ms = 0;   // time that openscad took for a .scad
+  double export_ms = 0;   // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
   double import_ms = 0;

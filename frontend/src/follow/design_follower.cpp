@@ -81,6 +81,8 @@ class DesignFollower::Follower {
   }
 
   void stop() {
+    has_new_inputs_ = false;  // those that come later count
+    wants_reload_ = false;
     wants_stop_ = true;
     wake_.raise();
   }

@@ -27,7 +27,7 @@ std::function<void(const std::string&)> keeping_messages(DesignVersion& version)
   return [&version, bytes = std::size_t{0}](const std::string& line) mutable {
     if (bytes > kMostMessageBytes) return;
     bytes += line.size();
-    version.messages.push_back(bytes > kMostMessageBytes ? "(openscad says more)" : line);
+    version.messages.push_back(bytes > kMostMessageBytes ? "(the evaluation says more)" : line);
   };
 }
 
@@ -45,7 +45,10 @@ std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
                               before->lines_to_render.empty() && is_same(reading.good.texts, text);
-  if (reading.version.unchanged) return std::nullopt;
+  if (reading.version.unchanged) {
+    if (text.evaluation) reading.good.texts.evaluation = text.evaluation;  // the text may differ
+    return std::nullopt;
+  }
   const Clock::time_point start = Clock::now();
   TextImport import = start_import(text, options, stop);
   reading.version.parse_ms = ms_since(start);

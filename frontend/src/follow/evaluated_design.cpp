@@ -75,7 +75,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   language::Evaluation evaluation;
   try {
     evaluation = language::evaluate(
-        path, *known, [&](std::string_view line) { messages.add(std::string(line) + "\n"); });
+        path, *known, [&](std::string_view message) { messages.take(std::string(message)); });
   } catch (const language::Stopped&) {
     throw Stopped{};
   }

@@ -22,20 +22,20 @@ bool is_same_file(const std::string& name, const std::string& scad_path) {
 
 }  // namespace
 
-void OpenScadMessages::line(const std::string& text) {
-  if (text.empty()) return;
-  const bool is_error = text.starts_with(kError) && !text.starts_with(kMissingFont);
+void OpenScadMessages::take(const std::string& message) {
+  if (message.empty()) return;
+  const bool is_error = message.starts_with(kError) && !message.starts_with(kMissingFont);
   if (is_error && !passes_errors_ && !first_error_) {
-    first_error_ = text.substr(kError.size());
+    first_error_ = message.substr(kError.size());
   } else if (first_error_ && after_error_ == AfterError::kHolds) {
-    held_.push_back(text);
-    held_bytes_ += text.size();
+    held_.push_back(message);
+    held_bytes_ += message.size();
     if (held_bytes_ > kMostHeld) {
       release();
       after_error_ = AfterError::kPasses;
     }
   } else {
-    message_(text);
+    message_(message);
   }
 }
 

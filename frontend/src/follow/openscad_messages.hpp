@@ -24,18 +24,21 @@ class OpenScadMessages {
   explicit OpenScadMessages(const std::function<void(const std::string&)>& message,
                             AfterError after_error = AfterError::kPasses)
       : message_(message), after_error_(after_error) {}
+  /// Takes a part of what openscad prints, each of whose lines counts as a message.
   void add(std::string_view text) {
     pending_ += text;
     std::size_t start = 0;
     for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos;
          start = end + 1) {
-      line(pending_.substr(start, end - start));
+      take(pending_.substr(start, end - start));
     }
     pending_.erase(0, start);
     if (pending_.size() > kLongestLine) finish();
   }
+  /// Takes a whole message, which may have several lines.
+  void take(const std::string& message);
   void finish() {
-    if (!pending_.empty()) line(pending_);
+    if (!pending_.empty()) take(pending_);
     pending_.clear();
     release();
   }
@@ -50,7 +53,6 @@ class OpenScadMessages {
   /// More than these bytes are not held: endless recursion is traced at length.
   static constexpr std::size_t kMostHeld = std::size_t{1} << 20;
 
-  void line(const std::string& text);
   void release();  // what is held
 
   const std::function<void(const std::string&)>& message_;

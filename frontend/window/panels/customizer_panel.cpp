@@ -156,8 +156,8 @@ void draw_groups(State& state) {
 
 }  // namespace
 
-void draw_customizer(State& state, float bottom) {
-  if (!state.shows_parameters || state.customizer.parameters().empty()) return;
+float draw_customizer(State& state, float bottom) {
+  if (!state.shows_parameters || state.customizer.parameters().empty()) return 0;
   constexpr float kMargin = 10;
   const float display = ImGui::GetIO().DisplaySize.x;
   const float top = ImGui::GetFrameHeight() + kMargin;
@@ -174,6 +174,7 @@ void draw_customizer(State& state, float bottom) {
     draw_groups(state);
   }
   ImGui::End();
+  return kMargin + width;
 }
 
 }  // namespace window

@@ -19,9 +19,9 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   const float status_top = draw_status_line(state);
   const float messages_top = draw_messages(state, status_top, actions.open);
   const float animation_top = draw_animation(state, messages_top);
-  draw_customizer(state, animation_top);
+  const float customizer_right = draw_customizer(state, animation_top);
   draw_section(state);
-  draw_place(state, view, status_top, actions.run);
+  draw_place(state, view, {customizer_right, animation_top}, actions.run);
   draw_hover_tip(state, pixels_per_unit);
   draw_progress(state, actions.run);
   draw_help(state);

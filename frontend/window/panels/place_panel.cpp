@@ -82,25 +82,30 @@ std::vector<std::string> measured_lines(const State& state) {
   return lines;
 }
 
-/// Returns the panel's corner at the left: below the menu, and below the section panel if there is
-/// no room beside it; or above the status line if the point would be hidden.
-ImVec2 corner_of(const State& state, const csgcore::View& view, float status_top,
+/// Returns the panel's corner at the left of the room: below the menu, and below the section panel
+/// if there is no room beside it; or at the room's lower end if the point would be hidden.
+ImVec2 corner_of(const State& state, const csgcore::View& view, const FreeRoom& room,
                  const ImVec2& size) {
+  const float display = ImGui::GetIO().DisplaySize.x;
+  const float left =
+      std::max(std::min(room.left, display - size.x - kMargin - kMargin), 0.0f) + kMargin;
   float top = ImGui::GetFrameHeight() + kMargin;
   const float section_width = 20 * ImGui::GetFontSize();
-  if (state.section.is_on && size.x + section_width > ImGui::GetIO().DisplaySize.x) {
+  if (state.section.is_on && left + size.x + section_width > display) {
     top += 4 * ImGui::GetFrameHeightWithSpacing();
   }
   const auto point = project(view, state.points.back().position);
-  const bool hides = point && point->x_px < kMargin + size.x + kMargin && point->y_px > top &&
+  const bool hides = point && point->x_px > left - kMargin &&
+                     point->x_px < left + size.x + kMargin && point->y_px > top &&
                      point->y_px < top + size.y + kMargin;
-  const float bottom = status_top - size.y - kMargin;
-  return {kMargin, hides && bottom > point->y_px + kMargin ? bottom : top};
+  const float bottom = room.bottom - size.y - kMargin;
+  return {left, hides && bottom > point->y_px + kMargin ? bottom : top};
 }
 
 }  // namespace
 
-void draw_place(State& state, const csgcore::View& view, float status_top, const RunCommand& run) {
+void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
+                const RunCommand& run) {
   if (!state.shows_place || state.points.empty()) return;
   const MeasuredPoint& point = state.points.back();
   const std::vector<std::string> lines = measured_lines(state);
@@ -114,7 +119,7 @@ void draw_place(State& state, const csgcore::View& view, float status_top, const
   const ImVec2 size(columns.width() + 2 * padding.x, rows * ImGui::GetTextLineHeightWithSpacing() +
                                                          ImGui::GetFrameHeightWithSpacing() +
                                                          2 * padding.y);
-  ImGui::SetNextWindowPos(corner_of(state, view, status_top, size));
+  ImGui::SetNextWindowPos(corner_of(state, view, room, size));
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kMargin, display.y / 2});
   ImGui::SetNextWindowBgAlpha(0.85f);
   if (ImGui::Begin("##place", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {

@@ -7,8 +7,15 @@
 
 namespace window {
 
-/// `view` is that of the picture, and `status_top` the upper end of the status line, in ImGui's
-/// units. `run` is called with the command that opens the editor.
-void draw_place(State& state, const csgcore::View& view, float status_top, const RunCommand& run);
+/// The part of the window that other panels leave free, in ImGui's units.
+struct FreeRoom {
+  float left = 0;
+  float bottom = 0;
+};
+
+/// `view` is that of the picture, in ImGui's units. `run` is called with the command that opens the
+/// editor.
+void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
+                const RunCommand& run);
 
 }  // namespace window

@@ -217,7 +217,7 @@ TEST_F(FakeOpenScad, ThatSaysTheSameAgainAndAgainIsNotKept) {
   for (const std::string& line : messages) bytes += line.size();
   EXPECT_GT(bytes, std::size_t{1} << 19);
   EXPECT_LE(bytes, (std::size_t{1} << 20) + 100);
-  EXPECT_EQ(messages.back(), "(openscad says more)");
+  EXPECT_EQ(messages.back(), "(the evaluation says more)");
 }
 
 TEST_F(FakeOpenScad, IsNotRunForACsg) {
