@@ -126,7 +126,7 @@ TEST(LanguageMutations, NoDamagedDesignCrashes) {
     try {
       const language::Evaluation evaluation = language::evaluate(
           "-", options, [](std::string_view) {}, design);
-      EXPECT_FALSE(language::csg_text(evaluation.tree).empty());
+      EXPECT_FALSE(language::csg_text(*evaluation.tree).empty());
     } catch (const language::Stopped&) {
     }
   }

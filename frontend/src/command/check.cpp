@@ -86,7 +86,7 @@ Result by_scadray(const std::string& file, const std::vector<std::string>& optio
       file, *known, [&](std::string_view line) { result.messages.append(line) += '\n'; });
   const bool is_read = evaluation.outcome == language::Outcome::kDone ||
                        evaluation.outcome == language::Outcome::kAborted;
-  if (is_read) result.tree = language::csg_text(evaluation.tree);
+  if (is_read) result.tree = language::csg_text(*evaluation.tree);
   return result;
 }
 

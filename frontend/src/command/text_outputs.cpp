@@ -78,7 +78,7 @@ class TextRun {
     if (output_.kind == TextKind::kEcho) {
       outputs.push_back({output_.path, bytes_of(messages_)});
     } else if (is_read) {
-      outputs.push_back({output_.path, bytes_of(language::csg_text(evaluation.tree))});
+      outputs.push_back({output_.path, bytes_of(language::csg_text(*evaluation.tree))});
     }
     if (is_read && !options_.rule_path.empty() && options_.outputs.empty()) {
       outputs.push_back({options_.rule_path, bytes_of(rule(evaluation))});

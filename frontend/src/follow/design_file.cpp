@@ -224,7 +224,7 @@ TextImport start_import(const FileText& csg, const language::Evaluation* evaluat
                         const std::string& name, const ImportOptions& options,
                         const std::stop_token& stop) {
   if (evaluation == nullptr) return TextImport(csg.view(), name, options, stop);
-  return TextImport(tree_of(evaluation->tree, *evaluation->files, name), options, stop);
+  return TextImport(tree_of(*evaluation->tree, *evaluation->files, name), options, stop);
 }
 
 ImportedDesign import_design(DesignFile& file) {

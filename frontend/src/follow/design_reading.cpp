@@ -35,7 +35,7 @@ std::function<void(const std::string&)> keeping_messages(DesignVersion& version)
 bool is_same(const DesignTexts& before, const DesignText& now) {
   if ((before.evaluation == nullptr) != (now.evaluation == nullptr)) return false;
   if (!now.evaluation) return before.csg->view() == now.csg.view();
-  return language::are_same(before.evaluation->tree, now.evaluation->tree);
+  return language::are_same(*before.evaluation->tree, *now.evaluation->tree);
 }
 
 /// Returns nothing if the text is that of the version before, and neither names files nor has text,

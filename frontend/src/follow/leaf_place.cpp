@@ -121,7 +121,7 @@ LeafPlace leaf_place(const DesignTexts& texts, const PrimitivePlace& place) {
               source_place(texts.csg_path, place.line, texts.csg->view(), place.offset)}},
             0};
   }
-  const NodeTree& tree = texts.evaluation->tree;
+  const NodeTree& tree = *texts.evaluation->tree;
   std::vector<uint32_t> path = path_to(tree, place.node);
   const uint32_t leaf = path.back();
   while (const std::optional<uint32_t> child = only_child(tree, path.back()))

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 SyntaxTree evaluated(std::string_view scad) {
   const language::Evaluation evaluation = language::evaluate(
       "-", {}, [](std::string_view) {}, scad);
-  return tree_of(evaluation.tree, *evaluation.files, "a.scad");
+  return tree_of(*evaluation.tree, *evaluation.files, "a.scad");
 }
 
 ImportedDesign imported(std::string_view scad, const ImportOptions& options = {}) {
@@ -55,7 +55,7 @@ TEST(EvaluatedTree, KnowsTheFileOfAnIncludedNode) {
   folder.write("b.scad", "\ncube(1);\n");
   const std::string main = folder.write("a.scad", "sphere(1);\ninclude <b.scad>\n");
   const language::Evaluation evaluation = language::evaluate(main, {}, [](std::string_view) {});
-  const SyntaxTree tree = tree_of(evaluation.tree, *evaluation.files, main);
+  const SyntaxTree tree = tree_of(*evaluation.tree, *evaluation.files, main);
   ASSERT_EQ(tree.nodes.size(), 2u);
   EXPECT_EQ(tree.file_of(tree.nodes[0].location), main);
   EXPECT_THAT(tree.file_of(tree.nodes[1].location), HasSubstr("b.scad"));

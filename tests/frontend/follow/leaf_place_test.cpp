@@ -26,7 +26,7 @@ class LeafPlaceTest : public testing::Test {
     auto evaluation = std::make_shared<const language::Evaluation>(
         language::evaluate(path, {}, [](std::string_view) {}));
     const ImportedDesign design =
-        TextImport(tree_of(evaluation->tree, *evaluation->files, path), {.keeps_places = true})
+        TextImport(tree_of(*evaluation->tree, *evaluation->files, path), {.keeps_places = true})
             .finish();
     DesignTexts texts;
     texts.evaluation = std::move(evaluation);

@@ -6,56 +6,10 @@
 #include <random>
 
 #include "evaluation/cache_parts.hpp"
-#include "language/csg_writer.hpp"
-#include "language/evaluation.hpp"
-#include "syntax/parsed_design.hpp"
+#include "kept/shown.hpp"
 
 namespace language {
 namespace {
-
-struct Shown {
-  Evaluation evaluation;
-  Lines lines;
-  Lines places;  // of all nodes, as path, line and column
-};
-
-Lines places_of(const Evaluation& evaluation) {
-  const SourceFiles& files = *evaluation.files;
-  Lines places;
-  for (uint32_t i = 0; i < evaluation.tree.size(); ++i) {
-    const Node& node = evaluation.tree.nodes[i];
-    if (node.place.file == kNoFile || !files.has(node.place.file)) continue;
-    places.push_back(
-        files[node.place.file].path + ":" + std::to_string(files.message_line(node.place)) + ":" +
-        std::to_string(files.line(node.place)) + ":" + std::to_string(files.column(node.place)) +
-        ":" + std::to_string(node.place.offset) + " " + std::string(node.name));
-  }
-  return places;
-}
-
-Shown shown(EvaluationCache* cache) {
-  EvaluationOptions options;
-  options.cache = cache;
-  Shown shown;
-  shown.evaluation = evaluate("main.scad", options,
-                              [&](std::string_view line) { shown.lines.emplace_back(line); });
-  shown.places = places_of(shown.evaluation);
-  return shown;
-}
-
-/// Returns the tree as text: numbers of files differ between caches.
-std::string text_of(const Evaluation& evaluation) { return csg_text(evaluation.tree); }
-
-void expect_same(EvaluationCache& cache) {
-  const Shown kept = shown(&cache), fresh = shown(nullptr);
-  EXPECT_EQ(kept.evaluation.outcome, fresh.evaluation.outcome);
-  EXPECT_EQ(text_of(kept.evaluation), text_of(fresh.evaluation));
-  EXPECT_EQ(kept.lines, fresh.lines);
-  EXPECT_EQ(kept.places, fresh.places);
-  EXPECT_EQ(kept.evaluation.files_read, fresh.evaluation.files_read);
-  EXPECT_EQ(kept.evaluation.lookups, fresh.evaluation.lookups);
-  EXPECT_EQ(kept.evaluation.camera.distance, fresh.evaluation.camera.distance);
-}
 
 class RandomDesign {
  public:

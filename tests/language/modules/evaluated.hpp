@@ -18,7 +18,7 @@ inline Evaluated evaluated(std::string_view text, const language::EvaluationOpti
   Evaluated result;
   const language::Evaluation evaluation = language::evaluate(
       "-", options, [&](std::string_view line) { result.messages.append(line) += '\n'; }, text);
-  result.csg = language::csg_text(evaluation.tree);
+  result.csg = language::csg_text(*evaluation.tree);
   result.csg.pop_back();
   return result;
 }

@@ -48,7 +48,7 @@ struct DesignCamera {
 
 struct Evaluation {
   Outcome outcome = Outcome::kDone;
-  NodeTree tree;
+  std::shared_ptr<const NodeTree> tree;      // never null
   std::shared_ptr<const SourceFiles> files;  // what the nodes' places refer to
   /// Absolute paths of all files that were read, the main one first: sources, parameter sets,
   /// fonts, and what import(), surface(), dxf_dim() and others name. None is listed twice.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -71,6 +72,11 @@ struct NodeTree {
   uint32_t open(std::string_view name, uint8_t modifiers, Place place);
   /// All nodes behind it are its descendants.
   void close(uint32_t node) { nodes[node].end = size(); }
+  /// Adds the nodes from `first` to before `end` of another tree behind all others, with copies of
+  /// what they refer to, at the places that `moved` returns for theirs. They must be whole
+  /// subtrees. Returns whether all could be copied; if not, nothing is added.
+  bool append(const NodeTree& from, uint32_t first, uint32_t end,
+              const std::function<Place(Place)>& moved);
   /// Removes the last node, which must have no descendants.
   void remove_last();
   /// Adds an argument to the last node.

@@ -60,6 +60,7 @@ class CodeCompiler {
   void variable_or(Name name, Place place, Op otherwise);
   bool may_be_variable(Name name) const;
   void store(Name name, Place place);  // pops into a variable of the innermost scope, or binds it
+  void note_top_variable(const ScopeLayout& scope, uint32_t slot);
   uint32_t scope_number(const ScopeLayout& scope) const {
     return scope_->heap_depth - scope.heap_depth;
   }

@@ -115,21 +115,28 @@ ScopeLayout& Compiler::add_scope(const ScopeLayout* parent, uint32_t unit, const
 }
 
 void Compiler::define(ScopeLayout& layout, const Scope& scope) {
+  const bool is_top = !layout.parent && layout.unit == 0;
+  uint32_t definition_number = is_top ? 0 : layout.code->definition;
   for (const FunctionDefinition& definition : scope.functions) {
     layout.functions[definition.name] = &functions_.emplace_back(
         FunctionEntry{{definition.name, definition.place, definition.parameters, &layout},
                       definition.body,
                       nullptr});
+    layout.functions[definition.name]->definition = definition_number;
+    if (is_top) ++definition_number;
   }
   for (const ModuleDefinition& definition : scope.modules) {
     layout.modules[definition.name] = &modules_.emplace_back(ModuleEntry{
         {definition.name, definition.place, definition.parameters, &layout}, definition.body});
+    layout.modules[definition.name]->definition = definition_number;
+    if (is_top) ++definition_number;
   }
 }
 
-Code& Compiler::add_code(uint32_t unit) {
+Code& Compiler::add_code(uint32_t unit, uint32_t definition) {
   Code& code = codes_.emplace_back();
   code.unit = unit;
+  code.definition = definition;
   return code;
 }
 

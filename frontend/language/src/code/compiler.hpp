@@ -76,7 +76,7 @@ class Compiler {
   const KnownNames& known() const { return known_; }
 
  private:
-  Code& add_code(uint32_t unit);
+  Code& add_code(uint32_t unit, uint32_t definition);
   /// `compile` compiles the body of a function or a module.
   template <typename Entry>
   const Code& code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&));

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "evaluation/kept_calls.hpp"
 #include "evaluation/kept_tops.hpp"
 #include "language/evaluation_cache.hpp"
 #include "syntax/kept_sources.hpp"
@@ -21,6 +22,7 @@ struct EvaluationCache::Parts {
 
   std::shared_ptr<KeptSources> sources = std::make_shared<KeptSources>();
   KeptTops tops;
+  KeptCalls calls;
 
  private:
   size_t first_size_ = 0;  // of the sources after the first evaluation; 0: there was none

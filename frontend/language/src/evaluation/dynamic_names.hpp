@@ -28,9 +28,19 @@ class DynamicNames {
   }
   /// Returns whether a name was bound after the trail had a length.
   bool is_bound_since(Name name, uint32_t trail) const {
-    for (size_t entry = trail; entry < trail_.size(); ++entry)
+    return is_bound_between(name, trail, this->trail());
+  }
+  /// Returns whether it was bound after that, before the trail had a greater length.
+  bool is_bound_between(Name name, uint32_t from, uint32_t to) const {
+    for (size_t entry = from; entry < to; ++entry)
       if (trail_[entry].name == name) return true;
     return false;
+  }
+  /// Returns the value that a name had when the trail had a length.
+  const Value& value_at(Name name, uint32_t trail) const {
+    for (size_t entry = trail; entry < trail_.size(); ++entry)
+      if (trail_[entry].name == name) return trail_[entry].value;
+    return values_[name];
   }
   /// Returns the names that were bound since, in order.
   std::vector<Name> bound_since(uint32_t trail) const {

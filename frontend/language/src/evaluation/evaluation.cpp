@@ -28,6 +28,7 @@ class Session {
         sink_(sink),
         standard_input_(standard_input),
         kept_(options.cache ? &options.cache->parts() : nullptr),
+        tree_(std::make_shared<NodeTree>()),
         program_(kept_ ? std::make_unique<Program>(kept_->sources) : std::make_unique<Program>()),
         messages_(program_->files, [this](const Message& message) { take(message); }) {}
 
@@ -50,6 +51,8 @@ class Session {
   const MessageSink& sink_;
   std::string_view standard_input_;
   EvaluationCache::Parts* kept_;  // null: nothing is kept
+  std::shared_ptr<NodeTree> tree_;
+  KeptCalls calls_;
   std::unique_ptr<Program> program_;
   Messages messages_;
   Machine* machine_ = nullptr;  // while it runs
@@ -135,7 +138,7 @@ void Session::apply_parameters(Machine& machine) {
 }
 
 void Session::say_root_modifiers() {
-  if (const auto other = root_modifiers(result_.tree).other)
+  if (const auto other = root_modifiers(*tree_).other)
     messages_.warn("More than one Root Modifier (!)", *other);
 }
 
@@ -152,24 +155,29 @@ void Session::evaluate_program() {
   const std::string& folder = program_->units[0].folder;
   NamedFiles files(messages_, folder);
   ModuleEnvironment modules{messages_, files, options_.check_ranges};
-  Machine machine(compiler, messages_, modules, result_.tree, options_.stop);
+  Machine machine(compiler, messages_, modules, *tree_, options_.stop);
   machine_ = &machine;
   preset_names(machine);
-  if (kept_) machine.use_kept(kept_->tops);
+  if (kept_) {
+    machine.use_kept(kept_->tops);
+    machine.use_calls(kept_->calls);
+  }
   try {
     apply_parameters(machine);
     machine.run_assignments();
     machine.run_calls();
   } catch (const Aborted&) {
     result_.outcome = Outcome::kAborted;
-    result_.tree = {};
+    *tree_ = {};
     machine.end_early();
   }
   machine_ = nullptr;
   read_camera(machine);
   say_root_modifiers();
   list_files(files);
-  if (kept_) machine.save_units(kept_->tops);
+  if (!kept_) return;
+  machine.save_units(kept_->tops);
+  if (result_.outcome == Outcome::kDone) calls_ = machine.take_calls();
 }
 
 // A loop may name the same files again and again.
@@ -208,6 +216,12 @@ Evaluation Session::run() {
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
   }
   result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
+  result_.tree = std::move(tree_);
+  if (kept_ && result_.outcome == Outcome::kDone) {
+    calls_.tree = result_.tree;
+    calls_.files = result_.files;
+    kept_->calls = std::move(calls_);
+  }
   return std::move(result_);
 }
 

@@ -20,6 +20,7 @@ void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, Fram
   }
   frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation});
   frames_.back().kind = kind;
+  if (code.noted_by != record_ && record_ != 0) note_code(code);
   stack_.reserve(base + code.deepest + 1);
   code_ = code.instructions.data();
   next_ = 0;
@@ -106,9 +107,9 @@ void Machine::tail_jump(uint32_t slots, uint32_t target) {
 
 void Machine::call_builtin(uint32_t index, uint32_t count) {
   const BuiltinFunction& function = builtin_functions_[index];
-  if (!records_.empty()) note_builtin(function);
   functions_.module_names = module_names_;
   const std::span<Value> arguments(stack_.end() - count, count);
+  if (!records_.empty()) note_builtin(function, arguments);
   Value value = function.call({function.name, count, arguments, place(), functions_});
   stack_.drop_to(stack_.size() - count);
   stack_.push(std::move(value));
@@ -116,10 +117,10 @@ void Machine::call_builtin(uint32_t index, uint32_t count) {
 
 void Machine::next_lazy(const LazyCall& site) {
   const BuiltinFunction& function = builtin_functions_[site.builtin];
-  if (!records_.empty()) note_builtin(function);
   const uint32_t base = base_ + site.slot;
   const auto count = static_cast<uint32_t>(stack_[base].number());
   const std::span<Value> arguments(&stack_[base + 1], count);
+  if (!records_.empty()) note_builtin(function, arguments);
   const FunctionCall call{function.name, site.written, arguments,
                           place(),       functions_,   site.argument_names};
   const size_t next = count == site.room ? kNoArgument : function.next_argument(call);

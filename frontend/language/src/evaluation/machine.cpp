@@ -12,7 +12,6 @@ namespace language {
 namespace {
 
 constexpr uint32_t kEmptyTrail = 0;
-constexpr uint32_t kNoUnit = 0xFFFFFFFFu;
 
 // What rands() uses until a call seeds it: another seed at each start.
 std::mt19937 seeded_generator() {
@@ -33,11 +32,19 @@ Machine::Machine(Compiler& compiler, Messages& messages, ModuleEnvironment& modu
       builtin_functions_(builtin_functions()),
       builtin_modules_(builtin_modules()),
       dynamic_(compiler.names().size()),
+      dependencies_(0),
+      definitions_(0),
+      variables_(0),
       kept_units_(compiler.program().units.size()),
       fragments_number_(compiler.names().find("$fn")),
       fragments_angle_(compiler.names().find("$fa")),
       fragments_size_(compiler.names().find("$fs")),
       parent_modules_(compiler.names().find("$parent_modules")) {
+  if (const Scope* const scope = compiler.program().units[0].scope) {
+    definitions_ = static_cast<uint32_t>(scope->functions.size() + scope->modules.size());
+    variables_ = static_cast<uint32_t>(scope->assignments.size());
+  }
+  dependencies_ = DependencyLog(read_number(0) + compiler.names().size());
   unit_ = kNoUnit;
   set_unit(0);
 }

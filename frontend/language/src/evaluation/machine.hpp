@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -11,8 +12,11 @@
 
 #include "code/compiler.hpp"
 #include "evaluation/closure.hpp"
+#include "evaluation/dependency_log.hpp"
 #include "evaluation/dynamic_names.hpp"
 #include "evaluation/frame.hpp"
+#include "evaluation/kept_calls.hpp"
+#include "evaluation/record.hpp"
 #include "evaluation/unit_cache.hpp"
 #include "evaluation/value_stack.hpp"
 #include "functions/builtin_functions.hpp"
@@ -64,6 +68,11 @@ class Machine {
   void use_kept(const KeptTops& tops) { kept_tops_ = &tops; }
   /// Keeps the top levels that this evaluation has seen for later ones.
   void save_units(KeptTops& tops);
+  /// Lets the machine use calls of modules of an earlier evaluation, which must not change, and
+  /// keep its own.
+  void use_calls(const KeptCalls& earlier);
+  /// Returns the calls that it has kept, without tree and files.
+  KeptCalls take_calls() { return std::move(calls_); }
 
  private:
   // run.cpp
@@ -82,7 +91,6 @@ class Machine {
   void push_scope(uint32_t size);
   void pop_scope();
   void store_scoped(const Instruction& step);
-  void note_read(Name name);
 
   // operators.cpp
   using Operator = Value (*)(const Value&, const Value&, OperatorProblem&);
@@ -122,7 +130,6 @@ class Machine {
   void tail_jump(uint32_t slots, uint32_t target);
   void say_argument_warnings(uint32_t plan, bool once);
   void warn_count(Name name);
-  void note_builtin(const BuiltinFunction& function);
   void unknown_function(Name name);
   [[noreturn]] void recursion_in_function(std::string_view name, Place place);
 
@@ -144,8 +151,31 @@ class Machine {
   void enter_unit(uint32_t unit);
   bool end_unit();  // true: of the main file
   bool reuse_unit(uint32_t unit);
-  void keep_unit(const UnitRecord& record, HeapScope* scope);
+  void keep_unit(const Record& record, HeapScope* scope);
+
+  // records.cpp
+  Record& begin_record(uint32_t unit);
+  Record end_record();
+  void note_read(Name name);
+  void note_code(const Code& code);
   void note_history();
+  void note_builtin(const BuiltinFunction& function, std::span<const Value> arguments);
+  void note_parent(std::span<const Value> arguments);
+  bool has_said_nothing(const Record& record) const;
+  NamedValues noted_reads(const Record& record) const;
+  uint32_t variable_number(uint32_t slot) const { return definitions_ + slot; }
+  uint32_t read_number(Name name) const { return definitions_ + variables_ + name; }
+
+  // call_reuse.cpp
+  bool is_kept(const CallSite& site, const HeapScope* scope) const;
+  bool begin_kept_call(const CallSite& site);  // true: its nodes have been reused
+  void end_kept_call();
+  bool is_same_call(const KeptCall& call, const ModuleEntry& module,
+                    std::span<const Value> arguments);
+  bool reuse_call(size_t position);
+  void note_kept(const KeptCall& call);
+  std::shared_ptr<const KeptCall> kept_call(const Record& record);
+  bool keep_variable(uint32_t slot);
 
   // saved_units.cpp
   void load_unit(uint32_t unit);
@@ -157,7 +187,7 @@ class Machine {
   void end_node(bool drop_if_empty);
   void make_node(const NodeSite& site, uint32_t no_children, bool takes_children);
   bool wants_first(const NodeSite& site);
-  Value dynamic_value(Name name) const;
+  Value dynamic_value(Name name);
   BuiltinCall builtin_call(const NodeSite& site, bool has_first);
   void name_module(Name name);
   void call_module(const CallSite& site);
@@ -190,6 +220,7 @@ class Machine {
   void count_step() {
     if (--steps_ == 0) check_limits();
   }
+  uint64_t work() const { return counted_ - steps_; }
 
   Compiler& compiler_;
   Messages& messages_;
@@ -209,8 +240,13 @@ class Machine {
   std::vector<HeapScope*> block_scopes_;  // of blocks whose modules are about to be called
   std::vector<uint32_t> open_nodes_;      // of the tree, from outside in
   std::vector<std::string_view> module_names_;
-  std::vector<Value> parameters_;    // of the call that is being made
-  std::vector<UnitRecord> records_;  // of the top levels that are being evaluated
+  std::vector<Value> parameters_;  // of the call that is being made
+  std::vector<Record> records_;    // of the parts that are being evaluated, from outside in
+  DependencyLog dependencies_;     // of these: definitions, then variables, then `$` names
+  uint32_t definitions_;           // of the main unit's top level
+  uint32_t variables_;             // the same
+  uint64_t record_ = 0;            // number of the innermost record since its last change; 0: none
+  uint64_t records_made_ = 0;
   std::vector<KeptUnit> kept_units_;
   uint32_t preset_trail_ = 0;  // the trail's length before the program begins
   uint32_t main_trail_ = 0;    // and once the top level's assignments are evaluated
@@ -223,7 +259,11 @@ class Machine {
   uint32_t unit_ = 0;  // whose code runs
   HeapScope* main_scope_ = nullptr;
   uint32_t steps_ = 1;
+  uint64_t counted_ = 1;  // steps until the next look at the limits; what was reused counts, too
   const KeptTops* kept_tops_ = nullptr;  // null: none
+  bool keeps_calls_ = false;
+  std::optional<CallIndex> earlier_calls_;  // that can be used
+  KeptCalls calls_;
   Name fragments_number_, fragments_angle_, fragments_size_, parent_modules_;
 };
 

@@ -30,7 +30,8 @@ bool Machine::wants_first(const NodeSite& site) {
   return builtin_modules_[site.module].wants_first(builtin_call(site, false));
 }
 
-Value Machine::dynamic_value(Name name) const {
+Value Machine::dynamic_value(Name name) {
+  if (!records_.empty()) note_read(name);
   const Value& value = dynamic_[name];
   return value.is_set() ? value : Value::undef();
 }
@@ -83,9 +84,13 @@ void Machine::call_module(const CallSite& site) {
     block_scopes_.pop_back();
   }
   HeapScope* const scope = take_scope(site);
-  activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
   begin_node("group", site.modifiers);
   tree_.nodes[open_nodes_.back()].is_module_call = true;
+  if (keeps_calls_ && is_kept(site, scope) && begin_kept_call(site)) {
+    HeapScopes::release(scope);
+    return;
+  }
+  activations_.push_back({&module, site.block, block_scope, frames_.back().activation});
   const Code& code = compiler_.code_of(module);
   const uint32_t base = stack_.size() - site.slots;
   push_frame(code, base, scope, FrameKind::kModule, static_cast<uint32_t>(activations_.size() - 1));
@@ -93,8 +98,9 @@ void Machine::call_module(const CallSite& site) {
 }
 
 void Machine::return_module() {
-  stack_.drop_to(base_);
   dynamic_.undo(frames_.back().trail);
+  if (!records_.empty() && records_.back().frames == frames_.size()) end_kept_call();
+  stack_.drop_to(base_);
   HeapScopes::release(activations_.back().block_scope);
   activations_.pop_back();
   module_names_.pop_back();

@@ -55,6 +55,7 @@ void Machine::set_unit(uint32_t unit) {
 
 void Machine::check_limits() {
   steps_ = kStepsPerCheck;
+  counted_ += kStepsPerCheck;
   if (stop_.stop_requested()) throw Stopped();
   if (tree_.bytes() > static_cast<size_t>(object_memory.limit)) throw OutOfValueMemory();
 }

@@ -11,7 +11,7 @@ void Machine::enter_unit(uint32_t unit) {
   if (reuse_unit(unit)) return;
   UnitEntry& entry = compiler_.unit(unit);
   if (frames_.size() >= kDepthLimit) fail("Recursion detected in a used file", place());
-  records_.push_back({unit, dynamic_.trail(), messages_.said()});
+  begin_record(unit);
   push_frame(*entry.assignments, stack_.size(), scopes_.make(nullptr, entry.scope->size()),
              FrameKind::kUnit, kNoActivation);
 }
@@ -23,23 +23,19 @@ bool Machine::end_unit() {
   }
   HeapScope* const scope = HeapScopes::acquire(scope_);
   pop_frame();
-  const UnitRecord record = std::move(records_.back());
-  records_.pop_back();
-  keep_unit(record, scope);
+  keep_unit(records_.back(), scope);
+  end_record();
   unit_scopes_.push_back(scope);
   return false;
 }
 
-void Machine::keep_unit(const UnitRecord& record, HeapScope* scope) {
-  if (!record.is_pure || record.messages != messages_.said()) {
-    for (UnitRecord& outer : records_) outer.is_pure = false;
-    return;
-  }
+void Machine::keep_unit(const Record& record, HeapScope* scope) {
+  if (!record.is_pure || !has_said_nothing(record)) return note_history();
   KeptUnit& kept = kept_units_[record.unit];
   HeapScopes::release(kept.scope);
   kept.scope = HeapScopes::acquire(scope);
   kept.is_loaded = false;
-  kept.reads = record.reads;
+  kept.reads = noted_reads(record);
   kept.bindings.clear();
   for (const Name name : dynamic_.bound_since(record.trail))
     kept.bindings.emplace_back(name, dynamic_[name]);
@@ -58,18 +54,6 @@ bool Machine::reuse_unit(uint32_t unit) {
   for (const auto& [name, value] : kept.bindings) dynamic_.bind(name, value);
   unit_scopes_.push_back(HeapScopes::acquire(kept.scope));
   return true;
-}
-
-// What depends on what has happened before in the run.
-void Machine::note_history() {
-  for (UnitRecord& record : records_) record.is_pure = false;
-}
-
-// Functions whose results differ from call to call, or with a file.
-void Machine::note_builtin(const BuiltinFunction& function) {
-  constexpr std::string_view kSuch[] = {"rands", "parent_module", "dxf_dim", "dxf_cross"};
-  if (std::find(std::begin(kSuch), std::end(kSuch), function.name) != std::end(kSuch))
-    note_history();
 }
 
 }  // namespace language

@@ -65,7 +65,8 @@ void Machine::make_vector(uint32_t count) {
 }
 
 void Machine::make_closure(uint32_t index) {
-  note_history();
+  for (Record& record : records_)
+    if (record.unit != kNoUnit) record.is_pure = false;  // it could not be kept
   FunctionEntry& function = *frames_.back().code->functions[index];
   stack_.push(Value::adopt(new Closure(function, scope_, compiler_.names())));
 }

@@ -27,13 +27,6 @@ void Machine::push_dynamic(Name name, bool silently) {
   stack_.push(Value::undef());
 }
 
-// What a top level reads of `$` names decides whether it can be kept.
-void Machine::note_read(Name name) {
-  for (UnitRecord& record : records_)
-    if (!dynamic_.is_bound_since(name, record.trail))
-      record.reads.emplace_back(name, dynamic_[name]);
-}
-
 void Machine::unknown_variable(Name name) {
   warn("Ignoring unknown variable '" + std::string(compiler_.names().text(name)) + "'",
        compiler_.names().is_dynamic(name) ? PathBase::kUnit : PathBase::kMainFile);

@@ -67,6 +67,7 @@ std::string NamedFiles::path_of(const std::string& name) {
 
 NamedFile NamedFiles::find(const std::string& name) {
   NamedFile file;
+  ++finds_;
   if (name.empty()) return file;
   file.opened = path_of(name);
   const fs::path path = resolved_file(file.opened);

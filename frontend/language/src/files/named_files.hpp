@@ -38,6 +38,8 @@ class NamedFiles {
   /// and are not.
   const std::vector<std::string>& files_read() const { return files_read_; }
   const std::vector<std::string>& lookups() const { return lookups_; }
+  /// Returns how often a file has been looked for.
+  size_t finds() const { return finds_; }
 
  private:
   std::string path_of(const std::string& name);
@@ -47,6 +49,7 @@ class NamedFiles {
   std::string unit_folder_;
   std::vector<std::string> files_read_;
   std::vector<std::string> lookups_;
+  size_t finds_ = 0;
 };
 
 }  // namespace language

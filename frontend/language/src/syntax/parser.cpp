@@ -119,14 +119,25 @@ void Parser::say_overwritten(const Assignment& assignment, Place first) {
   lexer_.check_warnings();
 }
 
+/// Returns the extent of what has been parsed since a place, and since the lexer had entered so
+/// many files.
+DefinitionExtent Parser::extent_from(Place begin, uint32_t entries) const {
+  const Place end = boundary();
+  if (end.file != begin.file || lexer_.entries() != entries) return {};
+  return {begin.offset, end.offset};
+}
+
 void Parser::parse_module(ScopeBuilder& scope) {
   const Nested nested(*this, 7);
+  const Place begin = peek().place;
+  const uint32_t entries = lexer_.entries();
   consume();
   const Name name = expect_name().name;
   expect('(');
   const auto parameters = parse_parameters();
   const Place place = expect(')');
-  scope.add(ModuleDefinition{name, place, parameters, parse_module_body()});
+  const Scope* const body = parse_module_body();
+  scope.add(ModuleDefinition{name, place, parameters, body, extent_from(begin, entries)});
 }
 
 const Scope* Parser::parse_module_body() {
@@ -136,6 +147,8 @@ const Scope* Parser::parse_module_body() {
 }
 
 void Parser::parse_function(ScopeBuilder& scope) {
+  const Place begin = peek().place;
+  const uint32_t entries = lexer_.entries();
   consume();
   const Token name = expect_name();
   expect('(');
@@ -144,7 +157,8 @@ void Parser::parse_function(ScopeBuilder& scope) {
   expect('=');
   const Expression* body = parse_expression();
   expect(';');
-  scope.add(FunctionDefinition{name.name, name.place, parameters, body});
+  scope.add(
+      FunctionDefinition{name.name, name.place, parameters, body, extent_from(begin, entries)});
 }
 
 void Parser::parse_call(ScopeBuilder& scope) {

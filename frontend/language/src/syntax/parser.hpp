@@ -72,6 +72,7 @@ class Parser {
   void parse_assignment(ScopeBuilder& scope);
   void add(ScopeBuilder& scope, const Assignment& assignment);
   void parse_module(ScopeBuilder& scope);
+  DefinitionExtent extent_from(Place begin, uint32_t entries) const;
   const Scope* parse_module_body();
   void parse_function(ScopeBuilder& scope);
   void parse_call(ScopeBuilder& scope);

@@ -179,11 +179,18 @@ struct ModuleCall {
   const Scope* else_children = nullptr;   // of an `if` with `else`
 };
 
+/// The bytes of a definition in the file of its place. Its meaning depends on them alone, unless
+/// something is included within them: then `end` is 0.
+struct DefinitionExtent {
+  uint32_t begin = 0, end = 0;
+};
+
 struct FunctionDefinition {
   Name name;
   Place place;
   std::span<const Parameter> parameters;
   const Expression* body;
+  DefinitionExtent extent{};
 };
 
 struct ModuleDefinition {
@@ -191,6 +198,7 @@ struct ModuleDefinition {
   Place place;  // of the `)` that ends its parameters
   std::span<const Parameter> parameters;
   const Scope* body;
+  DefinitionExtent extent{};
 };
 
 /// A file's top level, a module's body or a child block. Each list is in source order; of names

@@ -35,6 +35,11 @@ Value ValueCopier::copy(const Value& value, int depth) {
 }
 
 Value ValueCopier::copy_object(const Value& value, int depth) {
+  const size_t size = value.is_string()   ? value.text().size()
+                      : value.is_vector() ? value.elements().size()
+                                          : 1;
+  if (size > elements_left_) return Value::unset();
+  elements_left_ -= size;
   if (value.is_string()) return make_string(value.text());
   if (value.is_range()) {
     const RangeObject& range = value.range();

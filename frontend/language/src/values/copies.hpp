@@ -13,14 +13,17 @@ namespace language {
 /// evaluations are used elsewhere may not share objects with them.
 class ValueCopier {
  public:
+  /// `elements`: of vectors, and bytes of strings, that may be copied at most.
+  explicit ValueCopier(size_t elements = ~size_t{0}) : elements_left_(elements) {}
   /// Returns a copy; unset if the value is unset, or holds a function or vectors nested very
-  /// deeply.
+  /// deeply, or too much.
   Value copy(const Value& value) { return copy(value, 0); }
 
  private:
   Value copy(const Value& value, int depth);
   Value copy_object(const Value& value, int depth);
 
+  size_t elements_left_;
   std::unordered_map<const SharedObject*, Value> copies_;
 };
 
