@@ -14,13 +14,13 @@ constexpr uint32_t kTailLimit = 1000000;
 void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, FrameKind kind,
                          uint32_t activation) {
   count_step();
+  stack_.reserve(base + code.deepest + 1);  // before the frame, so that errors have their place
   if (!frames_.empty()) {
     frames_.back().next = next_;
     frames_.back().scope = scope_;
   }
   frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation});
   frames_.back().kind = kind;
-  stack_.reserve(base + code.deepest + 1);
   code_ = code.instructions.data();
   next_ = 0;
   base_ = base;
