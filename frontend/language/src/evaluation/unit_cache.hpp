@@ -16,7 +16,7 @@ struct UnitRecord {
   /// It has called no rands() or parent_module(), made no function value, and met nothing that only
   /// the first call of a run does.
   bool is_pure = true;
-  NamedValues reads{};  // `$` names that others had bound; unset: not bound
+  NamedValues reads{};  // `$` names that others had bound, once each; unset: not bound
 };
 
 /// A top level that can be used again while the `$` names that it read have the same values.

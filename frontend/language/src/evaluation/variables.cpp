@@ -1,4 +1,6 @@
 // Variables, scopes and `$` names.
+#include <algorithm>
+
 #include "evaluation/machine.hpp"
 
 namespace language {
@@ -29,9 +31,12 @@ void Machine::push_dynamic(Name name, bool silently) {
 
 // What a top level reads of `$` names decides whether it can be kept.
 void Machine::note_read(Name name) {
-  for (UnitRecord& record : records_)
-    if (!dynamic_.is_bound_since(name, record.trail))
+  for (UnitRecord& record : records_) {
+    const bool is_noted = std::any_of(record.reads.begin(), record.reads.end(),
+                                      [name](const auto& read) { return read.first == name; });
+    if (!is_noted && !dynamic_.is_bound_since(name, record.trail))
       record.reads.emplace_back(name, dynamic_[name]);
+  }
 }
 
 void Machine::unknown_variable(Name name) {
