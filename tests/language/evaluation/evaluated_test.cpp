@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "evaluation/value_stack.hpp"
 #include "language/csg_writer.hpp"
 #include "language/stopped.hpp"
 
@@ -124,9 +125,11 @@ TEST(Evaluation, StopsWithinAnInstruction) {
   const std::string nested =
       "echo(1); function twice(n) = n == 0 ? [1] : let (half = twice(n - 1)) [half, half];\n"
       "m = [for (i = [0:1499]) [for (j = [0:1499]) i + j]]; q = [for (i = [0:500000]) i];\n";
-  for (const char* endless : {"echo(twice(60) == twice(60));", "echo(twice(60) < twice(60));",
-                              "echo(len(search([twice(50)], [twice(50)])));", "echo(len(m * m));",
-                              "echo(len(search([for (i = q) -1], q)));"}) {
+  for (const char* endless :
+       {"echo(twice(60) == twice(60));", "echo(twice(60) < twice(60));",
+        "echo(len(search([twice(50)], [twice(50)])));", "echo(len(m * m));",
+        "echo(len(search([for (i = q) -1], q)));", "polygon(twice(60));",
+        "k = [for (i = [0:9], j = q) undef]; module n() children(k); n() cube();"}) {
     std::stop_source source;
     EvaluationOptions options;
     options.stop = source.get_token();
@@ -141,6 +144,38 @@ TEST(Evaluation, StopsWithinAnInstruction) {
     };
     EXPECT_THROW(evaluate(file, options, sink), Stopped) << endless;
   }
+}
+
+// Files that hold nothing but other files: 2^50 of them.
+TEST(Evaluation, StopsAmongIncludes) {
+  const Folder folder;
+  std::string file = folder.write("50.scad", "");
+  for (int i = 49; i >= 0; --i) {
+    const std::string next = "include <" + std::to_string(i + 1) + ".scad>\n";
+    file = folder.write(std::to_string(i) + ".scad", next + next);
+  }
+  std::stop_source source;
+  EvaluationOptions options;
+  options.stop = source.get_token();
+  const std::jthread stopper([&source] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source.request_stop();
+  });
+  EXPECT_THROW(evaluate(file, options, [](std::string_view) {}), Stopped);
+}
+
+TEST(Evaluation, CountsItsStack) {
+  const ObjectMemory before = object_memory;
+  object_memory.limit = object_memory.used + (1 << 20);
+  {
+    ValueStack stack;
+    stack.reserve(1 << 15);
+    EXPECT_GE(object_memory.used - before.used, (1 << 15) * int64_t{sizeof(Value)});
+    EXPECT_THROW(stack.reserve(1 << 17), OutOfValueMemory);
+    EXPECT_THROW(stack.reserve(0xFFFFFFFFu), OutOfValueMemory);
+  }
+  EXPECT_EQ(object_memory.used, before.used);
+  object_memory = before;
 }
 
 TEST(Evaluation, TakesParametersAndTheTime) {

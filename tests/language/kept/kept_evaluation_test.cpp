@@ -151,5 +151,26 @@ TEST(KeptEvaluation, TellsZerosApart) {
   EXPECT_EQ(shown(nullptr).lines, (Lines{"ECHO: inf", "ECHO: -inf"}));
 }
 
+TEST(KeptEvaluation, StopsAtWarningsInTheSameLine) {
+  const DesignFolder folder;
+  folder.write("a.scad", "\n\nx = 2;\n");
+  folder.write("b.scad", "{\nx = 2;\n\n}\n");
+  EvaluationCache cache;
+  for (const std::string name : {"a", "b"}) {
+    folder.write("main.scad", "include <" + name + ".scad>\n");
+    shown(&cache);
+    folder.write("main.scad", "x = 1;\ninclude <" + name + ".scad>\n");
+    EvaluationOptions options;
+    options.hard_warnings = true;
+    const auto lines_of = [&](EvaluationCache* kept) {
+      Lines lines;
+      options.cache = kept;
+      evaluate("main.scad", options, [&](std::string_view line) { lines.emplace_back(line); });
+      return lines;
+    };
+    EXPECT_EQ(lines_of(&cache), lines_of(nullptr)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace language

@@ -57,6 +57,12 @@ TEST(ParameterSetFile, OtherFilesAreRefused) {
   } catch (const ParameterSetFile::ParseError& error) {
     EXPECT_EQ(error.line, 3u);
   }
+  EXPECT_THROW(ParameterSetFile(R"({"parameterSets": {"a": {"x": 1e999}}})"),
+               ParameterSetFile::ParseError);
+  EXPECT_THROW(ParameterSetFile(std::string(200'000, '[') + std::string(200'000, ']')),
+               ParameterSetFile::ParseError)
+      << "deeper than can be written";
+  EXPECT_EQ(ParameterSetFile("{\"" + std::string(200, '[') + "\\\"\": 1}").names(), Names{});
   ParameterSetFile list("[1]");
   EXPECT_FALSE(list.put("a", {}));
   EXPECT_EQ(list.text(), "[\n    1\n]\n");

@@ -39,6 +39,17 @@ TEST(SyntaxErrors, StandWhereOpenScadSeesThem) {
     EXPECT_EQ(parse_text(text).lines, syntax_error(line)) << text;
 }
 
+TEST(SyntaxErrors, EndChainsOfCalls) {
+  const auto lines_of = [](int calls) {
+    std::string text = "x=f";
+    for (int i = 0; i < calls; ++i) text += "()";
+    return parse_text(text + ";").lines;
+  };
+  EXPECT_EQ(lines_of(20'000), Lines{});
+  ASSERT_FALSE(lines_of(20'001).empty());
+  EXPECT_EQ(lines_of(20'001)[0], "ERROR: Parser error: memory exhausted in file <stdin>, line 1");
+}
+
 TEST(SyntaxErrors, AreNone) {
   for (const std::string text :
        {"", ";", "{}", "module m()", "module m() function f(a,)=1;", "0x10=1;2x=1e5;",

@@ -59,6 +59,14 @@ TEST(SmallBlocks, OfAThreadThatEndsServeOthers) {
   EXPECT_EQ(taken_again(blocks), size_t{kMany});
 }
 
+TEST(SmallBlocks, OfAThreadThatOnlyGivesServeOthers) {
+  std::vector<void*> blocks;
+  in_thread([&] { blocks = take_many(); });
+  blocks.resize(kMany / 6);  // fewer than a thread keeps
+  in_thread([&] { give_all(blocks); });
+  EXPECT_EQ(taken_again(blocks), blocks.size());
+}
+
 TEST(SmallBlocks, ThatAnotherThreadFreesDoNotStayThere) {
   std::vector<void*> blocks;
   in_thread([&] { blocks = take_many(); });

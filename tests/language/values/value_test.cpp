@@ -71,6 +71,15 @@ struct HoldingFunction : FunctionObject {
   Value value;
 };
 
+TEST(Value, CountsFunctions) {
+  const int64_t before = object_memory.used;
+  {
+    const Value value = Value::adopt(new HoldingFunction({}));
+    EXPECT_EQ(object_memory.used - before, int64_t{sizeof(HoldingFunction)});
+  }
+  EXPECT_EQ(object_memory.used, before);
+}
+
 TEST(Value, DestroysChainsOfFunctions) {
   Value value;
   for (int i = 0; i < kQuiteDeep; ++i) value = Value::adopt(new HoldingFunction(nested(1, value)));

@@ -4,6 +4,7 @@
 
 #include "evaluation/machine.hpp"
 #include "values/copies.hpp"
+#include "values/object_memory.hpp"
 #include "values/range.hpp"
 
 namespace language {
@@ -163,16 +164,17 @@ void Machine::end_kept_call() {
   const bool is_pure =
       record.is_pure && has_said_nothing(record) && record.finds == modules_.files.finds();
   if (is_pure && work() - record.work >= kLeastWork) {
-    if (auto call = kept_call(record)) {
-      const auto within = static_cast<uint32_t>(calls_.calls.size()) - record.first_call;
-      calls_.calls.push_back({std::move(call), record.first_node, tree_.size(), within});
+    try {
+      keep_call(record);
+    } catch (const OutOfValueMemory&) {
+      // The evaluation may have enough, if nothing is kept.
     }
   }
   end_record();
 }
 
-// Returns null if something cannot be kept.
-std::shared_ptr<const KeptCall> Machine::kept_call(const Record& record) {
+// Keeps a call, unless something that it depends on cannot be kept.
+void Machine::keep_call(const Record& record) {
   const ModuleEntry& module = *activations_.back().module;
   auto call = std::make_shared<KeptCall>();
   call->hash = record.hash;
@@ -198,7 +200,9 @@ std::shared_ptr<const KeptCall> Machine::kept_call(const Record& record) {
       is_whole = is_whole && keep_variable(call->variables.back());
     }
   });
-  return is_whole ? call : nullptr;
+  if (!is_whole) return;
+  const auto within = static_cast<uint32_t>(calls_.calls.size()) - record.first_call;
+  calls_.calls.push_back({std::move(call), record.first_node, tree_.size(), within});
 }
 
 // Keeps the value of a variable of the main unit's top level for later comparisons. Returns whether

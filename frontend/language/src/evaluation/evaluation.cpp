@@ -36,6 +36,8 @@ class Session {
 
  private:
   void take(const Message& message);
+  void abort();
+  void run_program(Machine& machine);
   void evaluate_program();
   void preset_names(Machine& machine) const;
   void apply_parameters(Machine& machine);
@@ -64,6 +66,11 @@ void Session::take(const Message& message) {
   sink_(message.line);
   if (!machine_) return;
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
+}
+
+void Session::abort() {
+  result_.outcome = Outcome::kAborted;
+  *tree_ = {};
 }
 
 Value numbers(std::initializer_list<double> list) {
@@ -145,6 +152,19 @@ void Session::say_root_modifiers() {
 // Bytes that a design's values may take (LANGUAGE.md, "Differences").
 constexpr int64_t kMemoryLimit = int64_t{2} << 30;
 
+void Session::run_program(Machine& machine) {
+  machine_ = &machine;
+  try {
+    apply_parameters(machine);
+    machine.run_assignments();
+    machine.run_calls();
+  } catch (const Aborted&) {
+    abort();
+    machine.end_early();
+  }
+  machine_ = nullptr;
+}
+
 void Session::evaluate_program() {
   keep_freed_memory();
   object_memory.limit = kMemoryLimit;
@@ -156,23 +176,18 @@ void Session::evaluate_program() {
   NamedFiles files(messages_, folder);
   ModuleEnvironment modules{messages_, files, options_.check_ranges};
   Machine machine(compiler, messages_, modules, *tree_, options_.stop);
-  machine_ = &machine;
   preset_names(machine);
   if (kept_) {
     machine.use_kept(kept_->tops);
     machine.use_calls(kept_->calls);
   }
   try {
-    apply_parameters(machine);
-    machine.run_assignments();
-    machine.run_calls();
-  } catch (const Aborted&) {
-    result_.outcome = Outcome::kAborted;
-    *tree_ = {};
-    machine.end_early();
+    run_program(machine);
+    read_camera(machine);
+  } catch (const std::bad_alloc&) {  // outside of calls: for constants, or the text of a value
+    messages_.say(MessageGroup::kError, "The design's values take too much memory");
+    abort();
   }
-  machine_ = nullptr;
-  read_camera(machine);
   say_root_modifiers();
   list_files(files);
   if (!kept_) return;

@@ -14,6 +14,7 @@ constexpr uint32_t kTailLimit = 1000000;
 void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, FrameKind kind,
                          uint32_t activation) {
   count_step();
+  stack_.reserve(base + code.deepest + 1);  // before the frame, so that errors have their place
   if (!frames_.empty()) {
     frames_.back().next = next_;
     frames_.back().scope = scope_;
@@ -21,7 +22,6 @@ void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, Fram
   frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation});
   frames_.back().kind = kind;
   if (code.noted_by != record_ && record_ != 0) note_code(code);
-  stack_.reserve(base + code.deepest + 1);
   code_ = code.instructions.data();
   next_ = 0;
   base_ = base;

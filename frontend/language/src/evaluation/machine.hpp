@@ -174,7 +174,7 @@ class Machine {
                     std::span<const Value> arguments);
   bool reuse_call(size_t position);
   void note_kept(const KeptCall& call);
-  std::shared_ptr<const KeptCall> kept_call(const Record& record);
+  void keep_call(const Record& record);
   bool keep_variable(uint32_t slot);
 
   // saved_units.cpp

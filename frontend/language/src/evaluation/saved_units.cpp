@@ -30,13 +30,13 @@ void Machine::load_unit(uint32_t unit) {
   if (found == kept_tops_->end()) return;
   const KeptTop& top = found->second;
   if (top.identity != unit_identity(program, unit)) return;
+  // Half a copy, where there is no memory for all, may not be kept.
   ValueCopier copier;
-  kept.scope = scopes_.make(nullptr, static_cast<uint32_t>(top.variables.size()));
+  HeapScope* const scope = scopes_.make(nullptr, static_cast<uint32_t>(top.variables.size()));
   for (size_t slot = 0; slot < top.variables.size(); ++slot)
-    kept.scope->values()[slot] = copier.copy(top.variables[slot]);
-  kept.reads = copies_of(top.reads, copier);
-  kept.bindings = copies_of(top.bindings, copier);
-  kept.is_loaded = true;
+    scope->values()[slot] = copier.copy(top.variables[slot]);
+  NamedValues reads = copies_of(top.reads, copier), bindings = copies_of(top.bindings, copier);
+  kept = {scope, std::move(reads), std::move(bindings), true, true};
 }
 
 void Machine::save_unit(uint32_t unit, KeptTops& tops) {
@@ -71,7 +71,7 @@ void Machine::save_units(KeptTops& tops) {
   try {
     for (uint32_t unit = 1; unit < kept_units_.size(); ++unit)
       if (kept_units_[unit].is_looked_up) save_unit(unit, tops);
-  } catch (const OutOfValueMemory&) {
+  } catch (const std::bad_alloc&) {
     tops.clear();
   }
 }

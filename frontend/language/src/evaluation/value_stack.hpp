@@ -8,10 +8,11 @@
 #include <new>
 
 #include "language/value.hpp"
+#include "values/object_memory.hpp"
 
 namespace language {
 
-/// A growing block of values. What lies above top() is no object.
+/// A growing block of values, which counts among their memory. What lies above top() is no object.
 class ValueStack {
  public:
   ValueStack() { reserve(kFirstSize); }
@@ -20,6 +21,7 @@ class ValueStack {
   ~ValueStack() {
     drop_to(0);
     std::free(values_);
+    object_memory.used -= static_cast<int64_t>(capacity_ * sizeof(Value));
   }
 
   uint32_t size() const { return static_cast<uint32_t>(top_ - values_); }
@@ -53,14 +55,17 @@ class ValueStack {
 
   // Values may be moved as bytes: none refers to its own place.
   void grow(uint32_t size) {
-    uint32_t capacity = capacity_ ? capacity_ : kFirstSize;
+    size_t capacity = capacity_ ? capacity_ : kFirstSize;
     while (capacity < size) capacity *= 2;
     const uint32_t used = values_ ? this->size() : 0;
-    void* block = std::realloc(static_cast<void*>(values_), capacity * sizeof(Value));
+    const size_t bytes_before = capacity_ * sizeof(Value), bytes = capacity * sizeof(Value);
+    check_text_size(bytes - bytes_before);
+    void* block = std::realloc(static_cast<void*>(values_), bytes);
     if (!block) throw std::bad_alloc();
+    object_memory.used += static_cast<int64_t>(bytes - bytes_before);
     values_ = static_cast<Value*>(block);
     top_ = values_ + used;
-    capacity_ = capacity;
+    capacity_ = static_cast<uint32_t>(capacity);
   }
 
   Value* values_ = nullptr;

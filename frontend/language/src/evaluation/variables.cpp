@@ -1,5 +1,5 @@
 // Variables, scopes and `$` names.
-#include "evaluation/machine.hpp"
+#include <algorithm>
 
 namespace language {
 

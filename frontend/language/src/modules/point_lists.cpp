@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/work_meter.hpp"
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
 #include "values/function_object.hpp"
@@ -28,6 +29,7 @@ bool holds_function(const Value& value) {
   while (!pending.empty()) {
     const std::span<const Value> elements = pending.back();
     pending.pop_back();
+    count_work(elements.size());
     for (const Value& element : elements) {
       if (element.is_function()) return true;
       if (element.is_vector()) pending.push_back(element.elements());

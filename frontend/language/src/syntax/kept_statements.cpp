@@ -15,6 +15,7 @@ bool Parser::take_kept_statement(ScopeBuilder& scope) {
   KeptFile* const file = program_.kept_file(place.file);
   const KeptStatement* const statement = file ? file->find(place.offset) : nullptr;
   if (!statement) return false;
+  lexer_.go_on_at(statement->end);  // where an error would stand
   for (const TopLevelItem& item : file->items(*statement)) {
     if (const auto* assignment = std::get_if<Assignment>(&item)) {
       add(scope, *assignment);
@@ -24,7 +25,6 @@ bool Parser::take_kept_statement(ScopeBuilder& scope) {
   }
   items_.clear();
   ahead_ = 0;
-  lexer_.go_on_at(statement->end);
   return true;
 }
 
@@ -33,8 +33,10 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   const Place begin = tokens_[0].place;
   KeptFile* const file = program_.kept_file(begin.file);
   items_.clear();
-  // Behind the end of a file nested scopes do not warn of assignments that are overwritten.
-  if (!file || file->is_complete || is_behind_file_) return parse_statement(scope);
+  // Behind the end of a file nested scopes do not warn of assignments that are overwritten. An
+  // error in a block stands within it.
+  const bool is_block = tokens_[0].is('{');
+  if (!file || file->is_complete || is_behind_file_ || is_block) return parse_statement(scope);
   const KeptStatement start{lexer_.blank_begin(), begin.offset, 0, 0, 0};
   const uint32_t entries = lexer_.entries();
   const size_t warnings = messages_.warnings() - warnings_of_top_level_;

@@ -11,13 +11,37 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSets = "parameterSets";
 
+size_t line_of(std::string_view text, size_t offset) {
+  const auto end = text.begin() + static_cast<long>(std::min(offset, text.size()));
+  return 1 + static_cast<size_t>(std::count(text.begin(), end, '\n'));
+}
+
+/// Refuses what nests deeper than any set: it is written by recursion.
+void check_depth(std::string_view text) {
+  constexpr int kMostDepth = 100;
+  int depth = 0;
+  bool is_quoted = false;
+  for (size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"') is_quoted = !is_quoted;
+    if (is_quoted) {
+      if (c == '\\') ++at;
+      continue;
+    }
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kMostDepth) throw ParameterSetFile::ParseError{line_of(text, at)};
+  }
+}
+
 Json parsed(std::string_view text) {
+  check_depth(text);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<long>(std::min(error.byte, text.size()));
-    throw ParameterSetFile::ParseError{1 +
-                                       static_cast<size_t>(std::count(text.begin(), end, '\n'))};
+    throw ParameterSetFile::ParseError{line_of(text, error.byte)};
+  } catch (const Json::out_of_range&) {  // a number, which does not say where it stands
+    throw ParameterSetFile::ParseError{1};
   }
 }
 

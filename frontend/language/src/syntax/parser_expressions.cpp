@@ -118,10 +118,13 @@ const Expression* Parser::parse_power(const Expression* base, Place start) {
                                 exponent);
 }
 
-/// Reads the calls, indices and members behind an operand.
+/// Reads the calls, indices and members behind an operand. Calls nest to the left: f()()() is no
+/// chain that a loop could follow.
 const Expression* Parser::parse_postfix(const Expression* operand, Place start) {
-  for (;;) {
+  constexpr uint32_t kMostCalls = 20'000;
+  for (uint32_t calls = 0;;) {
     if (peek().is('(')) {
+      if (++calls > kMostCalls) lexer_.fail("memory exhausted");
       const Nested nested(*this, 2);
       consume();
       const auto arguments = parse_arguments();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/read_file.hpp"
+#include "language/stopped.hpp"
 #include "syntax/lexer.hpp"
 #include "syntax/parser.hpp"
 
@@ -81,7 +82,13 @@ bool ProgramReader::parse(uint32_t unit_number) {
   }
 }
 
+/// Files that only name others yield no tokens, between which the parser looks.
+void ProgramReader::look_whether_to_stop() const {
+  if (options_.stop.stop_requested()) throw Stopped();
+}
+
 FileId ProgramReader::include(const NamedFile& file) {
+  look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
   auto& versions = program_.units[current_unit_].versions;
   if (const auto known = included_.find(path); known != included_.end()) {
@@ -112,6 +119,7 @@ FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
 }
 
 void ProgramReader::use(const NamedFile& file) {
+  look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
   if (path.empty()) messages_.warn("Can't open library '" + std::string(file.name) + "'.");
   if (const std::string name(file.name); is_font(name)) return use_font(name, path);

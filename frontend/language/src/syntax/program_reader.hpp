@@ -31,6 +31,7 @@ class ProgramReader : public FileLookup {
   }
 
  private:
+  void look_whether_to_stop() const;
   bool parse(uint32_t unit);
   uint32_t add_unit(FileId file, std::string folder, uint64_t version);
   FileId open(KeptSources::Role role, const std::string& path);

@@ -21,16 +21,20 @@ SmallBlocks::Depot& SmallBlocks::depot() {
   return *depot;
 }
 
-bool SmallBlocks::refill(List& list, size_t number) {
-  constexpr size_t kChunkBytes = size_t{1} << 20, kBatchBytes = 4096;
-  // Hands the lists over when the thread ends.
+// Has this thread's lists handed over when it ends.
+void SmallBlocks::clear_at_end() {
   thread_local struct Keeper {
     ~Keeper() { small_blocks.clear(); }
   } keeper;
   static_cast<void>(&keeper);
+}
+
+bool SmallBlocks::refill(List& list, size_t number) {
+  constexpr size_t kChunkBytes = size_t{1} << 20, kBatchBytes = 4096;
+  clear_at_end();
   Depot& all = depot();
   const std::lock_guard lock(all.mutex);
-  list.given = 0;
+  list.room = kMostGiven;
   if (Block* const first = all.lists[number]) {
     all.lists[number] = first->next_list;
     list.first = first;
@@ -51,6 +55,12 @@ bool SmallBlocks::refill(List& list, size_t number) {
     list.first = block;
   }
   return true;
+}
+
+void SmallBlocks::make_room(List& list, size_t number) noexcept {
+  clear_at_end();  // of a thread that only gives, too
+  hand_over(list, number);
+  list.room = kMostGiven;
 }
 
 void SmallBlocks::hand_over(List& list, size_t number) noexcept {

@@ -35,17 +35,17 @@ class SmallBlocks {
     if (!list.first && !refill(list, number_of(bytes))) return nullptr;
     Block* const block = list.first;
     list.first = block->next;
-    --list.given;
+    ++list.room;
     return block;
   }
   /// Takes back a block of take(), of the size that it was asked for.
   void give(void* memory, size_t bytes) noexcept {
     List& list = lists_[number_of(bytes)];
-    if (list.given >= kMostGiven) hand_over(list, number_of(bytes));
+    if (list.room <= 0) make_room(list, number_of(bytes));
     auto* const block = static_cast<Block*>(memory);
     block->next = list.first;
     list.first = block;
-    ++list.given;
+    --list.room;
   }
   /// Hands all lists over to other threads.
   void clear() noexcept;
@@ -60,12 +60,14 @@ class SmallBlocks {
   static_assert(sizeof(Block) <= kStep);
   struct List {
     Block* first = nullptr;
-    int32_t given = 0;  // less those that were taken, since the list was taken or handed over
+    int32_t room = 0;  // for blocks that are given, before the list is handed over
   };
   struct Depot;
   static Depot& depot();
   static size_t number_of(size_t bytes) { return (bytes - 1) / kStep; }
+  static void clear_at_end();
   bool refill(List& list, size_t number);
+  static void make_room(List& list, size_t number) noexcept;
   static void hand_over(List& list, size_t number) noexcept;
 
   std::array<List, kMostBytes / kStep> lists_{};
