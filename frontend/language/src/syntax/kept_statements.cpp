@@ -15,7 +15,7 @@ bool Parser::take_kept_statement(ScopeBuilder& scope) {
   KeptFile* const file = program_.kept_file(place.file);
   const KeptStatement* const statement = file ? file->find(place.offset) : nullptr;
   if (!statement) return false;
-  for (const TopLevelItem& item : file->items(*statement)) {
+  for (const TopLevelItem& item : statement->items) {
     if (const auto* assignment = std::get_if<Assignment>(&item)) {
       add(scope, *assignment);
     } else {
@@ -35,7 +35,7 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   items_.clear();
   // Behind the end of a file nested scopes do not warn of assignments that are overwritten.
   if (!file || file->is_complete || is_behind_file_) return parse_statement(scope);
-  const KeptStatement start{lexer_.blank_begin(), begin.offset, 0, 0, 0};
+  const KeptStatement start{lexer_.blank_begin(), begin.offset, 0};
   const uint32_t entries = lexer_.entries();
   const size_t warnings = messages_.warnings() - warnings_of_top_level_;
   set_arena(file->arena());

@@ -33,7 +33,7 @@ class Lexer {
   void next(Token& token);
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
   /// Returns where the blanks and comments before the last token begin.
-  uint32_t blank_begin() const { return blank_begin_; }
+  uint32_t blank_begin() const { return offset_of(blank_begin_); }
   /// Goes on elsewhere in the current file, up to which all has been read before.
   void go_on_at(uint32_t offset) { cursor_ = begin_ + offset; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
@@ -72,6 +72,7 @@ class Lexer {
   bool lex_number(Token& token, size_t length);
   void lex_sign(Token& token);
   void lex_string(Token& token);
+  bool lex_path(Token& token);
   bool lex_include(Token& token);
   void lex_use(Token& token);
   bool begins_path() const;
@@ -95,8 +96,8 @@ class Lexer {
   const char* begin_ = nullptr;  // of its text, behind which stands a NUL
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
+  const char* blank_begin_ = nullptr;
   std::vector<uint32_t>* line_starts_ = nullptr;
-  uint32_t blank_begin_ = 0;
   uint32_t entries_ = 0;
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read
