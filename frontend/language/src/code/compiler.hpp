@@ -76,6 +76,11 @@ class Compiler {
   const KnownNames& known() const { return known_; }
 
  private:
+  template <typename Definition, typename Entry>
+  Found<Entry> find(const ScopeLayout& from, Name name,
+                    DefinedNames<Definition, Entry> ScopeLayout::*names_of);
+  FunctionEntry& add_entry(const FunctionDefinition& written, const ScopeLayout& scope);
+  ModuleEntry& add_entry(const ModuleDefinition& written, const ScopeLayout& scope);
   Code& add_code(uint32_t unit);
   /// `compile` compiles the body of a function or a module.
   template <typename Entry>
