@@ -77,6 +77,12 @@ Name NameTable::add(std::string_view text, uint64_t hash) {
 
 Name NameTable::intern(std::string_view text) {
   const uint64_t hash = hash_of(text);
+  const Slot& first = slots_[hash & (slots_.size() - 1)];  // where most names are found
+  const bool is_found = first.hash == hash && first.size == text.size();
+  return is_found && text.size() <= kHashedBytes ? first.name : intern_hashed(text, hash);
+}
+
+Name NameTable::intern_hashed(std::string_view text, uint64_t hash) {
   const Name known = slots_[slot_of(text, hash)].name;
   return known != kNoName ? known : add(text, hash);
 }

@@ -33,6 +33,7 @@ class NameTable {
   };
 
   size_t slot_of(std::string_view text, uint64_t hash) const;
+  Name intern_hashed(std::string_view text, uint64_t hash);
   Name add(std::string_view text, uint64_t hash);
   void grow();
 

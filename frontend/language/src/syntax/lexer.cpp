@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "base/decimal_number.hpp"
-#include "syntax/characters.hpp"
 #include "syntax/string_escape.hpp"
 
 namespace language {
@@ -95,7 +94,8 @@ inline bool Lexer::lex(Token& token) {
   return true;
 }
 
-void Lexer::next(Token& token) {
+/// Reads a token of any kind. Nearly half are signs of one byte, which next() reads itself.
+void Lexer::next_other(Token& token) {
   bool is_token = false;
   while (!is_token) {
     const char* at = cursor_;

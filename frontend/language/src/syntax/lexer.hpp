@@ -8,6 +8,7 @@
 #include "language/source_files.hpp"
 #include "messages/messages.hpp"
 #include "syntax/arena.hpp"
+#include "syntax/characters.hpp"
 #include "syntax/file_lookup.hpp"
 #include "syntax/token.hpp"
 
@@ -30,7 +31,15 @@ class Lexer {
         const Main& main);
 
   /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
-  void next(Token& token);
+  void next(Token& token) {
+    const char* at = cursor_;
+    while (*at == ' ') ++at;
+    if (!is_sign(*at)) return next_other(token);
+    blank_begin_ = cursor_;
+    token.place = {file_, offset_of(at)};
+    token.kind = kind_of(*at);
+    cursor_ = at + 1;
+  }
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
   /// Returns where the blanks and comments before the last token begin.
   uint32_t blank_begin() const { return offset_of(blank_begin_); }
@@ -64,6 +73,7 @@ class Lexer {
   bool leave();
   void begin_line_at(const char* at);
 
+  void next_other(Token& token);
   bool skip_blank();
   void skip_line_comment();
   bool skip_block_comment();

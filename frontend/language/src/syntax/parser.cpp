@@ -5,6 +5,13 @@
 
 namespace language {
 
+void Parser::fetch(Token& token) {
+  constexpr uint32_t kTokensBetweenChecks = 4096;
+  if (++taken_ % kTokensBetweenChecks == 0) check_stop();
+  ++ahead_;
+  lexer_.next(token);
+}
+
 void Parser::check_stop() const {
   if (stop_.stop_requested()) throw Stopped();
 }

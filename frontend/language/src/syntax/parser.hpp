@@ -37,8 +37,7 @@ class Parser {
 
   // Tokens.
   const Token& peek() {
-    if (ahead_ == 0) [[likely]]
-      fetch(tokens_[0]);
+    if (ahead_ == 0) fetch(tokens_[0]);
     return tokens_[0];
   }
   const Token& peek_second() {
@@ -46,16 +45,11 @@ class Parser {
     if (ahead_ == 1) fetch(tokens_[1]);
     return tokens_[1];
   }
-  void fetch(Token& token) {
-    if (++taken_ % kTokensBetweenChecks == 0) check_stop();
-    lexer_.next(token);
-    ++ahead_;
-  }
+  void fetch(Token& token);
   void check_stop() const;
-  /// Removes the token that peek() returns. The next one is not read before it is needed: reading
-  /// may include a file, and say that it is missing.
+  /// Removes the token that peek() has returned. The next one is not read before it is needed:
+  /// reading may include a file, and say that it is missing.
   void consume() {
-    peek();
     if (--ahead_ > 0) tokens_[0] = tokens_[1];
   }
   /// Consumes a token of any kind, and returns its place.
@@ -146,8 +140,6 @@ class Parser {
     else
       return new (memory) Node{{kind, place}, fields...};
   }
-
-  static constexpr uint32_t kTokensBetweenChecks = 4096;
 
   /// Makes the node of a literal, or of a variable, and consumes its token.
   template <typename Node, typename Field>
