@@ -59,7 +59,7 @@ Evaluated evaluated(const std::string& program, const Options& options) {
   Evaluated result;
   const auto sink = [&](std::string_view line) { (result.messages += line) += "\n"; };
   result.evaluation = evaluate(folder.write("design.scad", program), evaluation, sink);
-  result.tree = csg_text(result.evaluation.tree);
+  result.tree = csg_text(*result.evaluation.tree);
   return result;
 }
 

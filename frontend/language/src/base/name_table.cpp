@@ -6,6 +6,8 @@ namespace language {
 
 namespace {
 
+constexpr size_t kHashedBytes = 8;  // whose hash and size tell the text
+
 template <typename Word>
 uint64_t word_at(const char* bytes) {
   Word word;
@@ -15,7 +17,7 @@ uint64_t word_at(const char* bytes) {
 
 /// Returns a number in which each byte of a text of at most eight bytes counts. (To copy a varying
 /// number of bytes would take a call.)
-uint64_t short_word(std::string_view text) {
+inline uint64_t short_word(std::string_view text) {
   const size_t size = text.size();
   const char* const bytes = text.data();
   if (size >= 4) return word_at<uint32_t>(bytes) | word_at<uint32_t>(bytes + size - 4) << 32;
@@ -24,29 +26,32 @@ uint64_t short_word(std::string_view text) {
 }
 
 /// Mixes eight bytes at a time: names are short, and a table this small needs no stronger hash.
-uint32_t hash_of(std::string_view text) {
+/// Texts of one size, of at most eight bytes, have one hash each: every step can be undone.
+inline uint64_t hash_of(std::string_view text) {
   constexpr uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
   uint64_t hash = text.size();
   const auto mix = [&](uint64_t word) {
     hash = (hash ^ word) * kFactor;
     hash ^= hash >> 32;
   };
-  for (; text.size() > 8; text.remove_prefix(8)) mix(word_at<uint64_t>(text.data()));
+  for (; text.size() > kHashedBytes; text.remove_prefix(kHashedBytes))
+    mix(word_at<uint64_t>(text.data()));
   mix(short_word(text));
-  return static_cast<uint32_t>(hash);
+  return hash;
 }
 
 }  // namespace
 
 /// Returns the slot that holds a text, or the free one where it belongs.
-size_t NameTable::slot_of(std::string_view text, uint32_t hash) const {
+inline size_t NameTable::slot_of(std::string_view text, uint64_t hash) const {
   const size_t mask = slots_.size() - 1;
-  size_t slot = hash & mask;
-  while (slots_[slot].name != kNoName &&
-         (slots_[slot].hash != hash || texts_[slots_[slot].name] != text)) {
-    slot = (slot + 1) & mask;
+  size_t number = hash & mask;
+  for (;; number = (number + 1) & mask) {
+    const Slot& slot = slots_[number];
+    if (slot.name == kNoName) return number;
+    if (slot.hash != hash || slot.size != text.size()) continue;
+    if (text.size() <= kHashedBytes || texts_[slot.name] == text) return number;
   }
-  return slot;
 }
 
 void NameTable::grow() {
@@ -61,18 +66,25 @@ void NameTable::grow() {
   }
 }
 
-Name NameTable::intern(std::string_view text) {
-  const uint32_t hash = hash_of(text);
-  size_t slot = slot_of(text, hash);
-  if (slots_[slot].name != kNoName) return slots_[slot].name;
-  if (2 * texts_.size() >= slots_.size()) {
-    grow();
-    slot = slot_of(text, hash);
-  }
+Name NameTable::add(std::string_view text, uint64_t hash) {
+  if (2 * texts_.size() >= slots_.size()) grow();
+  Slot& slot = slots_[slot_of(text, hash)];
   const auto name = static_cast<Name>(texts_.size());
   texts_.emplace_back(text);
-  slots_[slot] = {hash, name};
+  slot = {hash, static_cast<uint32_t>(text.size()), name};
   return name;
+}
+
+Name NameTable::intern(std::string_view text) {
+  const uint64_t hash = hash_of(text);
+  const Slot& first = slots_[hash & (slots_.size() - 1)];  // where most names are found
+  const bool is_found = first.hash == hash && first.size == text.size();
+  return is_found && text.size() <= kHashedBytes ? first.name : intern_hashed(text, hash);
+}
+
+Name NameTable::intern_hashed(std::string_view text, uint64_t hash) {
+  const Name known = slots_[slot_of(text, hash)].name;
+  return known != kNoName ? known : add(text, hash);
 }
 
 Name NameTable::find(std::string_view text) const {

@@ -27,11 +27,14 @@ class NameTable {
 
  private:
   struct Slot {
-    uint32_t hash = 0;
+    uint64_t hash = 0;
+    uint32_t size = 0;  // of the text
     Name name = kNoName;
   };
 
-  size_t slot_of(std::string_view text, uint32_t hash) const;
+  size_t slot_of(std::string_view text, uint64_t hash) const;
+  Name intern_hashed(std::string_view text, uint64_t hash);
+  Name add(std::string_view text, uint64_t hash);
   void grow();
 
   std::deque<std::string> texts_;                     // a deque, whose elements do not move

@@ -10,17 +10,20 @@ std::optional<std::string> read_file(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              std::fclose);
   if (!file) return std::nullopt;
-  constexpr size_t kBlock = 1 << 16;  // bytes: most designs are read at once
-  const auto block = std::make_unique_for_overwrite<char[]>(kBlock);
-  std::string bytes;
-  std::error_code problem;  // what has no size is no file, and grows as it is read
+  constexpr size_t kBlock = 1 << 16;  // bytes of what has no size, and grows as it is read
+  std::error_code problem;
   const auto size = std::filesystem::file_size(path, problem);
-  if (!problem && size <= kMostFileBytes) bytes.reserve(size);
-  while (const size_t count = std::fread(block.get(), 1, kBlock, file.get())) {
-    bytes.append(block.get(), count);
-    if (bytes.size() > kMostFileBytes) return std::nullopt;
+  const bool is_sized = !problem && size <= kMostFileBytes;
+  std::string bytes(is_sized ? size + 1 : kBlock, '\0');  // more than there are
+  size_t count = 0;
+  for (;;) {
+    count += std::fread(bytes.data() + count, 1, bytes.size() - count, file.get());
+    if (count > kMostFileBytes) return std::nullopt;
+    if (count < bytes.size()) break;
+    bytes.resize(2 * count);
   }
   if (std::ferror(file.get())) return std::nullopt;  // a folder can be opened, but not read
+  bytes.resize(count);
   return bytes;
 }
 

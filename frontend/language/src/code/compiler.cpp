@@ -66,32 +66,40 @@ ArgumentPlan Compiler::plan_builtin(const ModuleShape& module, std::span<const A
   return plan_arguments(arguments, parameters, module.positional, call, names());
 }
 
-Found<FunctionEntry> Compiler::find_function(const ScopeLayout& from, Name name) {
-  for (const ScopeLayout* scope = &from; scope; scope = scope->parent) {
-    const auto found = scope->functions.find(name);
-    if (found != scope->functions.end()) return {found->second, false};
-  }
+template <typename Definition, typename Entry>
+Found<Entry> Compiler::find(const ScopeLayout& from, Name name,
+                            DefinedNames<Definition, Entry> ScopeLayout::*names_of) {
+  const auto find_in = [&](const ScopeLayout& scope) -> Entry* {
+    const auto& names = scope.*names_of;
+    const auto found = names.find(name);
+    if (found == names.end()) return nullptr;
+    const auto& [written, entry] = found->second;
+    return entry ? entry : entry = &add_entry(*written, scope);
+  };
+  for (const ScopeLayout* scope = &from; scope; scope = scope->parent)
+    if (Entry* const entry = find_in(*scope)) return {entry, false};
   const auto& uses = program_.units[from.unit].uses;
-  for (auto used = uses.rbegin(); used != uses.rend(); ++used) {
-    const auto& functions = unit(*used).scope->functions;
-    const auto found = functions.find(name);
-    if (found != functions.end()) return {found->second, true};
-  }
+  for (auto used = uses.rbegin(); used != uses.rend(); ++used)
+    if (Entry* const entry = find_in(*unit(*used).scope)) return {entry, true};
   return {};
 }
 
+Found<FunctionEntry> Compiler::find_function(const ScopeLayout& from, Name name) {
+  return find(from, name, &ScopeLayout::functions);
+}
+
 Found<ModuleEntry> Compiler::find_module(const ScopeLayout& from, Name name) {
-  for (const ScopeLayout* scope = &from; scope; scope = scope->parent) {
-    const auto found = scope->modules.find(name);
-    if (found != scope->modules.end()) return {found->second, false};
-  }
-  const auto& uses = program_.units[from.unit].uses;
-  for (auto used = uses.rbegin(); used != uses.rend(); ++used) {
-    const auto& modules = unit(*used).scope->modules;
-    const auto found = modules.find(name);
-    if (found != modules.end()) return {found->second, true};
-  }
-  return {};
+  return find(from, name, &ScopeLayout::modules);
+}
+
+FunctionEntry& Compiler::add_entry(const FunctionDefinition& written, const ScopeLayout& scope) {
+  return functions_.emplace_back(FunctionEntry{
+      {written.name, written.place, written.parameters, &scope}, written.body, nullptr});
+}
+
+ModuleEntry& Compiler::add_entry(const ModuleDefinition& written, const ScopeLayout& scope) {
+  return modules_.emplace_back(
+      ModuleEntry{{written.name, written.place, written.parameters, &scope}, written.body});
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {
@@ -115,6 +123,7 @@ ScopeLayout& Compiler::add_scope(const ScopeLayout* parent, uint32_t unit, const
 }
 
 void Compiler::define(ScopeLayout& layout, const Scope& scope) {
+<<<<<<< HEAD
   const bool is_top = !layout.parent && layout.unit == 0;
   uint32_t definition_number = is_top ? 0 : layout.code->definition;
   for (const FunctionDefinition& definition : scope.functions) {
@@ -131,6 +140,13 @@ void Compiler::define(ScopeLayout& layout, const Scope& scope) {
     layout.modules[definition.name]->definition = definition_number;
     if (is_top) ++definition_number;
   }
+=======
+  layout.functions.reserve(scope.functions.size());
+  for (const FunctionDefinition& function : scope.functions)
+    layout.functions[function.name] = {&function};
+  layout.modules.reserve(scope.modules.size());
+  for (const ModuleDefinition& module : scope.modules) layout.modules[module.name] = {&module};
+>>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
 }
 
 Code& Compiler::add_code(uint32_t unit, uint32_t definition) {

@@ -10,9 +10,21 @@
 
 namespace language {
 
+struct FunctionDefinition;
 struct FunctionEntry;
+struct ModuleDefinition;
 struct ModuleEntry;
 struct Code;
+
+/// The functions or the modules that a scope defines. Most of a library's are never called, so
+/// their entries are made when they are first looked for.
+template <typename Definition, typename Entry>
+struct Defined {
+  const Definition* written;
+  mutable Entry* entry = nullptr;  // null: not made yet
+};
+template <typename Definition, typename Entry>
+using DefinedNames = std::unordered_map<Name, Defined<Definition, Entry>>;
 
 struct ScopeVariable {
   Name name;
@@ -53,8 +65,8 @@ class ScopeLayout {
   uint32_t size() const { return static_cast<uint32_t>(variables_.size()); }
   const std::vector<ScopeVariable>& variables() const { return variables_; }
 
-  std::unordered_map<Name, FunctionEntry*> functions;
-  std::unordered_map<Name, ModuleEntry*> modules;
+  DefinedNames<FunctionDefinition, FunctionEntry> functions;
+  DefinedNames<ModuleDefinition, ModuleEntry> modules;
 
  private:
   std::vector<ScopeVariable> variables_;

@@ -19,7 +19,7 @@ void Machine::binary(Operator op) {
   const Value left = stack_.pop();
   OperatorProblem problem;
   stack_.top() = op(left, stack_.top(), problem);
-  say_problem(problem);
+  if (!problem.text.empty()) say_problem(problem);
 }
 
 void Machine::negate_top() {
@@ -58,9 +58,8 @@ void Machine::make_range(uint16_t flags) {
 void Machine::make_vector(uint32_t count) {
   Value vector = language::make_vector(count);
   auto& object = static_cast<VectorObject&>(*vector.object());
-  std::uninitialized_move_n(stack_.end() - count, count, object.elements());
+  stack_.pop_to(object.elements(), count);
   object.size = count;
-  stack_.drop_to(stack_.size() - count);
   stack_.push(std::move(vector));
 }
 

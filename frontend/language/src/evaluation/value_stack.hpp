@@ -12,7 +12,12 @@
 
 namespace language {
 
+<<<<<<< HEAD
 /// A growing block of values, which counts among their memory. What lies above top() is no object.
+=======
+/// A growing block of values. What lies above top() is no object. Values are moved as bytes: none
+/// refers to its own place.
+>>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
 class ValueStack {
  public:
   ValueStack() { reserve(kFirstSize); }
@@ -41,6 +46,11 @@ class ValueStack {
     std::destroy_at(top_);
     return value;
   }
+  /// Moves the topmost values to where there are no objects yet.
+  void pop_to(Value* to, uint32_t count) {
+    top_ -= count;
+    std::memcpy(static_cast<void*>(to), top_, count * sizeof(Value));
+  }
   void drop() { std::destroy_at(--top_); }
   void drop_to(uint32_t size) {
     while (top_ > values_ + size) std::destroy_at(--top_);
@@ -53,7 +63,6 @@ class ValueStack {
  private:
   static constexpr uint32_t kFirstSize = 1024;
 
-  // Values may be moved as bytes: none refers to its own place.
   void grow(uint32_t size) {
     size_t capacity = capacity_ ? capacity_ : kFirstSize;
     while (capacity < size) capacity *= 2;

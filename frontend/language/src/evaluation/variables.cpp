@@ -1,5 +1,5 @@
 // Variables, scopes and `$` names.
-#include <algorithm>
+#include "evaluation/machine.hpp"
 
 namespace language {
 

@@ -72,23 +72,28 @@ size_t wide_blank_length(const char* text) {
 }
 
 TokenKind sign_kind(const char* text) {
-  if (is_sign(text[0])) return TokenKind::kSign;
-  const char next = text[1];
+  if (is_sign(text[0])) return kind_of(text[0]);
+  const auto either = [next = text[1]](char second, TokenKind kind, char otherwise) {
+    return next == second ? kind : kind_of(otherwise);
+  };
   switch (text[0]) {
+    case '.':
+    case '/':
+      return kind_of(text[0]);
     case '<':
-      if (next == '<') return TokenKind::kShiftLeft;
-      return next == '=' ? TokenKind::kLessEqual : TokenKind::kSign;
+      if (text[1] == '<') return TokenKind::kShiftLeft;
+      return either('=', TokenKind::kLessEqual, '<');
     case '>':
-      if (next == '>') return TokenKind::kShiftRight;
-      return next == '=' ? TokenKind::kGreaterEqual : TokenKind::kSign;
+      if (text[1] == '>') return TokenKind::kShiftRight;
+      return either('=', TokenKind::kGreaterEqual, '>');
     case '=':
-      return next == '=' ? TokenKind::kEqual : TokenKind::kSign;
+      return either('=', TokenKind::kEqual, '=');
     case '!':
-      return next == '=' ? TokenKind::kNotEqual : TokenKind::kSign;
+      return either('=', TokenKind::kNotEqual, '!');
     case '&':
-      return next == '&' ? TokenKind::kAnd : TokenKind::kSign;
+      return either('&', TokenKind::kAnd, '&');
     case '|':
-      return next == '|' ? TokenKind::kOr : TokenKind::kSign;
+      return either('|', TokenKind::kOr, '|');
     case '\x03':
       return TokenKind::kFileEnd;
     default:

@@ -21,7 +21,7 @@ enum CharacterClass : uint8_t {
 constexpr std::array<uint8_t, 256> kCharacterClasses = [] {
   std::array<uint8_t, 256> classes{};
   for (const unsigned char c : std::string_view(" \t\n\r")) classes[c] |= kBlankByte;
-  for (const unsigned char c : std::string_view("()[]{};,:?+-*/%^#.~")) classes[c] |= kSignByte;
+  for (const unsigned char c : std::string_view("()[]{};,:?+-*%^#~")) classes[c] |= kSignByte;
   for (int c = 0; c < 256; ++c) {
     const bool is_digit = '0' <= c && c <= '9';
     const bool is_letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
@@ -38,7 +38,7 @@ inline bool is_of(char c, CharacterClass wanted) {
 inline bool is_blank(char c) { return is_of(c, kBlankByte); }
 inline bool is_word(char c) { return is_of(c, kWordByte); }
 inline bool is_digit(char c) { return is_of(c, kDigitByte); }
-/// Returns whether a byte is a sign in itself, whatever follows it.
+/// Returns whether a byte is a token in itself, whatever follows it.
 inline bool is_sign(char c) { return is_of(c, kSignByte); }
 inline bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 inline bool begins_number(char c) { return is_digit(c) || c == '.'; }
@@ -60,7 +60,9 @@ size_t wide_blank_length(const char* text);
 /// Returns the kind of the sign at the start of a text.
 TokenKind sign_kind(const char* text);
 
-/// Returns whether a sign of this kind has one byte. The others have two.
-inline bool is_one_byte(TokenKind kind) { return kind < TokenKind::kLessEqual; }
+/// Returns whether a sign of this kind has two bytes. The others have one.
+inline bool is_two_bytes(TokenKind kind) {
+  return TokenKind::kLessEqual <= kind && kind <= TokenKind::kShiftRight;
+}
 
 }  // namespace language

@@ -9,6 +9,7 @@ const KeptStatement* KeptFile::find(uint32_t offset) {
     return number < statements_.size() &&
            (statements_[number].blank == offset || statements_[number].begin == offset);
   };
+  if (statements_.empty() || statements_.back().begin < offset) return nullptr;
   if (!stands_at(next_)) {
     const auto found = std::lower_bound(
         statements_.begin(), statements_.end(), offset,

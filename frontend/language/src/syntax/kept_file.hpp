@@ -11,6 +11,7 @@
 
 #include "language/source_files.hpp"
 #include "syntax/arena.hpp"
+#include "syntax/arena_list.hpp"
 #include "syntax/syntax.hpp"
 
 namespace language {
@@ -24,7 +25,7 @@ struct KeptStatement {
   uint32_t blank;  // where the blanks and comments before it begin
   uint32_t begin;  // of its first token
   uint32_t end;    // where the lexer goes on
-  uint32_t first_item, items;
+  std::span<const TopLevelItem> items{};
 };
 
 class KeptFile {
@@ -49,17 +50,12 @@ class KeptFile {
   /// Adds a statement, unless it stands before one that was added.
   void add(KeptStatement statement, std::span<const TopLevelItem> items) {
     if (!statements_.empty() && statements_.back().begin >= statement.begin) return;
-    statement.first_item = static_cast<uint32_t>(items_.size());
-    statement.items = static_cast<uint32_t>(items.size());
-    items_.insert(items_.end(), items.begin(), items.end());
+    statement.items = copy_to_arena(arena_, items);
     statements_.push_back(statement);
   }
   /// Returns the statement that begins at an offset, or behind the blanks there; null: none is
   /// kept.
   const KeptStatement* find(uint32_t offset);
-  std::span<const TopLevelItem> items(const KeptStatement& statement) const {
-    return std::span(items_).subspan(statement.first_item, statement.items);
-  }
 
  private:
   const FileId number_;
@@ -67,8 +63,7 @@ class KeptFile {
   const std::shared_ptr<SourceFile> source_;
   Arena arena_;
   std::vector<KeptStatement> statements_;  // in the order of the text
-  std::vector<TopLevelItem> items_;
-  size_t next_ = 0;  // the statement behind the one that was found last
+  size_t next_ = 0;                        // the statement behind the one that was found last
 };
 
 }  // namespace language

@@ -18,8 +18,7 @@ void KeptSources::begin(const std::string& main_path, const std::vector<std::str
 }
 
 std::shared_ptr<KeptFile> KeptSources::open(
-    Role role, const std::string& path,
-    const std::function<std::string(std::string_view)>& text_of) {
+    Role role, const std::string& path, const std::function<std::string(std::string)>& text_of) {
   const auto [known, is_new] =
       numbers_.try_emplace({role, path}, static_cast<FileId>(files_.size()));
   if (is_new) files_.emplace_back();
@@ -27,9 +26,9 @@ std::shared_ptr<KeptFile> KeptSources::open(
   const FileSignature signature(path);
   const bool is_same = entry.file && entry.signature.is_settled() && signature == entry.signature;
   if (!is_same) {
-    const auto bytes = read_file(path);
+    auto bytes = read_file(path);
     if (!bytes) return nullptr;
-    std::string text = text_of(*bytes);
+    std::string text = text_of(std::move(*bytes));
     if (!entry.file || entry.file->source()->text != text) {
       entry.file = std::make_shared<KeptFile>(known->second, ++versions_, path, std::move(text));
     }

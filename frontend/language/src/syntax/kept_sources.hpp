@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,7 +29,7 @@ class KeptSources {
   void begin(const std::string& main_path, const std::vector<std::string>& definitions);
   /// Returns a file as it is now; null if it cannot be read. `text_of` makes the text of its bytes.
   std::shared_ptr<KeptFile> open(Role role, const std::string& path,
-                                 const std::function<std::string(std::string_view bytes)>& text_of);
+                                 const std::function<std::string(std::string bytes)>& text_of);
   /// To be called when all is parsed. Forgets the files that were not opened.
   void end();
   /// Returns how many names and paths are known, which only grows.

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "base/decimal_number.hpp"
-#include "syntax/characters.hpp"
 #include "syntax/string_escape.hpp"
 
 namespace language {
@@ -53,14 +52,61 @@ void Lexer::begin_line_at(const char* at) {
   if (line_starts_->empty() || line_starts_->back() < offset) line_starts_->push_back(offset);
 }
 
-void Lexer::next(Token& token) {
-  do {
-    token = {};
-    blank_begin_ = offset_of(cursor_);
-    const bool is_whole = skip_blank();
+/// Reads a name, a number, `include <path>` or `use <path>`: the longest that there is.
+inline bool Lexer::lex_word(Token& token) {
+  const char* const begin = cursor_;
+  const char* end = begin + (*begin == '$');
+  while (is_word(*end)) ++end;
+  const auto length = static_cast<size_t>(end - begin);
+  if (begins_number(*begin)) {
+    const size_t digits = number_length(begin);
+    if (digits > 0 && digits >= length) return lex_number(token, digits);
+  } else if (length == 1 && *begin == '$') {
+    lex_sign(token);
+    return true;
+  }
+  token.name = names_.intern({begin, length});
+  cursor_ = end;
+  token.kind = token.name < static_cast<Name>(TokenKind::kName) ? static_cast<TokenKind>(token.name)
+                                                                : TokenKind::kName;
+  const bool may_begin_path = token.name == kIncludeName || token.name == kUseName;
+  return !may_begin_path || !begins_path() || lex_path(token);
+}
+
+/// Reads what stands at the cursor, which is no blank. Returns false if that yields no token.
+inline bool Lexer::lex(Token& token) {
+  const char c = *cursor_;
+  if (is_sign(c)) {
+    token.kind = kind_of(c);
+    ++cursor_;
+    return true;
+  }
+  if (is_word(c) || c == '$' || (c == '.' && is_digit(cursor_[1]))) return lex_word(token);
+  if (c == '"') {
+    lex_string(token);
+  } else if (c != '\0') {
+    lex_sign(token);
+  } else if (cursor_ == end_ && leave()) {
+    return false;
+  } else {
+    token.kind = TokenKind::kEnd;  // OpenSCAD reads no further than a NUL
+  }
+  return true;
+}
+
+/// Reads a token of any kind. Nearly half are signs of one byte, which next() reads itself.
+void Lexer::next_other(Token& token) {
+  bool is_token = false;
+  while (!is_token) {
+    const char* at = cursor_;
+    blank_begin_ = at;
+    while (*at == ' ') ++at;
+    cursor_ = at;
+    const bool is_whole = is_word(*at) || is_sign(*at) || skip_blank();
     token.place = position();
     if (!is_whole) return lex_unterminated(token, "comment");
-  } while (!lex(token));
+    is_token = lex(token);
+  }
 }
 
 /// Skips blanks and comments. Returns false if a comment is not terminated.
@@ -103,42 +149,6 @@ bool Lexer::skip_block_comment() {
   return false;
 }
 
-/// Reads what stands at the cursor, which is no blank. Returns false if that yields no token.
-bool Lexer::lex(Token& token) {
-  const char c = *cursor_;
-  if (is_word(c) || c == '$' || (c == '.' && is_digit(cursor_[1]))) return lex_word(token);
-  if (c == '"') {
-    lex_string(token);
-  } else if (c != '\0') {
-    lex_sign(token);
-  } else if (cursor_ == end_ && leave()) {
-    return false;
-  }  // else the token stays kEnd: OpenSCAD reads no further than a NUL
-  return true;
-}
-
-/// Reads a name, a number, `include <path>` or `use <path>`: the longest that there is.
-bool Lexer::lex_word(Token& token) {
-  const char* end = cursor_ + (*cursor_ == '$');
-  while (is_word(*end)) ++end;
-  const auto length = static_cast<size_t>(end - cursor_);
-  const size_t digits = begins_number(*cursor_) ? number_length(cursor_) : 0;
-  if (digits > 0 && digits >= length) return lex_number(token, digits);
-  if (length == 1 && *cursor_ == '$') {
-    lex_sign(token);
-    return true;
-  }
-  token.name = names_.intern({cursor_, length});
-  cursor_ = end;
-  token.kind = token.name < static_cast<Name>(TokenKind::kName) ? static_cast<TokenKind>(token.name)
-                                                                : TokenKind::kName;
-  if ((token.name == kIncludeName || token.name == kUseName) && begins_path()) {
-    if (token.name == kIncludeName) return lex_include(token);
-    lex_use(token);
-  }
-  return true;
-}
-
 /// A number that is too large vanishes.
 bool Lexer::lex_number(Token& token, size_t length) {
   const auto number = decimal_number({cursor_, length});
@@ -150,9 +160,8 @@ bool Lexer::lex_number(Token& token, size_t length) {
 
 void Lexer::lex_sign(Token& token) {
   token.kind = sign_kind(cursor_);
-  if (token.kind == TokenKind::kSign) token.sign = *cursor_;
   if (token.kind == TokenKind::kEnd) return;
-  cursor_ += is_one_byte(token.kind) ? 1 : 2;
+  cursor_ += is_two_bytes(token.kind) ? 2 : 1;
 }
 
 void Lexer::lex_string(Token& token) {
@@ -195,6 +204,12 @@ bool Lexer::reach_path_part() {
     if (*cursor_ == '\n') --error_lines_.first;  // which is not counted
   }
   return *cursor_ != '>' && cursor_ < end_;
+}
+
+bool Lexer::lex_path(Token& token) {
+  if (token.name == kIncludeName) return lex_include(token);
+  lex_use(token);
+  return true;
 }
 
 bool Lexer::lex_include(Token& token) {

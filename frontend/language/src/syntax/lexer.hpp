@@ -8,6 +8,7 @@
 #include "language/source_files.hpp"
 #include "messages/messages.hpp"
 #include "syntax/arena.hpp"
+#include "syntax/characters.hpp"
 #include "syntax/file_lookup.hpp"
 #include "syntax/token.hpp"
 
@@ -30,10 +31,18 @@ class Lexer {
         const Main& main);
 
   /// Reads the next token. Says messages about what is not terminated, whose token is kUnknown.
-  void next(Token& token);
+  void next(Token& token) {
+    const char* at = cursor_;
+    while (*at == ' ') ++at;
+    if (!is_sign(*at)) return next_other(token);
+    blank_begin_ = cursor_;
+    token.place = {file_, offset_of(at)};
+    token.kind = kind_of(*at);
+    cursor_ = at + 1;
+  }
   Place position() const { return {file_, offset_of(cursor_)}; }  // behind the last token
   /// Returns where the blanks and comments before the last token begin.
-  uint32_t blank_begin() const { return blank_begin_; }
+  uint32_t blank_begin() const { return offset_of(blank_begin_); }
   /// Goes on elsewhere in the current file, up to which all has been read before.
   void go_on_at(uint32_t offset) { cursor_ = begin_ + offset; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
@@ -64,6 +73,7 @@ class Lexer {
   bool leave();
   void begin_line_at(const char* at);
 
+  void next_other(Token& token);
   bool skip_blank();
   void skip_line_comment();
   bool skip_block_comment();
@@ -72,6 +82,7 @@ class Lexer {
   bool lex_number(Token& token, size_t length);
   void lex_sign(Token& token);
   void lex_string(Token& token);
+  bool lex_path(Token& token);
   bool lex_include(Token& token);
   void lex_use(Token& token);
   bool begins_path() const;
@@ -95,8 +106,8 @@ class Lexer {
   const char* begin_ = nullptr;  // of its text, behind which stands a NUL
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
+  const char* blank_begin_ = nullptr;
   std::vector<uint32_t>* line_starts_ = nullptr;
-  uint32_t blank_begin_ = 0;
   uint32_t entries_ = 0;
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read

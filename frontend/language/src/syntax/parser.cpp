@@ -5,43 +5,26 @@
 
 namespace language {
 
-const Token& Parser::fetch(int position) {
+void Parser::fetch(Token& token) {
   constexpr uint32_t kTokensBetweenChecks = 4096;
-  if (++taken_ % kTokensBetweenChecks == 0 && stop_.stop_requested()) throw Stopped();
-  lexer_.next(tokens_[position]);
-  ahead_ = position + 1;
-  return tokens_[position];
+  if (++taken_ % kTokensBetweenChecks == 0) check_stop();
+  ++ahead_;
+  lexer_.next(token);
 }
 
-const Token& Parser::peek_second() {
-  peek();
-  return ahead_ > 1 ? tokens_[1] : fetch(1);
+void Parser::check_stop() const {
+  if (stop_.stop_requested()) throw Stopped();
 }
 
-Token Parser::take() {
-  const Token token = peek();
+Name Parser::take_name() {
+  const Name name = peek().name;
   consume();
-  return token;
+  return name;
 }
 
-/// Consumes a sign, and returns its place.
-Place Parser::expect(char sign) {
-  if (!peek().is(sign)) fail_at_token();
-  const Place place = peek().place;
-  consume();
-  return place;
-}
-
-Token Parser::expect_name() {
+Name Parser::expect_name() {
   if (!peek().is(TokenKind::kName)) fail_at_token();
-  return take();
-}
-
-/// Consumes commas, and returns how many.
-int Parser::accept_commas() {
-  int count = 0;
-  while (accept(',')) ++count;
-  return count;
+  return take_name();
 }
 
 const Scope* Parser::parse_file() {
@@ -70,10 +53,10 @@ void Parser::parse_statement(ScopeBuilder& scope) {
     case TokenKind::kName:
       if (peek_second().is('=')) return parse_assignment(scope);
       return parse_call(scope);
-    case TokenKind::kSign:
-      if (accept(';')) return;
-      if (peek().is('{')) return parse_block(scope);
-      return parse_call(scope);
+    case TokenKind::kSemicolon:
+      return consume();
+    case TokenKind::kOpenBrace:
+      return parse_block(scope);
     default:
       return parse_call(scope);
   }
@@ -87,11 +70,12 @@ void Parser::parse_block(ScopeBuilder& scope) {
 }
 
 void Parser::parse_assignment(ScopeBuilder& scope) {
-  const Token name = expect_name();
+  const Place place = peek().place;
+  const Name name = expect_name();
   expect('=');
   const Expression* value = parse_expression();
   expect(';');
-  add(scope, {name.name, value, name.place});
+  add(scope, {name, value, place});
 }
 
 void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
@@ -132,7 +116,7 @@ void Parser::parse_module(ScopeBuilder& scope) {
   const Place begin = peek().place;
   const uint32_t entries = lexer_.entries();
   consume();
-  const Name name = expect_name().name;
+  const Name name = expect_name();
   expect('(');
   const auto parameters = parse_parameters();
   const Place place = expect(')');
@@ -150,15 +134,20 @@ void Parser::parse_function(ScopeBuilder& scope) {
   const Place begin = peek().place;
   const uint32_t entries = lexer_.entries();
   consume();
-  const Token name = expect_name();
+  const Place place = peek().place;
+  const Name name = expect_name();
   expect('(');
   const auto parameters = parse_parameters();
   expect(')');
   expect('=');
   const Expression* body = parse_expression();
   expect(';');
+<<<<<<< HEAD
   scope.add(
       FunctionDefinition{name.name, name.place, parameters, body, extent_from(begin, entries)});
+=======
+  scope.add(FunctionDefinition{name, place, parameters, body});
+>>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
 }
 
 void Parser::parse_call(ScopeBuilder& scope) {
@@ -175,18 +164,20 @@ ModuleCall Parser::parse_modified_call(bool& is_disabled) {
     call.modifiers |= modifier;
     return call;
   };
-  switch (peek().sign) {
-    case '!':
+  switch (peek().kind) {
+    case TokenKind::kExclamation:
       return modified(kRootModifier);
-    case '#':
+    case TokenKind::kHash:
       return modified(kHighlightModifier);
-    case '%':
+    case TokenKind::kPercent:
       return modified(kBackgroundModifier);
-    case '*':
+    case TokenKind::kStar:
       is_disabled = true;
       return modified(0);
+    case TokenKind::kIf:
+      return parse_if();
     default:
-      return peek().is(TokenKind::kIf) ? parse_if() : parse_plain_call();
+      return parse_plain_call();
   }
 }
 
@@ -209,10 +200,9 @@ ModuleCall Parser::parse_if() {
 ModuleCall Parser::parse_plain_call() {
   const Nested nested(*this, 2);
   if (!begins_call()) fail_at_token();
-  const Token name = take();
   ModuleCall call{};
-  call.name = name.name;
-  call.place = name.place;
+  call.place = peek().place;
+  call.name = take_name();
   expect('(');
   call.arguments = parse_arguments();
   expect(')');

@@ -34,30 +34,48 @@ class Parser {
     const Expression* node;
     bool is_comprehension;
   };
-  struct Operator {
-    int level = 0;  // 1 binds least; 0: no binary operator
-    BinaryOperator op = BinaryOperator::kOr;
-  };
 
   // Tokens.
-  const Token& peek() { return ahead_ > 0 ? tokens_[0] : fetch(0); }
-  const Token& peek_second();
-  const Token& fetch(int position);
-  /// Removes the token that peek() returns. The next one is not read before it is needed: reading
-  /// may include a file, and say that it is missing.
-  void consume() {
+  const Token& peek() {
+    if (ahead_ == 0) fetch(tokens_[0]);
+    return tokens_[0];
+  }
+  const Token& peek_second() {
     peek();
+    if (ahead_ == 1) fetch(tokens_[1]);
+    return tokens_[1];
+  }
+  void fetch(Token& token);
+  void check_stop() const;
+  /// Removes the token that peek() has returned. The next one is not read before it is needed:
+  /// reading may include a file, and say that it is missing.
+  void consume() {
     if (--ahead_ > 0) tokens_[0] = tokens_[1];
   }
-  Token take();
-  Place expect(char sign);
-  Token expect_name();
+  /// Consumes a token of any kind, and returns its place.
+  Place take_place() {
+    const Place place = peek().place;
+    consume();
+    return place;
+  }
+  /// Consumes a sign, and returns its place.
+  Place expect(char sign) {
+    if (!peek().is(sign)) fail_at_token();
+    return take_place();
+  }
+  Name take_name();
+  Name expect_name();
   bool accept(char sign) {
     if (!peek().is(sign)) return false;
     consume();
     return true;
   }
-  int accept_commas();
+  /// Consumes commas, and returns how many.
+  int accept_commas() {
+    int count = 0;
+    while (accept(',')) ++count;
+    return count;
+  }
   [[noreturn]] void fail_at_token() const { lexer_.fail("syntax error"); }
 
   // The top level: kept_statements.cpp.
@@ -86,10 +104,12 @@ class Parser {
 
   // Expressions.
   const Expression* parse_expression();
+  const Expression* parse_operators(const Expression* left, Place start);
   const Expression* parse_conditional(const Expression* condition, Place start);
   const Expression* parse_binary(const Expression* left, Place start, int least_level);
   const Expression* parse_unary();
   const Expression* parse_power(const Expression* base, Place start);
+  const Expression* parse_prefixed(UnaryOperator op);
   const Expression* parse_postfix(const Expression* operand, Place start);
   const Expression* parse_primary();
   const Expression* parse_index(const Expression* container, Place start);
@@ -106,7 +126,6 @@ class Parser {
                              Place place);
   const Expression* parse_if_element();
   bool begins_expression();
-  Operator binary_operator(const Token& token) const;
 
   // Lists in parentheses.
   std::span<const Argument> parse_arguments();
@@ -121,6 +140,15 @@ class Parser {
       return new (memory) Node{kind, place};
     else
       return new (memory) Node{{kind, place}, fields...};
+  }
+
+  /// Makes the node of a literal, or of a variable, and consumes its token.
+  template <typename Node, typename Field>
+  const Expression* make_of_token(ExpressionKind kind, Field Token::*field) {
+    const Token& token = tokens_[0];
+    const Expression* node = make<Node>(kind, token.place, token.*field);
+    consume();
+    return node;
   }
 
   Lexer& lexer_;

@@ -1,7 +1,45 @@
 // Expressions; each function's grammar is in LANGUAGE.md, "Grammar".
+#include <array>
+
 #include "syntax/parser.hpp"
 
 namespace language {
+
+namespace {
+
+struct Operator {
+  uint8_t level = 0;  // 1 binds least; 0: no binary operator
+  BinaryOperator op = BinaryOperator::kOr;
+};
+
+constexpr std::array<Operator, kTokenKinds> kOperators = [] {
+  std::array<Operator, kTokenKinds> operators{};
+  const auto add = [&](TokenKind kind, uint8_t level, BinaryOperator op) {
+    operators[static_cast<size_t>(kind)] = {level, op};
+  };
+  add(TokenKind::kOr, 1, BinaryOperator::kOr);
+  add(TokenKind::kAnd, 2, BinaryOperator::kAnd);
+  add(TokenKind::kEqual, 3, BinaryOperator::kEqual);
+  add(TokenKind::kNotEqual, 3, BinaryOperator::kNotEqual);
+  add(TokenKind::kLess, 4, BinaryOperator::kLess);
+  add(TokenKind::kLessEqual, 4, BinaryOperator::kLessEqual);
+  add(TokenKind::kGreater, 4, BinaryOperator::kGreater);
+  add(TokenKind::kGreaterEqual, 4, BinaryOperator::kGreaterEqual);
+  add(TokenKind::kBar, 5, BinaryOperator::kBitOr);
+  add(TokenKind::kAmpersand, 6, BinaryOperator::kBitAnd);
+  add(TokenKind::kShiftLeft, 7, BinaryOperator::kShiftLeft);
+  add(TokenKind::kShiftRight, 7, BinaryOperator::kShiftRight);
+  add(TokenKind::kPlus, 8, BinaryOperator::kAdd);
+  add(TokenKind::kMinus, 8, BinaryOperator::kSubtract);
+  add(TokenKind::kStar, 9, BinaryOperator::kMultiply);
+  add(TokenKind::kSlash, 9, BinaryOperator::kDivide);
+  add(TokenKind::kPercent, 9, BinaryOperator::kModulo);
+  return operators;
+}();
+
+Operator binary_operator(const Token& token) { return kOperators[static_cast<size_t>(token.kind)]; }
+
+}  // namespace
 
 const Expression* Parser::parse_expression() {
   const Place start = peek().place;
@@ -15,65 +53,24 @@ const Expression* Parser::parse_expression() {
     case TokenKind::kEcho:
       return parse_body_expression(ExpressionKind::kEcho);
     default:
-      return parse_conditional(parse_binary(parse_unary(), start, 1), start);
+      return parse_operators(parse_unary(), start);
   }
 }
 
+/// Reads the binary operators behind an operand, and `?`.
+const Expression* Parser::parse_operators(const Expression* left, Place start) {
+  if (binary_operator(peek()).level > 0) left = parse_binary(left, start, 1);
+  return peek().is('?') ? parse_conditional(left, start) : left;
+}
+
 const Expression* Parser::parse_conditional(const Expression* condition, Place start) {
-  if (!accept('?')) return condition;
   const Nested nested(*this, 4);
+  expect('?');
   const Expression* then_value = parse_expression();
   expect(':');
   const Expression* else_value = parse_expression();
   return make<TernaryExpression>(ExpressionKind::kTernary, start, condition, then_value,
                                  else_value);
-}
-
-Parser::Operator Parser::binary_operator(const Token& token) const {
-  switch (token.kind) {
-    case TokenKind::kOr:
-      return {1, BinaryOperator::kOr};
-    case TokenKind::kAnd:
-      return {2, BinaryOperator::kAnd};
-    case TokenKind::kEqual:
-      return {3, BinaryOperator::kEqual};
-    case TokenKind::kNotEqual:
-      return {3, BinaryOperator::kNotEqual};
-    case TokenKind::kLessEqual:
-      return {4, BinaryOperator::kLessEqual};
-    case TokenKind::kGreaterEqual:
-      return {4, BinaryOperator::kGreaterEqual};
-    case TokenKind::kShiftLeft:
-      return {7, BinaryOperator::kShiftLeft};
-    case TokenKind::kShiftRight:
-      return {7, BinaryOperator::kShiftRight};
-    case TokenKind::kSign:
-      break;
-    default:
-      return {};
-  }
-  switch (token.sign) {
-    case '<':
-      return {4, BinaryOperator::kLess};
-    case '>':
-      return {4, BinaryOperator::kGreater};
-    case '|':
-      return {5, BinaryOperator::kBitOr};
-    case '&':
-      return {6, BinaryOperator::kBitAnd};
-    case '+':
-      return {8, BinaryOperator::kAdd};
-    case '-':
-      return {8, BinaryOperator::kSubtract};
-    case '*':
-      return {9, BinaryOperator::kMultiply};
-    case '/':
-      return {9, BinaryOperator::kDivide};
-    case '%':
-      return {9, BinaryOperator::kModulo};
-    default:
-      return {};
-  }
 }
 
 /// Reads the operators behind an operand that bind at least as tightly as a level. Those of one
@@ -94,50 +91,68 @@ const Expression* Parser::parse_binary(const Expression* left, Place start, int 
 
 const Expression* Parser::parse_unary() {
   const Token& token = peek();
-  const Place start = token.place;
-  const char sign = token.sign;
-  if (sign != '-' && sign != '!' && sign != '+' && sign != '~')
-    return parse_power(parse_postfix(parse_primary(), start), start);
+  switch (token.kind) {
+    case TokenKind::kMinus:
+      return parse_prefixed(UnaryOperator::kNegate);
+    case TokenKind::kExclamation:
+      return parse_prefixed(UnaryOperator::kNot);
+    case TokenKind::kTilde:
+      return parse_prefixed(UnaryOperator::kComplement);
+    case TokenKind::kPlus: {
+      const Nested nested(*this, 1);
+      consume();
+      return parse_unary();
+    }
+    default: {
+      const Place start = token.place;
+      return parse_postfix(parse_primary(), start);
+    }
+  }
+}
+
+const Expression* Parser::parse_prefixed(UnaryOperator op) {
   const Nested nested(*this, 1);
-  consume();
-  const Expression* operand = parse_unary();
-  if (sign == '+') return operand;
-  const UnaryOperator op = sign == '-'   ? UnaryOperator::kNegate
-                           : sign == '!' ? UnaryOperator::kNot
-                                         : UnaryOperator::kComplement;
-  return make<UnaryExpression>(ExpressionKind::kUnary, start, op, operand);
+  const Place start = take_place();
+  return make<UnaryExpression>(ExpressionKind::kUnary, start, op, parse_unary());
+}
+
+/// Reads the calls, indices and members behind an operand, and its exponent. Calls nest to the left:
+/// f()()() is no chain that a loop could follow.
+const Expression* Parser::parse_postfix(const Expression* operand, Place start) {
+  constexpr uint32_t kMostCalls = 20'000;
+  for (uint32_t calls = 0;;) {
+    switch (peek().kind) {
+      case TokenKind::kOpenParenthesis: {
+        if (++calls > kMostCalls) lexer_.fail("memory exhausted");
+        const Nested nested(*this, 2);
+        consume();
+        const auto arguments = parse_arguments();
+        expect(')');
+        operand = make<CallExpression>(ExpressionKind::kCall, start, operand, arguments);
+        break;
+      }
+      case TokenKind::kOpenBracket:
+        operand = parse_index(operand, start);
+        break;
+      case TokenKind::kDot:
+        consume();
+        operand = make<MemberExpression>(ExpressionKind::kMember, start, operand, expect_name());
+        break;
+      case TokenKind::kCaret:
+        return parse_power(operand, start);
+      default:
+        return operand;
+    }
+  }
 }
 
 /// The exponent is a whole unary expression.
 const Expression* Parser::parse_power(const Expression* base, Place start) {
-  if (!peek().is('^')) return base;
   const Nested nested(*this, 2);
-  consume();
+  expect('^');
   const Expression* exponent = parse_unary();
   return make<BinaryExpression>(ExpressionKind::kBinary, start, BinaryOperator::kPower, base,
                                 exponent);
-}
-
-/// Reads the calls, indices and members behind an operand. Calls nest to the left: f()()() is no
-/// chain that a loop could follow.
-const Expression* Parser::parse_postfix(const Expression* operand, Place start) {
-  constexpr uint32_t kMostCalls = 20'000;
-  for (uint32_t calls = 0;;) {
-    if (peek().is('(')) {
-      if (++calls > kMostCalls) lexer_.fail("memory exhausted");
-      const Nested nested(*this, 2);
-      consume();
-      const auto arguments = parse_arguments();
-      expect(')');
-      operand = make<CallExpression>(ExpressionKind::kCall, start, operand, arguments);
-    } else if (peek().is('[')) {
-      operand = parse_index(operand, start);
-    } else if (accept('.')) {
-      operand = make<MemberExpression>(ExpressionKind::kMember, start, operand, expect_name().name);
-    } else {
-      return operand;
-    }
-  }
 }
 
 const Expression* Parser::parse_index(const Expression* container, Place start) {
@@ -161,15 +176,16 @@ const Expression* Parser::parse_primary() {
       consume();
       return make<Expression>(ExpressionKind::kUndef, place);
     case TokenKind::kNumber:
-      return make<NumberExpression>(ExpressionKind::kNumber, place, take().number);
+      return make_of_token<NumberExpression>(ExpressionKind::kNumber, &Token::number);
     case TokenKind::kString:
-      return make<StringExpression>(ExpressionKind::kString, place, take().text);
+      return make_of_token<StringExpression>(ExpressionKind::kString, &Token::text);
     case TokenKind::kName:
-      return make<VariableExpression>(ExpressionKind::kVariable, place, take().name);
+      return make_of_token<VariableExpression>(ExpressionKind::kVariable, &Token::name);
+    case TokenKind::kOpenBracket:
+      return parse_bracket();
     default:
       break;
   }
-  if (peek().is('[')) return parse_bracket();
   const Nested nested(*this, 1);
   expect('(');
   const Expression* inner = parse_expression();
@@ -179,7 +195,7 @@ const Expression* Parser::parse_primary() {
 
 const Expression* Parser::parse_function_literal() {
   const Nested nested(*this, 5);
-  const Place place = take().place;
+  const Place place = take_place();
   expect('(');
   const auto parameters = parse_parameters();
   expect(')');
@@ -190,7 +206,7 @@ const Expression* Parser::parse_function_literal() {
 /// Reads let, assert or echo. The latter two need no body.
 const Expression* Parser::parse_body_expression(ExpressionKind kind) {
   const Nested nested(*this, 4);
-  const Place place = take().place;
+  const Place place = take_place();
   expect('(');
   const auto arguments = parse_arguments();
   expect(')');
@@ -211,13 +227,16 @@ bool Parser::begins_expression() {
     case TokenKind::kName:
     case TokenKind::kNumber:
     case TokenKind::kString:
+    case TokenKind::kOpenParenthesis:
+    case TokenKind::kOpenBracket:
+    case TokenKind::kMinus:
+    case TokenKind::kPlus:
+    case TokenKind::kExclamation:
+    case TokenKind::kTilde:
       return true;
-    case TokenKind::kSign:
-      break;
     default:
       return false;
   }
-  return std::string_view("([-+!~").find(peek().sign) != std::string_view::npos;
 }
 
 /// Reads up to `)`, or to the `;` of a C-style for.
@@ -238,7 +257,7 @@ Argument Parser::parse_argument() {
   const Place place = peek().place;
   if (!peek().is(TokenKind::kName) || !peek_second().is('='))
     return {kNoName, parse_expression(), place};
-  const Name name = take().name;
+  const Name name = take_name();
   consume();
   const Nested nested(*this, 2);
   return {name, parse_expression(), place};
@@ -256,8 +275,9 @@ std::span<const Parameter> Parser::parse_parameters() {
 }
 
 Parameter Parser::parse_parameter() {
-  const Token name = take();
-  return {name.name, accept('=') ? parse_expression() : nullptr, name.place};
+  const Place place = peek().place;
+  const Name name = take_name();
+  return {name, accept('=') ? parse_expression() : nullptr, place};
 }
 
 }  // namespace language

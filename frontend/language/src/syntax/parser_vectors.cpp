@@ -6,7 +6,7 @@ namespace language {
 /// Reads a vector or a range. Its first element may be no comprehension in parentheses.
 const Expression* Parser::parse_bracket() {
   const Nested nested(*this, 1);
-  const Place start = take().place;
+  const Place start = take_place();
   const bool has_commas = accept_commas() > 0;
   if (accept(']'))
     return make<VectorExpression>(ExpressionKind::kVector, start,
@@ -52,7 +52,7 @@ Parser::Element Parser::parse_element(bool may_be_parenthesised) {
       return {parse_if_element(), true};
     case TokenKind::kEach: {
       const Nested nested(*this, 1);
-      const Place place = take().place;
+      const Place place = take_place();
       return {make<EachExpression>(ExpressionKind::kEach, place, parse_element(true).node), true};
     }
     default:
@@ -69,14 +69,14 @@ Parser::Element Parser::parse_parenthesised_element() {
   const Element inner = parse_element(false);
   expect(')');
   if (inner.is_comprehension) return inner;
-  const Expression* operand = parse_power(parse_postfix(inner.node, start), start);
-  return {parse_conditional(parse_binary(operand, start, 1), start), false};
+  const Expression* operand = parse_postfix(inner.node, start);
+  return {parse_operators(operand, start), false};
 }
 
 /// A let whose body is no comprehension is an expression like any other.
 Parser::Element Parser::parse_let_element() {
   const Nested nested(*this, 4);
-  const Place place = take().place;
+  const Place place = take_place();
   expect('(');
   const auto arguments = parse_arguments();
   expect(')');
@@ -87,7 +87,7 @@ Parser::Element Parser::parse_let_element() {
 
 const Expression* Parser::parse_for() {
   const Nested nested(*this, 4);
-  const Place place = take().place;
+  const Place place = take_place();
   expect('(');
   const auto init = parse_arguments();
   if (accept(')')) return make_for(init, parse_element(true).node, place);
@@ -110,7 +110,7 @@ const Expression* Parser::make_for(std::span<const Argument> variables, const Ex
 
 const Expression* Parser::parse_if_element() {
   const Nested nested(*this, 4);
-  const Place place = take().place;
+  const Place place = take_place();
   expect('(');
   const Expression* condition = parse_expression();
   expect(')');

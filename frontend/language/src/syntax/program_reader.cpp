@@ -38,13 +38,13 @@ ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOp
 bool ProgramReader::read_main(const std::string& path) {
   std::error_code error;
   if (path == "-") {
-    program_.files.add({"<stdin>", unit_text(options_.standard_input), {}});
+    program_.files.add({"<stdin>", unit_text(std::string(options_.standard_input)), {}});
     add_unit(0, fs::current_path(error).string(), 0);
   } else {
-    const auto text = read_file(path);
+    auto text = read_file(path);
     if (!text) return false;
     const fs::path absolute = fs::absolute(path, error).lexically_normal();
-    program_.files.add({shown_main_path(absolute), unit_text(*text), {}});
+    program_.files.add({shown_main_path(absolute), unit_text(std::move(*text)), {}});
     add_unit(0, absolute.parent_path().string(), 0);
   }
   program_.kept->begin(program_.files[0].path, options_.definitions);
@@ -106,10 +106,10 @@ FileId ProgramReader::include(const NamedFile& file) {
 }
 
 FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
-  const std::shared_ptr<KeptFile> file =
-      program_.kept->open(role, path, [&](std::string_view bytes) {
-        return role == KeptSources::Role::kUsed ? unit_text(bytes) : std::string(bytes);
-      });
+  const std::shared_ptr<KeptFile> file = program_.kept->open(role, path, [&](std::string bytes) {
+    if (role == KeptSources::Role::kUsed) return unit_text(std::move(bytes));
+    return bytes;
+  });
   if (!file) return kNoFile;
   const FileId number = file->number();
   if (number >= program_.kept_files.size()) program_.kept_files.resize(number + 1);
@@ -155,11 +155,11 @@ uint32_t ProgramReader::add_unit(FileId file, std::string folder, uint64_t versi
 }
 
 /// Returns a file's text with what OpenSCAD appends. It reads no further than a NUL.
-std::string ProgramReader::unit_text(std::string_view file_text) const {
-  std::string text(file_text);
+std::string ProgramReader::unit_text(std::string text) const {
   text += "\n\x03\n";
   for (const std::string& definition : options_.definitions) text += definition + ";\n";
-  return text.substr(0, text.find('\0'));
+  text.resize(std::min(text.find('\0'), text.size()));
+  return text;
 }
 
 }  // namespace language

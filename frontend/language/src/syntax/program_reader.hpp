@@ -35,7 +35,7 @@ class ProgramReader : public FileLookup {
   bool parse(uint32_t unit);
   uint32_t add_unit(FileId file, std::string folder, uint64_t version);
   FileId open(KeptSources::Role role, const std::string& path);
-  std::string unit_text(std::string_view file_text) const;
+  std::string unit_text(std::string text) const;
   void use_font(const std::string& name, const std::string& path);
 
   Program& program_;

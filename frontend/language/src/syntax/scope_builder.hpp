@@ -1,6 +1,7 @@
 // Gathers what stands in a scope.
 #pragma once
 
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -28,14 +29,17 @@ class NamedArenaList : public ArenaList<T> {
   }
 
  private:
+  using Index = std::unordered_map<Name, size_t>;
+
   T* find_indexed(Name name) {
-    for (; indexed_ < this->size(); ++indexed_) index_.emplace((*this)[indexed_].name, indexed_);
-    const auto found = index_.find(name);
-    return found == index_.end() ? nullptr : &(*this)[found->second];
+    if (!index_) index_ = std::make_unique<Index>();
+    for (; indexed_ < this->size(); ++indexed_) index_->emplace((*this)[indexed_].name, indexed_);
+    const auto found = index_->find(name);
+    return found == index_->end() ? nullptr : &(*this)[found->second];
   }
 
-  std::unordered_map<Name, size_t> index_;
-  size_t indexed_ = 0;  // elements that the index knows
+  std::unique_ptr<Index> index_;  // of a long list
+  size_t indexed_ = 0;            // elements that the index knows
 };
 
 /// What the scopes being parsed share.

@@ -32,7 +32,6 @@ enum class TokenKind : uint8_t {
   kFileEnd,  // the byte 0x03 that OpenSCAD puts behind the main file and behind used ones
   kEnd,      // of all text
   kUnknown,  // what no token begins with, or what is not terminated
-  kSign,     // a sign of one byte, which is Token::sign
   kLessEqual,
   kGreaterEqual,
   kEqual,
@@ -41,7 +40,36 @@ enum class TokenKind : uint8_t {
   kOr,
   kShiftLeft,
   kShiftRight,
+  // A sign of one byte is its own kind: kind_of(sign).
+  kExclamation = '!',
+  kHash = '#',
+  kPercent = '%',
+  kAmpersand = '&',
+  kOpenParenthesis = '(',
+  kCloseParenthesis = ')',
+  kStar = '*',
+  kPlus = '+',
+  kComma = ',',
+  kMinus = '-',
+  kDot = '.',
+  kSlash = '/',
+  kColon = ':',
+  kSemicolon = ';',
+  kLess = '<',
+  kAssign = '=',
+  kGreater = '>',
+  kQuestion = '?',
+  kOpenBracket = '[',
+  kCloseBracket = ']',
+  kCaret = '^',
+  kOpenBrace = '{',
+  kBar = '|',
+  kCloseBrace = '}',
+  kTilde = '~',
 };
+constexpr size_t kTokenKinds = 128;
+
+constexpr TokenKind kind_of(char sign) { return static_cast<TokenKind>(sign); }
 
 /// The first names of every design's table: the reserved words, whose numbers are their token's
 /// kinds, and two that are reserved before `<` only.
@@ -56,16 +84,16 @@ inline void add_first_names(NameTable& names) {
   for (const std::string_view name : kFirstNames) names.intern(name);
 }
 
+/// What its kind does not have is left over from an earlier token.
 struct Token {
   TokenKind kind = TokenKind::kEnd;
-  char sign = 0;  // of kSign
-  Name name = kNoName;
-  Place place;  // of its first byte
-  double number = 0;
+  Name name = kNoName;    // of a name or a reserved word
+  Place place;            // of its first byte
+  double number = 0;      // of kNumber
   std::string_view text;  // of a string, escapes replaced
 
   bool is(TokenKind wanted) const { return kind == wanted; }
-  bool is(char wanted) const { return sign == wanted; }
+  bool is(char wanted) const { return kind == kind_of(wanted); }
 };
 
 }  // namespace language

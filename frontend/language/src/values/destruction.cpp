@@ -53,6 +53,15 @@ class Destroyer {
   }
 
  private:
+  // Frees a vector that refers to no object: most hold numbers.
+  static bool free_plain(VectorObject* vector) {
+    const Value* const elements = vector->elements();
+    for (uint32_t i = 0; i < vector->size; ++i)
+      if (elements[i].is_shared()) return false;
+    free_object(vector, block_size(*vector));
+    return true;
+  }
+
   // The first element's payload: of a dead vector, the next dead vector.
   static SharedObject*& link(VectorObject* vector) { return vector->elements()->payload_.object; }
 
@@ -73,8 +82,7 @@ class Destroyer {
   }
 
   void put(VectorObject* vector) {
-    while (vector) {
-      if (vector->size == 0) return free_object(vector, block_size(*vector));
+    while (vector && !free_plain(vector)) {
       Value& first = *vector->elements();
       SharedObject* object = take_if_last(first);
       if (!object) std::destroy_at(&first);

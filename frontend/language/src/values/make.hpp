@@ -30,7 +30,12 @@ inline void append_element(Value& vector, Value element) {
   std::construct_at(object->elements() + object->size, std::move(element));
   ++object->size;
 }
-/// The same with all elements of a span, which may be the vector's own.
+/// The same where it is known that `vector` is the only reference and has room.
+inline void append_in_room(Value& vector, Value element) {
+  auto& object = static_cast<VectorObject&>(*vector.object());
+  std::construct_at(object.elements() + object.size++, std::move(element));
+}
+/// Appends all elements of a span, which may be the vector's own.
 void append_elements(Value& vector, std::span<const Value> elements);
 
 }  // namespace language

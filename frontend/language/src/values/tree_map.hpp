@@ -12,7 +12,8 @@
 namespace language {
 
 /// Lets levels of nested vectors be filled, each of which has
-///   bool fill(): appends leaves to its `result`; false: the level that next() returns comes first.
+///   bool fill(): appends leaves to its `result`, which has room for all elements; false: the level
+///     that next() returns comes first.
 template <typename Level>
 Value fill_levels(Level first) {
   if (first.fill()) return std::move(first.result);
@@ -26,7 +27,7 @@ Value fill_levels(Level first) {
     Value result = std::move(levels.top().result);
     levels.pop();
     if (levels.empty()) return result;
-    append_element(levels.top().result, std::move(result));
+    append_in_room(levels.top().result, std::move(result));
   }
 }
 
@@ -43,7 +44,7 @@ Value map_leaves(const Value& vector, Leaf leaf) {
     bool fill() {
       for (; !rest.empty() && !rest.front().is_vector(); rest = rest.subspan(1)) {
         count_work();
-        append_element(result, leaf(rest.front()));
+        append_in_room(result, leaf(rest.front()));
       }
       return rest.empty();
     }
@@ -73,7 +74,7 @@ Value map_pairs(const Value& left_vector, const Value& right_vector, Leaf leaf) 
     bool fill() {
       for (; left != end && !(left->is_vector() && right->is_vector()); ++left, ++right) {
         count_work();
-        append_element(result, leaf(*left, *right));
+        append_in_room(result, leaf(*left, *right));
       }
       return left == end;
     }

@@ -1,5 +1,6 @@
 #include "values/vector_products.hpp"
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,6 +42,16 @@ bool is_row(const Value& value, size_t size) {
   return value.is_vector() && value.elements().size() == size;
 }
 
+bool holds_numbers(Row row) {
+  return std::all_of(row.begin(), row.end(), [](const Value& value) { return value.is_number(); });
+}
+
+bool is_matrix_of_numbers(Row rows, size_t columns) {
+  return std::all_of(rows.begin(), rows.end(), [&](const Value& row) {
+    return is_row(row, columns) && holds_numbers(row.elements());
+  });
+}
+
 Value dot_product(Row left, Row right, OperatorProblem& problem) {
   if (left.size() != right.size())
     return fail(problem,
@@ -66,11 +77,12 @@ Value matrix_times_vector(Row matrix, Row vector, OperatorProblem& problem) {
     const Row row = matrix[i].elements();
     double sum = 0;
     for (size_t j = 0; j < columns; ++j) {
-      if (!row[j].is_number()) return fail(problem, no_number_in_matrix(i, j));
-      if (!vector[j].is_number()) return fail(problem, no_number_in_vector(j));
+      if (!are_numbers(row[j], vector[j]))
+        return fail(problem,
+                    row[j].is_number() ? no_number_in_vector(j) : no_number_in_matrix(i, j));
       sum += row[j].number() * vector[j].number();
     }
-    append_element(result, sum);
+    append_in_room(result, sum);
   }
   return result;
 }
@@ -81,25 +93,41 @@ Value fail_twice(OperatorProblem& problem, std::string text) {
   return fail(problem, std::move(text));
 }
 
+// The product of a vector of numbers and a matrix of numbers.
+Value numbers_times_matrix(Row vector, Row matrix, size_t columns) {
+  count_work(vector.size() * columns);
+  Value result = make_vector(columns);
+  for (size_t i = 0; i < columns; ++i) {
+    double sum = 0;
+    for (size_t j = 0; j < vector.size(); ++j)
+      sum += vector[j].number() * matrix[j].elements()[i].number();
+    append_in_room(result, sum);
+  }
+  return result;
+}
+
+// Says what keeps a vector and a matrix, which has columns, from being numbers in rows.
+Value fail_with_matrix(Row vector, Row matrix, size_t columns, OperatorProblem& problem) {
+  for (size_t i = 0; i < columns; ++i) {
+    for (size_t j = 0; j < vector.size(); ++j) {
+      if (!is_row(matrix[j], columns)) return fail_twice(problem, not_rectangular(j));
+      if (!vector[j].is_number()) return fail_twice(problem, no_number_in_vector(j));
+      if (!matrix[j].elements()[i].is_number())
+        return fail_twice(problem, no_number_in_matrix(j, i));
+    }
+  }
+  return Value::undef();
+}
+
 Value vector_times_matrix(Row vector, Row matrix, OperatorProblem& problem) {
   if (vector.size() != matrix.size())
     return fail(problem, "vector*matrix requires vector length to match matrix row count" +
                              lengths(vector.size(), matrix.size()));
   const size_t columns = matrix.front().elements().size();
-  Value result = make_vector(columns);
-  for (size_t i = 0; i < columns; ++i) {
-    count_work(vector.size());
-    double sum = 0;
-    for (size_t j = 0; j < vector.size(); ++j) {
-      if (!is_row(matrix[j], columns)) return fail_twice(problem, not_rectangular(j));
-      const Value& element = matrix[j].elements()[i];
-      if (!vector[j].is_number()) return fail_twice(problem, no_number_in_vector(j));
-      if (!element.is_number()) return fail_twice(problem, no_number_in_matrix(j, i));
-      sum += vector[j].number() * element.number();
-    }
-    append_element(result, sum);
-  }
-  return result;
+  if (columns == 0) return make_vector();
+  if (!holds_numbers(vector) || !is_matrix_of_numbers(matrix, columns))
+    return fail_with_matrix(vector, matrix, columns, problem);
+  return numbers_times_matrix(vector, matrix, columns);
 }
 
 Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
@@ -109,6 +137,8 @@ Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
         problem,
         "matrix*matrix requires left operand column count to match right operand row count" +
             lengths(columns, right.size()));
+  const size_t right_columns = right.front().elements().size();
+  const bool is_plain = is_matrix_of_numbers(right, right_columns);
   Value result = make_vector(left.size());
   for (size_t i = 0; i < left.size(); ++i) {
     const Row row = row_of(left[i]);
@@ -116,12 +146,13 @@ Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
       return fail(problem,
                   "matrix*matrix left operand row length does not match right operand row count" +
                       lengths(row.size(), right.size()) + " at row " + std::to_string(i));
-    Value product = vector_times_matrix(row, right, problem);
+    Value product = is_plain && holds_numbers(row) ? numbers_times_matrix(row, right, right_columns)
+                                                   : vector_times_matrix(row, right, problem);
     if (product.is_undef()) {
       problem.text += "\n\twhile processing left operand at row " + std::to_string(i);
       return product;
     }
-    append_element(result, std::move(product));
+    append_in_room(result, std::move(product));
   }
   return result;
 }
