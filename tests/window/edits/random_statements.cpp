@@ -5,9 +5,10 @@
 namespace window_test {
 namespace {
 
-/// A recursion goes on while the first holds. They have no number that an edit could change.
-constexpr const char* kGoesOn = "$depth < len(\"xxx\")";
-constexpr const char* kDeeper = "$depth = $depth + len(\"x\")";
+/// A recursion goes on while the first holds. No edit of theirs makes it longer: they have neither
+/// numbers nor texts.
+constexpr const char* kGoesOn = "$depth < PI * PI";
+constexpr const char* kDeeper = "$depth = $depth + PI";
 
 std::string numbered(char letter, std::size_t number) { return letter + std::to_string(number); }
 
