@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 namespace window_test {
@@ -87,6 +88,8 @@ EditedDesign::Items EditedDesign::main_file() {
     choose_quiet("main.scad");
     items.push_back(random_.call());
   }
+  // What is seen of most designs, and of which an edit often changes the colour alone.
+  items.push_back("color([0, 0.1 * 3, 1]) { cylinder(8, 5, 2); cube(6); }");
   return items;
 }
 
@@ -131,6 +134,19 @@ void EditedDesign::edit_within(std::string& item) {
   }
   const std::size_t digit = item.find_first_of("0123456789", random_.pick(item.size()));
   if (digit != item.npos) item[digit] = static_cast<char>('0' + random_.pick(10));
+}
+
+/// Changes a digit of a colour, if the file has any, most often that of the last one.
+void EditedDesign::edit_color(Items& items) {
+  constexpr std::string_view kComponent = "0.1 * ";  // a digit follows
+  std::vector<char*> digits;
+  for (std::string& item : items) {
+    const std::size_t at = item.find(kComponent);
+    if (at != item.npos) digits.push_back(&item[at + kComponent.size()]);
+  }
+  if (digits.empty()) return;
+  char& digit = random_.chance(2) ? *digits.back() : *digits[random_.pick(digits.size())];
+  digit = static_cast<char>('0' + random_.pick(10));
 }
 
 void EditedDesign::damage(std::string& item) {
@@ -207,6 +223,8 @@ void EditedDesign::edit() {
     now_ = before_;
   } else if (random_.chance(10)) {
     edit_inputs();
+  } else if (random_.chance(15)) {
+    edit_color(now_.files["main.scad"]);
   } else if (random_.chance(30)) {
     now_.files["part.off"] = {part()};
   } else if (random_.chance(60)) {

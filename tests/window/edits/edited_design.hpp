@@ -43,6 +43,7 @@ class EditedDesign {
   std::string part();
   void edit_items(const std::string& file);
   void edit_within(std::string& item);
+  void edit_color(Items& items);
   void edit_inputs();
   void damage(std::string& item);
 
