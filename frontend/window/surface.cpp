@@ -175,7 +175,10 @@ std::string relation_of_axes(const Surface& a, const Surface& b) {
 
 std::string relation_of_planes(const Surface& a, const Surface& b) {
   if (are_parallel(a.direction, b.direction)) {
-    return "parallel faces, " + number(distance_to_plane(b.origin, a)) + " apart";
+    const double distance = distance_to_plane(b.origin, a);
+    const double size = std::max(glm::length(a.origin), glm::length(b.origin));
+    if (distance <= kRounding * size) return "the same plane";
+    return "parallel faces, " + number(distance) + " apart";
   }
   return "faces at " + number(angle_deg(a.direction, b.direction)) + "°";
 }

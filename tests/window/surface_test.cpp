@@ -124,6 +124,7 @@ Surface center(const Vec3& origin) { return {Surface::Kind::kCenter, origin, Vec
 TEST(Surface, RelationsAreThoseThatOneMeasures) {
   const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   EXPECT_EQ(relation_of(plane({0, 0, 1}, -z), plane({5, 5, 13}, z)), "parallel faces, 12 apart");
+  EXPECT_EQ(relation_of(plane({0, 0, 1.5}, z), plane({5, 5, 1.5 + 1e-15}, z)), "the same plane");
   EXPECT_EQ(relation_of(plane({0, 0, 1}, z), plane({5, 5, 13}, x + z)), "faces at 45°");
   EXPECT_EQ(relation_of(axis({0, 0, 1}, z), axis({3, 4, 7}, -z)), "axes 5 apart");
   EXPECT_EQ(relation_of(axis({0, 0, 1}, z), axis({0, 0, 7}, z)), "the same axis");

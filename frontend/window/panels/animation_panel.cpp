@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string>
 
+#include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
 
 namespace window {
@@ -18,9 +19,22 @@ const char* limit_of_time(const State& state) {
                                    : "a .csg has no time";
 }
 
+constexpr const char* kRate = "FPS";
+constexpr const char* kSteps = "steps";
+
+// In heights of the font.
+constexpr float kNumber = 3.5f, kLeastSlider = 8;
+
+/// Returns the width that both numbers take behind the slider.
+float numbers_width() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return 2 * (kNumber * ImGui::GetFontSize() + style.ItemInnerSpacing.x + style.ItemSpacing.x) +
+         text_width(kRate) + text_width(kSteps);
+}
+
 /// Draws an integer that is dragged, or typed after a double click.
 bool drag_number(const char* label, int& number, int most) {
-  ImGui::SetNextItemWidth(3.5f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(kNumber * ImGui::GetFontSize());
   const bool is_changed =
       ImGui::DragInt(label, &number, 0.25f, 1, most, "%d", ImGuiSliderFlags_AlwaysClamp);
   return is_changed;
@@ -46,18 +60,26 @@ float draw_animation(State& state, float bottom) {
     int frame = animation.frame();
     char time[32];
     std::snprintf(time, sizeof time, "$t = %.4g", animation.time());
-    ImGui::SetNextItemWidth(width - button - 15 * ImGui::GetFontSize());
+    // The numbers stand below where the slider would be short beside them.
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float beside = room - numbers_width();
+    const bool is_beside = beside >= kLeastSlider * ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(is_beside ? beside : room);
     if (ImGui::SliderInt("##time", &frame, 0, animation.steps() - 1, time)) {
       animation.seek(frame, now);
     }
-    ImGui::SameLine();
+    if (is_beside) ImGui::SameLine();
     int rate = animation.frames_per_second(), steps = animation.steps();
-    if (drag_number("FPS", rate, Animation::kMostFrames_s)) {
+    if (drag_number(kRate, rate, Animation::kMostFrames_s)) {
       animation.set_frames_per_second(rate, now);
     }
     ImGui::SameLine();
-    if (drag_number("steps", steps, Animation::kMostSteps)) animation.set_steps(steps, now);
-    if (const char* limit = limit_of_time(state); *limit != '\0') ImGui::TextDisabled("%s", limit);
+    if (drag_number(kSteps, steps, Animation::kMostSteps)) animation.set_steps(steps, now);
+    if (const char* limit = limit_of_time(state); *limit != '\0') {
+      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+      ImGui::TextWrapped("%s", limit);
+      ImGui::PopStyleColor();
+    }
   }
   const float top = ImGui::GetWindowPos().y;
   ImGui::End();

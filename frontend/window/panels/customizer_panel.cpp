@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "panels/fitted_text.hpp"
 #include "panels/parameter_control.hpp"
 #include "panels/style.hpp"
 
@@ -13,6 +14,10 @@ namespace window {
 namespace {
 
 using Parameter = Customizer::Parameter;
+
+constexpr float kMargin = 10;
+/// The least width beside the section's panel, in heights of the font.
+constexpr float kLeastBeside = 13;
 
 constexpr const char* kNewSet = "Save as";
 constexpr const char* kDeleteSet = "Delete";
@@ -102,14 +107,15 @@ void name_row(Customizer& customizer, std::size_t index) {
   const Parameter& parameter = customizer.parameters()[index];
   const bool is_changed = customizer.is_changed(index);
   ImGui::PushStyleColor(ImGuiCol_Text, is_changed ? kWarningColor : kTextColor);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = text_width("reset") + 2 * style.FramePadding.x;
+  const float end = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::PushTextWrapPos(is_changed ? end - width - style.ItemSpacing.x : end);
   ImGui::TextUnformatted(parameter.name.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   if (!is_changed) return;
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float width = ImGui::CalcTextSize("reset").x + 2 * style.FramePadding.x;
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(),
-                                ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width));
+  ImGui::SameLine(end - width);
   if (ImGui::SmallButton("reset")) customizer.reset(index);
 }
 
@@ -147,22 +153,37 @@ void draw_groups(State& state) {
   for (std::size_t i = 0; i < state.customizer.parameters().size(); ++i) {
     const std::string& group = parameters[i].group;
     if (has_groups && (i == 0 || group != parameters[i - 1].group)) {
-      const std::string name = group.empty() ? "Parameters##none" : group + "##group";
+      const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetFrameHeight();
+      const std::string name =
+          group.empty() ? "Parameters##none" : cut_to(group, room) + "###" + group;
       is_open = ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
     }
     if (is_open) draw_parameter(state, i);
   }
 }
 
+bool is_shown(const State& state) {
+  return state.shows_parameters && !state.customizer.parameters().empty();
+}
+
 }  // namespace
 
-float draw_customizer(State& state, float bottom) {
-  if (!state.shows_parameters || state.customizer.parameters().empty()) return 0;
-  constexpr float kMargin = 10;
-  const float display = ImGui::GetIO().DisplaySize.x;
-  const float top = ImGui::GetFrameHeight() + kMargin;
-  const float width = std::min(18 * ImGui::GetFontSize(), 0.46f * display);
-  const float height = std::max(bottom - kMargin - top, 5 * ImGui::GetFrameHeight());
+float customizer_right(const State& state, const SectionCorner& section) {
+  if (!is_shown(state)) return 0;
+  const float font = ImGui::GetFontSize(), beside = section.left - 2 * kMargin;
+  const float most =
+      beside >= kLeastBeside * font ? beside : ImGui::GetIO().DisplaySize.x - 2 * kMargin;
+  return kMargin + std::min(18 * font, most);
+}
+
+void draw_customizer(State& state, float bottom, const SectionCorner& section) {
+  if (!is_shown(state)) return;
+  const float right = customizer_right(state, section), width = right - kMargin;
+  const float least = 4 * ImGui::GetFrameHeight();
+  float top = ImGui::GetFrameHeight() + kMargin;
+  const bool has_room_below = section.bottom + 2 * kMargin + least <= bottom;
+  if (right >= section.left && has_room_below) top = section.bottom + kMargin;
+  const float height = std::max(bottom - kMargin - top, least);
   ImGui::SetNextWindowPos({kMargin, top});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
   ImGui::SetNextWindowBgAlpha(0.9f);
@@ -174,7 +195,6 @@ float draw_customizer(State& state, float bottom) {
     draw_groups(state);
   }
   ImGui::End();
-  return kMargin + width;
 }
 
 }  // namespace window

@@ -1,12 +1,17 @@
 // The design's parameters and their sets.
 #pragma once
 
+#include "panels/section_panel.hpp"
 #include "state.hpp"
 
 namespace window {
 
-/// Draws them at the left side, above `bottom`, if they are switched on and there are any. Returns
-/// the right end of the room that they take.
-float draw_customizer(State& state, float bottom);
+/// Returns the right end of the room that they take at the left side; 0 if they are switched off,
+/// or there are none.
+float customizer_right(const State& state, const SectionCorner& section);
+
+/// Draws them there, above `bottom`, and below the section's panel where there is no room beside
+/// it.
+void draw_customizer(State& state, float bottom, const SectionCorner& section);
 
 }  // namespace window

@@ -2,7 +2,10 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "commands.hpp"
+#include "panels/fitted_text.hpp"
 
 namespace window {
 namespace {
@@ -20,27 +23,53 @@ constexpr const char* kMouse[][2] = {
     {"Ctrl + left drag", "drag the section plane"},
 };
 
+template <typename Row>
+void each_row(const Row& row) {
+  for (const auto& [what, does] : kMouse) row(what, does);
+  for (const CommandRow& command : command_rows()) {
+    if (*command.shortcut != '\0') row(command.shortcut, command.label);
+  }
+}
+
+/// The widths of both columns, without the space between them.
+struct Columns {
+  float what = 0, does = 0;
+};
+
+/// Returns columns of which the second is narrower than its texts where `width` is not enough.
+Columns columns_of(float width) {
+  Columns columns;
+  each_row([&](const char* what, const char* does) {
+    columns.what = std::max(columns.what, text_width(what));
+    columns.does = std::max(columns.does, text_width(does));
+  });
+  columns.does = std::min(columns.does, std::max(width - columns.what, 1.0f));
+  return columns;
+}
+
 }  // namespace
 
-void draw_help(State& state) {
+void draw_help(State& state, float bottom) {
   if (!state.shows_help) return;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, size.y - 2 * ImGui::GetFrameHeight()});
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float display = ImGui::GetIO().DisplaySize.x, top = ImGui::GetFrameHeight();
+  const Columns columns = columns_of(display - 2 * style.WindowPadding.x - style.ScrollbarSize -
+                                     2 * style.CellPadding.x);
+  ImGui::SetNextWindowPos({display / 2, (top + bottom) / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display, bottom - top});
   if (ImGui::Begin("Mouse and keys", &state.shows_help,
-                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
     if (ImGui::BeginTable("##keys", 2)) {
-      const auto row = [](const char* what, const char* does) {
+      ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, columns.what);
+      ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthFixed, columns.does);
+      each_row([](const char* what, const char* does) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(what);
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(does);
-      };
-      for (const auto& [what, does] : kMouse) row(what, does);
-      for (const CommandRow& command : command_rows()) {
-        if (*command.shortcut != '\0') row(command.shortcut, command.label);
-      }
+        ImGui::TextWrapped("%s", does);
+      });
       ImGui::EndTable();
     }
   }

@@ -5,6 +5,7 @@
 
 namespace window {
 
-void draw_help(State& state);
+/// Draws it above `bottom` if it is switched on.
+void draw_help(State& state, float bottom);
 
 }  // namespace window

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <string>
 
-#include "panels/style.hpp"
-
 namespace window {
 
 void draw_hover_tip(const State& state, float pixels_per_unit) {
-  if (!state.hovered) return;
+  if (!state.hovered || state.shows_help || ImGui::GetIO().WantCaptureMouse) return;
   const std::string text = hover_text(*state.hovered);
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float most = std::max(display.x - 2 * padding.x, 1.0f);
+  ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
   size = {size.x + 2 * padding.x, size.y + 2 * padding.y};
   const ImVec2 mouse(static_cast<float>(state.hovered->at.x_px) / pixels_per_unit,
                      static_cast<float>(state.hovered->at.y_px) / pixels_per_unit);
@@ -24,10 +23,11 @@ void draw_hover_tip(const State& state, float pixels_per_unit) {
                   below + size.y <= display.y ? below : mouse.y - size.y - 4);
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowBgAlpha(0.85f);
-  if (ImGui::Begin("##hover", nullptr, kOverlay | ImGuiWindowFlags_NoInputs)) {
-    ImGui::TextUnformatted(text.c_str());
-  }
-  ImGui::End();
+  ImGui::BeginTooltip();  // which lies over the panels
+  ImGui::PushTextWrapPos(padding.x + most);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 }  // namespace window

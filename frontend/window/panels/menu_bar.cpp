@@ -2,10 +2,13 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "frontend/color_scheme.hpp"
+#include "panels/fitted_text.hpp"
 
 namespace window {
 namespace {
@@ -32,12 +35,26 @@ void draw_schemes(State& state) {
   }
 }
 
+/// Returns the space between the menus' names, which a narrow window makes smaller. ImGui takes it
+/// twice for each name.
+float menu_spacing() {
+  float names = 0;
+  for (const char* name : kMenuNames) names += text_width(name);
+  const float rest = ImGui::GetIO().DisplaySize.x - names;
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  return std::clamp(rest / (2 * std::size(kMenuNames) + 1), 1.0f, spacing);
+}
+
 }  // namespace
 
 void draw_menu_bar(State& state, const RunCommand& run) {
   if (!ImGui::BeginMainMenuBar()) return;
+  const ImVec2 spacing(menu_spacing(), ImGui::GetStyle().ItemSpacing.y);
   for (std::size_t menu = 0; menu < std::size(kMenuNames); ++menu) {
-    if (!ImGui::BeginMenu(kMenuNames[menu])) continue;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
+    const bool is_open = ImGui::BeginMenu(kMenuNames[menu]);
+    ImGui::PopStyleVar();
+    if (!is_open) continue;
     for (const CommandRow& row : command_rows()) {
       if (row.menu != static_cast<Menu>(menu)) continue;
       if (row.starts_group) ImGui::Separator();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
 
 namespace window {
@@ -91,28 +92,38 @@ void tab(State& state, const std::string& words, bool echoes, const OpenPlace& o
   ImGui::EndTabItem();
 }
 
-/// Draws the field for the filter in the right half of the tabs' row, and leaves the cursor where
-/// it was.
-void filter_field(State& state) {
+/// Draws the field for the filter at the right end of the tabs' row, and leaves the cursor where it
+/// was; or above the tabs where these leave no room.
+void filter_field(State& state, float tabs) {
   const ImVec2 start = ImGui::GetCursorPos();
-  const float room = ImGui::GetContentRegionAvail().x;
-  const float width = std::min(12 * ImGui::GetFontSize(), room / 3);
+  const float room = ImGui::GetContentRegionAvail().x, font = ImGui::GetFontSize();
+  constexpr float kLeast = 5, kMost = 12;  // in heights of the font
+  const bool is_beside = room - tabs >= kLeast * font;
+  const float width = is_beside ? std::min(kMost * font, room - tabs) : room;
   ImGui::SetCursorPosX(start.x + room - width);
   ImGui::SetNextItemWidth(width);
   ImGui::InputTextWithHint("##filter", "filter", &state.message_filter);
-  ImGui::SetCursorPos(start);
+  if (is_beside) ImGui::SetCursorPos(start);
+}
+
+/// Returns the width of a tab with such a name, and of the space behind it.
+float tab_width(const std::string& name) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return name.empty() ? 0
+                      : text_width(name) + 2 * style.FramePadding.x + style.ItemInnerSpacing.x + 1;
 }
 
 void all_messages(State& state, const OpenPlace& open) {
   const MessageCounts counts = count_messages(state.messages);
+  const std::string others = words_of(counts);
+  const std::string echoes = counts.echoes == 0 ? "" : "Echo " + std::to_string(counts.echoes);
   if (state.messages.size() >= kLeastFiltered) {
-    filter_field(state);
+    filter_field(state, tab_width(others) + tab_width(echoes));
   } else {
     state.message_filter.clear();
   }
   if (!ImGui::BeginTabBar("##kinds")) return;
-  tab(state, words_of(counts), false, open);
-  const std::string echoes = counts.echoes == 0 ? "" : "Echo " + std::to_string(counts.echoes);
+  tab(state, others, false, open);
   tab(state, echoes, true, open);
   ImGui::EndTabBar();
 }

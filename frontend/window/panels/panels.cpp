@@ -19,12 +19,13 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   const float status_top = draw_status_line(state);
   const float messages_top = draw_messages(state, status_top, actions.open);
   const float animation_top = draw_animation(state, messages_top);
-  const float customizer_right = draw_customizer(state, animation_top);
-  draw_section(state);
-  draw_place(state, view, {customizer_right, animation_top}, actions.run);
+  const SectionCorner section = draw_section(state);
+  const FreeRoom room{customizer_right(state, section), animation_top, section};
+  draw_customizer(state, animation_top - height_below_parameters(state, room), section);
+  draw_place(state, view, room, actions.run);
   draw_hover_tip(state, pixels_per_unit);
   draw_progress(state, actions.run);
-  draw_help(state);
+  draw_help(state, status_top);
   draw_save_dialogue(state, actions.save);
 }
 

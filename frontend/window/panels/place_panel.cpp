@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
 #include "projection.hpp"
 
@@ -14,18 +15,9 @@ namespace window {
 namespace {
 
 constexpr float kMargin = 10;
+/// The least width of texts beside the parameters, in heights of the font.
+constexpr float kLeastBeside = 16;
 constexpr ImU32 kPlaceColor = IM_COL32(170, 190, 215, 255);
-
-/// Returns the text as far as it fits into a width.
-std::string cut_to(std::string text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80; };
-  while (!text.empty() && ImGui::CalcTextSize((text + "…").c_str()).x > width) {
-    while (text.size() > 1 && continues()) text.pop_back();
-    text.pop_back();
-  }
-  return text + "…";
-}
 
 /// The widths of the trail's two columns, and the gap between them.
 struct Columns {
@@ -37,8 +29,8 @@ struct Columns {
 Columns columns_of(const frontend::LeafPlace& place, float width) {
   Columns columns;
   for (const frontend::TrailStep& step : place.trail) {
-    columns.left = std::max(columns.left, ImGui::CalcTextSize(step.what.c_str()).x);
-    columns.right = std::max(columns.right, ImGui::CalcTextSize(text_of(step.place).c_str()).x);
+    columns.left = std::max(columns.left, text_width(step.what));
+    columns.right = std::max(columns.right, text_width(text_of(step.place)));
   }
   columns.gap = ImGui::GetFontSize();
   columns.left = std::min(columns.left, std::max(width - columns.gap - columns.right, width / 3));
@@ -82,18 +74,42 @@ std::vector<std::string> measured_lines(const State& state) {
   return lines;
 }
 
+struct Layout {
+  std::vector<std::string> measured;
+  float most_text = 0;  // the width that texts may take
+  Columns columns;
+  ImVec2 size;
+  bool is_below = false;  // the parameters, which leave little room beside them
+};
+
+/// Precondition: a point is measured.
+Layout layout_of(const State& state, const FreeRoom& room) {
+  const MeasuredPoint& point = state.points.back();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float around = 2 * (kMargin + padding.x), display = ImGui::GetIO().DisplaySize.x;
+  Layout layout;
+  layout.is_below =
+      room.left > 0 && display - room.left - around < kLeastBeside * ImGui::GetFontSize();
+  layout.most_text = std::max(display - (layout.is_below ? 0 : room.left) - around, 50.0f);
+  layout.measured = measured_lines(state);
+  layout.columns = columns_of(point.place, layout.most_text);
+  const auto rows =
+      static_cast<float>(point.place.trail.size() + layout.measured.size() + point.is_cut);
+  layout.size = {layout.columns.width() + 2 * padding.x,
+                 rows * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() +
+                     2 * padding.y};
+  return layout;
+}
+
 /// Returns the panel's corner at the left of the room: below the menu, and below the section panel
 /// if there is no room beside it; or at the room's lower end if the point would be hidden.
-ImVec2 corner_of(const State& state, const csgcore::View& view, const FreeRoom& room,
-                 const ImVec2& size) {
-  const float display = ImGui::GetIO().DisplaySize.x;
-  const float left =
-      std::max(std::min(room.left, display - size.x - kMargin - kMargin), 0.0f) + kMargin;
+ImVec2 corner_of(const Layout& layout, const State& state, const csgcore::View& view,
+                 const FreeRoom& room) {
+  const ImVec2& size = layout.size;
+  const float left = (layout.is_below ? 0 : room.left) + kMargin;
+  if (layout.is_below) return {left, room.bottom - size.y - kMargin};
   float top = ImGui::GetFrameHeight() + kMargin;
-  const float section_width = 20 * ImGui::GetFontSize();
-  if (state.section.is_on && left + size.x + section_width > display) {
-    top += 4 * ImGui::GetFrameHeightWithSpacing();
-  }
+  if (left + size.x > room.section.left) top = room.section.bottom + kMargin;
   const auto point = project(view, state.points.back().position);
   const bool hides = point && point->x_px > left - kMargin &&
                      point->x_px < left + size.x + kMargin && point->y_px > top &&
@@ -104,30 +120,29 @@ ImVec2 corner_of(const State& state, const csgcore::View& view, const FreeRoom& 
 
 }  // namespace
 
+float height_below_parameters(const State& state, const FreeRoom& room) {
+  if (!state.shows_place || state.points.empty()) return 0;
+  const Layout layout = layout_of(state, room);
+  return layout.is_below ? layout.size.y + kMargin : 0;
+}
+
 void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
                 const RunCommand& run) {
   if (!state.shows_place || state.points.empty()) return;
   const MeasuredPoint& point = state.points.back();
-  const std::vector<std::string> lines = measured_lines(state);
+  const Layout layout = layout_of(state, room);
   const frontend::SourcePlace* const place = state.place_to_open();
   const bool has_file = place != nullptr && !place->path.empty();
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const float most = std::max(display.x - 2 * kMargin - 2 * padding.x, 50.0f);
-  const Columns columns = columns_of(point.place, most);
-  const auto rows = static_cast<float>(point.place.trail.size() + lines.size() + point.is_cut);
-  const ImVec2 size(columns.width() + 2 * padding.x, rows * ImGui::GetTextLineHeightWithSpacing() +
-                                                         ImGui::GetFrameHeightWithSpacing() +
-                                                         2 * padding.y);
-  ImGui::SetNextWindowPos(corner_of(state, view, room, size));
+  ImGui::SetNextWindowPos(corner_of(layout, state, view, room));
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x - 2 * kMargin, display.y / 2});
   ImGui::SetNextWindowBgAlpha(0.85f);
   if (ImGui::Begin("##place", nullptr, kOverlay & ~ImGuiWindowFlags_NoScrollbar)) {
     if (point.is_cut) ImGui::TextUnformatted("cut by the section plane:");
-    draw_trail(state, point.place, columns);
-    if (!lines.empty()) ImGui::Separator();
-    ImGui::PushTextWrapPos(padding.x + most);
-    for (const std::string& line : lines) ImGui::TextUnformatted(line.c_str());
+    draw_trail(state, point.place, layout.columns);
+    if (!layout.measured.empty()) ImGui::Separator();
+    ImGui::PushTextWrapPos(ImGui::GetStyle().WindowPadding.x + layout.most_text);
+    for (const std::string& line : layout.measured) ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
     if (has_file && ImGui::SmallButton("Open in the editor (E)")) run(Command::kOpenEditor);
   }

@@ -3,6 +3,7 @@
 
 #include "csgcore/view.hpp"
 #include "panels/menu_bar.hpp"
+#include "panels/section_panel.hpp"
 #include "state.hpp"
 
 namespace window {
@@ -11,7 +12,12 @@ namespace window {
 struct FreeRoom {
   float left = 0;
   float bottom = 0;
+  SectionCorner section{};
 };
+
+/// Returns the height that the panel takes at the room's lower end, if there is little room for it
+/// beside the parameters; else 0.
+float height_below_parameters(const State& state, const FreeRoom& room);
 
 /// `view` is that of the picture, in ImGui's units. `run` is called with the command that opens the
 /// editor.

@@ -17,10 +17,13 @@ void draw_save_dialogue(State& state, const SavePicture& save) {
   ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(std::min(30 * ImGui::GetFontSize(), 0.8f * size.x));
+  const float width = std::min(30 * ImGui::GetFontSize(), 0.8f * size.x);
+  ImGui::SetNextItemWidth(width);
   const bool entered =
       ImGui::InputText("##path", &state.picture_path, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
   ImGui::TextUnformatted(".png or .exr, as -o writes it, in the size of the window");
+  ImGui::PopTextWrapPos();
   if (entered || ImGui::Button("Save")) {
     save(state.picture_path);
     ImGui::CloseCurrentPopup();

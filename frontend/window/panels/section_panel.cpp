@@ -4,8 +4,8 @@
 
 namespace window {
 
-void draw_section(State& state) {
-  if (!state.section.is_on || state.bounds().empty()) return;
+SectionCorner draw_section(State& state) {
+  if (!state.section.is_on || state.bounds().empty()) return {ImGui::GetIO().DisplaySize.x, 0};
   SectionPlane& section = state.section;
   const csgcore::Box box = state.bounds();
   const float right = ImGui::GetIO().DisplaySize.x - 10;
@@ -25,7 +25,10 @@ void draw_section(State& state) {
     ImGui::SliderScalar("##position", ImGuiDataType_Double, &section.position,
                         &box.min[section.axis], &box.max[section.axis], "%.6g");
   }
+  const SectionCorner corner{ImGui::GetWindowPos().x,
+                             ImGui::GetWindowPos().y + ImGui::GetWindowHeight()};
   ImGui::End();
+  return corner;
 }
 
 }  // namespace window

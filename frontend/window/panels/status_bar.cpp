@@ -23,12 +23,14 @@ float draw_status_line(const State& state) {
   ImGui::SetNextWindowPos({0, size.y - height});
   ImGui::SetNextWindowSize({size.x, height});
   constexpr ImGuiWindowFlags kBar = kOverlay & ~ImGuiWindowFlags_AlwaysAutoResize;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});  // one line is less than the usual
   if (ImGui::Begin("##status", nullptr, kBar | ImGuiWindowFlags_NoInputs)) {
     ImGui::PushTextWrapPos(padding.x + width);
     ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
   }
   ImGui::End();
+  ImGui::PopStyleVar();
   return size.y - height;
 }
 
