@@ -98,7 +98,7 @@ DesignVersion read_fresh(const std::string& path, frontend::DesignFileOptions op
 Lines places_of(const language::Evaluation& evaluation) {
   const language::SourceFiles& files = *evaluation.files;
   Lines places;
-  for (const language::Node& node : evaluation.tree.nodes) {
+  for (const language::Node& node : evaluation.tree->nodes) {
     std::string place = std::string(node.name) + (node.is_module_call ? " called at " : " at ");
     if (node.place.file != language::kNoFile && files.has(node.place.file)) {
       place += files[node.place.file].path + ":" + std::to_string(files.line(node.place)) + ":" +

@@ -92,14 +92,33 @@ Found<ModuleEntry> Compiler::find_module(const ScopeLayout& from, Name name) {
   return find(from, name, &ScopeLayout::modules);
 }
 
+namespace {
+
+bool is_top_of_main(const ScopeLayout& scope) { return !scope.parent && scope.unit == 0; }
+
+}  // namespace
+
 FunctionEntry& Compiler::add_entry(const FunctionDefinition& written, const ScopeLayout& scope) {
-  return functions_.emplace_back(FunctionEntry{
+  FunctionEntry& entry = functions_.emplace_back(FunctionEntry{
       {written.name, written.place, written.parameters, &scope}, written.body, nullptr});
+  entry.definition = scope.code->definition;
+  if (is_top_of_main(scope)) {
+    const Scope& main = *program_.units[0].scope;
+    entry.definition = static_cast<uint32_t>(&written - main.functions.data());
+  }
+  return entry;
 }
 
 ModuleEntry& Compiler::add_entry(const ModuleDefinition& written, const ScopeLayout& scope) {
-  return modules_.emplace_back(
+  ModuleEntry& entry = modules_.emplace_back(
       ModuleEntry{{written.name, written.place, written.parameters, &scope}, written.body});
+  entry.definition = scope.code->definition;
+  if (is_top_of_main(scope)) {
+    const Scope& main = *program_.units[0].scope;
+    const auto functions = static_cast<uint32_t>(main.functions.size());
+    entry.definition = functions + static_cast<uint32_t>(&written - main.modules.data());
+  }
+  return entry;
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {
@@ -123,30 +142,11 @@ ScopeLayout& Compiler::add_scope(const ScopeLayout* parent, uint32_t unit, const
 }
 
 void Compiler::define(ScopeLayout& layout, const Scope& scope) {
-<<<<<<< HEAD
-  const bool is_top = !layout.parent && layout.unit == 0;
-  uint32_t definition_number = is_top ? 0 : layout.code->definition;
-  for (const FunctionDefinition& definition : scope.functions) {
-    layout.functions[definition.name] = &functions_.emplace_back(
-        FunctionEntry{{definition.name, definition.place, definition.parameters, &layout},
-                      definition.body,
-                      nullptr});
-    layout.functions[definition.name]->definition = definition_number;
-    if (is_top) ++definition_number;
-  }
-  for (const ModuleDefinition& definition : scope.modules) {
-    layout.modules[definition.name] = &modules_.emplace_back(ModuleEntry{
-        {definition.name, definition.place, definition.parameters, &layout}, definition.body});
-    layout.modules[definition.name]->definition = definition_number;
-    if (is_top) ++definition_number;
-  }
-=======
   layout.functions.reserve(scope.functions.size());
   for (const FunctionDefinition& function : scope.functions)
     layout.functions[function.name] = {&function};
   layout.modules.reserve(scope.modules.size());
   for (const ModuleDefinition& module : scope.modules) layout.modules[module.name] = {&module};
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
 }
 
 Code& Compiler::add_code(uint32_t unit, uint32_t definition) {

@@ -76,16 +76,12 @@ class Compiler {
   const KnownNames& known() const { return known_; }
 
  private:
-<<<<<<< HEAD
-  Code& add_code(uint32_t unit, uint32_t definition);
-=======
   template <typename Definition, typename Entry>
   Found<Entry> find(const ScopeLayout& from, Name name,
                     DefinedNames<Definition, Entry> ScopeLayout::*names_of);
   FunctionEntry& add_entry(const FunctionDefinition& written, const ScopeLayout& scope);
   ModuleEntry& add_entry(const ModuleDefinition& written, const ScopeLayout& scope);
-  Code& add_code(uint32_t unit);
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
+  Code& add_code(uint32_t unit, uint32_t definition);
   /// `compile` compiles the body of a function or a module.
   template <typename Entry>
   const Code& code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&));

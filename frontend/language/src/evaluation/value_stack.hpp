@@ -12,12 +12,8 @@
 
 namespace language {
 
-<<<<<<< HEAD
 /// A growing block of values, which counts among their memory. What lies above top() is no object.
-=======
-/// A growing block of values. What lies above top() is no object. Values are moved as bytes: none
-/// refers to its own place.
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
+/// Values are moved as bytes: none refers to its own place.
 class ValueStack {
  public:
   ValueStack() { reserve(kFirstSize); }

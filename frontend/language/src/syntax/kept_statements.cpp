@@ -15,12 +15,8 @@ bool Parser::take_kept_statement(ScopeBuilder& scope) {
   KeptFile* const file = program_.kept_file(place.file);
   const KeptStatement* const statement = file ? file->find(place.offset) : nullptr;
   if (!statement) return false;
-<<<<<<< HEAD
   lexer_.go_on_at(statement->end);  // where an error would stand
-  for (const TopLevelItem& item : file->items(*statement)) {
-=======
   for (const TopLevelItem& item : statement->items) {
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
     if (const auto* assignment = std::get_if<Assignment>(&item)) {
       add(scope, *assignment);
     } else {
@@ -37,17 +33,11 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   const Place begin = tokens_[0].place;
   KeptFile* const file = program_.kept_file(begin.file);
   items_.clear();
-<<<<<<< HEAD
   // Behind the end of a file nested scopes do not warn of assignments that are overwritten. An
   // error in a block stands within it.
   const bool is_block = tokens_[0].is('{');
   if (!file || file->is_complete || is_behind_file_ || is_block) return parse_statement(scope);
-  const KeptStatement start{lexer_.blank_begin(), begin.offset, 0, 0, 0};
-=======
-  // Behind the end of a file nested scopes do not warn of assignments that are overwritten.
-  if (!file || file->is_complete || is_behind_file_) return parse_statement(scope);
   const KeptStatement start{lexer_.blank_begin(), begin.offset, 0};
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
   const uint32_t entries = lexer_.entries();
   const size_t warnings = messages_.warnings() - warnings_of_top_level_;
   set_arena(file->arena());

@@ -142,12 +142,7 @@ void Parser::parse_function(ScopeBuilder& scope) {
   expect('=');
   const Expression* body = parse_expression();
   expect(';');
-<<<<<<< HEAD
-  scope.add(
-      FunctionDefinition{name.name, name.place, parameters, body, extent_from(begin, entries)});
-=======
-  scope.add(FunctionDefinition{name, place, parameters, body});
->>>>>>> 7b5cf2036f5015d11196518aa0cc6290c8f816ec
+  scope.add(FunctionDefinition{name, place, parameters, body, extent_from(begin, entries)});
 }
 
 void Parser::parse_call(ScopeBuilder& scope) {

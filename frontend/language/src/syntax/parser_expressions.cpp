@@ -116,8 +116,8 @@ const Expression* Parser::parse_prefixed(UnaryOperator op) {
   return make<UnaryExpression>(ExpressionKind::kUnary, start, op, parse_unary());
 }
 
-/// Reads the calls, indices and members behind an operand, and its exponent. Calls nest to the left:
-/// f()()() is no chain that a loop could follow.
+/// Reads the calls, indices and members behind an operand, and its exponent. Calls nest to the
+/// left: f()()() is no chain that a loop could follow.
 const Expression* Parser::parse_postfix(const Expression* operand, Place start) {
   constexpr uint32_t kMostCalls = 20'000;
   for (uint32_t calls = 0;;) {
