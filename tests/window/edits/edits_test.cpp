@@ -149,7 +149,7 @@ void expect_same_version(const DesignVersion& kept, const DesignVersion& fresh) 
   EXPECT_EQ(kept.nodes, fresh.nodes);
   const language::Evaluation& kept_tree = *kept.texts.evaluation;
   const language::Evaluation& fresh_tree = *fresh.texts.evaluation;
-  EXPECT_EQ(language::csg_text(kept_tree.tree), language::csg_text(fresh_tree.tree));
+  EXPECT_EQ(language::csg_text(*kept_tree.tree), language::csg_text(*fresh_tree.tree));
   EXPECT_EQ(places_of(kept_tree), places_of(fresh_tree));
   EXPECT_EQ(kept_tree.files_read, fresh_tree.files_read);
   EXPECT_EQ(kept_tree.lookups, fresh_tree.lookups);
