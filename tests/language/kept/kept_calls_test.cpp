@@ -293,7 +293,7 @@ class RandomModules {
       case 1:
         return "$" + name('x', 3) + " = " + number() + ";\n";
       case 2:
-        return "function f" + name() + "(x = " + value() + ") = x > 9 ? x : x + " + number() +
+        return "function f" + name() + "(x = " + number() + ") = x > 9 ? x : x + " + number() +
                " + u;\n";
       case 3:
       case 4:
