@@ -8,8 +8,9 @@ namespace language {
 
 /// Lives as long as a design is followed (EvaluationOptions::cache). An evaluation with it yields
 /// what one without it does. It keeps the statements of included and used files whose texts do not
-/// change, and the top levels of used files. Its memory is bounded by what the last evaluation has
-/// used. One evaluation at a time may use it, in any thread.
+/// change, the top levels of used files, and calls of modules with the nodes that they have made
+/// (LANGUAGE.md, "What is kept between evaluations"). Its memory is bounded by what the last
+/// evaluation has used. One evaluation at a time may use it, in any thread.
 class EvaluationCache {
  public:
   EvaluationCache();

@@ -1,5 +1,5 @@
 // Calls of modules whose nodes follow from what they followed from in an earlier evaluation: they
-// are copied (LANGUAGE.md, "What an evaluation cache keeps").
+// are copied (LANGUAGE.md, "What is kept between evaluations").
 #include <functional>
 
 #include "evaluation/machine.hpp"
