@@ -246,8 +246,9 @@ class RandomModules {
     }
   }
   std::string call(int depth) {
-    std::string text = "m" + name() + "(" + (pick(2) ? value() : "") +
-                       (pick(4) == 0 ? (text.empty() ? "$x = " : "") + number() : "") + ")";
+    std::string arguments = pick(2) ? value() : "";
+    if (pick(4) == 0) arguments += std::string(arguments.empty() ? "" : ", ") + "$x = " + number();
+    std::string text = "m" + name() + "(" + arguments + ")";
     if (pick(3) == 0) text = "lm(" + value() + ")";
     if (pick(3) || depth > 2) return text + ";\n";
     return text + " { " + shape(depth + 1) + shape(depth + 1) + "}\n";
