@@ -35,6 +35,9 @@ const std::string kDesign = window_test::kBlock +
                             "#multmatrix([[1, 0, 0, -5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])"
                             " cylinder($fn = 0, h = 30, r1 = 2, r2 = 3, center = false);\n";
 
+/// Less than any picture takes: the next one of a motion is coarse.
+constexpr double kNoTime_ms = 1e-6;
+
 std::shared_ptr<const ImportedDesign> design_of(const std::string& text) {
   frontend::ImportOptions options;
   options.keeps_places = true;
@@ -204,7 +207,7 @@ TEST_F(PainterTest, MeasuresWhereItIsAskedTo) {
 }
 
 TEST_F(PainterTest, WhatMovesIsCoarseAndThenRefined) {
-  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
+  Painter& painter = this->painter(kNoTime_ms);
   PaintOrder order = order_of(design_of(kDesign));
   painter.order(order);
   EXPECT_TRUE(next_painting().is_final);  // the camera does not move
@@ -225,7 +228,7 @@ TEST_F(PainterTest, WhatMovesIsCoarseAndThenRefined) {
 }
 
 TEST_F(PainterTest, TheFirstEditOfAMotionShowsWhetherTheOthersAreQuick) {
-  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
+  Painter& painter = this->painter(kNoTime_ms);
   PaintOrder order = order_of(design_of(window_test::row_of(1)));
   painter.order(order);
   EXPECT_TRUE(next_painting().is_final);
@@ -246,7 +249,7 @@ TEST_F(PainterTest, TheFirstEditOfAMotionShowsWhetherTheOthersAreQuick) {
 }
 
 TEST_F(PainterTest, AStoppedPictureIsNeitherFinishedNorRefined) {
-  Painter& painter = this->painter(1e-6);  // nothing can be drawn in that time
+  Painter& painter = this->painter(kNoTime_ms);
   PaintOrder order = order_of(design_of(kDesign));
   painter.order(order);
   EXPECT_TRUE(next_painting().is_final);

@@ -26,7 +26,7 @@ class RandomStatements {
   void be_quiet(bool is_quiet) { is_quiet_ = is_quiet; }
 
   std::string number();
-  /// Of the top level: `levels` of the modules may be called.
+  /// A statement for the top level may call `levels` of the modules.
   std::string call(std::size_t levels = kModules) { return statement(levels, 2); }
   std::string module_definition(std::size_t number);
   std::string function_definition(std::size_t number);

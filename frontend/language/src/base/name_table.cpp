@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "base/mix_hash.hpp"
+
 namespace language {
 
 namespace {
@@ -28,16 +30,10 @@ inline uint64_t short_word(std::string_view text) {
 /// Mixes eight bytes at a time: names are short, and a table this small needs no stronger hash.
 /// Texts of one size, of at most eight bytes, have one hash each: every step can be undone.
 inline uint64_t hash_of(std::string_view text) {
-  constexpr uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
   uint64_t hash = text.size();
-  const auto mix = [&](uint64_t word) {
-    hash = (hash ^ word) * kFactor;
-    hash ^= hash >> 32;
-  };
   for (; text.size() > kHashedBytes; text.remove_prefix(kHashedBytes))
-    mix(word_at<uint64_t>(text.data()));
-  mix(short_word(text));
-  return hash;
+    hash = mix_hash(hash, word_at<uint64_t>(text.data()));
+  return mix_hash(hash, short_word(text));
 }
 
 }  // namespace

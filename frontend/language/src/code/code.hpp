@@ -19,7 +19,7 @@ namespace language {
 
 struct Code;
 
-/// Of code that stands in no definition at the main unit's top level.
+/// The number of a definition where code stands in none at the main unit's top level.
 constexpr uint32_t kNoDefinition = 0xFFFFFFFFu;
 
 /// A function, by definition or by literal, or a module. Its code is compiled at the first call,

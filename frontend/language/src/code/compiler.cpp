@@ -1,5 +1,7 @@
 #include "code/compiler.hpp"
 
+#include <type_traits>
+
 #include "code/constants.hpp"
 
 namespace language {
@@ -92,33 +94,29 @@ Found<ModuleEntry> Compiler::find_module(const ScopeLayout& from, Name name) {
   return find(from, name, &ScopeLayout::modules);
 }
 
-namespace {
-
-bool is_top_of_main(const ScopeLayout& scope) { return !scope.parent && scope.unit == 0; }
-
-}  // namespace
+/// Returns Code::definition of the code of a definition that stands in a scope.
+template <typename Definition>
+uint32_t Compiler::definition_number(const Definition& written, const ScopeLayout& scope) const {
+  if (scope.parent || scope.unit != 0) return scope.code->definition;
+  const Scope& main = *program_.units[0].scope;
+  if constexpr (std::is_same_v<Definition, FunctionDefinition>)
+    return static_cast<uint32_t>(&written - main.functions.data());
+  else
+    return static_cast<uint32_t>(main.functions.size()) +
+           static_cast<uint32_t>(&written - main.modules.data());
+}
 
 FunctionEntry& Compiler::add_entry(const FunctionDefinition& written, const ScopeLayout& scope) {
-  FunctionEntry& entry = functions_.emplace_back(FunctionEntry{
-      {written.name, written.place, written.parameters, &scope}, written.body, nullptr});
-  entry.definition = scope.code->definition;
-  if (is_top_of_main(scope)) {
-    const Scope& main = *program_.units[0].scope;
-    entry.definition = static_cast<uint32_t>(&written - main.functions.data());
-  }
-  return entry;
+  return functions_.emplace_back(FunctionEntry{
+      {written.name, written.place, written.parameters, &scope, definition_number(written, scope)},
+      written.body,
+      nullptr});
 }
 
 ModuleEntry& Compiler::add_entry(const ModuleDefinition& written, const ScopeLayout& scope) {
-  ModuleEntry& entry = modules_.emplace_back(
-      ModuleEntry{{written.name, written.place, written.parameters, &scope}, written.body});
-  entry.definition = scope.code->definition;
-  if (is_top_of_main(scope)) {
-    const Scope& main = *program_.units[0].scope;
-    const auto functions = static_cast<uint32_t>(main.functions.size());
-    entry.definition = functions + static_cast<uint32_t>(&written - main.modules.data());
-  }
-  return entry;
+  return modules_.emplace_back(ModuleEntry{
+      {written.name, written.place, written.parameters, &scope, definition_number(written, scope)},
+      written.body});
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {

@@ -1,11 +1,12 @@
 // Calls of modules whose nodes follow from what they followed from in an earlier evaluation: they
 // are copied (LANGUAGE.md, "What is kept between evaluations").
+#include <algorithm>
 #include <functional>
 
+#include "base/mix_hash.hpp"
 #include "evaluation/machine.hpp"
 #include "values/copies.hpp"
 #include "values/object_memory.hpp"
-#include "values/range.hpp"
 
 namespace language {
 namespace {
@@ -13,14 +14,10 @@ namespace {
 /// What takes fewer steps is evaluated as fast as it is found.
 constexpr uint64_t kLeastWork = 16;
 
-/// Of a top level's variable, elements and bytes.
+/// The elements and bytes of a top level's variable that is kept, at most.
 constexpr size_t kMostKept = 100'000;
 
-void add(uint64_t& hash, uint64_t number) {
-  constexpr uint64_t kMultiplier = 0x9E3779B97F4A7C15u;
-  hash = (hash ^ number) * kMultiplier;
-  hash ^= hash >> 32;
-}
+void add(uint64_t& hash, uint64_t number) { hash = mix_hash(hash, number); }
 
 // Looks at a part of a large value only.
 void add_value(uint64_t& hash, const Value& value, int depth) {
@@ -73,7 +70,7 @@ void Machine::use_calls(const KeptCalls& earlier) {
   calls_.structure = program_structure(program);
   calls_.definitions = definition_texts(program);
   if (earlier.tree && earlier.structure == calls_.structure)
-    earlier_calls_.emplace(earlier, program);
+    earlier_calls_.emplace(earlier, calls_.definitions, program.files);
 }
 
 // Whether a call may be kept: its code runs no block of another call's, and sees no scopes around

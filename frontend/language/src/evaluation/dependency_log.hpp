@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace language {
@@ -16,7 +15,6 @@ class DependencyLog {
   explicit DependencyLog(size_t numbers) : last_(numbers, 0) {}
 
   void begin() { starts_.push_back(static_cast<uint32_t>(entries_.size())); }
-  bool is_empty() const { return starts_.empty(); }
   /// Returns whether the innermost part has noted a number.
   bool has(uint32_t number) const { return is_in(number, starts_.back(), last_[number]); }
   /// Notes a number in the innermost part.

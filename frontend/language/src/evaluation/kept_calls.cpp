@@ -62,8 +62,9 @@ std::vector<uint64_t> program_structure(const Program& program) {
   return structure;
 }
 
-CallIndex::CallIndex(const KeptCalls& kept, const Program& program)
-    : kept_(kept), next_(kept.calls.size(), kNone), now_(definition_texts(program)) {
+CallIndex::CallIndex(const KeptCalls& kept, const std::vector<DefinitionText>& now,
+                     const SourceFiles& files)
+    : kept_(kept), next_(kept.calls.size(), kNone), now_(now) {
   for (size_t position = 0; position < kept.calls.size(); ++position) {
     const auto [found, is_first] =
         heads_.try_emplace(kept.calls[position].call->hash, Head{position, position, position});
@@ -74,7 +75,7 @@ CallIndex::CallIndex(const KeptCalls& kept, const Program& program)
   is_same_definition_.reserve(now_.size());
   for (size_t i = 0; i < now_.size(); ++i) {
     const DefinitionText& old = kept.definitions[i];
-    is_same_definition_.push_back(is_same(*kept.files, old, program.files, now_[i]));
+    is_same_definition_.push_back(is_same(*kept.files, old, files, now_[i]));
     has_moved_ = has_moved_ || old.begin != now_[i].begin;
   }
 }

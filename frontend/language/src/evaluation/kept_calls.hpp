@@ -63,7 +63,9 @@ std::vector<uint64_t> program_structure(const Program& program);
 /// The calls of an earlier evaluation, for a later one.
 class CallIndex {
  public:
-  CallIndex(const KeptCalls& kept, const Program& program);
+  /// `now` are the definitions of the later evaluation's program, in `files`. Both must last.
+  CallIndex(const KeptCalls& kept, const std::vector<DefinitionText>& now,
+            const SourceFiles& files);
 
   const KeptCalls& kept() const { return kept_; }
   /// Returns the position of a call that `is_same` accepts among those with a hash. Calls are
@@ -103,7 +105,7 @@ class CallIndex {
   const KeptCalls& kept_;
   std::unordered_map<uint64_t, Head> heads_;  // by hash
   std::vector<size_t> next_;                  // of the same hash; kNone: the last
-  std::vector<DefinitionText> now_;
+  const std::vector<DefinitionText>& now_;
   std::vector<bool> is_same_definition_;
   std::vector<Comparison> variables_;  // by slot
   bool has_moved_ = false;             // some definition

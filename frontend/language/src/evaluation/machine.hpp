@@ -155,7 +155,7 @@ class Machine {
 
   // records.cpp
   Record& begin_record(uint32_t unit);
-  Record end_record();
+  void end_record();
   void note_read(Name name);
   void note_code(const Code& code);
   void note_history();

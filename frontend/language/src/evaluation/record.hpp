@@ -20,7 +20,7 @@ struct Record {
   /// It has called no rands(), no parent_module() of those around it, and met nothing that only the
   /// first call of a run does. A top level has made no function value.
   bool is_pure = true;
-  // Of a call:
+  // What follows is known of a call only.
   uint64_t hash = 0;        // of the module and its arguments
   size_t frames = 0;        // whose number is that of its frame
   uint32_t first_node = 0;  // of the tree

@@ -15,7 +15,7 @@ Record& Machine::begin_record(uint32_t unit) {
 
 // What the part depended on, the part around it depends on, too, unless that has bound the `$`
 // name.
-Record Machine::end_record() {
+void Machine::end_record() {
   const Record record = records_.back();
   records_.pop_back();
   dependencies_.end([&](uint32_t number) {
@@ -24,7 +24,6 @@ Record Machine::end_record() {
            !dynamic_.is_bound_between(number - first_name, records_.back().trail, record.trail);
   });
   record_ = records_.empty() ? 0 : ++records_made_;
-  return record;
 }
 
 void Machine::note_read(Name name) {
