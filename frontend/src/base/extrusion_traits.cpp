@@ -6,10 +6,10 @@ namespace {
 
 class ExtrusionTraits final : public PrimitiveTraits {};
 
-constexpr ExtrusionTraits kTraits;
+constexpr ExtrusionTraits kExtrusionTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Extrusion_traits = kTraits;
+constinit const PrimitiveTraits& Extrusion_traits = kExtrusionTraits;
 
 }  // namespace frontend

@@ -85,10 +85,10 @@ class FrustumTraits final : public PrimitiveTraits {
   }
 };
 
-constexpr FrustumTraits kTraits;
+constexpr FrustumTraits kFrustumTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Frustum_traits = kTraits;
+constinit const PrimitiveTraits& Frustum_traits = kFrustumTraits;
 
 }  // namespace frontend

@@ -87,10 +87,10 @@ class MeshTraits final : public PrimitiveTraits {
   }
 };
 
-constexpr MeshTraits kTraits;
+constexpr MeshTraits kMeshTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Mesh_traits = kTraits;
+constinit const PrimitiveTraits& Mesh_traits = kMeshTraits;
 
 }  // namespace frontend

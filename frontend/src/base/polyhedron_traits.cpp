@@ -72,10 +72,10 @@ class PolyhedronTraits final : public PrimitiveTraits {
   }
 };
 
-constexpr PolyhedronTraits kTraits;
+constexpr PolyhedronTraits kPolyhedronTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Polyhedron_traits = kTraits;
+constinit const PrimitiveTraits& Polyhedron_traits = kPolyhedronTraits;
 
 }  // namespace frontend

@@ -6,10 +6,10 @@ namespace {
 
 class RevolutionTraits final : public PrimitiveTraits {};
 
-constexpr RevolutionTraits kTraits;
+constexpr RevolutionTraits kRevolutionTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Revolution_traits = kTraits;
+constinit const PrimitiveTraits& Revolution_traits = kRevolutionTraits;
 
 }  // namespace frontend

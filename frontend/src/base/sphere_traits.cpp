@@ -76,10 +76,10 @@ class SphereTraits final : public PrimitiveTraits {
   }
 };
 
-constexpr SphereTraits kTraits;
+constexpr SphereTraits kSphereTraits;
 
 }  // namespace
 
-constinit const PrimitiveTraits& Sphere_traits = kTraits;
+constinit const PrimitiveTraits& Sphere_traits = kSphereTraits;
 
 }  // namespace frontend

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include "base/angles.hpp"
 #include "drawings/curve_path.hpp"
 #include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
@@ -13,8 +13,6 @@
 
 namespace frontend {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// A message need not hold all of a long line.
 std::string shortened(std::string_view word) {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <optional>
 #include <pugixml.hpp>
 #include <utility>
 
+#include "base/angles.hpp"
 #include "drawings/curve_path.hpp"
 #include "drawings/disjoint_figures.hpp"
 #include "drawings/drawing.hpp"
@@ -18,7 +18,6 @@
 namespace frontend {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kOpenScadChordsOfCircle = 40;
 
 /// An element that is drawn, by the even-odd rule.
@@ -54,8 +53,8 @@ StrokeSettings read_stroke(const pugi::xml_node& element) {
   if (ends == "butt") settings.ends = LineEnds::kButt;
   if (ends == "round") settings.ends = LineEnds::kRound;
   const std::string_view corners = style_of(element, "stroke-linejoin");
-  if (corners == "bevel") settings.corners = Corners::kSquare;
-  if (corners == "round") settings.corners = Corners::kRound;
+  if (corners == "bevel") settings.corners = CornerStyle::kSquare;
+  if (corners == "round") settings.corners = CornerStyle::kRound;
   return settings;
 }
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "base/angles.hpp"
 #include "drawings/svg_numbers.hpp"
 
 namespace frontend {
@@ -17,7 +17,6 @@ constexpr double kInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of CSS
 constexpr double kPointsPerInch = 72;
 constexpr double kPicasPerInch = 6;
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Length {
   double number = 0;

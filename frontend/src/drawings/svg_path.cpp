@@ -4,15 +4,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <optional>
 
+#include "base/angles.hpp"
 #include "drawings/svg_numbers.hpp"
 
 namespace frontend {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 bool is_command(char c) {
   return std::string_view("MmLlHhVvZzCcSsQqTtAa").find(c) != std::string_view::npos;
@@ -243,7 +241,6 @@ EllipseArc svg_arc(const Vec2& from, const Vec2& to, Vec2 radii, double rotation
   const Vec2 last = -unit - across;
   arc.start = std::atan2(first.y, first.x);
   arc.sweep = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
-  constexpr double kTurn = 2 * std::numbers::pi;
   if (is_clockwise_on_paper && arc.sweep < 0) arc.sweep += kTurn;
   if (!is_clockwise_on_paper && arc.sweep > 0) arc.sweep -= kTurn;
   return arc;

@@ -15,7 +15,7 @@ constexpr double kShift = 0.382;
 
 }  // namespace
 
-void Corners::add(const Vec3& position, const Vec3& direction, uint32_t owner) {
+void CornerSet::add(const Vec3& position, const Vec3& direction, uint32_t owner) {
   std::array<int64_t, 3> key;
   for (int axis = 0; axis < 3; ++axis) {
     key[static_cast<size_t>(axis)] = std::llround(position[axis] / size_ + kShift);

@@ -11,10 +11,10 @@ namespace frontend {
 
 /// Collects the ends of edges by place. An edge that continues in another of the same direction has
 /// no vertex between the two.
-class Corners {
+class CornerSet {
  public:
   /// Ends that are nearer to each other than `size` are one, most often.
-  explicit Corners(double size) : size_(size) {}
+  explicit CornerSet(double size) : size_(size) {}
 
   /// Adds the end of an edge that leaves `position` along the unit `direction`. `owner` is returned
   /// with the vertex.

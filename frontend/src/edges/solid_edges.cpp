@@ -185,7 +185,7 @@ class EdgeSearch {
   std::vector<Body> bodies_;
   SolidAround around_;
   double shortest_;
-  Corners corners_;
+  CornerSet corners_;
   uint64_t most_steps_;
   SolidEdges result_;
   std::vector<double> cuts_;

@@ -21,7 +21,7 @@ using csgcore::Vec3;
 
 // Features closer than this share of the design's size coincide already: double arithmetic does not
 // place them better after a chain of matrices (each product costs 1e-16).
-constexpr double kDoubleNoise = 1e-14;
+constexpr double kPlaceNoise = 1e-14;
 // Two numbers with the same exact value are printed the same. So a gap as large as both half units
 // together means that the design's values differ; this factor excludes it, and its own rounding.
 constexpr double kStrictly = 1 - 1e-6;
@@ -97,7 +97,7 @@ class Merger {
         frames_(frames),
         origin_(design.center()),
         size_(design.diagonal()),
-        noise_(kDoubleNoise * (size_ + glm::length(origin_))) {}
+        noise_(kPlaceNoise * (size_ + glm::length(origin_))) {}
 
   void merge() {
     merge_kind(Feature::kPlane);

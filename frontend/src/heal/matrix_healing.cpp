@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "base/angles.hpp"
+
 namespace frontend {
 namespace {
 
@@ -49,8 +51,6 @@ constexpr int kMostRounds = 3;
 constexpr int kMostPolarSteps = 30;
 // The next step would change the matrix by half of this, squared.
 constexpr double kPolarChange = 1e-8;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 template <typename Function>
 void for_each_entry(Function function) {

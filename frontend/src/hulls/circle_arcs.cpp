@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/angles.hpp"
+
 namespace frontend {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
-
 void CircleArcs::cut(double a, double b, double c) {
   const double amplitude = std::sqrt(a * a + b * b);
   if (c >= amplitude) return;

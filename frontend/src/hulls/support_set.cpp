@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
+#include "base/angles.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
@@ -23,11 +23,8 @@ using csgcore::Vec3;
 
 using Kind = ProfileEdge::Kind;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Directions and lengths in a figure differ by so much through rounding.
 constexpr double kRounding = 1e-12;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// An edge of a loop with its start.
 struct Edge {

@@ -202,8 +202,8 @@ OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node) {
     result.distance = *r;
   } else if (delta) {
     result.distance = *delta;
-    result.corners =
-        is_true(find_argument(tree, node, "chamfer", 2)) ? Corners::kSquare : Corners::kSharp;
+    result.corners = is_true(find_argument(tree, node, "chamfer", 2)) ? CornerStyle::kSquare
+                                                                      : CornerStyle::kSharp;
   }
   if (!std::isfinite(result.distance)) result.distance = 0;
   return result;

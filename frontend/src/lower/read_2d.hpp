@@ -25,7 +25,7 @@ csgcore::FacetSettings read_facet_settings(const SyntaxTree& tree, const SyntaxN
 
 struct OffsetArguments {
   double distance = 1;
-  Corners corners = Corners::kRound;
+  CornerStyle corners = CornerStyle::kRound;
   csgcore::FacetSettings facets;
 };
 OffsetArguments read_offset(const SyntaxTree& tree, const SyntaxNode& node);

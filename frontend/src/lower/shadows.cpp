@@ -29,7 +29,7 @@ using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseManyCrossings = "the edges of its shadow cross too often";
+constexpr std::string_view kBecauseShadowCrosses = "the edges of its shadow cross too often";
 
 /// The image of a disc or a ball: an ellipse with these half-axes, which may be 0.
 struct Ellipse {
@@ -185,7 +185,7 @@ std::vector<SolidValue> operands_of_union(const SolidValue& value) {
 }
 
 /// More sections take longer than the convex parts of the outcome.
-constexpr size_t kMostSections = 1 << 14;
+constexpr size_t kMostShadowSections = 1 << 14;
 
 /// The shadow of what stands upright: between the heights of its parts it has few sections.
 std::optional<FigureOperations> shadow_of_upright(const SolidValue& value) {
@@ -197,7 +197,7 @@ std::optional<FigureOperations> shadow_of_upright(const SolidValue& value) {
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
-  if (heights.size() * value.parts.size() > kMostSections) return std::nullopt;
+  if (heights.size() * value.parts.size() > kMostShadowSections) return std::nullopt;
   std::vector<FigureOperations> sections;
   for (size_t i = 1; i < heights.size(); ++i) {
     SolidValue lowered = value;
@@ -233,7 +233,7 @@ FigureOperations Shadows::of_part(const SolidPart& part) {
   std::optional<Figure> shadow =
       shadow_of(triangles_of(primitive), is_open ? Boundary::kOpen : Boundary::kClosed);
   if (!shadow) {
-    fail(kBecauseManyCrossings);
+    fail(kBecauseShadowCrosses);
     return {};
   }
   if (bounds_of(*shadow).empty()) return {};

@@ -12,7 +12,7 @@
 namespace frontend {
 namespace {
 
-double reach_of(std::span<const Figure> figures) {
+double reach_of_figures(std::span<const Figure> figures) {
   Rectangle bounds;
   for (const Figure& figure : figures) bounds.merge(bounds_of(figure));
   return bounds.empty() ? 0 : std::max(glm::length(bounds.min), glm::length(bounds.max));
@@ -52,7 +52,7 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
   const LinearExtrudeArguments& given = data.arguments;
   const TwistedLayers layers = layers_of(given);
   std::optional<SimplePolygons> outline =
-      united(figures, chords_for(layers, given.slices, reach_of(figures)));
+      united(figures, chords_for(layers, given.slices, reach_of_figures(figures)));
   if (!outline) {
     problems.add(node, "crossings", [] {
       return NodeProblems::Description{" is left out: its edges cross too often",

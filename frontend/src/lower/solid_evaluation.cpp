@@ -24,7 +24,7 @@ using csgcore::Op;
 using csgcore::Primitive;
 using csgcore::Vec3;
 
-constexpr std::string_view kBecauseManyCrossings =
+constexpr std::string_view kBecauseEdgesCross =
     "it holds a rotate_extrude whose edges cross too often";
 
 /// Whether a twist leaves the figures as they are.
@@ -247,7 +247,7 @@ SolidValue SolidEvaluation::revolved(uint32_t node) {
 SolidValue SolidEvaluation::revolved_in(const TurnSections& sections,
                                         std::optional<SimplePolygons> outline, bool is_left,
                                         bool is_smooth) {
-  if (!outline) fail(kBecauseManyCrossings);
+  if (!outline) fail(kBecauseEdgesCross);
   if (!outline || outline->empty()) return {};
   const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left);
   return value_of(faceted_part(revolved_mesh(polygons, sections), is_smooth));

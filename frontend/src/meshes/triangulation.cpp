@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec2;
 using Triangle = std::array<uint32_t, 3>;
-using Corners = std::span<const uint32_t>;
+using CornerNumbers = std::span<const uint32_t>;
 using Places = std::span<const dvec2>;
 using Ends = std::span<const uint32_t>;
 
@@ -25,7 +25,7 @@ constexpr uint64_t kStepsPerCorner = 16, kFreeSteps = 1 << 20;
 
 /// Calls visit(i, k) for each edge of the polygons, from corner i to corner k.
 template <typename Visit>
-void visit_edges(Ends ends, const Visit& visit) {
+void visit_ring_edges(Ends ends, const Visit& visit) {
   uint32_t first = 0;
   for (const uint32_t end : ends) {
     for (uint32_t i = first; i < end; ++i) visit(i, i + 1 < end ? i + 1 : first);
@@ -33,7 +33,7 @@ void visit_edges(Ends ends, const Visit& visit) {
   }
 }
 
-void add_fan(Corners corners, std::vector<Triangle>& triangles) {
+void add_fan(CornerNumbers corners, std::vector<Triangle>& triangles) {
   for (size_t i = 2; i < corners.size(); ++i) {
     triangles.push_back({corners[0], corners[i - 1], corners[i]});
   }
@@ -68,7 +68,7 @@ struct SortedVertices {
   std::vector<uint32_t> ranks;  // by corner of the polygons: its vertex here
   bool has_twins = false;       // two vertices are at one place
 
-  SortedVertices(Corners corners, Places places) : ranks(corners.size()) {
+  SortedVertices(CornerNumbers corners, Places places) : ranks(corners.size()) {
     std::vector<uint32_t> order(corners.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
@@ -96,7 +96,8 @@ struct SortedVertices {
 class EdgeCounts {
  public:
   EdgeCounts(std::span<const uint32_t> ranks, Ends ends) {
-    visit_edges(ends, [&](uint32_t i, uint32_t k) { edges_.emplace_back(ranks[i], ranks[k]); });
+    visit_ring_edges(ends,
+                     [&](uint32_t i, uint32_t k) { edges_.emplace_back(ranks[i], ranks[k]); });
     std::sort(edges_.begin(), edges_.end());
   }
   /// Returns how often the polygons run from a to b, less how often they run back.
@@ -138,12 +139,13 @@ std::vector<int64_t> windings_of(const DelaunayTriangulation& delaunay, const Ed
 
 /// Returns false, and appends nothing, if the polygons have no constrained Delaunay triangulation,
 /// or it would take too long.
-bool add_delaunay(Corners corners, Ends ends, Places places, std::vector<Triangle>& triangles) {
+bool add_delaunay(CornerNumbers corners, Ends ends, Places places,
+                  std::vector<Triangle>& triangles) {
   const SortedVertices sorted(corners, places);
   if (sorted.has_twins || sorted.are_on_a_line()) return false;
   DelaunayTriangulation delaunay(sorted.points, kFreeSteps + kStepsPerCorner * corners.size());
   bool is_constrained = true;
-  visit_edges(ends, [&](uint32_t i, uint32_t k) {
+  visit_ring_edges(ends, [&](uint32_t i, uint32_t k) {
     is_constrained = is_constrained && delaunay.constrain(sorted.ranks[i], sorted.ranks[k]);
   });
   if (!is_constrained) return false;
@@ -160,7 +162,7 @@ bool add_delaunay(Corners corners, Ends ends, Places places, std::vector<Triangl
 
 }  // namespace
 
-void triangulate(Corners corners, Places places, std::vector<Triangle>& triangles) {
+void triangulate(CornerNumbers corners, Places places, std::vector<Triangle>& triangles) {
   if (corners.size() == 4) {
     if (const std::optional<size_t> first = diagonal_of(places)) {
       const auto at = [&](size_t i) { return corners[(*first + i) % 4]; };
@@ -174,7 +176,8 @@ void triangulate(Corners corners, Places places, std::vector<Triangle>& triangle
   add_fan(corners, triangles);
 }
 
-void triangulate_all(Corners corners, Ends ends, Places places, std::vector<Triangle>& triangles) {
+void triangulate_all(CornerNumbers corners, Ends ends, Places places,
+                     std::vector<Triangle>& triangles) {
   if (ends.size() > 1 && add_delaunay(corners, ends, places, triangles)) return;
   size_t first = 0;
   for (const uint32_t end : ends) {
@@ -183,7 +186,7 @@ void triangulate_all(Corners corners, Ends ends, Places places, std::vector<Tria
   }
 }
 
-void triangulate_all_reversed(Corners corners, Ends ends, Places places,
+void triangulate_all_reversed(CornerNumbers corners, Ends ends, Places places,
                               std::vector<Triangle>& triangles) {
   const size_t first = triangles.size();
   triangulate_all(corners, ends, places, triangles);

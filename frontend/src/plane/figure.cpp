@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/angles.hpp"
 #include "heal/matrix_healing.hpp"
 
 namespace frontend {
@@ -13,14 +13,11 @@ namespace {
 using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// A quadratic Bézier curve, which turns by less than half a turn, has no more chords than an arc
 /// of half a turn.
 constexpr int kMostChordsOfBezier = kChordsOfCircle / 2;
 /// The distance of a circle from its chords, in shares of the radius.
 constexpr double kDistanceFromChords = 4e-5;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 ProfileEdge line_to(const Vec2& end) {
   ProfileEdge edge;
@@ -90,7 +87,7 @@ void visit_chords(const Vec2& start, const ProfileEdge& edge, const CurveChords&
 
 /// Calls visit(start, edge) for each edge.
 template <typename Visit>
-void visit_edges(const ProfileLoop& loop, const Visit& visit) {
+void visit_loop_edges(const ProfileLoop& loop, const Visit& visit) {
   if (loop.empty()) return;
   Vec2 start = loop.back().end;
   for (const ProfileEdge& edge : loop) {
@@ -113,7 +110,7 @@ CurveChords chords_for(const Outline& outline, const Chords& chords = {}) {
 
 Polygon chords_of(const ProfileLoop& loop, const CurveChords& chords) {
   Polygon polygon;
-  visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
+  visit_loop_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
     visit_chords(start, edge, chords, [&](const Vec2& point) { polygon.push_back(point); });
   });
   return polygon;
@@ -200,7 +197,7 @@ std::vector<double> axis_crossings(const Vec2& start, const ProfileEdge& arc) {
 class RightHalf {
  public:
   RightHalf(const ProfileLoop& loop, const CurveChords& chords) : chords_(chords) {
-    visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) { add(start, edge); });
+    visit_loop_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) { add(start, edge); });
   }
   ProfileLoop take() { return std::move(result_); }
 
@@ -360,7 +357,7 @@ Rectangle bounds_of(const Figure& figure) {
   }
   Rectangle result;
   for (const ProfileLoop& loop : std::get<Outline>(figure).loops) {
-    visit_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
+    visit_loop_edges(loop, [&](const Vec2& start, const ProfileEdge& edge) {
       result.merge(edge.end);
       if (edge.kind == ProfileEdge::Kind::kArc) merge_arc(start, edge, result);
       if (edge.kind == ProfileEdge::Kind::kBezier) {

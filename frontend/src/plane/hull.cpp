@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.hpp"
 
 namespace frontend {
 namespace {
 
 using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Returns the corners of the points' hull, counterclockwise (Andrew's monotone chain).
 Polygon hull_of_points(Polygon points) {

@@ -14,8 +14,6 @@ using csgcore::FillRule;
 using csgcore::ProfileEdge;
 using csgcore::ProfileLoop;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// The unit normal on the right of the way from a to b: outwards of what runs counterclockwise.
 Vec2 outward_normal(const Vec2& a, const Vec2& b) {
   const Vec2 along = glm::normalize(b - a);
@@ -113,8 +111,8 @@ Polygon sum_of_convex(const Polygon& first, const Polygon& second) {
 
 /// Calls visit(start, end) for each edge.
 template <typename Visit>
-void visit_edges(const SimplePolygons& polygons, const Visit& visit) {
-  for (const Polygon& polygon : polygons) frontend::visit_edges(polygon, visit);
+void visit_all_edges(const SimplePolygons& polygons, const Visit& visit) {
+  for (const Polygon& polygon : polygons) visit_edges(polygon, visit);
 }
 
 /// More corners of parts than this would have too many crossings anyway.
@@ -132,8 +130,8 @@ std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolyg
   std::vector<Figure> parts;
   for (const Polygon& loop : b) parts.push_back(filled(moved(a, loop.front())));
   for (const Polygon& loop : a) parts.push_back(filled(moved(b, loop.front())));
-  visit_edges(a, [&](const Vec2& a_start, const Vec2& a_end) {
-    visit_edges(b, [&](const Vec2& b_start, const Vec2& b_end) {
+  visit_all_edges(a, [&](const Vec2& a_start, const Vec2& a_end) {
+    visit_all_edges(b, [&](const Vec2& b_start, const Vec2& b_end) {
       parts.push_back(
           filled({{a_start + b_start, a_end + b_start, a_end + b_end, a_start + b_end}}));
     });
@@ -148,7 +146,7 @@ std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolyg
 std::optional<Figure> sum_with_convex(const SimplePolygons& polygons, const Polygon& convex) {
   if (edge_count(polygons) * convex.size() > kMostParts) return std::nullopt;
   std::vector<Figure> parts{filled(moved(polygons, convex.front()))};
-  visit_edges(polygons, [&](const Vec2& start, const Vec2& end) {
+  visit_all_edges(polygons, [&](const Vec2& start, const Vec2& end) {
     std::vector<Disc> points;
     for (const Vec2& corner : convex) {
       points.push_back({start + corner, 0});
@@ -184,7 +182,7 @@ std::optional<Figure> sum_of_two(const Figure& a, const Figure& b) {
 std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
                                           const OffsetSettings& settings) {
   std::vector<Figure> result;
-  const bool is_round = settings.corners == Corners::kRound;
+  const bool is_round = settings.corners == CornerStyle::kRound;
   if (is_round && settings.distance > 0 && !settings.fragments) {
     // The offset of a union is the union of the offsets.
     for (const Figure& figure : figures) {

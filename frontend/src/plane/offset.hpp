@@ -12,7 +12,7 @@ namespace frontend {
 
 struct OffsetSettings {
   double distance = 1;  // negative: inwards
-  Corners corners = Corners::kRound;
+  CornerStyle corners = CornerStyle::kRound;
   /// The chords of a whole circle where round corners are to be OpenSCAD's; else they are arcs if
   /// the offset goes outwards, and chords that no picture shows if it goes inwards.
   std::optional<int> fragments{};

@@ -151,13 +151,13 @@ ClipperLib::Paths combined(Op op, const ClipperLib::Paths& first, const ClipperL
   return result;
 }
 
-ClipperLib::JoinType join_type(Corners corners) {
+ClipperLib::JoinType join_type(CornerStyle corners) {
   switch (corners) {
-    case Corners::kRound:
+    case CornerStyle::kRound:
       return ClipperLib::jtRound;
-    case Corners::kSharp:
+    case CornerStyle::kSharp:
       return ClipperLib::jtMiter;
-    case Corners::kSquare:
+    case CornerStyle::kSquare:
       return ClipperLib::jtSquare;
   }
   return ClipperLib::jtRound;
@@ -225,7 +225,7 @@ std::optional<SimplePolygons> combined(Op op, std::span<const SimplePolygons> op
   return grid.polygons(result);
 }
 
-SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Corners corners,
+SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, CornerStyle corners,
                              int fragments) {
   Grid grid(reach_of(bounds_of(polygons)) + std::abs(distance));
   // OpenSCAD never cuts a sharp corner off: its limit is as large.

@@ -37,7 +37,7 @@ std::optional<Figure> cleaned(Outline outline);
 std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures);
 
 /// What becomes of the corners where an outline is moved.
-enum class Corners : uint8_t {
+enum class CornerStyle : uint8_t {
   kRound,   // arcs, as chords
   kSharp,   // the edges run on until they meet
   kSquare,  // cut at the distance
@@ -45,7 +45,7 @@ enum class Corners : uint8_t {
 
 /// Moves the outline outwards by a distance, or inwards if it is negative. `fragments` is the
 /// number of chords of a whole circle for kRound.
-SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Corners corners,
+SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, CornerStyle corners,
                              int fragments);
 
 /// How a line is drawn that ends.
@@ -58,7 +58,7 @@ enum class LineEnds : uint8_t {
 struct StrokeSettings {
   double width = 1;  // > 0
   LineEnds ends = LineEnds::kSquare;
-  Corners corners = Corners::kSharp;  // those of less than 60° are cut square
+  CornerStyle corners = CornerStyle::kSharp;  // those of less than 60° are cut square
   /// Compute in multiples of 1e-4, as OpenSCAD 2021.01 does.
   bool is_coarse = false;
 };

@@ -52,24 +52,24 @@ TEST(Combined, HasTheOperationsMeaning) {
 
 TEST(MovedOutline, TreatsCorners) {
   const SimplePolygons square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
-  const auto area = [&](double distance, Corners corners) {
+  const auto area = [&](double distance, CornerStyle corners) {
     return area_of(moved_outline(square, distance, corners, kChordsOfCircle));
   };
-  EXPECT_NEAR(area(1, Corners::kSharp), 36, 1e-6);
-  EXPECT_NEAR(area(1, Corners::kRound), 32 + kPi, kPi * kChordsShare);
+  EXPECT_NEAR(area(1, CornerStyle::kSharp), 36, 1e-6);
+  EXPECT_NEAR(area(1, CornerStyle::kRound), 32 + kPi, kPi * kChordsShare);
   // Each corner loses a triangle whose height is √2 − 1.
   const double height = std::sqrt(2) - 1;
-  EXPECT_NEAR(area(1, Corners::kSquare), 36 - 4 * height * height, 1e-6);
-  EXPECT_NEAR(area(-1, Corners::kRound), 4, 1e-6);
-  EXPECT_EQ(area(-3, Corners::kSharp), 0);
-  EXPECT_NEAR(area(0, Corners::kSharp), 16, 1e-6);
+  EXPECT_NEAR(area(1, CornerStyle::kSquare), 36 - 4 * height * height, 1e-6);
+  EXPECT_NEAR(area(-1, CornerStyle::kRound), 4, 1e-6);
+  EXPECT_EQ(area(-3, CornerStyle::kSharp), 0);
+  EXPECT_NEAR(area(0, CornerStyle::kSharp), 16, 1e-6);
 }
 
 TEST(MovedOutline, HasOpenScadsArcs) {
   // Five chords a turn make one straight cut of each corner of a square.
   const SimplePolygons square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
-  EXPECT_THAT(moved_outline(square, 1, Corners::kRound, 5)[0], SizeIs(8));
-  EXPECT_THAT(moved_outline(square, 1, Corners::kRound, 8)[0], SizeIs(12));
+  EXPECT_THAT(moved_outline(square, 1, CornerStyle::kRound, 5)[0], SizeIs(8));
+  EXPECT_THAT(moved_outline(square, 1, CornerStyle::kRound, 8)[0], SizeIs(12));
 }
 
 TEST(Outlines, GiveUpWhereEdgesCrossTooOften) {

@@ -19,7 +19,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 /// More chords cannot be told from a circle.
 constexpr int kMostChords = 3600;
 
-std::string_view trimmed(std::string_view line) {
+std::string_view without_blanks(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r\n\v\f";
   const size_t begin = line.find_first_not_of(kBlanks);
   if (begin == line.npos) return {};
@@ -33,7 +33,7 @@ std::string_view take_line(std::string_view& text, bool& is_at_end) {
   is_at_end = end == text.npos;
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(is_at_end ? text.size() : end + 1);
-  return trimmed(line);
+  return without_blanks(line);
 }
 
 std::optional<int> whole_number(std::string_view word) {

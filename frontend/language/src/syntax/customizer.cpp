@@ -14,8 +14,8 @@ namespace {
 
 class NoFiles final : public FileLookup {
  public:
-  FileId include(const NamedFile&) override { return kNoFile; }
-  void use(const NamedFile&) override {}
+  FileId include(const FileReference&) override { return kNoFile; }
+  void use(const FileReference&) override {}
   void leave(FileId) override {}
 };
 

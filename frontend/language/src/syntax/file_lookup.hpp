@@ -10,7 +10,7 @@
 namespace language {
 
 /// A path as a design writes it.
-struct NamedFile {
+struct FileReference {
   std::string_view name;
   const std::string& folder;                    // absolute; of the file where it is written
   std::span<const std::string> being_included;  // canonical paths, which are not found again
@@ -21,9 +21,9 @@ class FileLookup {
  public:
   virtual ~FileLookup() = default;
   /// Returns the text that an `include` stands for, or kNoFile if there is none.
-  virtual FileId include(const NamedFile& file) = 0;
+  virtual FileId include(const FileReference& file) = 0;
   /// Adds a library, or a font, to those that the file being parsed uses.
-  virtual void use(const NamedFile& file) = 0;
+  virtual void use(const FileReference& file) = 0;
   /// Takes note that a file has been read to its end.
   virtual void leave(FileId file) = 0;
 };

@@ -87,7 +87,7 @@ void ProgramReader::look_whether_to_stop() const {
   if (options_.stop.stop_requested()) throw Stopped();
 }
 
-FileId ProgramReader::include(const NamedFile& file) {
+FileId ProgramReader::include(const FileReference& file) {
   look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
   auto& versions = program_.units[current_unit_].versions;
@@ -118,7 +118,7 @@ FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
   return number;
 }
 
-void ProgramReader::use(const NamedFile& file) {
+void ProgramReader::use(const FileReference& file) {
   look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
   if (path.empty()) messages_.warn("Can't open library '" + std::string(file.name) + "'.");

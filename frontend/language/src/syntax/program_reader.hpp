@@ -24,8 +24,8 @@ class ProgramReader : public FileLookup {
   /// Parses all files that unit 0 uses, and those that they use.
   void parse_used();
 
-  FileId include(const NamedFile& file) override;
-  void use(const NamedFile& file) override;
+  FileId include(const FileReference& file) override;
+  void use(const FileReference& file) override;
   void leave(FileId file) override {
     if (KeptFile* kept = program_.kept_file(file)) kept->is_read = true;
   }
