@@ -57,7 +57,7 @@ std::string named_primitives(const Result& result) {
   return sorted.empty() ? "" : text + '\n';
 }
 
-Json json_of(const CheckResult& check) {
+Json json_of_check(const CheckResult& check) {
   return {{"group", check.group},
           {"name", check.name},
           {"planned", check.planned},
@@ -103,7 +103,7 @@ std::string table_of(const Result& result) {
 std::string report_of(const Result& result, const std::string& file, const Settings& settings,
                       int exponent) {
   Json checks = Json::array();
-  for (const CheckResult& check : result.checks) checks.push_back(json_of(check));
+  for (const CheckResult& check : result.checks) checks.push_back(json_of_check(check));
   const Json report = {
       {"file", file},          {"agrees", result.agrees()},  {"fn", settings.fragments},
       {"seed", settings.seed}, {"scale_exponent", exponent}, {"notes", result.notes},

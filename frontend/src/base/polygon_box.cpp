@@ -1,7 +1,8 @@
 #include "base/polygon_box.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.hpp"
 
 namespace frontend {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 using csgcore::Box;
 using csgcore::Vec3;
 
-double cos_of_turn(double part) { return std::cos(2 * std::numbers::pi * part); }
+double cos_of_turn(double part) { return std::cos(kTurn * part); }
 
 /// Only the vertices nearest to the four half-axes matter.
 Box box_of_polygon(int fragments) {

@@ -64,7 +64,7 @@ int pieces_within(double count, const CurveFineness& fineness) {
 /// Arcs of at most a quarter turn.
 void add_circle_arc(const EllipseArc& arc, const Vec2& end, ProfileLoop& loop) {
   const int count = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep) / kQuarter)));
-  const double turn = arc.u.x * arc.v.y - arc.u.y * arc.v.x;
+  const double turn = cross(arc.u, arc.v);
   for (int i = 1; i <= count; ++i) {
     ProfileEdge edge;
     edge.kind = ProfileEdge::Kind::kArc;

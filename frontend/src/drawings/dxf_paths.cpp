@@ -11,7 +11,7 @@ PlaneMap map_of_points(const Vec2& a, const Vec2& b, const Vec2& to_a, const Vec
   const Vec2 to = to_b - to_a;
   const double size = glm::dot(from, from);
   const double c = glm::dot(from, to) / size;
-  const double s = (from.x * to.y - from.y * to.x) / size;
+  const double s = cross(from, to) / size;
   PlaneMap map;
   map.linear = glm::dmat2(c, s, -s, c);
   map.translation = to_a - map.linear * a;

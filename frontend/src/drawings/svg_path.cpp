@@ -240,7 +240,7 @@ EllipseArc svg_arc(const Vec2& from, const Vec2& to, Vec2 radii, double rotation
   const Vec2 first = unit - across;
   const Vec2 last = -unit - across;
   arc.start = std::atan2(first.y, first.x);
-  arc.sweep = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
+  arc.sweep = std::atan2(cross(first, last), glm::dot(first, last));
   if (is_clockwise_on_paper && arc.sweep < 0) arc.sweep += kTurn;
   if (!is_clockwise_on_paper && arc.sweep > 0) arc.sweep -= kTurn;
   return arc;

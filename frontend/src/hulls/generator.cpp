@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 
+#include "base/angles.hpp"
 #include "hulls/orthonormal.hpp"
 #include "hulls/point_hull.hpp"
 
@@ -102,16 +102,15 @@ Generators in_frame(const Mat3& frame, const Generators& generators) {
 /// Puts points for the parts that are chosen: they lie on them.
 void replace_parts(const Generator& generator, int rings, bool replaces_round,
                    std::vector<RoundGenerator>& result) {
-  const double turn = 2 * std::numbers::pi;
   std::vector<Generator> without_ball;
   if (!generator.has_ball() || (!replaces_round && is_similarity(generator.ball))) {
     without_ball.push_back(generator);
   } else {
     for (int i = 0; i <= rings; ++i) {
-      const double polar = turn / 2 * i / rings;
+      const double polar = kTurn / 2 * i / rings;
       const int points = i == 0 || i == rings ? 1 : 2 * rings;
       for (int k = 0; k < points; ++k) {
-        const double azimuth = turn * k / points;
+        const double azimuth = kTurn * k / points;
         const Vec3 direction(std::sin(polar) * std::cos(azimuth),
                              std::sin(polar) * std::sin(azimuth), std::cos(polar));
         Generator& part = without_ball.emplace_back(generator);
@@ -127,7 +126,7 @@ void replace_parts(const Generator& generator, int rings, bool replaces_round,
     }
     const int chords = 4 * rings;
     for (int k = 0; k < chords; ++k) {
-      const double angle = turn * k / chords;
+      const double angle = kTurn * k / chords;
       Generator point = part;
       point.center += std::cos(angle) * part.disc_a + std::sin(angle) * part.disc_b;
       point.disc_a = point.disc_b = Vec3(0.0);
@@ -259,7 +258,7 @@ void replace_disc(const RoundGenerator& generator, int chords,
                   std::vector<RoundGenerator>& result) {
   const Axes axes = axes_along(generator.normal);
   for (int k = 0; k < chords; ++k) {
-    const double angle = 2 * std::numbers::pi * k / chords;
+    const double angle = kTurn * k / chords;
     RoundGenerator point = generator;
     point.center += generator.disc_radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
     point.disc_radius = 0;

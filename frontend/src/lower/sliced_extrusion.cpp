@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/angles.hpp"
 #include "lower/sliced_solid.hpp"
 #include "lower/smooth_slices.hpp"
 
@@ -23,7 +23,7 @@ double reach_of_figures(std::span<const Figure> figures) {
 Chords chords_for(const TwistedLayers& layers, const std::optional<double>& slices, double reach) {
   constexpr double kMost = kSmoothChords;
   if (!has_flat_sides(layers, reach)) return {kSmoothChords, kSmoothTolerance * reach};
-  const double turns = layers.turn() / (2 * std::numbers::pi);
+  const double turns = layers.turn() / kTurn;
   const double in_a_turn = slices.value_or(1) / turns;
   return {static_cast<int>(std::clamp(std::ceil(in_a_turn), kMost, double{kChordsOfCircle})), 0};
 }

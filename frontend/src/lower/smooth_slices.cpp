@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "base/angles.hpp"
 
 namespace frontend {
 namespace {
@@ -91,7 +92,7 @@ std::optional<Slicing> round_slicing(const TwistedLayers& layers, double slices,
                                      const SimplePolygons& outline) {
   size_t most = 0;
   for (const Polygon& polygon : outline) most = std::max(most, polygon.size());
-  const double edges = layers.turn() / (2 * std::numbers::pi) * static_cast<double>(most);
+  const double edges = layers.turn() / kTurn * static_cast<double>(most);
   Slicing result;
   result.slices = affordable_slices(std::max(slices, std::round(edges)), edge_count(outline));
   for (const Polygon& polygon : outline) {

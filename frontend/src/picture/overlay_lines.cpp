@@ -11,9 +11,6 @@ using csgcore::Vec3;
 constexpr double kNearPlane = 0.1;    // share of the camera's distance at which OpenSCAD clips its
                                       // lines
 constexpr double kStippleRun_px = 3;  // OpenSCAD's glLineStipple(3, 0xAAAA): 3 off, 3 on
-// The tolerance for an axis that lies in a face, which is drawn: z is a float, and a renderer's may
-// be off by a few ulp.
-constexpr double kCoincidenceOfAxes = 1e-5;  // share of the camera's distance
 /// OpenGL's grid within a pixel. On it an end that is meant to lie between two pixels does so
 /// exactly, and the line does not jump from one to the other.
 constexpr double kSubpixels = 256;
@@ -35,7 +32,7 @@ void LinePainter::draw(const Vec3& from, const Vec3& to, LineStyle style) {
           return;
         }
         const double s = projector_.s_of(depth);
-        if (s <= canvas_.z(column, row) + kCoincidenceOfAxes * distance_) canvas_.draw(column, row);
+        if (s <= canvas_.z(column, row) + kCoincidence * distance_) canvas_.draw(column, row);
       });
 }
 

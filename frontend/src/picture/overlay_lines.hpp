@@ -11,6 +11,10 @@
 
 namespace frontend {
 
+/// A line that lies in a face, or meets a vertex, is drawn over it: z is a float, and a renderer's
+/// may be off by a few ulp. In shares of the camera's distance.
+inline constexpr double kCoincidence = 1e-5;
+
 enum class LineStyle : uint8_t {
   kSolid,
   kStippled,  // 3 pixels off, 3 on, as in OpenSCAD

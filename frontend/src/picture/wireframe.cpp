@@ -17,8 +17,6 @@ constexpr double kHalfVertex_px = 5;
 // OpenSCAD's colours of vertices are the same in all schemes.
 constexpr Rgb kVertex{0xff, 0xf6, 0x7c};
 constexpr Rgb kCutVertex{0xb7, 0xe8, 0x5c};
-/// A line is drawn over a face or a vertex in which it lies: depths are floats.
-constexpr double kCoincidence = 1e-5;  // share of the camera's distance
 
 class WirePainter {
  public:

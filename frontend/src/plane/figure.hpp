@@ -83,6 +83,10 @@ template <typename Visit>
 void visit_edges(const Polygon& polygon, const Visit& visit) {
   for (size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[(i + 1) % polygon.size()]);
 }
+template <typename Visit>
+void visit_edges(const Polygons& polygons, const Visit& visit) {
+  for (const Polygon& polygon : polygons) visit_edges(polygon, visit);
+}
 
 /// Returns the area of a polygon that does not cross itself, negative if it runs clockwise.
 double signed_area(const Polygon& polygon);

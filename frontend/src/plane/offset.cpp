@@ -109,12 +109,6 @@ Polygon sum_of_convex(const Polygon& first, const Polygon& second) {
   return sum;
 }
 
-/// Calls visit(start, end) for each edge.
-template <typename Visit>
-void visit_all_edges(const SimplePolygons& polygons, const Visit& visit) {
-  for (const Polygon& polygon : polygons) visit_edges(polygon, visit);
-}
-
 /// More corners of parts than this would have too many crossings anyway.
 constexpr size_t kMostParts = 1 << 18;
 
@@ -130,8 +124,8 @@ std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolyg
   std::vector<Figure> parts;
   for (const Polygon& loop : b) parts.push_back(filled(moved(a, loop.front())));
   for (const Polygon& loop : a) parts.push_back(filled(moved(b, loop.front())));
-  visit_all_edges(a, [&](const Vec2& a_start, const Vec2& a_end) {
-    visit_all_edges(b, [&](const Vec2& b_start, const Vec2& b_end) {
+  visit_edges(a, [&](const Vec2& a_start, const Vec2& a_end) {
+    visit_edges(b, [&](const Vec2& b_start, const Vec2& b_end) {
       parts.push_back(
           filled({{a_start + b_start, a_end + b_start, a_end + b_end, a_start + b_end}}));
     });
@@ -146,7 +140,7 @@ std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolyg
 std::optional<Figure> sum_with_convex(const SimplePolygons& polygons, const Polygon& convex) {
   if (edge_count(polygons) * convex.size() > kMostParts) return std::nullopt;
   std::vector<Figure> parts{filled(moved(polygons, convex.front()))};
-  visit_all_edges(polygons, [&](const Vec2& start, const Vec2& end) {
+  visit_edges(polygons, [&](const Vec2& start, const Vec2& end) {
     std::vector<Disc> points;
     for (const Vec2& corner : convex) {
       points.push_back({start + corner, 0});

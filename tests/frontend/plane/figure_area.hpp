@@ -20,7 +20,7 @@ inline double area_of(std::span<const Polygon> polygons) {
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Vec2& a = polygon[i];
       const Vec2& b = polygon[(i + 1) % polygon.size()];
-      area += (a.x * b.y - a.y * b.x) / 2;
+      area += cross(a, b) / 2;
     }
   }
   return area;

@@ -6,8 +6,6 @@
 namespace language {
 namespace {
 
-bool is_single_byte(char byte) { return static_cast<unsigned char>(byte) < 0x80; }
-
 // Returns the length that a first byte announces. Bytes that begin nothing stand for themselves;
 // F8 to FD announced 5 and 6 bytes before UTF-8 was cut to 10FFFF.
 size_t announced_length(char first_byte) {
@@ -36,7 +34,7 @@ size_t code_point_offset(std::string_view text, size_t index) {
 }
 
 size_t count_code_points(std::string_view text) {
-  if (std::all_of(text.begin(), text.end(), is_single_byte)) return text.size();
+  if (std::all_of(text.begin(), text.end(), is_ascii)) return text.size();
   size_t count = 0;
   for (; const size_t length = code_point_length(text); text.remove_prefix(length)) ++count;
   return count;
@@ -50,7 +48,7 @@ uint32_t first_code_point(std::string_view text) {
   const size_t length = code_point_length(text);
   if (length == 0) return kNoCodePoint;
   const auto first = static_cast<unsigned char>(text.front());
-  if (length == 1) return is_single_byte(text.front()) ? first : kNoCodePoint;
+  if (length == 1) return is_ascii(text.front()) ? first : kNoCodePoint;
   uint32_t code_point = first & 0x7Fu >> length;
   for (const char byte : text.substr(1, length - 1)) {
     if ((byte & 0xC0) != 0x80) return kNoCodePoint;

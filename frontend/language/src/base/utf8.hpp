@@ -9,6 +9,9 @@
 
 namespace language {
 
+/// Returns whether a byte is a code point in itself.
+inline bool is_ascii(char byte) { return static_cast<unsigned char>(byte) < 0x80; }
+
 /// Returns how many bytes the code point at the front of a text has: as many as its first byte
 /// announces, whatever follows. 0: the text ends before.
 size_t code_point_length(std::string_view text);

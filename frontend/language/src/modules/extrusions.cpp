@@ -109,22 +109,25 @@ Made make_linear_extrude(const BuiltinCall& call, NodeTree& tree) {
   return name.empty() ? Made::kNode : Made::kLeaf;
 }
 
+namespace rotated {
+enum Parameter : size_t { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
+}  // namespace rotated
+
 Made make_rotate_extrude(const BuiltinCall& call, NodeTree& tree) {
-  enum : size_t { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
   const auto& given = call.parameters;
   set_name(tree, "rotate_extrude");
-  const std::string name = str_or_nothing(given[kFile]);
-  if (is_given(given[kFile])) note_file(call, "rotate_extrude");
+  const std::string name = str_or_nothing(given[rotated::kFile]);
+  if (is_given(given[rotated::kFile])) note_file(call, "rotate_extrude");
   double x = 0, y = 0;
-  read_origin(call, given[kOrigin], "rotate_extrude", x, y);
+  read_origin(call, given[rotated::kOrigin], "rotate_extrude", x, y);
   if (!name.empty()) {
-    const NamedFile file = add_file(call, tree, name, given[kLayer], x, y);
-    const double scale = number_or(given[kScale], 1);
+    const NamedFile file = add_file(call, tree, name, given[rotated::kLayer], x, y);
+    const double scale = number_or(given[rotated::kScale], 1);
     add(tree, "scale", scale <= 0 ? 1 : scale);
     add_integer(tree, "timestamp", file.timestamp);
   }
-  const int convexity = integer_or(given[kConvexity], 0);
-  add(tree, "angle", read_angle(given[kAngle]));
+  const int convexity = integer_or(given[rotated::kConvexity], 0);
+  add(tree, "angle", read_angle(given[rotated::kAngle]));
   add_integer(tree, "convexity", convexity <= 0 ? 2 : convexity);
   add_fragments(tree, fragments_of(call));
   return name.empty() ? Made::kNode : Made::kLeaf;

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "base/utf8.hpp"
+
 namespace language {
 
 namespace {

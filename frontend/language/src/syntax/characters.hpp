@@ -40,7 +40,6 @@ inline bool is_word(char c) { return is_of(c, kWordByte); }
 inline bool is_digit(char c) { return is_of(c, kDigitByte); }
 /// Returns whether a byte is a token in itself, whatever follows it.
 inline bool is_sign(char c) { return is_of(c, kSignByte); }
-inline bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 inline bool begins_number(char c) { return is_digit(c) || c == '.'; }
 /// Returns whether a byte within a string is not simply a part of its value.
 inline bool ends_plain_text(char c) { return !is_of(c, kStringByte); }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/decimal_number.hpp"
+#include "base/utf8.hpp"
 #include "syntax/string_escape.hpp"
 
 namespace language {
