@@ -59,6 +59,13 @@ class FakeRenderer : public testing::Test {
     return TextImport(text, "a.csg", options_, stop).finish(stop);
   }
   size_t starts() const { return folder_.read("starts").size(); }
+  /// Waits until the program has run so often. A program that is ended at once may have made the
+  /// file and written nothing: it counts only once it has.
+  void wait_for_starts(size_t count) const {
+    while (!folder_.has("starts") || starts() < count) {
+      std::this_thread::sleep_for(milliseconds(2));
+    }
+  }
   /// Of the only result that is kept.
   std::string cache_file() const {
     std::string found;
@@ -248,7 +255,7 @@ TEST_F(FakeRenderer, EndsAtOnceWhenItIsStopped) {
   set_program("sleep 1000");
   std::stop_source stop;
   std::jthread stopper([&] {
-    while (!folder_.has("starts")) std::this_thread::sleep_for(milliseconds(2));
+    wait_for_starts(1);
     stop.request_stop();
   });
   EXPECT_THROW(import(sum() + sum(2) + sum(3), stop.get_token()), Stopped);
@@ -306,14 +313,14 @@ TEST_F(FakeRenderer, IsEndedByTheNextSave) {
   options.import = options_;
   Followed design(folder_.write("a.csg", sum()), options);
   design.next();
-  while (!folder_.has("starts")) std::this_thread::sleep_for(milliseconds(2));
+  wait_for_starts(1);
   EXPECT_TRUE(has_children());
   folder_.write("a.csg", "sphere();");
   EXPECT_THAT(design.next().design->lines_to_render, IsEmpty());
   EXPECT_FALSE(has_children());
   folder_.write("a.csg", sum(2));
   design.next();
-  while (starts() < 2) std::this_thread::sleep_for(milliseconds(2));
+  wait_for_starts(2);
   design.end();
   EXPECT_FALSE(has_children());
 }
