@@ -152,6 +152,12 @@ ECHO: 7
 )");
 }
 
+/// OpenSCAD never ends there: a file in Latin-1 has such texts.
+TEST(Functions, BytesThatAreCutOffAreNoCharacter) {
+  const Evaluated result = evaluated("s = \"caf\xe9\"; echo([for (c = s) c], [each s], len(s));\n");
+  EXPECT_EQ(result.messages, "ECHO: [\"c\", \"a\", \"f\"], [\"c\", \"a\", \"f\"], 3\n");
+}
+
 TEST(Functions, Comprehensions) {
   const Evaluated result =
       evaluated(R"(echo([for (i = [0:3]) if (i % 2 == 0) i else let (q = i * 10) each [q, q]]);

@@ -12,12 +12,11 @@ namespace {
 constexpr uint32_t kStatementLimit = 10000, kElementLimit = 1000000;
 constexpr double kRoundLimit = 1000000;  // of a C-style for
 
+// Bytes at the end that are cut off are no character; openscad never ends there.
 void append_characters(Value& vector, std::string_view text) {
-  while (!text.empty()) {
+  for (; const size_t length = code_point_length(text); text.remove_prefix(length)) {
     count_work();
-    const size_t length = code_point_length(text);
     append_element(vector, make_string(text.substr(0, length)));
-    text.remove_prefix(length);
   }
 }
 

@@ -151,10 +151,12 @@ std::string_view script_at(uint32_t code_point) {
 std::string_view script_of(std::string_view text) {
   std::string_view found;
   while (!text.empty()) {
+    // HarfBuzz, which OpenSCAD asks, steps over a byte that begins no code point by itself.
     const size_t length = code_point_length(text);
     const std::string_view bytes = text.substr(0, length);
-    text.remove_prefix(length);
-    if (!is_valid_utf8(bytes)) continue;
+    const bool is_valid = length != 0 && is_valid_utf8(bytes);
+    text.remove_prefix(is_valid ? length : 1);
+    if (!is_valid) continue;
     const std::string_view script = script_at(first_code_point(bytes));
     if (script.empty() || script == found) continue;
     if (!found.empty()) return {};
