@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <random>
+#include <string>
+
 namespace language {
 namespace {
 
@@ -13,6 +17,15 @@ TEST(DecimalNumber, IsTheNearestDouble) {
   EXPECT_EQ(decimal_number("0.1"), 0.1);
   EXPECT_EQ(decimal_number("9007199254740993"), 9007199254740992.0);
   EXPECT_EQ(decimal_number("4.9406564584124654e-324"), 4.9406564584124654e-324);
+}
+
+TEST(DecimalNumber, IsTheNearestDoubleForEachPlaceOfThePoint) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 20000; ++round) {
+    std::string text = std::to_string(random() % 10'000'000'000'000'000u >> random() % 50);
+    if (round % 8 != 0) text.insert(random() % (text.size() + 1), ".");
+    EXPECT_EQ(decimal_number(text), std::strtod(text.c_str(), nullptr)) << text;
+  }
 }
 
 TEST(DecimalNumber, TellsTooSmallFromTooLarge) {
