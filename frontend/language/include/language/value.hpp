@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,7 @@ struct FunctionObject;  // values/function_object.hpp: what a function value has
 struct SharedObject {
   uint32_t references = 1;
   ValueType type;
+  bool holds_numbers = true;  // of a vector: no element is anything else
 };
 
 /// Copies share their object; an object does not change once it is shared.
@@ -83,6 +85,8 @@ class Value {
   double number() const { return payload_.number; }
   std::string_view text() const;            // bytes, perhaps invalid UTF-8
   std::span<const Value> elements() const;  // of a vector
+  /// Returns whether all elements of a vector are numbers, without looking at them.
+  bool holds_numbers() const { return payload_.object->holds_numbers; }
   const RangeObject& range() const;
   const FunctionObject& function() const;
 
@@ -140,6 +144,17 @@ struct VectorObject : SharedObject {
   uint32_t size;
   uint32_t capacity;
   Value* elements() { return reinterpret_cast<Value*>(this + 1); }
+  /// There must be room.
+  void append(Value element) {
+    holds_numbers = holds_numbers && element.is_number();
+    std::construct_at(elements() + size++, std::move(element));
+  }
+  /// Takes over values that somebody has put behind the last element, where there must be room.
+  void take_appended(uint32_t count) {
+    for (const Value& element : std::span(elements() + size, count))
+      holds_numbers = holds_numbers && element.is_number();
+    size += count;
+  }
 };
 static_assert(sizeof(VectorObject) == 16);
 

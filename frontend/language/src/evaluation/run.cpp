@@ -107,8 +107,7 @@ bool member_local(Registers& now, const Instruction& step) {
 bool append(Registers& now, const Instruction& step) {
   auto& vector = static_cast<VectorObject&>(*now.slots[step.b].object());
   if (vector.references != 1 || vector.size == vector.capacity) return false;
-  std::construct_at(vector.elements() + vector.size, std::move(*--now.top));
-  ++vector.size;
+  vector.append(std::move(*--now.top));
   return true;
 }
 

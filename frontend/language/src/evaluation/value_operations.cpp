@@ -59,7 +59,7 @@ void Machine::make_vector(uint32_t count) {
   Value vector = language::make_vector(count);
   auto& object = static_cast<VectorObject&>(*vector.object());
   stack_.pop_to(object.elements(), count);
-  object.size = count;
+  object.take_appended(count);
   stack_.push(std::move(vector));
 }
 

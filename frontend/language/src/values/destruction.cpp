@@ -55,9 +55,11 @@ class Destroyer {
  private:
   // Frees a vector that refers to no object: most hold numbers.
   static bool free_plain(VectorObject* vector) {
-    const Value* const elements = vector->elements();
-    for (uint32_t i = 0; i < vector->size; ++i)
-      if (elements[i].is_shared()) return false;
+    if (!vector->holds_numbers) {
+      const Value* const elements = vector->elements();
+      for (uint32_t i = 0; i < vector->size; ++i)
+        if (elements[i].is_shared()) return false;
+    }
     free_object(vector, block_size(*vector));
     return true;
   }

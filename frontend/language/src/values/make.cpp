@@ -47,7 +47,7 @@ Value make_vector(size_t capacity) { return Value::adopt(allocate_vector(capacit
 Value make_vector(std::span<const Value> elements) {
   VectorObject* vector = allocate_vector(elements.size());
   std::uninitialized_copy(elements.begin(), elements.end(), vector->elements());
-  vector->size = static_cast<uint32_t>(elements.size());
+  vector->take_appended(static_cast<uint32_t>(elements.size()));
   return Value::adopt(vector);
 }
 
@@ -62,6 +62,7 @@ void make_room(Value& value, size_t count) {
     VectorObject& copy = vector_of(copied);
     std::uninitialized_copy_n(vector.elements(), size, copy.elements());
     copy.size = vector.size;
+    copy.holds_numbers = vector.holds_numbers;
     value = std::move(copied);
     return;
   }
@@ -80,7 +81,7 @@ void append_elements(Value& value, std::span<const Value> elements) {
   make_room(value, elements.size());
   VectorObject& vector = vector_of(value);
   std::uninitialized_copy(elements.begin(), elements.end(), vector.elements() + vector.size);
-  vector.size += static_cast<uint32_t>(elements.size());
+  vector.take_appended(static_cast<uint32_t>(elements.size()));
 }
 
 }  // namespace language

@@ -1,6 +1,8 @@
 // How strings and vectors are made.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -27,14 +29,30 @@ inline void append_element(Value& vector, Value element) {
     make_room(vector, 1);
     object = static_cast<VectorObject*>(vector.object());
   }
-  std::construct_at(object->elements() + object->size, std::move(element));
-  ++object->size;
+  object->append(std::move(element));
 }
 /// The same where it is known that `vector` is the only reference and has room.
 inline void append_in_room(Value& vector, Value element) {
-  auto& object = static_cast<VectorObject&>(*vector.object());
-  std::construct_at(object.elements() + object.size++, std::move(element));
+  static_cast<VectorObject&>(*vector.object()).append(std::move(element));
 }
+/// Fills a new vector with numbers.
+class NumberWriter {
+ public:
+  explicit NumberWriter(size_t capacity)
+      : vector_(make_vector(capacity)), next_(object().elements()) {}
+  /// There must be room.
+  void put(double number) { std::construct_at(next_++, number); }
+  Value take() {
+    object().size = static_cast<uint32_t>(next_ - object().elements());
+    return std::move(vector_);
+  }
+
+ private:
+  VectorObject& object() { return static_cast<VectorObject&>(*vector_.object()); }
+
+  Value vector_;
+  Value* next_;
+};
 /// Appends all elements of a span, which may be the vector's own.
 void append_elements(Value& vector, std::span<const Value> elements);
 

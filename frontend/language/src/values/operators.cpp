@@ -1,5 +1,8 @@
 #include "values/operators.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "values/comparison.hpp"
 #include "values/tree_map.hpp"
 #include "values/vector_products.hpp"
@@ -22,9 +25,22 @@ auto on_numbers(Operation operation) {
   };
 }
 
+// The same for vectors of numbers alone, which most are.
+template <typename Operation>
+Value map_number_pairs(std::span<const Value> left, std::span<const Value> right,
+                       Operation operation) {
+  const size_t size = std::min(left.size(), right.size());
+  count_work(size);
+  NumberWriter result(size);
+  for (size_t i = 0; i < size; ++i) result.put(operation(left[i].number(), right[i].number()));
+  return result.take();
+}
+
 template <typename Operation>
 Value elementwise(const Value& left, std::string_view sign, const Value& right,
                   OperatorProblem& problem, Operation operation) {
+  if (left.is_vector() && right.is_vector() && left.holds_numbers() && right.holds_numbers())
+    return map_number_pairs(left.elements(), right.elements(), operation);
   if (left.is_vector() && right.is_vector()) return map_pairs(left, right, on_numbers(operation));
   return undefined(left, sign, right, problem);
 }

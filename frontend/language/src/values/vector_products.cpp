@@ -1,6 +1,7 @@
 #include "values/vector_products.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -42,20 +43,29 @@ bool is_row(const Value& value, size_t size) {
   return value.is_vector() && value.elements().size() == size;
 }
 
-bool holds_numbers(Row row) {
-  return std::all_of(row.begin(), row.end(), [](const Value& value) { return value.is_number(); });
+bool is_row_of_numbers(const Value& value, size_t size) {
+  return is_row(value, size) && value.holds_numbers();
 }
 
 bool is_matrix_of_numbers(Row rows, size_t columns) {
-  return std::all_of(rows.begin(), rows.end(), [&](const Value& row) {
-    return is_row(row, columns) && holds_numbers(row.elements());
-  });
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const Value& row) { return is_row_of_numbers(row, columns); });
 }
 
-Value dot_product(Row left, Row right, OperatorProblem& problem) {
+// The product of two vectors of numbers, the right one at least as long.
+double product_of_numbers(Row left, Row right) {
+  double sum = 0;
+  for (size_t i = 0; i < left.size(); ++i) sum += left[i].number() * right[i].number();
+  return sum;
+}
+
+Value dot_product(const Value& left_vector, const Value& right_vector, OperatorProblem& problem) {
+  const Row left = left_vector.elements(), right = right_vector.elements();
   if (left.size() != right.size())
     return fail(problem,
                 "vector*vector requires matching lengths" + lengths(left.size(), right.size()));
+  if (left_vector.holds_numbers() && right_vector.holds_numbers())
+    return product_of_numbers(left, right);
   double sum = 0;
   for (size_t i = 0; i < left.size(); ++i) {
     if (!are_numbers(left[i], right[i]))
@@ -65,26 +75,32 @@ Value dot_product(Row left, Row right, OperatorProblem& problem) {
   return sum;
 }
 
-Value matrix_times_vector(Row matrix, Row vector, OperatorProblem& problem) {
+// Says what keeps a matrix, which should have columns, and a vector from being numbers in rows.
+Value fail_with_vector(Row matrix, Row vector, OperatorProblem& problem) {
+  for (size_t i = 0; i < matrix.size(); ++i) {
+    count_work(vector.size());
+    if (!is_row(matrix[i], vector.size())) return fail(problem, not_rectangular(i));
+    const Row row = matrix[i].elements();
+    for (size_t j = 0; j < vector.size(); ++j) {
+      if (!row[j].is_number()) return fail(problem, no_number_in_matrix(i, j));
+      if (!vector[j].is_number()) return fail(problem, no_number_in_vector(j));
+    }
+  }
+  return Value::undef();
+}
+
+Value matrix_times_vector(Row matrix, const Value& right_vector, OperatorProblem& problem) {
+  const Row vector = right_vector.elements();
   const size_t columns = matrix.front().elements().size();
   if (columns != vector.size())
     return fail(problem, "matrix*vector requires matrix column count to match vector length" +
                              lengths(columns, vector.size()));
-  Value result = make_vector(matrix.size());
-  for (size_t i = 0; i < matrix.size(); ++i) {
-    count_work(columns);
-    if (!is_row(matrix[i], columns)) return fail(problem, not_rectangular(i));
-    const Row row = matrix[i].elements();
-    double sum = 0;
-    for (size_t j = 0; j < columns; ++j) {
-      if (!are_numbers(row[j], vector[j]))
-        return fail(problem,
-                    row[j].is_number() ? no_number_in_vector(j) : no_number_in_matrix(i, j));
-      sum += row[j].number() * vector[j].number();
-    }
-    append_in_room(result, sum);
-  }
-  return result;
+  if (!right_vector.holds_numbers() || !is_matrix_of_numbers(matrix, columns))
+    return fail_with_vector(matrix, vector, problem);
+  count_work(matrix.size() * columns);
+  NumberWriter result(matrix.size());
+  for (const Value& row : matrix) result.put(product_of_numbers(row.elements(), vector));
+  return result.take();
 }
 
 // OpenSCAD says what is wrong with the elements twice, at first without a place.
@@ -93,17 +109,28 @@ Value fail_twice(OperatorProblem& problem, std::string text) {
   return fail(problem, std::move(text));
 }
 
+// Puts the products of a vector and so many columns of a matrix.
+template <size_t kColumns>
+void put_products(Row vector, Row matrix, size_t first_column, NumberWriter& result) {
+  std::array<double, kColumns> sums{};
+  for (size_t j = 0; j < vector.size(); ++j) {
+    const double factor = vector[j].number();
+    const Value* const row = matrix[j].elements().data() + first_column;
+    for (size_t i = 0; i < kColumns; ++i) sums[i] += factor * row[i].number();
+  }
+  for (const double sum : sums) result.put(sum);
+}
+
 // The product of a vector of numbers and a matrix of numbers.
 Value numbers_times_matrix(Row vector, Row matrix, size_t columns) {
   count_work(vector.size() * columns);
-  Value result = make_vector(columns);
-  for (size_t i = 0; i < columns; ++i) {
-    double sum = 0;
-    for (size_t j = 0; j < vector.size(); ++j)
-      sum += vector[j].number() * matrix[j].elements()[i].number();
-    append_in_room(result, sum);
-  }
-  return result;
+  NumberWriter result(columns);
+  size_t done = 0;
+  for (; columns - done >= 4; done += 4) put_products<4>(vector, matrix, done, result);
+  if (columns - done == 3) put_products<3>(vector, matrix, done, result);
+  if (columns - done == 2) put_products<2>(vector, matrix, done, result);
+  if (columns - done == 1) put_products<1>(vector, matrix, done, result);
+  return result.take();
 }
 
 // Says what keeps a vector and a matrix, which has columns, from being numbers in rows.
@@ -119,13 +146,14 @@ Value fail_with_matrix(Row vector, Row matrix, size_t columns, OperatorProblem& 
   return Value::undef();
 }
 
-Value vector_times_matrix(Row vector, Row matrix, OperatorProblem& problem) {
+Value vector_times_matrix(const Value& left_vector, Row matrix, OperatorProblem& problem) {
+  const Row vector = left_vector.elements();
   if (vector.size() != matrix.size())
     return fail(problem, "vector*matrix requires vector length to match matrix row count" +
                              lengths(vector.size(), matrix.size()));
   const size_t columns = matrix.front().elements().size();
   if (columns == 0) return make_vector();
-  if (!holds_numbers(vector) || !is_matrix_of_numbers(matrix, columns))
+  if (!left_vector.holds_numbers() || !is_matrix_of_numbers(matrix, columns))
     return fail_with_matrix(vector, matrix, columns, problem);
   return numbers_times_matrix(vector, matrix, columns);
 }
@@ -146,8 +174,9 @@ Value matrix_times_matrix(Row left, Row right, OperatorProblem& problem) {
       return fail(problem,
                   "matrix*matrix left operand row length does not match right operand row count" +
                       lengths(row.size(), right.size()) + " at row " + std::to_string(i));
-    Value product = is_plain && holds_numbers(row) ? numbers_times_matrix(row, right, right_columns)
-                                                   : vector_times_matrix(row, right, problem);
+    Value product = is_plain && left[i].holds_numbers()
+                        ? numbers_times_matrix(row, right, right_columns)
+                        : vector_times_matrix(left[i], right, problem);
     if (product.is_undef()) {
       problem.text += "\n\twhile processing left operand at row " + std::to_string(i);
       return product;
@@ -165,11 +194,11 @@ Value multiply_vectors(const Value& left_vector, const Value& right_vector,
   if (left.empty() || right.empty())
     return fail(problem, "Multiplication is undefined on empty vectors");
   const Value &left_first = left.front(), &right_first = right.front();
-  if (are_numbers(left_first, right_first)) return dot_product(left, right, problem);
+  if (are_numbers(left_first, right_first)) return dot_product(left_vector, right_vector, problem);
   if (left_first.is_number() && right_first.is_vector())
-    return vector_times_matrix(left, right, problem);
+    return vector_times_matrix(left_vector, right, problem);
   if (left_first.is_vector() && right_first.is_number())
-    return matrix_times_vector(left, right, problem);
+    return matrix_times_vector(left, right_vector, problem);
   if (left_first.is_vector() && right_first.is_vector())
     return matrix_times_matrix(left, right, problem);
   std::string text = "undefined vector*vector multiplication where first elements are types ";
