@@ -62,7 +62,8 @@ csgcore::Image draw(const csgcore::Scene& scene, const csgcore::View& view, cons
 /// The default rule with the given K.
 csgcore::SubdivisionOptions leaves_of(uint32_t leaf_primitives);
 
-/// Cells of few and of many primitives, and tiles.
+/// Cells of few and of many primitives, and tiles. Where a test does less, cells of few primitives,
+/// and tiles.
 const std::vector<Way>& all_ways();
 
 /// A map that only moves.

@@ -12,4 +12,14 @@ inline bool full_run() {
   return value != nullptr && std::string_view(value) == "1";
 }
 
+/// Whether a test of what is not compiled with the sanitizer, a driver or another program, should
+/// do less: that takes as long as ever, and the same run without the sanitizer does all of it.
+inline bool does_less() {
+#if defined(SCADRAY_SANITIZED)
+  return !full_run();
+#else
+  return false;
+#endif
+}
+
 }  // namespace test_support
