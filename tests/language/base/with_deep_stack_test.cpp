@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <thread>
 
 namespace language {
 namespace {
@@ -16,6 +17,16 @@ TEST(WithDeepStack, HoldsDeepRecursion) {
   int depth = 0;
   with_deep_stack([&] { depth = depth_of(20'000); });
   EXPECT_EQ(depth, 20'000);
+}
+
+TEST(WithDeepStack, IsOneForCallsWithinACall) {
+  std::thread::id outer, inner;
+  with_deep_stack([&] {
+    outer = std::this_thread::get_id();
+    with_deep_stack([&] { inner = std::this_thread::get_id(); });
+  });
+  EXPECT_EQ(outer, inner);
+  EXPECT_NE(outer, std::this_thread::get_id());
 }
 
 TEST(WithDeepStack, PassesOnWhatIsThrown) {

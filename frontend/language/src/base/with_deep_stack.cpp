@@ -8,6 +8,8 @@ namespace language {
 
 namespace {
 
+thread_local bool has_deep_stack = false;
+
 struct Job {
   const std::function<void()>& work;
   std::exception_ptr thrown;
@@ -15,17 +17,20 @@ struct Job {
 
 void* run(void* argument) {
   auto& job = *static_cast<Job*>(argument);
+  has_deep_stack = true;
   try {
     job.work();
   } catch (...) {
     job.thrown = std::current_exception();
   }
+  has_deep_stack = false;
   return nullptr;
 }
 
 }  // namespace
 
 void with_deep_stack(const std::function<void()>& work) {
+  if (has_deep_stack) return work();
   // A parenthesis takes four frames, which take up to 4 kB where sanitizers widen them. Only what
   // is touched costs memory.
   constexpr size_t kStackBytes = size_t{128} << 20;

@@ -38,6 +38,7 @@ class Session {
   void take(const Message& message);
   void abort();
   void run_program(Machine& machine);
+  void parse_and_evaluate();
   void evaluate_program();
   void preset_names(Machine& machine) const;
   void apply_parameters(Machine& machine);
@@ -214,7 +215,7 @@ void Session::list_files(const NamedFiles& named) {
   append_new(result_.lookups, named.lookups());
 }
 
-Evaluation Session::run() {
+void Session::parse_and_evaluate() {
   ParseOptions options;
   options.definitions = options_.definitions;
   options.hard_warnings = options_.hard_warnings;
@@ -222,14 +223,16 @@ Evaluation Session::run() {
   options.standard_input = standard_input_;
   const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
   if (parsed == ParseOutcome::kParsed) {
-    with_deep_stack([&] {
-      const WorkWatch watch(options_.stop);
-      evaluate_program();
-    });
+    const WorkWatch watch(options_.stop);
+    evaluate_program();
   } else {
     result_.outcome =
         parsed == ParseOutcome::kNotParsed ? Outcome::kNotParsed : Outcome::kUnreadable;
   }
+}
+
+Evaluation Session::run() {
+  with_deep_stack([this] { parse_and_evaluate(); });
   result_.files = std::make_shared<const SourceFiles>(std::move(program_->files));
   result_.tree = std::move(tree_);
   if (kept_ && result_.outcome == Outcome::kDone) {
