@@ -1,3 +1,5 @@
+// The program `scadray`, which draws by the CPU. OpenGL, whose loader takes a tenth of a start,
+// draws in scadray-gl.
 #include "frontend/command.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/render.hpp"
@@ -5,5 +7,6 @@
 int main(int argc, char** argv) {
   frontend::handle_interrupts();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return static_cast<int>(frontend::run_command(arguments, frontend::render));
+  return static_cast<int>(
+      frontend::run_command(arguments, frontend::render, frontend::may_draw_by_gl));
 }

@@ -327,7 +327,20 @@ void print_info() {
               "scadray itself, or openscad (on PATH, or $OPENSCAD)");
 }
 
-ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer) {
+/// Runs scadray-gl in place of this program. Returns if that is not there and the CPU may draw.
+void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind) {
+  try {
+    run_subcommand(
+        "gl", arguments,
+        "give --renderer=cpu; or build scadray with SCADRAY_GLRENDER=ON where libepoxy is "
+        "installed (libepoxy-dev)");
+  } catch (const Error&) {
+    if (kind == RendererKind::kGl) throw;
+  }
+}
+
+ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer,
+             const GlProgramChoice& drawn_by_gl_program) {
   if (!arguments.empty() && arguments[0] == "check") {
     return check_designs({arguments.begin() + 1, arguments.end()});
   }
@@ -357,6 +370,9 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
                      "SCADRAY_WINDOW=ON where GLFW and Dear ImGui are installed (libglfw3-dev, "
                      "libimgui-dev)");
     case Action::kDraw:
+      if (!options.outputs.empty() && drawn_by_gl_program && drawn_by_gl_program(options.render)) {
+        run_gl_program(arguments, options.render.renderer);
+      }
       if (const ExitCode code = write_texts(options); code != ExitCode::kDone) return code;
       if (!options.outputs.empty()) Run(options, renderer).execute();
       break;
@@ -366,8 +382,9 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
 
 }  // namespace
 
-ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer) {
-  const auto program = [&] { return run(arguments, renderer); };
+ExitCode run_command(const std::vector<std::string>& arguments, const Renderer& renderer,
+                     const GlProgramChoice& drawn_by_gl_program) {
+  const auto program = [&] { return run(arguments, renderer, drawn_by_gl_program); };
   return run_program(program, "a smaller --imgsize or design");
 }
 

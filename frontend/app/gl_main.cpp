@@ -1,0 +1,10 @@
+// The program `scadray-gl`: scadray with OpenGL in it, which scadray executes.
+#include "frontend/command.hpp"
+#include "frontend/interrupt.hpp"
+#include "frontend/render.hpp"
+
+int main(int argc, char** argv) {
+  frontend::handle_interrupts();
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return static_cast<int>(frontend::run_command(arguments, frontend::render));
+}
