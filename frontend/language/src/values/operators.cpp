@@ -39,10 +39,10 @@ Value map_number_pairs(std::span<const Value> left, std::span<const Value> right
 template <typename Operation>
 Value elementwise(const Value& left, std::string_view sign, const Value& right,
                   OperatorProblem& problem, Operation operation) {
-  if (left.is_vector() && right.is_vector() && left.holds_numbers() && right.holds_numbers())
+  if (!left.is_vector() || !right.is_vector()) return undefined(left, sign, right, problem);
+  if (left.holds_numbers() && right.holds_numbers())
     return map_number_pairs(left.elements(), right.elements(), operation);
-  if (left.is_vector() && right.is_vector()) return map_pairs(left, right, on_numbers(operation));
-  return undefined(left, sign, right, problem);
+  return map_pairs(left, right, on_numbers(operation));
 }
 
 // Returns operation(element) for the numbers of a nested vector, and undef for its other leaves.
