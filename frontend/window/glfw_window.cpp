@@ -83,6 +83,7 @@ struct GlfwWindow::Impl {
   };
   void on_key(const Key& key, int action);
   void release_keys();
+  void place_cursor() const;
   double pixels_per_unit() const;
   bool is_over_panel() const { return ImGui::GetIO().WantCaptureMouse; }
 
@@ -100,6 +101,7 @@ struct GlfwWindow::Impl {
   // The state of the mouse, in units of the screen.
   int pressed = -1;  // the button that is held; -1: none
   uint8_t modifiers = 0;
+  bool has_cursor = false;  // its place is known
   double cursor_x = 0, cursor_y = 0;
   double press_x = 0, press_y = 0;
   double last_x = 0, last_y = 0;  // up to where it was dragged
@@ -254,6 +256,7 @@ void GlfwWindow::Impl::release_keys() {
 
 void GlfwWindow::Impl::on_cursor(double x, double y) {
   is_active = true;
+  has_cursor = true;
   cursor_x = x;
   cursor_y = y;
   const double scale = pixels_per_unit();
@@ -264,6 +267,15 @@ void GlfwWindow::Impl::on_cursor(double x, double y) {
   constexpr WindowEvents::Button kButtons[] = {
       WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
   events.drag(kButtons[pressed], modifiers, dx * scale, dy * scale);
+}
+
+/// ImGui's backend asks where the cursor is now, which may have left what its button still holds: the
+/// button's release is an event that has not come yet.
+void GlfwWindow::Impl::place_cursor() const {
+  ImVec2& place = ImGui::GetIO().MousePos;
+  if (has_cursor && ImGui::IsMousePosValid(&place)) {
+    place = {static_cast<float>(cursor_x), static_cast<float>(cursor_y)};
+  }
 }
 
 GlfwWindow::GlfwWindow(const std::string& title, Size size, WindowEvents& events)
@@ -303,6 +315,7 @@ bool GlfwWindow::is_over_panel() const { return impl_->is_over_panel(); }
 void GlfwWindow::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  impl_->place_cursor();
   ImGui::NewFrame();
 }
 

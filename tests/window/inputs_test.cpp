@@ -40,6 +40,25 @@ TEST_F(WindowInputs, ASliderMovesTheDesign) {
   next_of(10);
 }
 
+/// While a frame is drawn, the mouse may have gone on, and its button up.
+TEST_F(WindowInputs, ASliderStaysWhereItIsLeft) {
+  open(design_);
+  next_of(1);
+  const Picture before = shown();
+  key("ctrl+p");
+  wait_until_settled(before);
+  for (int round = 0; round < 5; ++round) {
+    display().drive({"mousemove", "60", "133", "sleep", "0.1", "mousedown", "1"});
+    display().drive({"mousemove", "150", "133"});
+    next([](const json& line) { return line["primitives"].get<int>() > 3; });
+    display().drive(
+        {"mousemove", "120", "133", "mouseup", "1", "mousemove", "390", "133", "sleep", "0.3"});
+    folder_.write("a.scad", kDesign + std::string(static_cast<std::size_t>(round), '\n'));
+    const json saved = next([](const json& line) { return line.contains("save_to_screen_ms"); });
+    EXPECT_LE(saved["primitives"].get<int>(), 7);
+  }
+}
+
 TEST_F(WindowInputs, AnAnimationPlaysAndTurnsTheCamera) {
   open(design_);
   const json first = next_of(1);
