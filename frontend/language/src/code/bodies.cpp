@@ -1,6 +1,4 @@
 // let, assert and echo as expressions.
-#include <algorithm>
-
 #include "code/code_compiler.hpp"
 
 namespace language {
@@ -53,16 +51,16 @@ void CodeCompiler::let_arguments(std::span<const Argument> arguments, bool is_in
     }
     set_scope_size(open, scope);
   }
-  std::vector<Name> done;
+  NameList done;
   for (const Argument& argument : arguments) {
     body_or_undef(argument.value, argument.place);
-    const bool is_known = std::find(done.begin(), done.end(), argument.name) != done.end();
+    const bool is_known = done.find(argument.name) != NameList::kNone;
     if (argument.name == kNoName) {
       out_.emit(Op::kUnnamedLet, argument.place, -1);
     } else if (is_known) {
       out_.emit(Op::kDuplicateLet, argument.place, -1, argument.name);
     } else {
-      done.push_back(argument.name);
+      done.add(argument.name);
       let_argument(argument, scope);
     }
   }

@@ -37,13 +37,11 @@ ParameterList::ParameterList(std::span<const Name> parameters, const NameTable& 
 
 Target ParameterList::target_of(Name name, const NameTable& names) {
   if (is_dynamic_name(name, names)) return {name, 0, true};
-  const auto found = std::find(slot_names.begin(), slot_names.end(), name);
-  const auto slot = static_cast<uint32_t>(found - slot_names.begin());
-  if (found == slot_names.end()) slot_names.push_back(name);
-  return {name, slot, false};
+  return {name, slot_names.add(name), false};
 }
 
 bool ParameterList::declares(Name name) const {
+  if (slot_names.find(name) < declared_slots) return true;
   return std::any_of(targets.begin(), targets.end(),
                      [&](const Target& target) { return target.name == name; });
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/name_list.hpp"
 #include "base/name_table.hpp"
 #include "syntax/syntax.hpp"
 
@@ -22,7 +23,7 @@ struct Target {
 struct ParameterList {
   std::vector<Target> targets;              // of each parameter, in order
   std::vector<const Expression*> defaults;  // per slot; null: none
-  std::vector<Name> slot_names;             // parameters first, then what calls pass undeclared
+  NameList slot_names;                      // parameters first, then what calls pass undeclared
   uint32_t declared_slots = 0;
 
   ParameterList() = default;
