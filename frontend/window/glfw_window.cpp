@@ -269,8 +269,8 @@ void GlfwWindow::Impl::on_cursor(double x, double y) {
   events.drag(kButtons[pressed], modifiers, dx * scale, dy * scale);
 }
 
-/// ImGui's backend asks where the cursor is now, which may have left what its button still holds: the
-/// button's release is an event that has not come yet.
+/// ImGui's backend asks where the cursor is now, which may have left what its button still holds:
+/// the button's release is an event that has not come yet.
 void GlfwWindow::Impl::place_cursor() const {
   ImVec2& place = ImGui::GetIO().MousePos;
   if (has_cursor && ImGui::IsMousePosValid(&place)) {
