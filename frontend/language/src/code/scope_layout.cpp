@@ -1,18 +1,9 @@
 #include "code/scope_layout.hpp"
 
 namespace language {
-namespace {
-
-constexpr size_t kLinearSearchLimit = 12;  // up to which a search is as fast as a hash table
-
-}  // namespace
 
 ScopeVariable& ScopeLayout::add(Name name, uint32_t slot) {
   variables_.push_back({name, slot});
-  if (variables_.size() > kLinearSearchLimit) {
-    for (auto number = static_cast<uint32_t>(index_.size()); number < variables_.size(); ++number)
-      index_[variables_[number].name] = number;
-  }
   return variables_.back();
 }
 
@@ -22,13 +13,9 @@ ScopeVariable& ScopeLayout::declare(Name name) {
 }
 
 const ScopeVariable* ScopeLayout::find(Name name) const {
-  if (variables_.size() > kLinearSearchLimit) {
-    const auto found = index_.find(name);
-    return found == index_.end() ? nullptr : &variables_[found->second];
-  }
-  for (auto variable = variables_.rbegin(); variable != variables_.rend(); ++variable)
-    if (variable->name == name) return &*variable;
-  return nullptr;
+  const uint32_t position =
+      index_.find(name, variables_.size(), [&](uint32_t i) { return variables_[i].name; });
+  return position == NameIndex::kNone ? nullptr : &variables_[position];
 }
 
 ScopeVariable* ScopeLayout::find(Name name) {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/name_table.hpp"
+#include "base/name_index.hpp"
 
 namespace language {
 
@@ -70,7 +70,7 @@ class ScopeLayout {
 
  private:
   std::vector<ScopeVariable> variables_;
-  std::unordered_map<Name, uint32_t> index_;  // filled once there are many
+  mutable NameIndex index_;
 };
 
 }  // namespace language

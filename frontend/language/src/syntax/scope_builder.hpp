@@ -1,10 +1,9 @@
 // Gathers what stands in a scope.
 #pragma once
 
-#include <memory>
-#include <unordered_map>
 #include <vector>
 
+#include "base/name_index.hpp"
 #include "syntax/arena.hpp"
 #include "syntax/arena_list.hpp"
 #include "syntax/kept_file.hpp"
@@ -20,26 +19,13 @@ class NamedArenaList : public ArenaList<T> {
 
   /// Returns the element of a name, or null.
   T* find(Name name) {
-    constexpr size_t kFewElements = 16;  // for which a search costs less than a map
-    if (this->size() > kFewElements) return find_indexed(name);
-    for (size_t i = 0; i < this->size(); ++i) {
-      if ((*this)[i].name == name) return &(*this)[i];
-    }
-    return nullptr;
+    const uint32_t position =
+        index_.find(name, this->size(), [this](uint32_t i) { return (*this)[i].name; });
+    return position == NameIndex::kNone ? nullptr : &(*this)[position];
   }
 
  private:
-  using Index = std::unordered_map<Name, size_t>;
-
-  T* find_indexed(Name name) {
-    if (!index_) index_ = std::make_unique<Index>();
-    for (; indexed_ < this->size(); ++indexed_) index_->emplace((*this)[indexed_].name, indexed_);
-    const auto found = index_->find(name);
-    return found == index_->end() ? nullptr : &(*this)[found->second];
-  }
-
-  std::unique_ptr<Index> index_;  // of a long list
-  size_t indexed_ = 0;            // elements that the index knows
+  NameIndex index_;
 };
 
 /// What the scopes being parsed share.
