@@ -1,6 +1,7 @@
-// The program `scadray`, which draws by the CPU. OpenGL, whose loader takes a tenth of a start,
-// draws in scadray-gl.
+// The programs `scadray`, which draws by the CPU, and `scadray-gl`, which scadray executes where
+// OpenGL may draw: OpenGL's loader takes a tenth of a start.
 #include "frontend/command.hpp"
+#include "frontend/gl_program.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/render.hpp"
 
@@ -8,5 +9,5 @@ int main(int argc, char** argv) {
   frontend::handle_interrupts();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
   return static_cast<int>(
-      frontend::run_command(arguments, frontend::render, frontend::may_draw_by_gl));
+      frontend::run_command(arguments, frontend::render, frontend::needs_gl_program));
 }

@@ -14,7 +14,4 @@ namespace frontend {
 csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
                       const RenderSettings& settings, RenderStats& stats);
 
-/// Returns whether OpenGL is asked for, or may be chosen since there is a GPU.
-bool may_draw_by_gl(const RenderSettings& settings);
-
 }  // namespace frontend

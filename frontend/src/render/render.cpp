@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "frontend/scene_renderer.hpp"
-#include "render/renderer_choice.hpp"
 
 namespace frontend {
 
@@ -13,11 +12,6 @@ csgcore::Image render(const csgcore::Scene& scene, const csgcore::View& view,
   SceneRenderer renderer;
   renderer.load(ScenePointer(ScenePointer(), &scene));  // it outlives the renderer
   return renderer.draw(view, settings, stats);
-}
-
-bool may_draw_by_gl(const RenderSettings& settings) {
-  return settings.renderer == RendererKind::kGl ||
-         (settings.renderer == RendererKind::kAuto && !why_no_gpu());
 }
 
 }  // namespace frontend
