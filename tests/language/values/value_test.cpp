@@ -36,6 +36,30 @@ TEST(Value, KnowsItsTruth) {
     EXPECT_TRUE(value.is_true()) << echo_text(value);
 }
 
+TEST(Value, KnowsWhetherAVectorHoldsNumbers) {
+  EXPECT_TRUE(make_vector().holds_numbers());
+  const Value numbers[] = {1.0, 2.0}, mixed[] = {1.0, make_string("2")};
+  EXPECT_TRUE(make_vector(numbers).holds_numbers());
+  EXPECT_FALSE(make_vector(mixed).holds_numbers());
+  Value vector = make_vector(numbers);
+  append_elements(vector, numbers);
+  EXPECT_TRUE(vector.holds_numbers());
+  const Value before = vector;
+  append_element(vector, Value::boolean(true));  // to a copy, since there are two references
+  EXPECT_TRUE(before.holds_numbers());
+  EXPECT_FALSE(vector.holds_numbers());
+  append_elements(vector, numbers);  // in another block
+  EXPECT_FALSE(vector.holds_numbers());
+  Value copy = vector;
+  append_element(copy, 1.0);
+  EXPECT_FALSE(copy.holds_numbers());
+  Value other = make_vector(2);
+  append_in_room(other, 1.0);
+  EXPECT_TRUE(other.holds_numbers());
+  append_elements(other, mixed);
+  EXPECT_FALSE(other.holds_numbers());
+}
+
 TEST(Value, FreesWhatItHolds) {
   const int64_t before = object_memory.used;
   {
