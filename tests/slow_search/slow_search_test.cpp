@@ -144,6 +144,12 @@ TEST(Archive, KeepsTheSlowestPerByteOfAFamilyAndSize) {
   EXPECT_EQ(sizes, (std::vector<std::size_t>{5000, 600, 1000}));
 }
 
+// Returns a stand-in for scadray, which draws cube(1); and then misbehaves.
+std::string stand_in(const std::string& misbehaviour) {
+  return "for last; do :; done\ncase $(cat \"$last\") in 'cube(1);') exit 0;; esac\n" +
+         misbehaviour;
+}
+
 class SlowSearch : public testing::Test {
  protected:
   /// Starts the program, with its standard output in a file.
@@ -177,8 +183,10 @@ class SlowSearch : public testing::Test {
 
 TEST_F(SlowSearch, WritesDesignsAndATable) {
   const std::string start = folder_.write("start.csg", "union() { cube(1); sphere(2); }");
-  const int status = run({"--designs=30", "--seconds=4", "--limit=0.5", "--threshold=0",
-                          SCADRAY_PROGRAM, folder_ / "found", start});
+  // However loaded the machine is, each of them takes longer than cube(1);.
+  const std::string program =
+      folder_.script("slow", stand_in("sleep 0.02; exec '" SCADRAY_PROGRAM "' \"$@\""));
+  const int status = run({"--designs=12", "--threshold=0", program, folder_ / "found", start});
   ASSERT_EQ(status, 0) << folder_.read("err");
   const std::vector<fs::path> found = csg_files(folder_ / "found");
   EXPECT_GT(found.size(), 3u);
@@ -191,12 +199,6 @@ TEST_F(SlowSearch, WritesDesignsAndATable) {
   EXPECT_NE(table.find("# seed 1: "), std::string::npos) << table;
   EXPECT_NE(table.find(found.front().filename()), std::string::npos) << table;
   expect_nothing_left();
-}
-
-// Returns a stand-in for scadray, which draws cube(1); and then misbehaves.
-std::string stand_in(const std::string& misbehaviour) {
-  return "for last; do :; done\ncase $(cat \"$last\") in 'cube(1);') exit 0;; esac\n" +
-         misbehaviour;
 }
 
 TEST_F(SlowSearch, EndsWhatHangsAndItsChildren) {
