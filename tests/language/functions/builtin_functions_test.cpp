@@ -50,7 +50,7 @@ class BuiltinFunctions : public ::testing::Test {
   }
   static SourceFiles one_file() {
     SourceFiles files;
-    files.add({"/folder/x.scad", "call();", {}});
+    files.add("/folder/x.scad", "call();");
     return files;
   }
 

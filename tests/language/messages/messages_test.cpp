@@ -17,7 +17,7 @@ class MessagesTest : public testing::Test {
   SourceFiles files;
   std::vector<std::string> lines;
   Messages messages{files, [this](const Message& message) { lines.push_back(message.line); }};
-  FileId file = files.add({"/designs/library/a.scad", "x\ny", {2}});
+  FileId file = files.add("/designs/library/a.scad", "x\ny");
 };
 
 using Lines = std::vector<std::string>;
@@ -33,7 +33,7 @@ TEST_F(MessagesTest, ShowPathsRelativeToAFolder) {
 }
 
 TEST_F(MessagesTest, ShowTheStandardInputByItsName) {
-  const FileId input = files.add({"<stdin>", "x", {}});
+  const FileId input = files.add("<stdin>", "x");
   messages.warn("one", {input, 0});
   messages.say_parser_error("two", {input, 0}, 7);
   EXPECT_EQ(lines,

@@ -171,7 +171,7 @@ TEST(Calls, AreKeptWithTheirModifiers) {
   EXPECT_EQ(scope.calls[0].modifiers, kHighlightModifier | kBackgroundModifier);
   EXPECT_EQ(scope.calls[1].modifiers, kRootModifier);
   EXPECT_EQ(scope.calls[1].name, kNoName);
-  EXPECT_TRUE(scope.modules[0].body->calls.empty());
+  EXPECT_TRUE(scope.modules[0].content->body->calls.empty());
 }
 
 TEST(Links, AreFollowedToLibrariesAndTheMainFolderOnly) {

@@ -3,31 +3,53 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "language/place.hpp"
 
 namespace language {
 
-struct SourceFile {
-  std::string
-      path;  // absolute and canonical where the file exists; "<stdin>" for the standard input
-  std::string text;  // of the main file and of used ones with what OpenSCAD appends (0x03 and -D)
-  /// Offsets at which lines begin, as OpenSCAD counts them in messages: after each CR and each LF
-  /// in code, and after each LF in comments and strings. The lexer appends them. Line 1 begins at
-  /// 0, which is not listed.
-  std::vector<uint32_t> message_line_starts;
-  /// The same as editors count: 0, and after each LF. SourceFiles fills it in.
-  std::vector<uint32_t> line_starts{};
+class SourceFile {
+ public:
+  /// `path` is absolute and canonical where the file exists, and "<stdin>" for the standard input.
+  /// `text` is that of the file; of the main file and of used ones with what OpenSCAD appends (0x03
+  /// and -D).
+  SourceFile(std::string file_path, std::string file_text)
+      : path(std::move(file_path)), text(std::move(file_text)) {}
+
+  const std::string path;
+  const std::string text;
+
+  /// Returns where lines begin as editors count them: 0, and after each LF. It is found when it is
+  /// first asked for: of most files nobody asks. Several threads may call this.
+  const std::vector<uint32_t>& line_starts() const;
+  /// Returns the line that OpenSCAD's messages name for an offset, from 1. They count the CRs in
+  /// code, too, and leave out the LFs in paths; the lexer has told which those are.
+  uint32_t message_line(uint32_t offset) const;
+  /// Tells of a CR or an LF that messages count unlike editors. They must come in order; what
+  /// stands before the last one is known, and ignored.
+  void note_counted_return(uint32_t offset) { note(counted_returns_, offset); }
+  void note_uncounted_feed(uint32_t offset) { note(uncounted_feeds_, offset); }
+
+ private:
+  static void note(std::vector<uint32_t>& offsets, uint32_t offset) {
+    if (offsets.empty() || offsets.back() < offset) offsets.push_back(offset);
+  }
+
+  std::vector<uint32_t> counted_returns_, uncounted_feeds_;  // offsets, in order
+  mutable std::once_flag has_line_starts_;
+  mutable std::vector<uint32_t> line_starts_;
 };
 
 /// The source files of one evaluation. A file that is read twice (included twice) is stored once.
 /// Evaluations of one EvaluationCache share the files that have not changed.
 class SourceFiles {
  public:
-  FileId add(SourceFile file);
+  FileId add(std::string path, std::string text);
   /// Stores a file under a number that it has in other evaluations, too. Numbers may be left out.
   void add(FileId number, std::shared_ptr<SourceFile> file);
   bool has(FileId file) const { return file < files_.size() && files_[file]; }
@@ -39,7 +61,9 @@ class SourceFiles {
   const std::vector<FileId>& order() const { return order_; }
 
   /// Returns the line that OpenSCAD's messages name for a place; lines count from 1.
-  uint32_t message_line(Place place) const;
+  uint32_t message_line(Place place) const {
+    return files_[place.file]->message_line(place.offset);
+  }
   /// Returns the line as editors count it: LF only, from 1.
   uint32_t line(Place place) const;
   /// Returns the column in bytes, from 1, of a place within its line().

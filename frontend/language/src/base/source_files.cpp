@@ -6,40 +6,39 @@
 
 namespace language {
 
-namespace {
-
-void find_lines(SourceFile& file) {
-  if (!file.line_starts.empty()) return;
-  file.line_starts.push_back(0);
-  const std::string& text = file.text;
-  for (size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
-    file.line_starts.push_back(static_cast<uint32_t>(at + 1));
-  }
+const std::vector<uint32_t>& SourceFile::line_starts() const {
+  std::call_once(has_line_starts_, [this] {
+    line_starts_.push_back(0);
+    for (size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1)) {
+      line_starts_.push_back(static_cast<uint32_t>(at + 1));
+    }
+  });
+  return line_starts_;
 }
 
-}  // namespace
+uint32_t SourceFile::message_line(uint32_t offset) const {
+  const auto count_before = [](const std::vector<uint32_t>& offsets, uint32_t end) {
+    return std::lower_bound(offsets.begin(), offsets.end(), end) - offsets.begin();
+  };
+  const auto line = count_before(line_starts(), offset + 1) +
+                    count_before(counted_returns_, offset) - count_before(uncounted_feeds_, offset);
+  return static_cast<uint32_t>(line);
+}
 
-FileId SourceFiles::add(SourceFile file) {
+FileId SourceFiles::add(std::string path, std::string text) {
   const FileId number = size();
-  add(number, std::make_shared<SourceFile>(std::move(file)));
+  add(number, std::make_shared<SourceFile>(std::move(path), std::move(text)));
   return number;
 }
 
 void SourceFiles::add(FileId number, std::shared_ptr<SourceFile> file) {
-  find_lines(*file);
   if (number >= files_.size()) files_.resize(number + 1);
   files_[number] = std::move(file);
   order_.push_back(number);
 }
 
-uint32_t SourceFiles::message_line(Place place) const {
-  const std::vector<uint32_t>& starts = files_[place.file]->message_line_starts;
-  const auto next = std::upper_bound(starts.begin(), starts.end(), place.offset);
-  return 1 + static_cast<uint32_t>(next - starts.begin());
-}
-
 SourceFiles::LineStart SourceFiles::line_start(Place place) const {
-  const std::vector<uint32_t>& starts = files_[place.file]->line_starts;
+  const std::vector<uint32_t>& starts = files_[place.file]->line_starts();
   const auto after = std::upper_bound(starts.begin(), starts.end(), place.offset);
   return {*std::prev(after), static_cast<uint32_t>(after - starts.begin() - 1)};
 }

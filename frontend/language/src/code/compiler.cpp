@@ -23,8 +23,10 @@ Compiler::KnownNames::KnownNames(NameTable& names)
       difference(names.intern("difference")),
       intersection(names.intern("intersection")) {}
 
-Compiler::Compiler(Program& program, Builtins builtins, bool check_parameters)
+Compiler::Compiler(Program& program, DefinitionReader& definitions, Builtins builtins,
+                   bool check_parameters)
     : program_(program),
+      definitions_(definitions),
       builtins_(std::move(builtins)),
       check_parameters_(check_parameters),
       known_(program.names),
@@ -107,16 +109,18 @@ uint32_t Compiler::definition_number(const Definition& written, const ScopeLayou
 }
 
 FunctionEntry& Compiler::add_entry(const FunctionDefinition& written, const ScopeLayout& scope) {
+  const FunctionDefinition::Content& content = definitions_.content_of(written);
   return functions_.emplace_back(FunctionEntry{
-      {written.name, written.place, written.parameters, &scope, definition_number(written, scope)},
-      written.body,
+      {written.name, written.place, content.parameters, &scope, definition_number(written, scope)},
+      content.body,
       nullptr});
 }
 
 ModuleEntry& Compiler::add_entry(const ModuleDefinition& written, const ScopeLayout& scope) {
+  const ModuleDefinition::Content& content = definitions_.content_of(written);
   return modules_.emplace_back(ModuleEntry{
-      {written.name, written.place, written.parameters, &scope, definition_number(written, scope)},
-      written.body});
+      {written.name, written.place, content.parameters, &scope, definition_number(written, scope)},
+      content.body});
 }
 
 FunctionEntry& Compiler::add_literal(const FunctionExpression& literal, const ScopeLayout& scope) {

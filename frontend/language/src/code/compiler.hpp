@@ -7,6 +7,7 @@
 
 #include "code/builtins.hpp"
 #include "code/code.hpp"
+#include "syntax/definition_reader.hpp"
 #include "syntax/program.hpp"
 
 namespace language {
@@ -30,7 +31,8 @@ struct Found {
 
 class Compiler {
  public:
-  Compiler(Program& program, Builtins builtins, bool check_parameters);
+  Compiler(Program& program, DefinitionReader& definitions, Builtins builtins,
+           bool check_parameters);
 
   UnitEntry& unit(uint32_t number);
   /// Each of the following compiles what it returns, unless that has happened.
@@ -89,6 +91,7 @@ class Compiler {
   const Code& code_of_callable(Entry& entry, void (CodeCompiler::*compile)(Entry&));
 
   Program& program_;
+  DefinitionReader& definitions_;
   Builtins builtins_;
   bool check_parameters_;
   KnownNames known_;

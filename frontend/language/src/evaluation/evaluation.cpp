@@ -172,7 +172,9 @@ void Session::evaluate_program() {
   for (const std::string_view name :
        {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt", "$vpr", "$vpd", "$vpf"})
     program_->names.intern(name);
-  Compiler compiler(*program_, builtin_shapes(program_->names), options_.check_parameters);
+  DefinitionReader definitions(*program_, messages_, options_.stop);
+  Compiler compiler(*program_, definitions, builtin_shapes(program_->names),
+                    options_.check_parameters);
   const std::string& folder = program_->units[0].folder;
   NamedFiles files(messages_, folder);
   ModuleEnvironment modules{messages_, files, options_.check_ranges};

@@ -9,6 +9,12 @@
 
 namespace language {
 
+/// Copies something to an arena. It needs no destruction.
+template <typename T>
+T* copy_to_arena(Arena& arena, const T& value) {
+  return new (arena.allocate(sizeof(T), alignof(T))) T(value);
+}
+
 /// Copies elements to an arena. They need no destruction.
 template <typename T>
 std::span<const T> copy_to_arena(Arena& arena, std::span<const T> elements) {

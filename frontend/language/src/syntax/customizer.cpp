@@ -12,21 +12,14 @@ namespace language {
 
 namespace {
 
-class NoFiles final : public FileLookup {
- public:
-  FileId include(const FileReference&) override { return kNoFile; }
-  void use(const FileReference&) override {}
-  void leave(FileId) override {}
-};
-
 /// Parses a text into an empty program. Returns null if it has a syntax error.
 const Scope* parse_alone(Program& program, std::string_view text) {
-  const FileId file = program.files.add({{}, std::string(text.substr(0, text.find('\0'))), {}});
+  const FileId file = program.files.add({}, std::string(text.substr(0, text.find('\0'))));
   program.units.emplace_back().file = file;
   Messages messages(program.files, [](const Message&) {});
   NoFiles no_files;
   Lexer lexer(program.files, program.names, program.arena, messages, no_files, {file, {}, false});
-  Parser parser(lexer, program, messages, {});
+  Parser parser(lexer, program, program.arena, messages, {});
   try {
     return parser.parse_file();
   } catch (const SyntaxError&) {

@@ -28,4 +28,12 @@ class FileLookup {
   virtual void leave(FileId file) = 0;
 };
 
+/// For text that names no other files, or whose files do not count.
+class NoFiles final : public FileLookup {
+ public:
+  FileId include(const FileReference&) override { return kNoFile; }
+  void use(const FileReference&) override {}
+  void leave(FileId) override {}
+};
+
 }  // namespace language

@@ -34,7 +34,7 @@ class KeptFile {
   KeptFile(FileId number, uint64_t version, std::string path, std::string text)
       : number_(number),
         version_(version),
-        source_(std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text), {}})) {}
+        source_(std::make_shared<SourceFile>(std::move(path), std::move(text))) {}
 
   FileId number() const { return number_; }
   uint64_t version() const { return version_; }

@@ -1,10 +1,11 @@
-// Statements at the top level of files that do not change are parsed once.
+// Statements at the top level of files that do not change are parsed once, and definitions there
+// only as far as they are needed.
 #include "syntax/parser.hpp"
 
 namespace language {
 
-void Parser::set_arena(Arena& arena) {
-  arena_ = &arena;
+void Parser::set_arena(Arena* arena) {
+  arena_ = arena;
   lexer_.set_arena(arena);
 }
 
@@ -28,6 +29,34 @@ bool Parser::take_kept_statement(ScopeBuilder& scope) {
   return true;
 }
 
+/// Preparses the definition that begins with the next token, if it may be made later from its bytes
+/// alone.
+template <typename Definition>
+Definition Parser::parse_top_definition(const ScopeBuilder& scope, Definition (Parser::*parse)()) {
+  const Place begin = peek().place;
+  // Behind the end of a file other messages are said.
+  if (!scope.is_recorded() || !program_.kept_file(begin.file) || is_behind_file_)
+    return (this->*parse)();
+  Arena* const arena = arena_;
+  set_arena(nullptr);
+  try {
+    Definition definition = (this->*parse)();
+    set_arena(arena);
+    definition.content = make(typename Definition::Content{{}, nullptr, arena});
+    return definition;
+  } catch (const NotPreparsed&) {
+    set_arena(arena);
+    lexer_.go_on_at(begin.offset);
+    ahead_ = 0;
+    return (this->*parse)();
+  }
+}
+
+template FunctionDefinition Parser::parse_top_definition(const ScopeBuilder&,
+                                                         FunctionDefinition (Parser::*)());
+template ModuleDefinition Parser::parse_top_definition(const ScopeBuilder&,
+                                                       ModuleDefinition (Parser::*)());
+
 /// Parses the statement whose first token has been read, and keeps it if it may be kept.
 void Parser::parse_top_statement(ScopeBuilder& scope) {
   const Place begin = tokens_[0].place;
@@ -40,9 +69,9 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   const KeptStatement start{lexer_.blank_begin(), begin.offset, 0};
   const uint32_t entries = lexer_.entries();
   const size_t warnings = messages_.warnings() - warnings_of_top_level_;
-  set_arena(file->arena());
+  set_arena(&file->arena());
   parse_statement(scope);
-  set_arena(program_.arena);
+  set_arena(&program_.arena);
   const Place end = boundary();
   const bool is_silent = messages_.warnings() - warnings_of_top_level_ == warnings;
   if (!is_silent || is_behind_file_ || lexer_.entries() != entries) return;

@@ -24,18 +24,18 @@ Lexer::Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messa
 }
 
 void Lexer::enter(FileId file, const char* cursor) {
-  SourceFile& source = files_[file];
+  source_ = &files_[file];
   file_ = file;
-  begin_ = source.text.data();
-  end_ = begin_ + source.text.size();
+  begin_ = source_->text.data();
+  end_ = begin_ + source_->text.size();
   cursor_ = cursor;
-  line_starts_ = &source.message_line_starts;
   error_lines_ = {};
   ++entries_;
 }
 
 /// Goes on in the file that includes the current one. Returns false if none does.
 bool Lexer::leave() {
+  if (!includers_.empty()) check_may_change_file();
   lookup_.leave(file_);
   if (includers_.empty()) return false;
   Includer includer = std::move(includers_.back());
@@ -45,12 +45,6 @@ bool Lexer::leave() {
   enter(includer.file, includer.cursor);
   error_lines_ = includer.error_lines;
   return true;
-}
-
-/// A file that is included twice is lexed twice: its lines are noted once.
-void Lexer::begin_line_at(const char* at) {
-  const uint32_t offset = offset_of(at);
-  if (line_starts_->empty() || line_starts_->back() < offset) line_starts_->push_back(offset);
 }
 
 /// Reads a name, a number, `include <path>` or `use <path>`: the longest that there is.
@@ -116,9 +110,8 @@ bool Lexer::skip_blank() {
     while (*cursor_ == ' ') ++cursor_;
     const char c = *cursor_;
     if (is_word(c)) return true;
-    if (c == '\n' || c == '\r') {
-      begin_line_at(++cursor_);
-    } else if (is_blank(c)) {
+    if (is_blank(c)) {
+      if (c == '\r') source_->note_counted_return(offset_of(cursor_));
       ++cursor_;
     } else if (c == '/' && cursor_[1] == '/') {
       skip_line_comment();
@@ -141,7 +134,6 @@ void Lexer::skip_line_comment() {
 
 bool Lexer::skip_block_comment() {
   for (cursor_ += 2; cursor_ < end_; ++cursor_) {
-    if (*cursor_ == '\n') begin_line_at(cursor_ + 1);
     if (*cursor_ == '*' && cursor_[1] == '/') {
       cursor_ += 2;
       return true;
@@ -181,11 +173,7 @@ void Lexer::lex_string(Token& token) {
       cursor_ += append_escape(cursor_, string_);
       continue;
     }
-    if (*cursor_ == '\n') {
-      begin_line_at(cursor_ + 1);
-    } else if (*cursor_ != '\0') {
-      string_ += *cursor_;
-    }
+    if (*cursor_ != '\n' && *cursor_ != '\0') string_ += *cursor_;
     ++cursor_;
   }
   ++cursor_;
@@ -199,15 +187,26 @@ bool Lexer::begins_path() const {
   return *at == '<';
 }
 
+/// Skips `<`, and the blanks before it.
+void Lexer::skip_to_path() {
+  for (; *cursor_ != '<'; ++cursor_) {
+    if (*cursor_ == '\n') source_->note_uncounted_feed(offset_of(cursor_));
+  }
+  ++cursor_;
+}
+
 /// Skips what separates the parts of a path. Returns false at the end of the path or of the file.
 bool Lexer::reach_path_part() {
   for (; *cursor_ == '\t' || *cursor_ == '\r' || *cursor_ == '\n'; ++cursor_) {
-    if (*cursor_ == '\n') --error_lines_.first;  // which is not counted
+    if (*cursor_ != '\n') continue;
+    --error_lines_.first;  // which is not counted
+    source_->note_uncounted_feed(offset_of(cursor_));
   }
   return *cursor_ != '>' && cursor_ < end_;
 }
 
 bool Lexer::lex_path(Token& token) {
+  check_may_change_file();
   if (token.name == kIncludeName) return lex_include(token);
   lex_use(token);
   return true;
@@ -216,7 +215,7 @@ bool Lexer::lex_path(Token& token) {
 bool Lexer::lex_include(Token& token) {
   std::string path_folder;
   last_path_name_.clear();
-  cursor_ += std::strcspn(cursor_, "<") + 1;
+  skip_to_path();
   while (reach_path_part()) {
     const std::string_view part(cursor_, path_part_length(cursor_, end_));
     const size_t slash = part.rfind('/');
@@ -244,10 +243,7 @@ bool Lexer::lex_include(Token& token) {
 
 void Lexer::lex_use(Token& token) {
   token.kind = TokenKind::kUse;
-  for (; *cursor_ != '<'; ++cursor_) {
-    if (*cursor_ == '\n' || *cursor_ == '\r') begin_line_at(cursor_ + 1);
-  }
-  ++cursor_;
+  skip_to_path();
   while (reach_path_part()) {
     const size_t length = path_part_length(cursor_, end_);
     last_path_name_.assign(cursor_, length);
@@ -260,7 +256,7 @@ void Lexer::lex_use(Token& token) {
 }
 
 std::string_view Lexer::store(std::string_view text) {
-  if (text.empty()) return {};
+  if (text.empty() || !arena_) return {};
   auto* copy = static_cast<char*>(arena_->allocate(text.size(), 1));
   std::memcpy(copy, text.data(), text.size());
   return {copy, text.size()};

@@ -17,6 +17,9 @@ namespace language {
 /// Ends the parsing of a file, after the message about it.
 struct SyntaxError {};
 
+/// Ends the preparsing of a definition (parser.hpp), which has to be parsed at once.
+struct NotPreparsed {};
+
 class Lexer {
  public:
   struct Main {
@@ -47,8 +50,9 @@ class Lexer {
   void go_on_at(uint32_t offset) { cursor_ = begin_ + offset; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
   uint32_t entries() const { return entries_; }
-  /// Sets where texts of tokens lie.
-  void set_arena(Arena& arena) { arena_ = &arena; }
+  /// Sets where texts of tokens lie. Null: tokens get no text, and where another file would be
+  /// entered NotPreparsed is thrown, before anything is done.
+  void set_arena(Arena* arena) { arena_ = arena; }
   /// Says a parser error about the last token, and throws SyntaxError.
   [[noreturn]] void fail(const std::string& text) const;
   /// Fails if there was a warning since the lexer was made, and warnings are errors.
@@ -71,7 +75,9 @@ class Lexer {
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();
-  void begin_line_at(const char* at);
+  void check_may_change_file() const {
+    if (!arena_) throw NotPreparsed();
+  }
 
   void next_other(Token& token);
   bool skip_blank();
@@ -86,6 +92,7 @@ class Lexer {
   bool lex_include(Token& token);
   void lex_use(Token& token);
   bool begins_path() const;
+  void skip_to_path();
   bool reach_path_part();
   std::string_view store(std::string_view text);
   void say_error(const std::string& text) const;
@@ -102,12 +109,12 @@ class Lexer {
   std::vector<Includer> includers_;          // outermost first
   std::vector<std::string> being_included_;  // paths of the included files among them
   FileId file_ = kNoFile;
-  std::string folder_;           // of the current file
+  std::string folder_;  // of the current file
+  SourceFile* source_ = nullptr;
   const char* begin_ = nullptr;  // of its text, behind which stands a NUL
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
   const char* blank_begin_ = nullptr;
-  std::vector<uint32_t>* line_starts_ = nullptr;
   uint32_t entries_ = 0;
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read

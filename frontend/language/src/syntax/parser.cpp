@@ -38,15 +38,15 @@ const Scope* Parser::parse_file() {
       parse_top_statement(scope);
     }
   }
-  return scope.finish(*arena_);
+  return make(scope);
 }
 
 void Parser::parse_statement(ScopeBuilder& scope) {
   switch (peek().kind) {
     case TokenKind::kModule:
-      return parse_module(scope);
+      return scope.add(parse_top_definition(scope, &Parser::parse_module));
     case TokenKind::kFunction:
-      return parse_function(scope);
+      return scope.add(parse_top_definition(scope, &Parser::parse_function));
     case TokenKind::kFileEnd:
       is_behind_file_ = true;
       return consume();
@@ -81,6 +81,7 @@ void Parser::parse_assignment(ScopeBuilder& scope) {
 void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
   const Place first = scope.add(assignment);
   if (first.file == kNoFile || is_behind_file_) return;
+  if (is_preparsing()) throw NotPreparsed();
   const size_t before = messages_.warnings();
   say_overwritten(assignment, first);
   if (scope.is_recorded()) warnings_of_top_level_ += messages_.warnings() - before;
@@ -111,7 +112,7 @@ DefinitionExtent Parser::extent_from(Place begin, uint32_t entries) const {
   return {begin.offset, end.offset};
 }
 
-void Parser::parse_module(ScopeBuilder& scope) {
+ModuleDefinition Parser::parse_module() {
   const Nested nested(*this, 7);
   const Place begin = peek().place;
   const uint32_t entries = lexer_.entries();
@@ -121,16 +122,17 @@ void Parser::parse_module(ScopeBuilder& scope) {
   const auto parameters = parse_parameters();
   const Place place = expect(')');
   const Scope* const body = parse_module_body();
-  scope.add(ModuleDefinition{name, place, parameters, body, extent_from(begin, entries)});
+  ModuleDefinition::Content* const content = make(ModuleDefinition::Content{parameters, body});
+  return {name, place, content, extent_from(begin, entries)};
 }
 
 const Scope* Parser::parse_module_body() {
   ScopeBuilder body(scopes_);
   parse_statement(body);
-  return body.finish(*arena_);
+  return make(body);
 }
 
-void Parser::parse_function(ScopeBuilder& scope) {
+FunctionDefinition Parser::parse_function() {
   const Place begin = peek().place;
   const uint32_t entries = lexer_.entries();
   consume();
@@ -142,7 +144,8 @@ void Parser::parse_function(ScopeBuilder& scope) {
   expect('=');
   const Expression* body = parse_expression();
   expect(';');
-  scope.add(FunctionDefinition{name, place, parameters, body, extent_from(begin, entries)});
+  FunctionDefinition::Content* const content = make(FunctionDefinition::Content{parameters, body});
+  return {name, place, content, extent_from(begin, entries)};
 }
 
 void Parser::parse_call(ScopeBuilder& scope) {
@@ -229,7 +232,7 @@ const Scope* Parser::parse_children() {
   } else {
     parse_call(scope);
   }
-  return scope.finish(*arena_);
+  return make(scope);
 }
 
 void Parser::parse_child_statement(ScopeBuilder& scope) {

@@ -15,18 +15,25 @@
 namespace language {
 
 /// Parses one file with all that it includes. Throws SyntaxError after the message about it.
+///
+/// Definitions at the top level of kept files are preparsed, as V8 does with JavaScript's functions
+/// (https://v8.dev/blog/preparser): their syntax is checked, and no tree is made.
 class Parser {
  public:
-  Parser(Lexer& lexer, Program& program, Messages& messages, std::stop_token stop)
+  /// Syntax trees are made in `arena`, or in those of kept files.
+  Parser(Lexer& lexer, Program& program, Arena& arena, Messages& messages, std::stop_token stop)
       : lexer_(lexer),
         program_(program),
         files_(program.files),
         names_(program.names),
-        arena_(&program.arena),
+        arena_(&arena),
         messages_(messages),
         stop_(std::move(stop)) {}
 
   const Scope* parse_file();
+  /// Parse a definition that begins at the lexer's position.
+  FunctionDefinition parse_function();
+  ModuleDefinition parse_module();
 
  private:
   class Nested;
@@ -82,17 +89,17 @@ class Parser {
   Place boundary() const { return ahead_ > 0 ? tokens_[0].place : lexer_.position(); }
   bool take_kept_statement(ScopeBuilder& scope);
   void parse_top_statement(ScopeBuilder& scope);
-  void set_arena(Arena& arena);
+  void set_arena(Arena* arena);
+  template <typename Definition>
+  Definition parse_top_definition(const ScopeBuilder& scope, Definition (Parser::*parse)());
 
   // Statements.
   void parse_statement(ScopeBuilder& scope);
   void parse_block(ScopeBuilder& scope);
   void parse_assignment(ScopeBuilder& scope);
   void add(ScopeBuilder& scope, const Assignment& assignment);
-  void parse_module(ScopeBuilder& scope);
   DefinitionExtent extent_from(Place begin, uint32_t entries) const;
   const Scope* parse_module_body();
-  void parse_function(ScopeBuilder& scope);
   void parse_call(ScopeBuilder& scope);
   ModuleCall parse_modified_call(bool& is_disabled);
   ModuleCall parse_if();
@@ -133,13 +140,30 @@ class Parser {
   std::span<const Parameter> parse_parameters();
   Parameter parse_parameter();
 
+  bool is_preparsing() const { return !arena_; }
+
   template <typename Node, typename... Fields>
   const Expression* make(ExpressionKind kind, Place place, Fields... fields) {
+    static constexpr Expression kNotMade{ExpressionKind::kUndef, {}};
+    if (is_preparsing()) return &kNotMade;
     void* memory = arena_->allocate(sizeof(Node), alignof(Node));
     if constexpr (sizeof...(fields) == 0)
       return new (memory) Node{kind, place};
     else
       return new (memory) Node{{kind, place}, fields...};
+  }
+
+  template <typename T>
+  std::span<const T> make(const ArenaList<T>& list) {
+    return is_preparsing() ? std::span<const T>{} : list.finish(*arena_);
+  }
+  const Scope* make(const ScopeBuilder& scope) {
+    static constexpr Scope kNotMade{};
+    return is_preparsing() ? &kNotMade : scope.finish(*arena_);
+  }
+  template <typename Body>
+  DefinitionContent<Body>* make(const DefinitionContent<Body>& content) {
+    return is_preparsing() ? nullptr : copy_to_arena(*arena_, content);
   }
 
   /// Makes the node of a literal, or of a variable, and consumes its token.
@@ -155,7 +179,7 @@ class Parser {
   Program& program_;
   const SourceFiles& files_;
   const NameTable& names_;
-  Arena* arena_;  // where nodes lie
+  Arena* arena_;  // where nodes lie; null while a definition is preparsed
   Messages& messages_;
   std::stop_token stop_;
 

@@ -250,7 +250,7 @@ std::span<const Argument> Parser::parse_arguments() {
     arguments.push(parse_argument());
     if (!peek().is(',')) break;
   }
-  return arguments.finish(*arena_);
+  return make(arguments);
 }
 
 Argument Parser::parse_argument() {
@@ -271,7 +271,7 @@ std::span<const Parameter> Parser::parse_parameters() {
     parameters.push(parse_parameter());
     if (accept_commas() == 0) break;
   }
-  return parameters.finish(*arena_);
+  return make(parameters);
 }
 
 Parameter Parser::parse_parameter() {

@@ -39,7 +39,7 @@ const Expression* Parser::parse_vector(const Element& first, Place start) {
     elements.push(parse_element(true).node);
   }
   expect(']');
-  return make<VectorExpression>(ExpressionKind::kVector, start, elements.finish(*arena_));
+  return make<VectorExpression>(ExpressionKind::kVector, start, make(elements));
 }
 
 Parser::Element Parser::parse_element(bool may_be_parenthesised) {

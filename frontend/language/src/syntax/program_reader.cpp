@@ -38,13 +38,13 @@ ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOp
 bool ProgramReader::read_main(const std::string& path) {
   std::error_code error;
   if (path == "-") {
-    program_.files.add({"<stdin>", unit_text(std::string(options_.standard_input)), {}});
+    program_.files.add("<stdin>", unit_text(std::string(options_.standard_input)));
     add_unit(0, fs::current_path(error).string(), 0);
   } else {
     auto text = read_file(path);
     if (!text) return false;
     const fs::path absolute = fs::absolute(path, error).lexically_normal();
-    program_.files.add({shown_main_path(absolute), unit_text(std::move(*text)), {}});
+    program_.files.add(shown_main_path(absolute), unit_text(std::move(*text)));
     add_unit(0, absolute.parent_path().string(), 0);
   }
   program_.kept->begin(program_.files[0].path, options_.definitions);
@@ -61,7 +61,7 @@ void ProgramReader::parse_used() {
     is_parsed.resize(program_.units.size());
     if (is_parsed[unit]) continue;
     is_parsed[unit] = true;
-    parse(unit);
+    if (!parse(unit)) continue;  // what it uses is not even looked at
     const auto& uses = program_.units[unit].uses;
     waiting.insert(waiting.end(), uses.begin(), uses.end());
   }
@@ -73,7 +73,7 @@ bool ProgramReader::parse(uint32_t unit_number) {
   Unit& unit = program_.units[unit_number];
   Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
               {unit.file, unit.folder, options_.hard_warnings});
-  Parser parser(lexer, program_, messages_, options_.stop);
+  Parser parser(lexer, program_, program_.arena, messages_, options_.stop);
   try {
     unit.scope = parser.parse_file();
     return true;
@@ -120,9 +120,12 @@ FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
 
 void ProgramReader::use(const FileReference& file) {
   look_whether_to_stop();
-  const std::string path = search_.find(file.name, file.folder, file.being_included);
+  std::string path = search_.find(file.name, file.folder, file.being_included);
   if (path.empty()) messages_.warn("Can't open library '" + std::string(file.name) + "'.");
   if (const std::string name(file.name); is_font(name)) return use_font(name, path);
+  // What an included file does not find, the file that is parsed may: OpenSCAD tries again there,
+  // without a word.
+  if (path.empty()) path = search_.find(file.name, program_.units[current_unit_].folder, {});
   if (path.empty()) return;
   auto known = used_.find(path);
   if (known == used_.end()) {

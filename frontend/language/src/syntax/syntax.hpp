@@ -179,6 +179,17 @@ struct ModuleCall {
   const Scope* else_children = nullptr;   // of an `if` with `else`
 };
 
+class Arena;
+
+/// What a definition says behind its name. Most of a library is never called, so a definition of a
+/// kept file has this made when it is first asked for: definition_reader.hpp.
+template <typename Body>
+struct DefinitionContent {
+  std::span<const Parameter> parameters;
+  const Body* body;        // null: not made yet
+  Arena* arena = nullptr;  // where it lies when it is made
+};
+
 /// The bytes of a definition in the file of its place. Its meaning depends on them alone, unless
 /// something is included within them: then `end` is 0.
 struct DefinitionExtent {
@@ -188,16 +199,16 @@ struct DefinitionExtent {
 struct FunctionDefinition {
   Name name;
   Place place;
-  std::span<const Parameter> parameters;
-  const Expression* body;
+  using Content = DefinitionContent<Expression>;
+  Content* content;
   DefinitionExtent extent{};
 };
 
 struct ModuleDefinition {
   Name name;
   Place place;  // of the `)` that ends its parameters
-  std::span<const Parameter> parameters;
-  const Scope* body;
+  using Content = DefinitionContent<Scope>;
+  Content* content;
   DefinitionExtent extent{};
 };
 
