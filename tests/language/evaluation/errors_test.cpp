@@ -152,5 +152,14 @@ ECHO: 10, 4
 )");
 }
 
+TEST(Errors, NameFilesRelativeToTheUnitOrTheMainFile) {
+  EXPECT_EQ(evaluated("use <folder/unset.scad>\necho(unset());").messages,
+            R"(WARNING: Ignoring unknown variable '$name' in file unset.scad, line 1
+WARNING: Ignoring unknown variable '$children' in file folder/unset.scad, line 1
+WARNING: Ignoring unknown variable 'name' in file folder/unset.scad, line 1
+ECHO: [undef, undef, undef]
+)");
+}
+
 }  // namespace
 }  // namespace language

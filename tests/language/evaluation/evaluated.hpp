@@ -18,7 +18,8 @@ struct Evaluated {
   std::string tree;      // the .csg
 };
 
-/// Evaluates a program as the file design.scad, beside which library.scad and quiet.scad lie.
+/// Evaluates a program as the file design.scad, beside which library.scad, quiet.scad and
+/// folder/unset.scad lie.
 Evaluated evaluated(const std::string& program, const Options& options = {});
 
 }  // namespace language

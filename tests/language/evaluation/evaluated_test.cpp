@@ -32,12 +32,16 @@ function constant() = list;
 module quiet() { echo(q, $q); }
 )";
 
+// A used file in another folder, which reads names that are not set.
+constexpr const char* kUnset = "function unset() = [$name, $children, name];\n";
+
 class Folder {
  public:
   Folder() { std::filesystem::create_directories(path_); }
   ~Folder() { std::filesystem::remove_all(path_); }
   std::string write(const std::string& name, const std::string& text) const {
     const auto file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
     std::ofstream(file) << text;
     return file;
   }
@@ -53,6 +57,7 @@ Evaluated evaluated(const std::string& program, const Options& options) {
   const Folder folder;
   folder.write("library.scad", kLibrary);
   folder.write("quiet.scad", kQuiet);
+  folder.write("folder/unset.scad", kUnset);
   EvaluationOptions evaluation;
   evaluation.hard_warnings = options.hard_warnings;
   evaluation.check_parameters = options.check_parameters;

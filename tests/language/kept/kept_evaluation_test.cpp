@@ -47,6 +47,8 @@ class RandomDesign {
   static constexpr const char* kPieces[] = {"\n",
                                             "\r\n",
                                             "// c\n",
+                                            "// c",
+                                            "use\r\n<c.scad>",
                                             "/* x\n */",
                                             ";",
                                             "}",
@@ -91,7 +93,7 @@ class RandomDesign {
         return "module " + name() + "() { y = 1; y = 2; for (i = [0:" + number() +
                "]) translate([i, y, 0]) cube(i); }\n";
       case 12:
-        return "include <missing.scad>\n";
+        return "include <missing.scad>" + std::string(pick(2) ? "\n" : " // c");
       case 13:
         return name() + " = [for (i = [" + number() + ":" + number() + "]) [i, \"t\"]];\n";
       default:

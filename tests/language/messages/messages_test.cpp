@@ -10,7 +10,7 @@ namespace {
 class MessagesTest : public testing::Test {
  protected:
   MessagesTest() {
-    messages.set_main_folder("/designs/main");
+    messages.set_main_file(kNoFile, "/designs/main");
     messages.set_unit_folder("/designs/library");
   }
 

@@ -20,7 +20,10 @@ TEST(Include, FindsNoFileThatIsBeingIncluded) {
   folder.write("main.scad", "include <a.scad>\nx=1;");
   folder.write("a.scad", "include <a.scad>\nuse <a.scad>\ny=1;");
   const ParsedDesign design;
+  // From main.scad the second is found, and includes itself once.
   EXPECT_EQ(design.lines, (Lines{"WARNING: Can't open include file 'a.scad'.",
+                                 "WARNING: Can't open library 'a.scad'.",
+                                 "WARNING: Can't open include file 'a.scad'.",
                                  "WARNING: Can't open library 'a.scad'."}));
   EXPECT_EQ(design.assignments(), (Lines{"y = 1", "x = 1"}));
 }

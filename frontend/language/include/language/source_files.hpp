@@ -15,7 +15,7 @@ namespace language {
 
 class SourceFile {
  public:
-  /// `path` is absolute and canonical where the file exists, and "<stdin>" for the standard input.
+  /// `path` is absolute, as the file was found, and "<stdin>" for the standard input.
   /// `text` is that of the file; of the main file and of used ones with what OpenSCAD appends (0x03
   /// and -D).
   SourceFile(std::string file_path, std::string file_text)

@@ -20,16 +20,18 @@ void Machine::push_dynamic(Name name, bool silently) {
   const Value& value = dynamic_[name];
   if (!records_.empty()) note_read(name);
   if (value.is_set()) return stack_.push_copy(value);
-  if (!silently) {
-    warn("Ignoring unknown variable '" + std::string(compiler_.names().text(name)) + "'",
-         PathBase::kUnit);
+  if (silently) {
+    stack_.push(Value::undef());
+  } else {
+    unknown_variable(name);
   }
-  stack_.push(Value::undef());
 }
 
 void Machine::unknown_variable(Name name) {
+  const bool is_special = compiler_.names().is_dynamic(name);
+  const bool is_child_count = name == compiler_.known().child_count;
   warn("Ignoring unknown variable '" + std::string(compiler_.names().text(name)) + "'",
-       compiler_.names().is_dynamic(name) ? PathBase::kUnit : PathBase::kMainFile);
+       is_special && !is_child_count ? PathBase::kUnit : PathBase::kMainFile);
   stack_.push(Value::undef());
 }
 

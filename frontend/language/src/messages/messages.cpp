@@ -37,7 +37,10 @@ Messages::Messages(const SourceFiles& files, Sink sink) : files_(files), sink_(s
   start_folder_ = std::filesystem::current_path(no_folder).string();
 }
 
-void Messages::set_main_folder(std::string folder) { main_folder_ = std::move(folder); }
+void Messages::set_main_file(FileId file, std::string folder) {
+  main_file_ = file;
+  main_folder_ = std::move(folder);
+}
 
 void Messages::set_unit_folder(std::string_view folder) { unit_folder_ = folder; }
 
@@ -85,10 +88,25 @@ bool Messages::is_repeat(const Message& message) {
   return false;
 }
 
+/// Returns a file's path with links on the way to it followed, but not the file if it is one.
+const std::string& Messages::canonical_path(FileId file) const {
+  const auto [known, is_new] = canonical_paths_.try_emplace(file);
+  std::string& result = known->second;
+  if (is_new) {
+    result = files_[file].path;
+    const std::filesystem::path path(result);
+    std::error_code error;
+    const auto folder = std::filesystem::canonical(path.parent_path(), error);
+    if (path.is_absolute() && !error) result = (folder / path.filename()).string();
+  }
+  return result;
+}
+
 std::string Messages::relative_path(FileId file, const std::string& folder) const {
-  const std::string& path = files_[file].path;
+  const std::string& path = canonical_path(file);
   if (!path.starts_with('/') || folder.empty()) return path;
-  return std::filesystem::path(path).lexically_relative(folder).string();
+  const std::filesystem::path base(folder);
+  return std::filesystem::path(path).lexically_relative(base.lexically_normal()).string();
 }
 
 std::string Messages::shown_path(FileId file, PathBase base) const {

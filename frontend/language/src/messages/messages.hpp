@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -39,8 +40,11 @@ class Messages {
   using Sink = std::function<void(const Message&)>;
   Messages(const SourceFiles& files, Sink sink);
 
-  /// Set the folder of the main file and of the unit whose code is being evaluated; both absolute.
-  void set_main_folder(std::string folder);
+  /// Sets the main file, and the absolute folder that its path was given with. While a used file is
+  /// parsed, the file that uses it counts as the main file.
+  void set_main_file(FileId file, std::string folder);
+  FileId main_file() const { return main_file_; }
+  /// Sets the absolute folder of the unit whose code is being evaluated.
   void set_unit_folder(std::string_view folder);
 
   /// Says a message unless it is a repeat that OpenSCAD drops (LANGUAGE.md, "Messages").
@@ -67,12 +71,15 @@ class Messages {
   bool is_repeat(const Message& message);
   void say(MessageGroup group, std::string text, Place place, const std::string& suffix);
   std::string relative_path(FileId file, const std::string& folder) const;
+  const std::string& canonical_path(FileId file) const;
 
   const SourceFiles& files_;
   Sink sink_;
   std::string start_folder_;
+  FileId main_file_ = kNoFile;
   std::string main_folder_;
   std::string unit_folder_;
+  mutable std::unordered_map<FileId, std::string> canonical_paths_;
   std::deque<std::string> last_lines_;            // the last five of ERROR, WARNING and TRACE
   std::unordered_set<std::string> deprecations_;  // that were said
   size_t warnings_ = 0;

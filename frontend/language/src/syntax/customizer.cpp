@@ -17,6 +17,7 @@ const Scope* parse_alone(Program& program, std::string_view text) {
   const FileId file = program.files.add({}, std::string(text.substr(0, text.find('\0'))));
   program.units.emplace_back().file = file;
   Messages messages(program.files, [](const Message&) {});
+  messages.set_main_file(file, {});
   NoFiles no_files;
   Lexer lexer(program.files, program.names, program.arena, messages, no_files, {file, {}, false});
   Parser parser(lexer, program, program.arena, messages, {});

@@ -13,7 +13,7 @@ namespace language {
 struct FileReference {
   std::string_view name;
   const std::string& folder;                    // absolute; of the file where it is written
-  std::span<const std::string> being_included;  // canonical paths, which are not found again
+  std::span<const std::string> being_included;  // their paths are not found again
 };
 
 /// Finds and reads files for the lexer and the parser, and says what it does not find.

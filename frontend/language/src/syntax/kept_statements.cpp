@@ -69,12 +69,13 @@ void Parser::parse_top_statement(ScopeBuilder& scope) {
   const KeptStatement start{lexer_.blank_begin(), begin.offset, 0};
   const uint32_t entries = lexer_.entries();
   const size_t warnings = messages_.warnings() - warnings_of_top_level_;
+  const uint32_t unsaid = unsaid_;
   set_arena(&file->arena());
   parse_statement(scope);
   set_arena(&program_.arena);
   const Place end = boundary();
   const bool is_silent = messages_.warnings() - warnings_of_top_level_ == warnings;
-  if (!is_silent || is_behind_file_ || lexer_.entries() != entries) return;
+  if (!is_silent || unsaid_ != unsaid || is_behind_file_ || lexer_.entries() != entries) return;
   KeptStatement statement = start;
   statement.end = end.offset;
   file->add(statement, items_);

@@ -19,7 +19,8 @@ Lexer::Lexer(SourceFiles& files, NameTable& names, Arena& arena, Messages& messa
       lookup_(lookup),
       hard_warnings_(main.hard_warnings),
       warnings_before_(messages.warnings()),
-      folder_(main.folder) {
+      folder_(main.folder),
+      last_path_name_(main.last_path_name) {
   enter(main.file, files_[main.file].text.data());
 }
 
@@ -82,6 +83,7 @@ inline bool Lexer::lex(Token& token) {
   } else if (c != '\0') {
     lex_sign(token);
   } else if (cursor_ == end_ && leave()) {
+    if (is_in_comment_) skip_line_comment();
     return false;
   } else {
     token.kind = TokenKind::kEnd;  // OpenSCAD reads no further than a NUL
@@ -127,9 +129,11 @@ bool Lexer::skip_blank() {
   }
 }
 
+/// A comment that an included file ends in goes on behind the `include`.
 void Lexer::skip_line_comment() {
   const void* line_feed = std::memchr(cursor_, '\n', static_cast<size_t>(end_ - cursor_));
   cursor_ = line_feed ? static_cast<const char*>(line_feed) : end_;
+  is_in_comment_ = !line_feed;
 }
 
 bool Lexer::skip_block_comment() {
@@ -231,6 +235,7 @@ bool Lexer::lex_include(Token& token) {
   const FileId file = lookup_.include(named_file(path_folder + last_path_name_));
   check_warnings();
   if (file == kNoFile) return false;
+  last_path_name_.clear();
   // OpenSCAD goes on counting with the line of messages, which differs where there are CRs.
   const ErrorLines lines{files_.message_line(token.place), offset_of(cursor_)};
   includers_.push_back({file_, cursor_, std::move(folder_), lines});

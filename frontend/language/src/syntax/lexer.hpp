@@ -26,6 +26,8 @@ class Lexer {
     FileId file = kNoFile;
     std::string folder;          // of the file; absolute
     bool hard_warnings = false;  // whether a warning is a syntax error
+    /// What `use <>` means: the name in the last path, even if that stands in a file lexed before.
+    std::string last_path_name{};
   };
 
   /// Lexes a file. `names` must begin with kFirstNames. Texts
@@ -48,6 +50,7 @@ class Lexer {
   uint32_t blank_begin() const { return offset_of(blank_begin_); }
   /// Goes on elsewhere in the current file, up to which all has been read before.
   void go_on_at(uint32_t offset) { cursor_ = begin_ + offset; }
+  const std::string& last_path_name() const { return last_path_name_; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
   uint32_t entries() const { return entries_; }
   /// Sets where texts of tokens lie. Null: tokens get no text, and where another file would be
@@ -116,9 +119,10 @@ class Lexer {
   const char* end_ = nullptr;
   const char* blank_begin_ = nullptr;
   uint32_t entries_ = 0;
+  bool is_in_comment_ = false;  // at the end of the file, whose last line is a comment
   ErrorLines error_lines_;      // of the current file
   std::string string_;          // the string that is being read
-  std::string last_path_name_;  // `use <>` means the last path's name once more
+  std::string last_path_name_;
 };
 
 }  // namespace language

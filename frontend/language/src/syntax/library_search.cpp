@@ -38,24 +38,26 @@ LibrarySearch::LibrarySearch(std::vector<std::string>& lookups) : lookups_(looku
 
 std::string LibrarySearch::find(std::string_view name, const std::string& folder,
                                 std::span<const std::string> excluded) {
-  if (name.starts_with('/')) return try_path(std::string(name), excluded);
-  std::string found = try_path(folder + "/" + std::string(name), excluded);
-  for (size_t i = 0; found.empty() && i < library_folders_.size(); ++i)
-    found = try_path(library_folders_[i] + "/" + std::string(name), excluded);
-  return found;
+  const fs::path first = fs::path(folder) / name;  // `name` alone if it is absolute
+  if (is_file(first)) {
+    std::error_code error;
+    std::string found = fs::canonical(first, error).string();
+    if (!error && !std::ranges::count(excluded, found)) return found;
+  }
+  if (name.starts_with('/')) return "";
+  for (const std::string& library_folder : library_folders_) {
+    const fs::path path = fs::path(library_folder) / name;
+    if (!is_file(path)) continue;
+    return std::ranges::count(excluded, path.string()) ? "" : path.string();
+  }
+  return "";
 }
 
-std::string LibrarySearch::try_path(const std::string& path,
-                                    std::span<const std::string> excluded) {
+bool LibrarySearch::is_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) {
-    lookups_.push_back(fs::path(path).lexically_normal().string());
-    return "";
-  }
-  if (fs::is_directory(status)) return "";
-  std::string canonical = fs::canonical(path, error).string();
-  return error || std::ranges::count(excluded, canonical) ? "" : canonical;
+  if (!fs::exists(status)) lookups_.push_back(path.lexically_normal().string());
+  return fs::exists(status) && !fs::is_directory(status);
 }
 
 }  // namespace language

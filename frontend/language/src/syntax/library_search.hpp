@@ -1,6 +1,7 @@
 // Where `include` and `use` look for files (LANGUAGE.md, "Text").
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,13 +16,15 @@ class LibrarySearch {
   /// Reads the environment. Absolute paths that were tried and do not exist are added to `lookups`.
   explicit LibrarySearch(std::vector<std::string>& lookups);
 
-  /// Returns the canonical path of a file that is named in a file of `folder` (absolute). Empty:
-  /// there is none but folders and the paths in `excluded`, which are canonical.
+  /// Returns the absolute path of a file that is named in a file of `folder` (absolute). Links and
+  /// dots are followed, except, as in OpenSCAD, where a library folder has it: then its path is that
+  /// of the library folder, and the name. Empty: there is none but folders and the paths in
+  /// `excluded`.
   std::string find(std::string_view name, const std::string& folder,
                    std::span<const std::string> excluded = {});
 
  private:
-  std::string try_path(const std::string& path, std::span<const std::string> excluded);
+  bool is_file(const std::filesystem::path& path);
 
   std::vector<std::string>& lookups_;
   std::vector<std::string> library_folders_;  // absolute

@@ -83,25 +83,32 @@ void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
   if (first.file == kNoFile || is_behind_file_) return;
   if (is_preparsing()) throw NotPreparsed();
   const size_t before = messages_.warnings();
-  say_overwritten(assignment, first);
-  if (scope.is_recorded()) warnings_of_top_level_ += messages_.warnings() - before;
+  const bool is_said = say_overwritten(assignment, first);
+  if (scope.is_recorded()) {
+    warnings_of_top_level_ += messages_.warnings() - before;
+  } else if (!is_said) {
+    ++unsaid_;
+  }
 }
 
-void Parser::say_overwritten(const Assignment& assignment, Place first) {
+/// Returns whether it says anything. That depends on which file is the main one.
+bool Parser::say_overwritten(const Assignment& assignment, Place first) {
   const Place second = assignment.place;
+  const auto path = [&](FileId file) { return messages_.shown_path(file, PathBase::kMainFile); };
   const auto is_main = [&](Place place) {
-    return files_[place.file].path == files_[program_.units[0].file].path;
+    return files_[place.file].path == files_[messages_.main_file()].path;
   };
   const uint32_t line = files_.message_line(first);
   std::string text =
       std::string(names_.text(assignment.name)) + " was assigned on line " + std::to_string(line);
   if (!is_main(first) || !is_main(second)) {
-    const bool is_same = files_[first.file].path == files_[second.file].path;
-    if (is_same ? line == files_.message_line(second) : !is_main(first)) return;
-    text += " of \"" + messages_.shown_path(first.file, PathBase::kMainFile) + "\"";
+    const bool is_same = path(first.file) == path(second.file);
+    if (is_same ? line == files_.message_line(second) : !is_main(first)) return false;
+    text += " of \"" + path(first.file) + "\"";
   }
   messages_.warn(text + " but was overwritten", second);
   lexer_.check_warnings();
+  return true;
 }
 
 /// Returns the extent of what has been parsed since a place, and since the lexer had entered so

@@ -106,7 +106,7 @@ class Parser {
   ModuleCall parse_plain_call();
   const Scope* parse_children();
   void parse_child_statement(ScopeBuilder& scope);
-  void say_overwritten(const Assignment& assignment, Place first);
+  bool say_overwritten(const Assignment& assignment, Place first);
   bool begins_call();
 
   // Expressions.
@@ -190,6 +190,7 @@ class Parser {
   bool is_behind_file_ = false;       // whether 0x03 was met
   std::vector<TopLevelItem> items_;   // of the statement that is parsed at the top level
   size_t warnings_of_top_level_ = 0;  // about what stands there
+  uint32_t unsaid_ = 0;               // warnings that may be said when another file is the main one
   ScopeStacks scopes_;
   std::vector<Argument> arguments_;
   std::vector<Parameter> parameters_;

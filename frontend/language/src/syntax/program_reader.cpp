@@ -48,38 +48,49 @@ bool ProgramReader::read_main(const std::string& path) {
     add_unit(0, absolute.parent_path().string(), 0);
   }
   program_.kept->begin(program_.files[0].path, options_.definitions);
-  messages_.set_main_folder(program_.units[0].folder);
+  set_main_unit(0);
   return true;
 }
 
 void ProgramReader::parse_used() {
-  std::vector<uint32_t> waiting(program_.units[0].uses);  // the next one last
+  struct Use {
+    uint32_t used, user;  // units
+  };
+  std::vector<Use> waiting;  // the next one last
+  const auto add_uses_of = [&](uint32_t user) {
+    for (const uint32_t used : program_.units[user].uses) waiting.push_back({used, user});
+  };
   std::vector<bool> is_parsed{true};
+  add_uses_of(0);
   while (!waiting.empty()) {
-    const uint32_t unit = waiting.back();
+    const auto [unit, user] = waiting.back();
     waiting.pop_back();
     is_parsed.resize(program_.units.size());
     if (is_parsed[unit]) continue;
     is_parsed[unit] = true;
-    if (!parse(unit)) continue;  // what it uses is not even looked at
-    const auto& uses = program_.units[unit].uses;
-    waiting.insert(waiting.end(), uses.begin(), uses.end());
+    set_main_unit(user);  // as its messages see it
+    if (parse(unit)) add_uses_of(unit);
   }
+  set_main_unit(0);
   program_.kept->end();
+}
+
+void ProgramReader::set_main_unit(uint32_t unit) {
+  messages_.set_main_file(program_.units[unit].file, program_.units[unit].folder);
 }
 
 bool ProgramReader::parse(uint32_t unit_number) {
   current_unit_ = unit_number;
   Unit& unit = program_.units[unit_number];
   Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
-              {unit.file, unit.folder, options_.hard_warnings});
+              {unit.file, unit.folder, options_.hard_warnings, last_path_name_});
   Parser parser(lexer, program_, program_.arena, messages_, options_.stop);
   try {
     unit.scope = parser.parse_file();
-    return true;
   } catch (const SyntaxError&) {
-    return false;
   }
+  last_path_name_ = lexer.last_path_name();
+  return unit.scope;
 }
 
 /// Files that only name others yield no tokens, between which the parser looks.

@@ -32,6 +32,7 @@ class ProgramReader : public FileLookup {
 
  private:
   void look_whether_to_stop() const;
+  void set_main_unit(uint32_t unit);
   bool parse(uint32_t unit);
   uint32_t add_unit(FileId file, std::string folder, uint64_t version);
   FileId open(KeptSources::Role role, const std::string& path);
@@ -43,8 +44,9 @@ class ProgramReader : public FileLookup {
   const ParseOptions& options_;
   LibrarySearch search_;
   uint32_t current_unit_ = 0;                         // the one being parsed
-  std::unordered_map<std::string, FileId> included_;  // by canonical path
-  std::unordered_map<std::string, uint32_t> used_;    // units by canonical path
+  std::string last_path_name_;                        // see Lexer::Main
+  std::unordered_map<std::string, FileId> included_;  // by path
+  std::unordered_map<std::string, uint32_t> used_;    // units by path
 };
 
 }  // namespace language

@@ -1,0 +1,139 @@
+// Where files are found, how messages name them, and what ends with them: each case is as OpenSCAD
+// 2021.01 answers it.
+#include <cstdlib>
+
+#include "parsed_design.hpp"
+
+namespace language {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOverwriting = "x=1;\nx=2;\n";
+
+/// The warning about kOverwriting in a file that is not the main one.
+std::string overwritten(const std::string& path) {
+  return "WARNING: x was assigned on line 1 of \"" + path + "\" but was overwritten in file " +
+         path + ", line 2";
+}
+
+class LibraryPath {
+ public:
+  explicit LibraryPath(const char* path) { setenv("OPENSCADPATH", path, 1); }
+  LibraryPath(const LibraryPath&) = delete;
+  LibraryPath& operator=(const LibraryPath&) = delete;
+  ~LibraryPath() { unsetenv("OPENSCADPATH"); }
+};
+
+TEST(Use, IsTriedAgainFromTheFileThatIsParsed) {
+  const DesignFolder folder;
+  folder.write("main.scad", "include <sub/a.scad>");
+  folder.write("sub/a.scad", "use <lib.scad>\nuse <none.scad>");
+  folder.write("lib.scad", kOverwriting);
+  const ParsedDesign design;
+  EXPECT_EQ(design.lines,
+            (Lines{"WARNING: Can't open library 'lib.scad'.",
+                   "WARNING: Can't open library 'none.scad'.", overwritten("lib.scad")}));
+  EXPECT_EQ(design.program.units[0].uses, std::vector<uint32_t>{1});
+}
+
+TEST(Use, OfAFileWithASyntaxErrorUsesNothing) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <a.scad>");
+  folder.write("a.scad", "use <b.scad>\n)");
+  folder.write("b.scad", kOverwriting);
+  EXPECT_EQ(ParsedDesign().lines,
+            Lines{"ERROR: Parser error: syntax error in file a.scad, line 2"});
+}
+
+TEST(Use, MeansTheLastPathIfItHasNone) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <none.scad>\nuse <>\ninclude <a.scad>\nuse <>\nuse <b.scad>");
+  folder.write("a.scad", "");
+  folder.write("b.scad", "use <>\nuse <no.scad>\nuse <>");
+  EXPECT_EQ(
+      ParsedDesign().lines,
+      (Lines{"WARNING: Can't open library 'none.scad'.", "WARNING: Can't open library 'none.scad'.",
+             "WARNING: Can't open library ''.",  // an include that succeeds has cleared it
+             "WARNING: Can't open library 'no.scad'.", "WARNING: Can't open library 'no.scad'."}));
+}
+
+TEST(Use, SeesTheFileThatUsesAsTheMainOne) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <lib/a.scad>\nx=1;\nx=2;");
+  folder.write("lib/a.scad", "use <deep/b.scad>\nuse <../main.scad>\ninclude <c.scad>\nx=2;");
+  folder.write("lib/c.scad", "x=1;");
+  folder.write("lib/deep/b.scad", kOverwriting);
+  EXPECT_EQ(
+      ParsedDesign().lines,
+      (Lines{"WARNING: x was assigned on line 2 but was overwritten in file main.scad, line 3",
+             "WARNING: x was assigned on line 2 of \"../main.scad\" but was overwritten in file "
+             "../main.scad, line 3",
+             overwritten("deep/b.scad")}));
+}
+
+TEST(Libraries, KeepTheirLinks) {
+  const DesignFolder folder;
+  folder.write("real/a.scad", std::string(kOverwriting) + "include <b.scad>");
+  folder.write("real/b.scad", "y=1;");
+  fs::create_directory_symlink("real", "linked");
+  fs::create_symlink("a.scad", "real/link.scad");
+  folder.write("main.scad", "include <a.scad>\ninclude <real/link.scad>");
+  const LibraryPath path("./linked");
+  const ParsedDesign design;
+  ASSERT_EQ(design.program.files.size(), 4u);
+  EXPECT_TRUE(design.program.files[1].path.ends_with("/./linked/a.scad"));
+  EXPECT_TRUE(design.program.files[2].path.ends_with("/real/b.scad"));
+  EXPECT_TRUE(design.program.files[3].path.ends_with("/real/a.scad"));
+  // To messages both are one file, in which line 1 follows line 2.
+  EXPECT_EQ(design.lines,
+            (Lines{overwritten("real/a.scad"),
+                   "WARNING: x was assigned on line 2 of \"real/a.scad\" but was overwritten in "
+                   "file real/a.scad, line 1",
+                   overwritten("real/a.scad")}));
+}
+
+TEST(Libraries, AreNamedRelativeToAPathWithDots) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <../b.scad>");
+  folder.write("b.scad", "use <sub/c.scad>");
+  folder.write("sub/c.scad", kOverwriting);
+  const LibraryPath path("sub");
+  EXPECT_EQ(ParsedDesign().lines, Lines{overwritten("sub/c.scad")});
+}
+
+TEST(Libraries, EndWhereTheFirstFolderHasTheFile) {
+  const DesignFolder folder;
+  folder.write("main.scad", "include <a.scad>");
+  folder.write("first/a.scad", "include <a.scad>");
+  folder.write("second/a.scad", "x=1;");
+  const LibraryPath path("first:second");
+  EXPECT_EQ(ParsedDesign().lines, Lines{"WARNING: Can't open include file 'a.scad'."});
+}
+
+TEST(Places, CountNoLineEndsBeforeAPath) {
+  for (const char* start : {"use\r\n\n<none.scad>\n", "include\r\n\n<none.scad>\n"}) {
+    EXPECT_EQ(parse_text(start + std::string("x=1;x=2;")).lines[1],
+              "WARNING: x was assigned on line 2 but was overwritten in file <stdin>, line 2");
+  }
+}
+
+TEST(Include, EndsInACommentThatGoesOn) {
+  const DesignFolder folder;
+  folder.write("main.scad", "include <a.scad> x = 1;\ny = 2;");
+  folder.write("a.scad", "include <b.scad> u = 1;");
+  folder.write("b.scad", "v = 3; // c");
+  EXPECT_EQ(ParsedDesign().assignments(), (Lines{"v = 3", "y = 2"}));
+}
+
+TEST(Statements, AreParsedAgainWhereTheirWarningsDependOnTheMainFile) {
+  const DesignFolder folder;
+  folder.write("main.scad", "include <b.scad>\nuse <b.scad>");
+  folder.write("a.scad", "include <b.scad>");  // which is the main one here, as it uses a.scad
+  folder.write("b.scad", "use <a.scad>\nmodule m() { x = 1; x = 2; }");
+  EXPECT_EQ(ParsedDesign().lines,
+            Lines{"WARNING: x was assigned on line 2 but was overwritten in file b.scad, line 2"});
+}
+
+}  // namespace
+}  // namespace language
