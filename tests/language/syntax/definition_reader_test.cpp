@@ -74,6 +74,19 @@ TEST(DefinitionReader, LeavesOutWhatDependsOnMoreThanItsBytes) {
   EXPECT_EQ(design.scope().modules[4].content->body->calls.size(), 2u);
 }
 
+TEST(DefinitionReader, LeavesOutWhatStandsBehindTheFile) {
+  const DesignFolder folder;
+  folder.write("main.scad", "use <lib.scad>");
+  folder.write("lib.scad", "module m() {}");
+  ParseOptions options;
+  options.definitions = {"module n() { x = 1; x = 2; }"};
+  const ParsedDesign design("main.scad", options);
+  const auto& modules = design.program.units[1].scope->modules;
+  ASSERT_EQ(modules.size(), 2u);
+  EXPECT_FALSE(modules[0].content->body);
+  EXPECT_TRUE(modules[1].content->body) << "it would be warned of later";
+}
+
 TEST(DefinitionReader, ChangesNoErrorOfALibrary) {
   const DesignFolder folder;
   folder.write("main.scad", "include <lib.scad>");

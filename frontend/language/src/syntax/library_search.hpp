@@ -17,8 +17,8 @@ class LibrarySearch {
   explicit LibrarySearch(std::vector<std::string>& lookups);
 
   /// Returns the absolute path of a file that is named in a file of `folder` (absolute). Links and
-  /// dots are followed, except, as in OpenSCAD, where a library folder has it: then its path is that
-  /// of the library folder, and the name. Empty: there is none but folders and the paths in
+  /// dots are followed, except, as in OpenSCAD, where a library folder has it: then its path is
+  /// that of the library folder, and the name. Empty: there is none but folders and the paths in
   /// `excluded`.
   std::string find(std::string_view name, const std::string& folder,
                    std::span<const std::string> excluded = {});
