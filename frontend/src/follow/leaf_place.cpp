@@ -89,7 +89,8 @@ class TrailBuilder {
  private:
   SourcePlace place_of(const language::Node& node) const {
     const language::SourceFile& file = files_[node.place.file];
-    return source_place(file.path, files_.line(node.place), file.text, node.place.offset);
+    return source_place(file.canonical_path(), files_.line(node.place), file.text,
+                        node.place.offset);
   }
 
   const NodeTree& tree_;

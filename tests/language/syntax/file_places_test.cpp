@@ -72,6 +72,18 @@ TEST(Use, SeesTheFileThatUsesAsTheMainOne) {
              overwritten("deep/b.scad")}));
 }
 
+TEST(MainFile, IsAnotherFileIfItsPathHasDots) {
+  const DesignFolder folder;
+  folder.write("main.scad", std::string(kOverwriting) + "include <main.scad>");
+  const std::string told =
+      "WARNING: x was assigned on line 1 but was overwritten in file main.scad, line 2";
+  EXPECT_EQ(ParsedDesign("main.scad").lines[2], told);
+  const ParsedDesign design("./main.scad");
+  EXPECT_EQ(design.lines[0], told);
+  EXPECT_EQ(design.lines[2], overwritten("main.scad"));
+  EXPECT_EQ(design.program.files[0].canonical_path(), design.program.files[1].path);
+}
+
 TEST(Libraries, KeepTheirLinks) {
   const DesignFolder folder;
   folder.write("real/a.scad", std::string(kOverwriting) + "include <b.scad>");

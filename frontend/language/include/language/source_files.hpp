@@ -15,7 +15,7 @@ namespace language {
 
 class SourceFile {
  public:
-  /// `path` is absolute, as the file was found, and "<stdin>" for the standard input.
+  /// `path` is absolute, as it was given or found, and "<stdin>" for the standard input.
   /// `text` is that of the file; of the main file and of used ones with what OpenSCAD appends (0x03
   /// and -D).
   SourceFile(std::string file_path, std::string file_text)
@@ -24,6 +24,8 @@ class SourceFile {
   const std::string path;
   const std::string text;
 
+  /// Returns the path without links and dots on the way to the file, which may be a link itself.
+  std::string canonical_path() const;
   /// Returns where lines begin as editors count them: 0, and after each LF. It is found when it is
   /// first asked for: of most files nobody asks. Several threads may call this.
   const std::vector<uint32_t>& line_starts() const;

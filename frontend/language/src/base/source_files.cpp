@@ -1,10 +1,18 @@
 #include "language/source_files.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
 namespace language {
+
+std::string SourceFile::canonical_path() const {
+  const std::filesystem::path written(path);
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(written.parent_path(), error);
+  return error || !written.is_absolute() ? path : (folder / written.filename()).string();
+}
 
 const std::vector<uint32_t>& SourceFile::line_starts() const {
   std::call_once(has_line_starts_, [this] {

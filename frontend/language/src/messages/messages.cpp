@@ -88,18 +88,10 @@ bool Messages::is_repeat(const Message& message) {
   return false;
 }
 
-/// Returns a file's path with links on the way to it followed, but not the file if it is one.
 const std::string& Messages::canonical_path(FileId file) const {
   const auto [known, is_new] = canonical_paths_.try_emplace(file);
-  std::string& result = known->second;
-  if (is_new) {
-    result = files_[file].path;
-    const std::filesystem::path path(result);
-    std::error_code error;
-    const auto folder = std::filesystem::canonical(path.parent_path(), error);
-    if (path.is_absolute() && !error) result = (folder / path.filename()).string();
-  }
-  return result;
+  if (is_new) known->second = files_[file].canonical_path();
+  return known->second;
 }
 
 std::string Messages::relative_path(FileId file, const std::string& folder) const {

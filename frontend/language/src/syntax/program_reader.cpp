@@ -22,14 +22,6 @@ bool is_font(const std::string& name) {
   return extension == ".ttf" || extension == ".otf";
 }
 
-/// OpenSCAD follows links to the main file's folder in messages, but neither a link to the file
-/// itself, nor those on the way to what it includes.
-std::string shown_main_path(const fs::path& path) {
-  std::error_code error;
-  const fs::path folder = fs::canonical(path.parent_path(), error);
-  return ((error ? path.parent_path() : folder) / path.filename()).string();
-}
-
 }  // namespace
 
 ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOptions& options)
@@ -43,9 +35,9 @@ bool ProgramReader::read_main(const std::string& path) {
   } else {
     auto text = read_file(path);
     if (!text) return false;
-    const fs::path absolute = fs::absolute(path, error).lexically_normal();
-    program_.files.add(shown_main_path(absolute), unit_text(std::move(*text)));
-    add_unit(0, absolute.parent_path().string(), 0);
+    const fs::path absolute = fs::absolute(path, error);
+    program_.files.add(absolute.string(), unit_text(std::move(*text)));
+    add_unit(0, absolute.lexically_normal().parent_path().string(), 0);
   }
   program_.kept->begin(program_.files[0].path, options_.definitions);
   set_main_unit(0);
