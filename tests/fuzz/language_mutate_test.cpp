@@ -1,13 +1,17 @@
 // Evaluates damaged designs, which depend only on a seed: none may crash, run for ever, or throw.
-// SCADRAY_FUZZ_ITERATIONS sets their number, SCADRAY_FUZZ_SEED the first seed.
+// As libraries they have to make the same tree. SCADRAY_FUZZ_ITERATIONS sets their number,
+// SCADRAY_FUZZ_SEED the first seed.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <stop_token>
 #include <string>
@@ -111,7 +115,23 @@ class Deadline {
   std::jthread thread_;
 };
 
-TEST(LanguageMutations, NoDamagedDesignCrashes) {
+/// Returns the tree of a design; nothing if it takes too long.
+std::optional<std::string> tree_of(const std::string& design) {
+  const Deadline deadline(std::chrono::milliseconds(500));
+  language::EvaluationOptions options;
+  options.stop = deadline.token();
+  try {
+    return csg_text(*language::evaluate(
+                         "-", options, [](std::string_view) {}, design)
+                         .tree);
+  } catch (const language::Stopped&) {
+    return std::nullopt;
+  }
+}
+
+/// Calls a function with damaged designs, which are the same for the same seed.
+template <typename Test>
+void for_damaged_designs(const Test& test) {
   const std::string text = text_of_corpus();
   ASSERT_FALSE(text.empty());
   const uint64_t first = setting("SCADRAY_FUZZ_SEED", 1);
@@ -119,17 +139,27 @@ TEST(LanguageMutations, NoDamagedDesignCrashes) {
   for (uint64_t seed = first; seed < first + designs; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
-    const std::string design = damaged(text, random);
-    const Deadline deadline(std::chrono::milliseconds(500));
-    language::EvaluationOptions options;
-    options.stop = deadline.token();
-    try {
-      const language::Evaluation evaluation = language::evaluate(
-          "-", options, [](std::string_view) {}, design);
-      EXPECT_FALSE(language::csg_text(*evaluation.tree).empty());
-    } catch (const language::Stopped&) {
-    }
+    test(damaged(text, random));
   }
+}
+
+TEST(LanguageMutations, NoDamagedDesignCrashes) {
+  for_damaged_designs([](const std::string& design) {
+    const auto tree = tree_of(design);
+    EXPECT_TRUE(!tree || !tree->empty());
+  });
+}
+
+// Definitions of included files are read when they are called.
+TEST(LanguageMutations, DamagedLibrariesAreWhatTheirTextIs) {
+  const std::string library = testing::TempDir() + "library-" + std::to_string(getpid()) + ".scad";
+  for_damaged_designs([&](const std::string& design) {
+    std::ofstream(library, std::ios::binary) << design;
+    const auto tree = tree_of("include <" + library + ">\n");
+    const auto written = tree_of(design);
+    EXPECT_TRUE(!tree || !written || *tree == *written) << design;
+  });
+  std::filesystem::remove(library);
 }
 
 }  // namespace
