@@ -194,7 +194,7 @@ TEST(Functions, LetWarnsOfDuplicates) {
   const Evaluated result = evaluated(R"(x = let (a = 1, a = echo("a") 2, 5, c = a) [a, c];
 echo(x);
 let (a = 1, a = 2, 5) echo(a);
-assign (a = 1, a = 2, b = x) echo(a, b);
+assign (a = 1, a = 2, unknown, b = x) echo(a, b);
 )");
   EXPECT_EQ(result.messages, R"(ECHO: "a"
 WARNING: Ignoring duplicate variable assignment a = 2 in file design.scad, line 1

@@ -55,20 +55,22 @@ void CodeCompiler::let_statement(const ModuleCall& call) {
   drop_to(base, call.place);
 }
 
-// All values are evaluated outside of the new scope; of a name's values the last one counts.
+// All values that have a name are evaluated outside of the new scope; of a name's values the last
+// one counts.
 void CodeCompiler::assign_statement(const ModuleCall& call) {
   const uint32_t base = out_.depth();
   out_.code().node_sites[add_node_site(call, "group")].successor = "a regular assignment";
   out_.emit(Op::kSuccessor, call.place, 0,
             static_cast<uint32_t>(out_.code().node_sites.size() - 1));
   out_.emit(Op::kMarkTrail, call.place, 1);
-  for (const Argument& argument : call.arguments) expression(*argument.value);
+  for (const Argument& argument : call.arguments)
+    if (argument.name != kNoName) expression(*argument.value);
   ScopeLayout& scope = open_scope(true, call.place);
   const uint32_t open = out_.here() - 1;
   std::vector<Name> done;
   for (auto argument = call.arguments.rbegin(); argument != call.arguments.rend(); ++argument) {
-    const bool is_known = std::find(done.begin(), done.end(), argument->name) != done.end();
-    if (argument->name == kNoName || is_known) {
+    if (argument->name == kNoName) continue;
+    if (std::find(done.begin(), done.end(), argument->name) != done.end()) {
       out_.emit(Op::kPop, argument->place, -1);
       continue;
     }
