@@ -1,17 +1,15 @@
 #include "language/source_files.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <utility>
+
+#include "base/resolved_path.hpp"
 
 namespace language {
 
 std::string SourceFile::canonical_path() const {
-  const std::filesystem::path written(path);
-  std::error_code error;
-  const auto folder = std::filesystem::canonical(written.parent_path(), error);
-  return error || !written.is_absolute() ? path : (folder / written.filename()).string();
+  return path.starts_with('/') ? resolved_file(path).string() : path;
 }
 
 const std::vector<uint32_t>& SourceFile::line_starts() const {

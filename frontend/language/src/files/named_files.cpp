@@ -5,24 +5,12 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/resolved_path.hpp"
+
 namespace language {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns a path without `.` and `..`, and without links where it exists.
-fs::path resolved(const fs::path& path) {
-  std::error_code failed;
-  fs::path result = fs::weakly_canonical(path, failed);
-  return failed ? path.lexically_normal() : result;
-}
-
-/// The same, but a file that is a link itself keeps its name.
-fs::path resolved_file(const fs::path& path) {
-  const fs::path name = path.filename();
-  if (name.empty() || name == "." || name == "..") return resolved(path);
-  return resolved(path.parent_path()) / name;
-}
 
 /// Returns the path as seen from a folder, both resolved. Each step upwards is written "../", even
 /// where nothing follows it.
