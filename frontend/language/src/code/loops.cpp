@@ -1,6 +1,4 @@
 // for, intersection_for, let and assign as modules.
-#include <algorithm>
-
 #include "code/code_compiler.hpp"
 
 namespace language {
@@ -67,14 +65,14 @@ void CodeCompiler::assign_statement(const ModuleCall& call) {
     if (argument.name != kNoName) expression(*argument.value);
   ScopeLayout& scope = open_scope(true, call.place);
   const uint32_t open = out_.here() - 1;
-  std::vector<Name> done;
+  NameList done;
   for (auto argument = call.arguments.rbegin(); argument != call.arguments.rend(); ++argument) {
     if (argument->name == kNoName) continue;
-    if (std::find(done.begin(), done.end(), argument->name) != done.end()) {
+    if (done.find(argument->name) != NameList::kNone) {
       out_.emit(Op::kPop, argument->place, -1);
       continue;
     }
-    done.push_back(argument->name);
+    done.add(argument->name);
     if (!is_dynamic_name(argument->name, compiler_.names())) scope.declare(argument->name);
     store(argument->name, argument->place);
   }

@@ -20,11 +20,8 @@ void Machine::push_dynamic(Name name, bool silently) {
   const Value& value = dynamic_[name];
   if (!records_.empty()) note_read(name);
   if (value.is_set()) return stack_.push_copy(value);
-  if (silently) {
-    stack_.push(Value::undef());
-  } else {
-    unknown_variable(name);
-  }
+  if (!silently) return unknown_variable(name);
+  stack_.push(Value::undef());
 }
 
 void Machine::unknown_variable(Name name) {
