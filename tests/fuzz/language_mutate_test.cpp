@@ -2,12 +2,10 @@
 // As libraries they have to make the same tree. SCADRAY_FUZZ_ITERATIONS sets their number,
 // SCADRAY_FUZZ_SEED the first seed.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
@@ -21,6 +19,7 @@
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
 #include "language/stopped.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -152,14 +151,12 @@ TEST(LanguageMutations, NoDamagedDesignCrashes) {
 
 // Definitions of included files are read when they are called.
 TEST(LanguageMutations, DamagedLibrariesAreWhatTheirTextIs) {
-  const std::string library = testing::TempDir() + "library-" + std::to_string(getpid()) + ".scad";
+  const frontend::TemporaryFolder folder;
   for_damaged_designs([&](const std::string& design) {
-    std::ofstream(library, std::ios::binary) << design;
-    const auto tree = tree_of("include <" + library + ">\n");
+    const auto tree = tree_of("include <" + folder.write("library.scad", design) + ">\n");
     const auto written = tree_of(design);
     EXPECT_TRUE(!tree || !written || *tree == *written) << design;
   });
-  std::filesystem::remove(library);
 }
 
 }  // namespace

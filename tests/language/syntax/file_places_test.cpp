@@ -1,8 +1,7 @@
 // Where files are found, how messages name them, and what ends with them: each case is as OpenSCAD
 // 2021.01 answers it.
-#include <cstdlib>
-
 #include "parsed_design.hpp"
+#include "temporary_folder.hpp"
 
 namespace language {
 namespace {
@@ -16,14 +15,6 @@ std::string overwritten(const std::string& path) {
   return "WARNING: x was assigned on line 1 of \"" + path + "\" but was overwritten in file " +
          path + ", line 2";
 }
-
-class LibraryPath {
- public:
-  explicit LibraryPath(const char* path) { setenv("OPENSCADPATH", path, 1); }
-  LibraryPath(const LibraryPath&) = delete;
-  LibraryPath& operator=(const LibraryPath&) = delete;
-  ~LibraryPath() { unsetenv("OPENSCADPATH"); }
-};
 
 TEST(Use, IsTriedAgainFromTheFileThatIsParsed) {
   const DesignFolder folder;
@@ -91,7 +82,7 @@ TEST(Libraries, KeepTheirLinks) {
   fs::create_directory_symlink("real", "linked");
   fs::create_symlink("a.scad", "real/link.scad");
   folder.write("main.scad", "include <a.scad>\ninclude <real/link.scad>");
-  const LibraryPath path("./linked");
+  const frontend::Environment path("OPENSCADPATH", "./linked");
   const ParsedDesign design;
   ASSERT_EQ(design.program.files.size(), 4u);
   EXPECT_TRUE(design.program.files[1].path.ends_with("/./linked/a.scad"));
@@ -110,7 +101,7 @@ TEST(Libraries, AreNamedRelativeToAPathWithDots) {
   folder.write("main.scad", "use <../b.scad>");
   folder.write("b.scad", "use <sub/c.scad>");
   folder.write("sub/c.scad", kOverwriting);
-  const LibraryPath path("sub");
+  const frontend::Environment path("OPENSCADPATH", "sub");
   EXPECT_EQ(ParsedDesign().lines, Lines{overwritten("sub/c.scad")});
 }
 
@@ -119,7 +110,7 @@ TEST(Libraries, EndWhereTheFirstFolderHasTheFile) {
   folder.write("main.scad", "include <a.scad>");
   folder.write("first/a.scad", "include <a.scad>");
   folder.write("second/a.scad", "x=1;");
-  const LibraryPath path("first:second");
+  const frontend::Environment path("OPENSCADPATH", "first:second");
   EXPECT_EQ(ParsedDesign().lines, Lines{"WARNING: Can't open include file 'a.scad'."});
 }
 

@@ -1,5 +1,6 @@
 // include, use, -D and the warnings about files and assignments.
 #include "parsed_design.hpp"
+#include "temporary_folder.hpp"
 
 namespace language {
 namespace {
@@ -46,9 +47,8 @@ TEST(Include, FollowsOpenScadPath) {
   folder.write("main.scad", "include <x.scad>");
   folder.write("second/x.scad", "x=2;");
   folder.write("third/x.scad", "x=3;");
-  setenv("OPENSCADPATH", "first:second:third", 1);
+  const frontend::Environment path("OPENSCADPATH", "first:second:third");
   const ParsedDesign design;
-  unsetenv("OPENSCADPATH");
   EXPECT_EQ(design.assignments(), Lines{"x = 2"});
   ASSERT_EQ(design.program.lookups.size(), 2u);
   EXPECT_TRUE(design.program.lookups[1].ends_with("/first/x.scad"));
