@@ -26,8 +26,8 @@ class SourceFile {
 
   /// Returns the path without links and dots on the way to the file, which may be a link itself.
   std::string canonical_path() const;
-  /// Returns where lines begin as editors count them: 0, and after each LF. It is found when it is
-  /// first asked for: of most files nobody asks. Several threads may call this.
+  /// Returns where lines begin as editors count them: 0, and after each LF. They are found at the
+  /// first call, since most files get none. Several threads may call this.
   const std::vector<uint32_t>& line_starts() const;
   /// Returns the line that OpenSCAD's messages name for an offset, from 1. They count the CRs in
   /// code, too, and leave out the LFs in paths; the lexer has told which those are.

@@ -20,7 +20,7 @@ const Scope* parse_alone(Program& program, std::string_view text) {
   messages.set_main_file(file, {});
   NoFiles no_files;
   Lexer lexer(program.files, program.names, program.arena, messages, no_files, {file, {}, false});
-  Parser parser(lexer, program, program.arena, messages, {});
+  Parser parser(lexer, program, messages, {});
   try {
     return parser.parse_file();
   } catch (const SyntaxError&) {

@@ -12,7 +12,7 @@ auto& DefinitionReader::content_of(const Definition& definition, Parse parse) {
     Lexer lexer(program_.files, program_.names, *content.arena, messages_, no_files,
                 {definition.place.file, {}, false});
     lexer.go_on_at(definition.extent.begin);
-    Parser parser(lexer, program_, *content.arena, messages_, stop_);
+    Parser parser(lexer, program_, messages_, stop_);
     content = *parse(parser).content;
   }
   return content;

@@ -53,6 +53,7 @@ class Lexer {
   const std::string& last_path_name() const { return last_path_name_; }
   /// Returns how often another file was entered: text between which it differs is not of one file.
   uint32_t entries() const { return entries_; }
+  Arena* arena() const { return arena_; }
   /// Sets where texts of tokens lie. Null: tokens get no text, and where another file would be
   /// entered NotPreparsed is thrown, before anything is done.
   void set_arena(Arena* arena) { arena_ = arena; }

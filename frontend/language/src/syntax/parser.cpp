@@ -94,6 +94,7 @@ void Parser::add(ScopeBuilder& scope, const Assignment& assignment) {
 /// Returns whether it says anything. That depends on which file is the main one.
 bool Parser::say_overwritten(const Assignment& assignment, Place first) {
   const Place second = assignment.place;
+  // OpenSCAD knows the main file by its path as it is, and others by the path that it shows.
   const auto path = [&](FileId file) { return messages_.shown_path(file, PathBase::kMainFile); };
   const auto is_main = [&](Place place) {
     return files_[place.file].path == files_[messages_.main_file()].path;

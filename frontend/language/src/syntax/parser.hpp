@@ -20,13 +20,13 @@ namespace language {
 /// (https://v8.dev/blog/preparser): their syntax is checked, and no tree is made.
 class Parser {
  public:
-  /// Syntax trees are made in `arena`, or in those of kept files.
-  Parser(Lexer& lexer, Program& program, Arena& arena, Messages& messages, std::stop_token stop)
+  /// Syntax trees are made in the lexer's arena, or in those of kept files.
+  Parser(Lexer& lexer, Program& program, Messages& messages, std::stop_token stop)
       : lexer_(lexer),
         program_(program),
         files_(program.files),
         names_(program.names),
-        arena_(&arena),
+        arena_(lexer.arena()),
         messages_(messages),
         stop_(std::move(stop)) {}
 

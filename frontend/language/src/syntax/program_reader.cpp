@@ -76,7 +76,7 @@ bool ProgramReader::parse(uint32_t unit_number) {
   Unit& unit = program_.units[unit_number];
   Lexer lexer(program_.files, program_.names, program_.arena, messages_, *this,
               {unit.file, unit.folder, options_.hard_warnings, last_path_name_});
-  Parser parser(lexer, program_, program_.arena, messages_, options_.stop);
+  Parser parser(lexer, program_, messages_, options_.stop);
   try {
     unit.scope = parser.parse_file();
   } catch (const SyntaxError&) {
