@@ -10,29 +10,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
+/// The user's library folder where there is no folder for it. OpenSCAD then takes names that have a
+/// folder in them as they are, on the folder where the program was started.
+constexpr char kNoFolder[] = "";
 
-/// Returns a path made absolute on the folder where the program was started.
+/// Returns a path made absolute on the folder where the program was started, which is also what an
+/// empty path means.
 std::string absolute(const std::string& path) {
   std::error_code error;
-  return fs::absolute(path, error).string();
+  return path.empty() ? fs::current_path(error).string() : fs::absolute(path, error).string();
 }
 
 }  // namespace
 
 LibrarySearch::LibrarySearch(std::vector<std::string>& lookups) : lookups_(lookups) {
-  std::string_view rest;
-  const std::string path = environment("OPENSCADPATH");
-  for (rest = path; !rest.empty();) {
-    const size_t colon = std::min(rest.find(':'), rest.size());
-    if (colon > 0) library_folders_.push_back(absolute(std::string(rest.substr(0, colon))));
-    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  if (const char* parts = std::getenv("OPENSCADPATH")) {
+    for (std::string_view rest = parts;; rest.remove_prefix(rest.find(':') + 1)) {
+      library_folders_.push_back(absolute(std::string(rest.substr(0, rest.find(':')))));
+      if (rest.find(':') == rest.npos) break;
+    }
   }
-  if (const std::string home = environment("HOME"); !home.empty())
-    library_folders_.push_back(home + "/.local/share/OpenSCAD/libraries");
+  std::error_code error;
+  const char* home = std::getenv("HOME");
+  const fs::path share = fs::path(home ? home : "") / ".local/share";
+  library_folders_.push_back(
+      fs::exists(share, error) ? (share / "OpenSCAD/libraries").string() : kNoFolder);
   library_folders_.push_back("/usr/share/openscad/libraries");
 }
 
@@ -46,6 +48,7 @@ std::string LibrarySearch::find(std::string_view name, const std::string& folder
   }
   if (name.starts_with('/')) return "";
   for (const std::string& library_folder : library_folders_) {
+    if (library_folder == kNoFolder && name.find('/') == name.npos) continue;
     const fs::path path = fs::path(library_folder) / name;
     if (!is_file(path)) continue;
     return std::ranges::count(excluded, path.string()) ? "" : path.string();
@@ -56,7 +59,7 @@ std::string LibrarySearch::find(std::string_view name, const std::string& folder
 bool LibrarySearch::is_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) lookups_.push_back(path.lexically_normal().string());
+  if (!fs::exists(status)) lookups_.push_back(fs::path(absolute(path.string())).lexically_normal().string());
   return fs::exists(status) && !fs::is_directory(status);
 }
 
