@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
+
+#include "base/constants.hpp"
 
 namespace csgcore {
 
@@ -17,7 +18,6 @@ Ray pixel_ray(const View& view, double x_px, double y_px) {
 }
 
 double projected_size_px(const View& view, const Box& box) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr int kCorners = 8;
   // A corner's coordinates along the view's axes are those of the lowest corner plus the edges to
   // the far end of those axes of the box at which it lies. The loops run over all corners without

@@ -10,7 +10,7 @@ namespace csgcore {
 
 /// The bounds of a primitive are computed with a few roundings of its coordinates, which this share
 /// of the coordinates and the slack of the primitive's size cover.
-constexpr double kCoordinateRounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double kBoxRounding = 8 * std::numeric_limits<double>::epsilon();
 
 Extent extent_of(const CanonicalPrimitive& primitive) {
   Extent extent;
@@ -21,7 +21,7 @@ Extent extent_of(const CanonicalPrimitive& primitive) {
                               : 0.5 * bounds.min[axis] + 0.5 * bounds.max[axis];
     const double half = std::max(bounds.max[axis] - center, center - bounds.min[axis]);
     extent.center[axis] = center;
-    extent.half[axis] = half * (1.0 + kCanonicalSlack) + std::abs(center) * kCoordinateRounding;
+    extent.half[axis] = half * (1.0 + kCanonicalSlack) + std::abs(center) * kBoxRounding;
   }
   const double radius2 = primitive.ball_radius * primitive.ball_radius;
   const bool is_ball = primitive.ball_radius > 0;

@@ -87,11 +87,11 @@ class ExtrusionKind final : public PrimitiveKind {
   }
 };
 
-constexpr ExtrusionKind kKind;
+constexpr ExtrusionKind kExtrusionKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Extrusion_kind = kKind;
+constinit const PrimitiveKind& Extrusion_kind = kExtrusionKind;
 
 Primitive make_extrusion(std::shared_ptr<const Profile> profile, double z_min, double z_max,
                          double scale_bottom, double scale_top, const Affine& local_to_world) {

@@ -212,11 +212,11 @@ class FrustumKind final : public PrimitiveKind {
   }
 };
 
-constexpr FrustumKind kKind;
+constexpr FrustumKind kFrustumKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Frustum_kind = kKind;
+constinit const PrimitiveKind& Frustum_kind = kFrustumKind;
 
 Primitive make_frustum(double z_min, double z_max, double r_bottom, double r_top,
                        const Affine& local_to_world) {

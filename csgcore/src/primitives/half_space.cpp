@@ -4,15 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 
+#include "base/constants.hpp"
 #include "base/degrees.hpp"
 
 namespace csgcore {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the sectors' vectors. The dot product of a vector with the polygon's vertices at both
 /// ends of its sector is 1.

@@ -117,11 +117,11 @@ class MeshKind final : public PrimitiveKind {
   }
 };
 
-constexpr MeshKind kKind;
+constexpr MeshKind kMeshKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Mesh_kind = kKind;
+constinit const PrimitiveKind& Mesh_kind = kMeshKind;
 
 Primitive make_mesh(std::shared_ptr<const TriangleMesh> mesh, const Affine& local_to_world) {
   Primitive primitive;

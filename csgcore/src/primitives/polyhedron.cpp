@@ -4,16 +4,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "base/constants.hpp"
+
 namespace csgcore {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The enclosing quadric is larger than it need be by this share, and a branch's faces are taken to
 /// lie further in by it. It is far above the rounding, so that no face below a branch that is

@@ -106,11 +106,11 @@ class PolyhedronKind final : public PrimitiveKind {
   }
 };
 
-constexpr PolyhedronKind kKind;
+constexpr PolyhedronKind kPolyhedronKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Polyhedron_kind = kKind;
+constinit const PrimitiveKind& Polyhedron_kind = kPolyhedronKind;
 
 Primitive make_polyhedron(std::shared_ptr<const Polyhedron> polyhedron,
                           const Affine& local_to_world) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/constants.hpp"
 #include "primitives/canonical_slack.hpp"
 
 namespace csgcore {
@@ -56,7 +57,6 @@ Mat3 absolute(const Mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(
 
 /// kTermRounding bounds the relative rounding of a canonical coordinate: that of the cell's middle,
 /// of its offset from the primitive, and of three products.
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kTermRounding = 8 * kEpsilon;
 
 double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }

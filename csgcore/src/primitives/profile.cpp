@@ -8,16 +8,14 @@
 #include <optional>
 #include <utility>
 
+#include "base/constants.hpp"
 #include "csgcore/geometry.hpp"
 #include "primitives/profile_pieces.hpp"
 
 namespace csgcore {
 namespace {
 
-using Node = Profile::Node;
 using Piece = Profile::Piece;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool has_length(const Vec2& start, const ProfileEdge& edge) {
   return edge.end != start || (edge.kind == ProfileEdge::Kind::kBezier && edge.control != start);
@@ -77,15 +75,15 @@ void order_by_place(std::span<LoopPieces> loops) {
 }
 
 /// Builds the BVH top down: first loops are divided, then their pieces, each time in the middle.
-class BvhBuilder {
+class ProfileBvhBuilder {
  public:
   /// `loop_begins`: the first piece of each loop, and the number of all pieces.
-  BvhBuilder(std::span<const Piece> pieces, std::span<const uint32_t> loop_begins)
+  ProfileBvhBuilder(std::span<const Piece> pieces, std::span<const uint32_t> loop_begins)
       : pieces_(pieces), loop_begins_(loop_begins) {
     nodes_.emplace_back();
     build_loops(0, 0, static_cast<uint32_t>(loop_begins.size()) - 1);
   }
-  std::vector<Node> take() { return std::move(nodes_); }
+  std::vector<Profile::Node> take() { return std::move(nodes_); }
 
  private:
   void build_loops(uint32_t node, uint32_t first, uint32_t last) {
@@ -109,7 +107,7 @@ class BvhBuilder {
       merge(node, children, true);
       return;
     }
-    Node& leaf = nodes_[node];
+    Profile::Node& leaf = nodes_[node];
     leaf = {{}, {}, begin, end, 0, true};
     for (size_t axis = 0; axis < 2; ++axis) {
       const auto i = static_cast<int>(axis);
@@ -130,8 +128,8 @@ class BvhBuilder {
   }
 
   void merge(uint32_t node, uint32_t children, bool is_chain) {
-    const Node &a = nodes_[children], &b = nodes_[children + 1];
-    Node& merged = nodes_[node];
+    const Profile::Node &a = nodes_[children], &b = nodes_[children + 1];
+    Profile::Node& merged = nodes_[node];
     merged = {a.min, a.max, a.begin, b.end, children, is_chain};
     for (size_t axis = 0; axis < 2; ++axis) {
       merged.min[axis] = std::min(a.min[axis], b.min[axis]);
@@ -141,7 +139,7 @@ class BvhBuilder {
 
   std::span<const Piece> pieces_;
   std::span<const uint32_t> loop_begins_;
-  std::vector<Node> nodes_;
+  std::vector<Profile::Node> nodes_;
 };
 
 /// Returns a bound of the squared distance of a piece's points from the origin.
@@ -238,7 +236,7 @@ Profile::Profile(std::vector<ProfileLoop> loops, FillRule fill_rule)
   loop_begins.push_back(static_cast<uint32_t>(pieces_.size()));
   constexpr double kBeyondRounding = 1 + 1e-9;
   reach_ = std::sqrt(reach2) * kBeyondRounding;
-  nodes_ = BvhBuilder(pieces_, loop_begins).take();
+  nodes_ = ProfileBvhBuilder(pieces_, loop_begins).take();
 }
 
 Vec2 Profile::support(const Vec2& direction) const {

@@ -86,11 +86,11 @@ class RevolutionKind final : public PrimitiveKind {
   }
 };
 
-constexpr RevolutionKind kKind;
+constexpr RevolutionKind kRevolutionKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Revolution_kind = kKind;
+constinit const PrimitiveKind& Revolution_kind = kRevolutionKind;
 
 Primitive make_revolution(std::shared_ptr<const Profile> profile, const Affine& local_to_world) {
   Primitive primitive;

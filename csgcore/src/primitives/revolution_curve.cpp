@@ -2,12 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "base/constants.hpp"
 
 namespace csgcore {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 class CurveCrosser {
  public:

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/constants.hpp"
 #include "primitives/revolution_curve.hpp"
 
 namespace csgcore {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 double sign(double x) { return x < 0 ? -1 : 1; }
 

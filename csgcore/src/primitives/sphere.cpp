@@ -119,11 +119,11 @@ class SphereKind final : public PrimitiveKind {
   }
 };
 
-constexpr SphereKind kKind;
+constexpr SphereKind kSphereKind;
 
 }  // namespace
 
-constinit const PrimitiveKind& Sphere_kind = kKind;
+constinit const PrimitiveKind& Sphere_kind = kSphereKind;
 
 Primitive make_sphere(double radius, const Affine& local_to_world) {
   Primitive primitive;

@@ -13,6 +13,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/constants.hpp"
 #include "primitives/mesh_edges.hpp"
 #include "primitives/planar_turn.hpp"
 
@@ -20,9 +21,6 @@ namespace csgcore {
 namespace {
 
 using Triangle = TriangleMesh::Triangle;
-using Node = TriangleMesh::Node;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Loops are divided into parts of at least so many triangles or vertices.
 constexpr size_t kAtOnce = 4096;
@@ -71,9 +69,9 @@ FloatBox box_of(const Triangle& triangle, std::span<const Vec3> vertices) {
 /// Builds a BVH top down, by the surface area heuristic over equal bins of the triangles' middles
 /// along the longest side (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
 /// 2007).
-class BvhBuilder {
+class MeshBvhBuilder {
  public:
-  BvhBuilder(std::span<const Triangle> triangles, std::span<const Vec3> vertices)
+  MeshBvhBuilder(std::span<const Triangle> triangles, std::span<const Vec3> vertices)
       : items_(triangles.size()), nodes_(2 * triangles.size()) {
     for_each_index(triangles.size(), [&](size_t i) {
       items_[i] = {box_of(triangles[i], vertices), static_cast<uint32_t>(i)};
@@ -90,8 +88,8 @@ class BvhBuilder {
 
   /// Returns the nodes in an order that does not depend on the threads: those next to the root come
   /// first, so that a ray's first steps stay in few cache lines.
-  std::vector<Node> nodes() const {
-    std::vector<Node> result(used_);
+  std::vector<TriangleMesh::Node> nodes() const {
+    std::vector<TriangleMesh::Node> result(used_);
     result[0] = nodes_[0];
     uint32_t end = 1;
     for (uint32_t i = 0; i < end; ++i) {
@@ -193,7 +191,7 @@ class BvhBuilder {
   }
 
   std::vector<Item> items_;
-  std::vector<Node> nodes_;
+  std::vector<TriangleMesh::Node> nodes_;
   std::atomic<uint32_t> used_ = 1;
 };
 
@@ -283,7 +281,7 @@ void TriangleMesh::find_canonical() {
 
 void TriangleMesh::build_bvh() {
   if (triangles_.empty()) return;
-  const BvhBuilder builder(triangles_, canonical_vertices_);
+  const MeshBvhBuilder builder(triangles_, canonical_vertices_);
   nodes_ = builder.nodes();
   const std::vector<uint32_t> order = builder.order();
   std::vector<Triangle> ordered(triangles_.size());
@@ -306,7 +304,7 @@ int TriangleMesh::winding(const Vec3& point) const {
   int winding = 0;
   std::vector<uint32_t> open{0};
   while (!open.empty()) {
-    const Node& node = nodes_[open.back()];
+    const TriangleMesh::Node& node = nodes_[open.back()];
     open.pop_back();
     if (point.x > node.max[0] || point.y < node.min[1] || point.y > node.max[1] ||
         point.z < node.min[2] || point.z > node.max[2]) {
@@ -340,7 +338,7 @@ int TriangleMesh::winding(const Vec3& point) const {
 Vec3 TriangleMesh::support(const Vec3& direction) const {
   Vec3 best = canonical_vertices_.front();
   double furthest = -kInfinity;
-  const auto reach_of = [&](const Node& node) {
+  const auto reach_of = [&](const TriangleMesh::Node& node) {
     double reach = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<size_t>(axis);
@@ -355,7 +353,7 @@ Vec3 TriangleMesh::support(const Vec3& direction) const {
     const auto [reach, index] = open.back();
     open.pop_back();
     if (reach <= furthest) continue;
-    const Node& node = nodes_[index];
+    const TriangleMesh::Node& node = nodes_[index];
     if (node.count == 0) {
       std::pair<double, uint32_t> children[] = {{reach_of(nodes_[node.first]), node.first},
                                                 {reach_of(nodes_[node.first + 1]), node.first + 1}};

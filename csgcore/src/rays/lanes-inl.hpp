@@ -10,8 +10,8 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "base/constants.hpp"
 #include "csgcore/geometry.hpp"
 #include "rays/ray_packet.hpp"
 
@@ -20,8 +20,6 @@ namespace csgcore {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Wide has as many lanes as the machine has, up to 8. Single has one, for work that is done ray by
 /// ray.

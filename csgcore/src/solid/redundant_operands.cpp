@@ -11,6 +11,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "base/constants.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/profile.hpp"
 #include "csgcore/triangle_mesh.hpp"
@@ -97,10 +98,8 @@ std::vector<Class> classes_of(std::span<const CanonicalPrimitive> primitives) {
 constexpr size_t kLargest = 4;
 constexpr size_t kMostOperands = size_t{1} << 17;
 
-/// Shares of the thickness tolerance. A primitive may reach out of the one that holds it by
-/// kCoplanar, a thousand times the rounding, if coincident faces show the latter. Otherwise it must
-/// lie kApartInside below its surface.
-constexpr double kCoplanar = 0x1p-10;
+/// As a share of the thickness tolerance: a primitive must lie so deep below the surface of the one
+/// that holds it, unless coincident faces show the latter: then it may reach out by kCoplanar.
 constexpr double kApartInside = 4;
 
 /// Finds primitives that lie within another operand of their union.

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/constants.hpp"
 #include "primitives/intersect.hpp"
 #include "screen/screen_extents.hpp"
 #include "tiles/tile_list.hpp"
@@ -25,12 +26,8 @@ constexpr size_t kSomeCandidates = 32;
 constexpr double kLeastThickness = 16;
 constexpr double kLeastDistance = 4;
 
-/// As a share of the thickness tolerance: a primitive counts as lying in the face's plane if it
-/// reaches out of it by no more than this. That is a thousand times the rounding and, at
-/// kLeastCosine, far less than a tolerance along the ray.
-constexpr double kCoplanar = 0x1p-10;
-
-/// Faces that a ray meets at a smaller cosine are not tried.
+/// Faces that a ray meets at a smaller cosine are not tried: at it kCoplanar is far less than a
+/// tolerance along the ray.
 constexpr double kLeastCosine = 0x1p-6;
 
 constexpr uint32_t kCorners = 4;
