@@ -114,6 +114,35 @@ TEST(Libraries, EndWhereTheFirstFolderHasTheFile) {
   EXPECT_EQ(ParsedDesign().lines, Lines{"WARNING: Can't open include file 'a.scad'."});
 }
 
+TEST(Libraries, AreThoseOfTheStartFolderWhereTheUserHasNoFolder) {
+  const DesignFolder folder;
+  folder.write("sub/main.scad", "include <lib/a.scad>\ninclude <b.scad>");
+  folder.write("lib/a.scad", "a=1;\ninclude <../c.scad>");
+  folder.write("b.scad", "b=1;");
+  folder.write("c.scad", "c=1;");
+  folder.write("home/.local/share/none", "");
+  const std::string missing = "WARNING: Can't open include file 'b.scad'.";
+  for (const char* bare : {"", "bare"}) {
+    const frontend::Environment home("HOME", bare);
+    const ParsedDesign design("sub/main.scad");
+    EXPECT_EQ(design.lines, Lines{missing});  // its name has no folder
+    EXPECT_EQ(design.assignments(), (Lines{"a = 1", "c = 1"}));
+  }
+  const frontend::Environment home("HOME", fs::current_path() / "home");
+  EXPECT_EQ(ParsedDesign("sub/main.scad").lines,
+            (Lines{"WARNING: Can't open include file 'lib/a.scad'.", missing}));
+}
+
+TEST(Libraries, AreThoseOfTheStartFolderForAnEmptyPartOfThePath) {
+  const DesignFolder folder;
+  folder.write("sub/main.scad", "include <b.scad>");
+  folder.write("b.scad", "b=1;");
+  for (const char* parts : {"", ":", "/none:", ":/none", "/none::/nowhere"}) {
+    const frontend::Environment path("OPENSCADPATH", parts);
+    EXPECT_EQ(ParsedDesign("sub/main.scad").assignments(), Lines{"b = 1"}) << parts;
+  }
+}
+
 TEST(Places, CountNoLineEndsBeforeAPath) {
   for (const char* start : {"use\r\n\n<none.scad>\n", "include\r\n\n<none.scad>\n"}) {
     EXPECT_EQ(parse_text(start + std::string("x=1;x=2;")).lines[1],
