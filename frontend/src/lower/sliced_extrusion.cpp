@@ -61,6 +61,8 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
     return std::nullopt;
   }
   if (outline->empty()) return std::nullopt;
+  // Where sides turn, a corner that only rounding has made would show as a stripe.
+  if (std::ranges::all_of(figures, is_polygonal)) outline = without_slight_corners(*outline);
   const double slices = given.slices ? *given.slices : slice_count(layers, *outline, given.facets);
   Slicing slicing = openscad_slicing(slices, given.segments, *outline);
   if (slicing.slices < slices) {

@@ -32,6 +32,11 @@ std::optional<SimplePolygons> combined(csgcore::Op op, std::span<const SimplePol
 /// there as far as that can be afforded; nothing if all is empty.
 std::optional<Figure> cleaned(Outline outline);
 
+/// Returns the polygons without the corners that OpenSCAD takes for rounding: those that are within
+/// 1.415 · 2^-16 of a neighbour or of the line through both neighbours. A polygon of which nothing
+/// else is left stays as it is.
+SimplePolygons without_slight_corners(SimplePolygons polygons);
+
 /// Returns figures whose union is that of `figures` with its holes filled; nothing if their edges
 /// cross too often. Curves that bound it on the outside stay what they are.
 std::optional<std::vector<Figure>> without_holes(std::span<const Figure> figures);

@@ -134,6 +134,16 @@ TEST(LinearExtrude, HasOpenScadsSlicesWhereTheyAreMeant) {
   EXPECT_TRUE(Inside(extruded(bar, "height = 4, twist = 90, slices = 100"))(2.5, -2.5, 2));
 }
 
+TEST(LinearExtrude, HasNoCornersOfRoundingWhereItsSidesTurn) {
+  const std::string octagons = "minkowski() { circle(3, $fn = 8); circle(1, $fn = 8); }";
+  for (const char* arguments : {"height = 10, twist = 30, slices = 1, $fn = 8",
+                                "height = 10, scale = [1.5, 0.4], slices = 1, $fn = 8"}) {
+    const Primitive solid = only_primitive(extruded(octagons, arguments));
+    ASSERT_TRUE(solid.mesh);
+    EXPECT_EQ(solid.mesh->triangles().size(), 8 * 2 + 2 * 6u);  // sides, and both ends
+  }
+}
+
 TEST(LinearExtrude, TellsOfFewerSlicesThanAskedFor) {
   EXPECT_THAT(warning_of(extruded("square(1);", "height = 4, twist = 90, slices = 1e9")),
               HasSubstr("linear_extrude is drawn with 131072 slices"));
