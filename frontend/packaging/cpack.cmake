@@ -54,7 +54,7 @@ rays in exact arithmetic. `scadray validate` runs it."
 deb_package(libscadray-dev libdevel "libraries that ray trace OpenSCAD designs
 Static libraries, headers and a CMake package: CSG trees, their subdivision and
 ray tracing, OpenGL rendering, and the import of OpenSCAD's .csg files."
-  DEPENDS libboost-program-options-dev libepoxy-dev libglm-dev libisal-dev libminizip-dev
+  DEPENDS libboost-program-options-dev libepoxy-dev libglm-dev libisal-dev
           libopenexr-dev libpolyclipping-dev libpugixml-dev libspng-dev libtbb-dev
           nlohmann-json3-dev pkg-config)
 include(CPack)

@@ -1,33 +1,38 @@
-// The files within a zip archive in memory, by minizip.
+// The files within a zip archive in memory.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frontend {
 
 class ZipArchive {
  public:
-  /// `bytes` must outlive this. A damaged archive has no files.
+  /// `bytes` must outlive this. A damaged archive has no files, or those before the damage.
   explicit ZipArchive(std::string_view bytes);
-  ~ZipArchive();
-  ZipArchive(const ZipArchive&) = delete;
-  ZipArchive& operator=(const ZipArchive&) = delete;
 
   static bool is_one(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
   /// These return the contents of the first file, or of that name; nothing if there is none, if it
-  /// is damaged, or if it unpacks to more than 64 times its size and 64 MiB.
-  std::optional<std::string> unpack_first();
-  std::optional<std::string> unpack(const std::string& name);
+  /// is damaged or encrypted, or if it unpacks to more than 64 times its size and 64 MiB.
+  std::optional<std::string> unpack_first() const;
+  std::optional<std::string> unpack(std::string_view name) const;
 
  private:
-  struct Impl;
-  std::optional<std::string> unpack_current();
+  /// A file as the directory at the archive's end lists it.
+  struct Entry {
+    std::string_view name;
+    uint64_t flags, method, checksum, packed_size, size;
+    uint64_t offset;  // of its local header
+  };
+  void read_entries(std::string_view directory);
+  std::optional<std::string> unpack(const Entry& entry) const;
 
-  std::unique_ptr<Impl> impl_;
+  std::string_view archive_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace frontend

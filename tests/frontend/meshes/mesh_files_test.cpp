@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "meshes/height_map.hpp"
 #include "meshes/read_solid_file.hpp"
 #include "meshes/zip_archive.hpp"
+#include "temporary_folder.hpp"
 
 namespace frontend {
 namespace {
@@ -288,6 +290,32 @@ TEST(HeightMaps, AreOfBoundedSize) {
             "The file 'f' has too many heights");
   EXPECT_FALSE(read_gray_png(content_of("gray8.png"), 5));
   EXPECT_TRUE(read_gray_png(content_of("gray8.png"), 6));
+}
+
+/// OpenSCAD writes ZIP64 headers, whatever the size, and the archive of any other program is read.
+TEST(ZipArchives, AreThoseThatOpenScadWrites) {
+  const TemporaryFolder folder;
+  const std::string design = folder.write("a.scad", "difference() { cube(9); cube(4); }");
+  for (const char* const suffix : {".3mf", ".amf"}) {
+    const std::string file = folder / ("a" + std::string(suffix));
+    const std::string command =
+        "HOME=" + folder.path() + " openscad -o " + file + " " + design + " 2> /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string bytes(read_file(file).view());
+    SolidFile solid = (suffix == std::string(".3mf") ? read_3mf : read_amf)(bytes, "a");
+    EXPECT_EQ(solid.problem, "") << suffix;
+    tidy(solid.faces);
+    EXPECT_NEAR(enclosed_volume(solid.faces), 9 * 9 * 9 - 4 * 4 * 4, 1e-9) << suffix;
+  }
+}
+
+TEST(ZipArchives, MayBeCutOffAnywhere) {
+  const std::string bytes = content_of("step.3mf");
+  ASSERT_EQ(read_3mf(bytes, "a").problem, "");
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_NE(read_3mf(bytes.substr(0, size), "a").problem, "");
+  }
+  EXPECT_EQ(read_3mf("something before it" + bytes, "a").problem, "");
 }
 
 TEST(ZipArchives, UnpackNoMoreThanTheySay) {
