@@ -66,6 +66,8 @@ HeightMap read_numbers(std::string_view text, const std::string& name) {
       numbers.push_back(*number);
     }
     const size_t begin = ends.empty() ? 0 : ends.back();
+    // A row that ends before its first number is none.
+    if (numbers.size() == begin) break;
     map.columns = std::max(map.columns, numbers.size() - begin);
     ends.push_back(numbers.size());
   }

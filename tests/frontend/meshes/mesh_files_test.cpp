@@ -236,6 +236,21 @@ TEST(HeightMaps, AreReadFromNumbers) {
   EXPECT_THAT(bad.heights, ElementsAre(1, 2, 3, 4, 0, 0));
 }
 
+/// As OpenSCAD 2021.01 makes them.
+TEST(HeightMaps, EndWhereAWordIsNoNumber) {
+  const HeightMap trailing = read_height_map("1 2\n3 4\nEND\n", "f", false);
+  EXPECT_NE(trailing.problem, "");
+  EXPECT_EQ(trailing.rows, 2u);
+  EXPECT_EQ(trailing.base, 0);
+  const HeightMap first = read_height_map("1 2\nx 3\n5 6\n", "f", false);
+  EXPECT_EQ(first.rows, 1u);
+  EXPECT_EQ(first.heights, (std::vector<double>{1, 2}));
+  const HeightMap second = read_height_map("1 2\n3 4\n5 6 7 x\n8 9\n", "f", false);
+  EXPECT_EQ(second.rows, 3u);
+  EXPECT_EQ(second.heights, (std::vector<double>{1, 2, 0, 3, 4, 0, 5, 6, 7}));
+  EXPECT_EQ(read_height_map("END\n", "f", false).rows, 0u);
+}
+
 TEST(HeightMaps, ArePicturesOfAnyType) {
   for (const char* name : kPictures) {
     SCOPED_TRACE(name);
