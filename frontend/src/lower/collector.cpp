@@ -292,7 +292,12 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
   if (contexts_.back().flattened) return false;
   const SolidOfFaces* solid =
       node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
-  if (solid == nullptr || solid->is_empty()) return false;
+  if (solid == nullptr) return false;
+  if (solid->is_empty()) {
+    // Next to the largest coordinate the others are nothing.
+    if (solid->exponent > kLargestExponent) leave_out(index, kBecauseTooLarge);
+    return false;
+  }
   primitive = solid->under(to_world);
   faces = solid;
   if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, problems);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/primitive_size.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "meshes/height_map.hpp"
@@ -139,7 +140,13 @@ ImportedFile FileImports::read_surface(const FileArguments& arguments) {
 void FileImports::set_solid(FaceSet faces, const std::string& path, ImportedFile& file) {
   uint64_t unfinite_faces = 0;
   const SolidOfFaces& solid = pool_.solid(std::move(faces), unfinite_faces);
-  if (!solid.is_empty()) file.solid = &solid;
+  const bool is_too_large = solid.exponent > kLargestExponent;
+  if (!solid.is_empty() && !is_too_large) file.solid = &solid;
+  if (is_too_large && file.problem.empty()) {
+    file.problem = "'" + path + "' is left out: its coordinates are too large";
+    file.todo = "scale it to between 1e-90 and 1e90 across";
+    return;
+  }
   if (unfinite_faces == 0 || !file.problem.empty()) return;
   file.problem = std::to_string(unfinite_faces) + (unfinite_faces == 1 ? " face" : " faces") +
                  " of '" + path + "' with coordinates that are not finite " +

@@ -27,6 +27,11 @@ Affine resized(const Affine& map, const Vec3& origin, const Vec3& size) {
           map.point(origin)};
 }
 
+/// Coordinates below this share of the largest count as 0. No picture shows them, and products of
+/// two differences of the others, with all of their bits, are representable: the triangulation of
+/// faces relies on exact signs of determinants.
+constexpr double kLeastCoordinate = 0x1p-400;
+
 /// Scales the points by a power of two, so that products of coordinates are representable. Returns
 /// its exponent.
 int scale_to_unit(FaceSet& faces) {
@@ -43,6 +48,7 @@ int scale_to_unit(FaceSet& faces) {
   for (Vec3& point : faces.points) {
     for (int axis = 0; axis < 3; ++axis) {
       point[axis] = is_normal ? point[axis] * factor : std::ldexp(point[axis], -exponent);
+      if (point[axis] != 0 && std::abs(point[axis]) < kLeastCoordinate) point[axis] = 0;
     }
   }
   return exponent;
@@ -172,8 +178,9 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
   unfinite_faces += tidy(faces);
   const auto [entry, is_new] = solids_.try_emplace(key_of(faces, exponent));
   SolidOfFaces& solid = entry->second;
-  if (!is_new || faces.face_count() == 0) return solid;
+  if (!is_new) return solid;
   solid.exponent = exponent;
+  if (faces.face_count() == 0) return solid;
   solid.is_inside_out = enclosed_volume(faces) < 0;
   if (tells_inner_faces_) find_inner_faces(faces, solid);
   if (faces.face_count() * faces.points.size() <= kMostConvexitySteps) {

@@ -7,15 +7,20 @@
 #include <string_view>
 #include <system_error>
 
+#include "csg/lexer.hpp"
+
 namespace frontend {
 
-/// Returns the number if the whole word is one. One that no double can hold is 0 or infinite.
+/// Returns the number if the whole word is one, perhaps inf or nan. As to OpenSCAD, a word is none
+/// if its number is larger than the largest double; one that is too small for a double is 0.
 inline std::optional<double> number_of(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  if (error != std::errc::result_out_of_range) return value;
+  if (!is_below_one(word.substr(word.starts_with('-') ? 1 : 0))) return std::nullopt;
+  return 0;
 }
 
 /// Returns the index if the whole word is one.

@@ -26,31 +26,35 @@ std::string model_name(ZipArchive& archive) {
   return name;
 }
 
-/// Adds the mesh. Returns false if a triangle names a vertex that the mesh does not have.
+/// Adds the mesh. Returns false if a coordinate is no number, or a triangle names a vertex that the
+/// mesh does not have.
 bool read_mesh(const pugi::xml_node& mesh, FaceSet& faces) {
   const auto first = static_cast<uint32_t>(faces.points.size());
+  bool is_right = true;
   for_each_child(mesh, "vertices", [&](const pugi::xml_node& vertices) {
     for_each_child(vertices, "vertex", [&](const pugi::xml_node& vertex) {
       csgcore::Vec3& point = faces.points.emplace_back(0.0);
       constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
       for (int axis = 0; axis < 3; ++axis) {
-        const char* const text = vertex.attribute(kAxes[static_cast<size_t>(axis)]).value();
-        point[axis] = number_of(trimmed(text)).value_or(0);
+        const std::string_view text =
+            trimmed(vertex.attribute(kAxes[static_cast<size_t>(axis)]).value());
+        const std::optional<double> number = number_of(text);
+        is_right = is_right && (number || text.empty());
+        point[axis] = number.value_or(0);
       }
     });
   });
   const auto count = static_cast<uint32_t>(faces.points.size()) - first;
-  bool has_all = true;
   for_each_child(mesh, "triangles", [&](const pugi::xml_node& triangles) {
     for_each_child(triangles, "triangle", [&](const pugi::xml_node& triangle) {
       for (const char* const name : {"v1", "v2", "v3"}) {
         const std::optional<uint32_t> corner = index_of(trimmed(triangle.attribute(name).value()));
-        has_all = has_all && corner && *corner < count;
+        is_right = is_right && corner && *corner < count;
         faces.corners.push_back(first + corner.value_or(0));
       }
     });
   });
-  return has_all;
+  return is_right;
 }
 
 bool read_model(std::string_view model, FaceSet& faces) {

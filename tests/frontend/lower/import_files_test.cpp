@@ -167,6 +167,24 @@ TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
               ElementsAre(HasSubstr("import is not closed: 3 edges")));
 }
 
+TEST_F(ImporterFiles, BeyondAllSizesAreLeftOut) {
+  for (const std::string number : {"1e100", "1e150", "-1e200", "1e300", "1.7e308"}) {
+    folder.write("a.dat", number + " 0\n0 0\n");
+    folder.write("a.off", off_from(number));
+    folder.write("a.stl", "solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 " + number +
+                              "\nendloop\nendfacet\nendsolid\n");
+    for (const std::string design :
+         {"surface(\"a.dat\");", "import(\"a.off\");", "import(\"a.stl\");",
+          "hull() { surface(\"a.dat\"); }", "projection(cut = false) { surface(\"a.dat\"); }"}) {
+      EXPECT_THAT(warnings(design), ElementsAre(HasSubstr("are too large"))) << number << design;
+    }
+  }
+  folder.write("a.dat", "1e10 0\n0 0\n");
+  EXPECT_THAT(warnings("surface(\"a.dat\");"), IsEmpty());
+  folder.write("a.dat", "1.7e308 1.7e308\n1.7e308 1.7e308\n");
+  EXPECT_THAT(warnings("surface(\"a.dat\");"), SizeIs(1));
+}
+
 TEST_F(ImporterFiles, OfHeightsAreSolids) {
   folder.write("a.dat", "1 2\n3 9\n2 2\n");
   const ImportedDesign design = import(

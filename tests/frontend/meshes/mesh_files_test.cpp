@@ -132,6 +132,30 @@ TEST(Stl, IsTextByItsFirstWordAndBinaryByItsLength) {
   EXPECT_EQ(read_stl(more, "a").faces.face_count(), 0u);
 }
 
+/// What OpenSCAD takes for no number, each reader has in words of its own.
+TEST(MeshFiles, HaveNoNumberBeyondTheLargestDouble) {
+  const auto put = [](const std::string& name, const std::string& from, const std::string& to) {
+    std::string bytes = content_of(name);
+    const size_t place = bytes.find(from);
+    EXPECT_NE(place, std::string::npos) << name;
+    return bytes.replace(place, from.size(), to);
+  };
+  for (const std::string number : {"1e400", "-2e309", "1e999999999999999999999"}) {
+    const std::string off = put("step.off", "OFF", "OFF 1 0 0\n0 0 " + number + "\nOFF");
+    EXPECT_THAT(read_off(off, "a").problem, "The file 'a' is not in OFF") << number;
+    EXPECT_NE(read_stl("solid\nouter loop\nvertex 0 0 " + number + "\n", "a").problem, "");
+    EXPECT_NE(read_amf("<amf><object><mesh><vertices><vertex><coordinates><x>" + number +
+                           "</x></coordinates></vertex></vertices></mesh></object></amf>",
+                       "a")
+                  .problem,
+              "");
+    const HeightMap map = read_height_map("1 2\n3 " + number + "\n5 6\n", "a", false);
+    EXPECT_NE(map.problem, "");
+    EXPECT_EQ(map.heights, (std::vector<double>{1, 2, 3, 0}));
+  }
+  EXPECT_EQ(read_height_map("1e-400 2\n", "a", false).problem, "");
+}
+
 /// OpenSCAD 2021.01 says the same of these files.
 TEST(Stl, TextIsReadByItsLines) {
   const auto text_of = [](const std::string& lines) { return "solid x\nouter loop\n" + lines; };
