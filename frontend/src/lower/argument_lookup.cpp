@@ -31,11 +31,9 @@ std::string scalar_text(const Value& value) {
 
 void note_wrong(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,
                 const std::string& found, std::string_view consequence, std::string_view wanted) {
-  problems.add(node, argument, [&] {
-    return NodeProblems::Description{
-        ": " + std::string(argument) + " is " + found + ", and " + std::string(consequence),
-        "it must be " + std::string(wanted)};
-  });
+  problems.add(node,
+               {": " + std::string(argument) + " is " + found + ", and " + std::string(consequence),
+                "it must be " + std::string(wanted)});
 }
 
 void note_wrong_type(NodeProblems& problems, const SyntaxNode& node, std::string_view argument,

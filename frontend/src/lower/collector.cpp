@@ -1,5 +1,3 @@
-#include "lower/collector.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "base/elapsed.hpp"
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
+#include "lower/collector.hpp"
 #include "lower/faceted_box.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
@@ -71,26 +70,23 @@ Fit fit_of(const Primitive& primitive) {
   return is_valid ? Fit::kFits : Fit::kFlat;
 }
 
-/// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes").
+/// A hole in a mesh shows what is behind it (csgcore/NUMERICS.md, "Meshes"). `file` is empty where
+/// the node lists the faces.
 void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
-                    NodeProblems& problems) {
-  problems.add(node, "an open mesh", [&] {
-    const uint64_t edges = mesh.open_edges();
-    return NodeProblems::Description{" is not closed: " + std::to_string(edges) +
-                                         (edges == 1 ? " edge has" : " edges have") +
-                                         " a face on one side only",
-                                     "it is drawn as thin sheets where a ray passes a hole"};
-  });
+                    const std::string& file, NodeProblems& problems) {
+  const uint64_t edges = mesh.open_edges();
+  problems.add(node,
+               {" is not closed: " + std::to_string(edges) + (edges == 1 ? " edge" : " edges") +
+                    (file.empty() ? "" : " of '" + file + "'") + (edges == 1 ? " has" : " have") +
+                    " a face on one side only",
+                "it is drawn as thin sheets where a ray passes a hole"});
 }
 
 /// A part of a final render that has another dimension than the first one.
 void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) {
-  problems.add(node, "dimension", [&] {
-    return NodeProblems::Description{
-        dimension == 2 ? ": Ignoring 2D child object for 3D operation"
-                       : ": Ignoring 3D child object for 2D operation",
-        "Mixing 2D and 3D objects is not supported: the first part is kept"};
-  });
+  problems.add(node, {dimension == 2 ? ": Ignoring 2D child object for 3D operation"
+                                     : ": Ignoring 3D child object for 2D operation",
+                      "Mixing 2D and 3D objects is not supported: the first part is kept"});
 }
 
 }  // namespace
@@ -152,17 +148,13 @@ void Collector::finish(const std::stop_token& stop) {
     const SyntaxNode& node = tree_.nodes[out.node];
     if (out.unless_empty && node.subtree_end == out.node + 1) continue;
     left_out.push_back(out.node);
-    problems.add(node, out.why, [&] {
-      return NodeProblems::Description{" is left out", std::string(out.why)};
-    });
+    problems.add(node, {" is left out", std::string(out.why)});
   }
   maybe_left_out_ = {};
   for (const uint32_t node : solid_fills_) {
     if (tree_.nodes[node].subtree_end == node + 1) continue;
-    problems.add(tree_.nodes[node], "solids", [] {
-      return NodeProblems::Description{": fill() not yet implemented for 3D",
-                                       "it is drawn as a union"};
-    });
+    problems.add(tree_.nodes[node],
+                 {": fill() not yet implemented for 3D", "it is drawn as a union"});
   }
 }
 
@@ -290,8 +282,9 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
     return read_round(index, primitive, facets);
   }
   if (contexts_.back().flattened) return false;
+  std::string file;
   const SolidOfFaces* solid =
-      node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index);
+      node.kind == NodeKind::kPolyhedron ? read_faces(index) : read_file(index, file);
   if (solid == nullptr) return false;
   if (solid->is_empty()) {
     // Next to the largest coordinate the others are nothing.
@@ -300,7 +293,7 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
   }
   primitive = solid->under(to_world);
   faces = solid;
-  if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, problems);
+  if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, file, problems);
   return true;
 }
 
@@ -318,17 +311,14 @@ const SolidOfFaces* Collector::read_faces(uint32_t index) {
   return &polyhedra.solid(read_polyhedron(tree_, tree_.nodes[index], problems), unfinite_faces);
 }
 
-/// The solid of an import or a surface; null if there is none.
-const SolidOfFaces* Collector::read_file(uint32_t index) {
+/// The solid of an import or a surface, and the name of its file; null if there is none.
+const SolidOfFaces* Collector::read_file(uint32_t index, std::string& name) {
   const SyntaxNode& node = tree_.nodes[index];
   const FileArguments arguments = read_file_arguments(tree_, node, problems);
   const ImportedFile& file =
       node.kind == NodeKind::kSurface ? files.surface(arguments) : files.import(arguments);
-  if (!file.problem.empty()) {
-    problems.add(node, "a file", [&] {
-      return NodeProblems::Description{": " + file.problem, file.todo};
-    });
-  }
+  if (!file.problem.empty()) problems.add(node, {": " + file.problem, file.todo});
+  name = arguments.file;
   return file.solid;
 }
 

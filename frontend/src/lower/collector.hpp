@@ -170,7 +170,7 @@ class Collector final : public NodeSink {
   Presence take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf);
   bool read_round(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets);
   const SolidOfFaces* read_faces(uint32_t node);
-  const SolidOfFaces* read_file(uint32_t node);
+  const SolidOfFaces* read_file(uint32_t node, std::string& name);
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;

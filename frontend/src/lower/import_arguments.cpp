@@ -230,6 +230,7 @@ class FaceReader {
       faces_.end_face();
       if (!goes_on) break;
     }
+    beyond_points_.tell(node_, problems_);
     return std::move(faces_);
   }
 
@@ -258,7 +259,7 @@ class FaceReader {
     if (number > -1 && number < static_cast<double>(points_.size())) {
       return static_cast<uint32_t>(number);
     }
-    problems_.add(node_, "an index beyond the points", [&] {
+    beyond_points_.add([&] {
       return NodeProblems::Description{
           ": Point index " + text_of(tree_, value) + " is out of bounds (from faces[" +
               std::to_string(face) + "][" + std::to_string(place) + "]), and is left out",
@@ -269,19 +270,18 @@ class FaceReader {
   }
 
   void note_bad_point(uint32_t index) {
-    problems_.add(node_, "a point", [&] {
-      return NodeProblems::Description{": Unable to convert points[" + std::to_string(index) +
-                                           "] = " + text_of(tree_, points_[index]) +
-                                           " to a vec3 of numbers, and the faces from there on are "
-                                           "left out",
-                                       "it must be a list of three finite numbers"};
-    });
+    problems_.add(node_, {": Unable to convert points[" + std::to_string(index) +
+                              "] = " + text_of(tree_, points_[index]) +
+                              " to a vec3 of numbers, and the faces from there on are "
+                              "left out",
+                          "it must be a list of three finite numbers"});
   }
 
   const SyntaxTree& tree_;
   const SyntaxNode& node_;
   std::span<const Value> points_;
   NodeProblems& problems_;
+  ElementProblem beyond_points_;
   FaceSet faces_;
 };
 
@@ -367,11 +367,9 @@ std::optional<csgcore::Color> read_color(const SyntaxTree& tree, const SyntaxNod
   } else if (color->kind == ValueKind::kString) {
     const std::optional<csgcore::Color> named = color_of_name(tree.text_of(*color));
     if (!named) {
-      problems.add(node, "a name", [&] {
-        return NodeProblems::Description{
-            ": \"" + std::string(tree.text_of(*color)) + "\" is no colour, and is ignored",
-            "use a CSS colour name, \"#rrggbb\" or [r, g, b]"};
-      });
+      problems.add(node,
+                   {": \"" + std::string(tree.text_of(*color)) + "\" is no colour, and is ignored",
+                    "use a CSS colour name, \"#rrggbb\" or [r, g, b]"});
       return std::nullopt;
     }
     channels = {named->r, named->g, named->b, named->a};

@@ -1,24 +1,34 @@
 #include "lower/node_problems.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace frontend {
 
+void NodeProblems::add(const SyntaxNode& node, Description description, uint64_t count) {
+  const auto [entry, is_new] =
+      problems_.try_emplace({node.kind, std::move(description.what), std::move(description.todo)});
+  Problem& problem = entry->second;
+  if (is_new) problem = {node.location, 0, problems_.size(), description.is_note};
+  problem.count += count;
+}
+
 std::vector<Warning> NodeProblems::warnings(const SyntaxTree& tree) const {
-  std::vector<const Problem*> sorted;
-  for (const Problem& problem : problems_) sorted.push_back(&problem);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem* a, const Problem* b) {
-    return std::tie(a->first.file, a->first.line, a->first.column) <
-           std::tie(b->first.file, b->first.line, b->first.column);
+  using Entry = decltype(problems_)::value_type;
+  std::vector<const Entry*> sorted;
+  for (const Entry& entry : problems_) sorted.push_back(&entry);
+  std::ranges::sort(sorted, {}, [](const Entry* entry) {
+    const auto& [first, count, order, is_note] = entry->second;
+    return std::tuple(first.file, first.line, first.column, order);
   });
   std::vector<Warning> result;
-  for (const Problem* problem : sorted) {
-    std::string what = std::string(name_of(problem->kind)) + problem->description.what;
-    if (problem->count > 1) what += "; the first of " + std::to_string(problem->count);
-    const auto make = problem->description.is_note ? make_note : make_warning;
-    result.push_back(
-        make(tree.file_of(problem->first), problem->first, what, problem->description.todo));
+  for (const Entry* entry : sorted) {
+    const auto& [kind, text, todo] = entry->first;
+    const Problem& problem = entry->second;
+    std::string what = std::string(name_of(kind)) + text;
+    if (problem.count > 1) what += "; the first of " + std::to_string(problem.count);
+    const auto make = problem.is_note ? make_note : make_warning;
+    result.push_back(make(tree.file_of(problem.first), problem.first, what, todo));
   }
   return result;
 }

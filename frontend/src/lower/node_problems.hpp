@@ -1,10 +1,11 @@
-// What is wrong with the nodes of a file: one warning for each kind of node and each thing that is
-// wrong with it, however often it occurs.
+// What is wrong with the nodes of a file: one warning for each kind of node and each text, however
+// often it occurs.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
-#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "frontend/error.hpp"
@@ -20,32 +21,39 @@ class NodeProblems {
     bool is_note = false;  // make_note()
   };
 
-  /// Counts a problem. `topic`, which must outlive this, tells it from others of such nodes;
-  /// `describe` is asked for the Description of the first alone.
-  template <typename Describe>
-  void add(const SyntaxNode& node, std::string_view topic, const Describe& describe) {
-    for (Problem& problem : problems_) {
-      if (problem.kind != node.kind || problem.topic != topic) continue;
-      ++problem.count;
-      return;
-    }
-    problems_.push_back({node.kind, topic, node.location, describe(), 1});
-  }
+  /// Adds a problem that occurs `count` times in the node. Only equal ones of a kind of node are
+  /// folded into one warning, so that none hides another file, or another cause.
+  void add(const SyntaxNode& node, Description description, uint64_t count = 1);
 
-  void clear() { problems_.clear(); }
+  void clear() { *this = {}; }
 
   /// In the order of the places where each occurs first.
   std::vector<Warning> warnings(const SyntaxTree& tree) const;
 
  private:
   struct Problem {
-    NodeKind kind;
-    std::string_view topic;
     Location first;
-    Description description;  // of the first
-    uint64_t count;
+    uint64_t count = 0;
+    uint64_t order = 0;  // among all, of the first
+    bool is_note = false;
   };
-  std::vector<Problem> problems_;
+  std::map<std::tuple<NodeKind, std::string, std::string>, Problem> problems_;  // by text and todo
+};
+
+/// A problem of the elements of one node, which is told once for all of them: each of a million
+/// indices may be wrong in a way of its own.
+struct ElementProblem {
+  NodeProblems::Description first;
+  uint64_t count = 0;
+
+  /// `describe` is asked for the Description of the first alone.
+  template <typename Describe>
+  void add(const Describe& describe) {
+    if (count++ == 0) first = describe();
+  }
+  void tell(const SyntaxNode& node, NodeProblems& problems) const {
+    if (count > 0) problems.add(node, first, count);
+  }
 };
 
 }  // namespace frontend

@@ -115,10 +115,8 @@ void PlaneEvaluation::combine(uint32_t node) {
   if (!matrix.is_finite) own.presence = Presence::kEmpty;
   if (own.dimension == 2 && matrix.is_finite && plane_part(matrix.matrix.map).determinant() == 0) {
     own.presence = Presence::kEmpty;
-    problems_.add(syntax, "flat", [] {
-      return NodeProblems::Description{": Scaling a 2D object with 0 - removing object",
-                                       "only x and y of a matrix act on 2D"};
-    });
+    problems_.add(syntax, {": Scaling a 2D object with 0 - removing object",
+                           "only x and y of a matrix act on 2D"});
   }
 }
 
@@ -145,14 +143,12 @@ void PlaneEvaluation::ignore_other_dimension(uint32_t node, uint8_t dimension,
     Node& operand = at(child);
     if (operand.dimension == 0 || operand.dimension == dimension) return;
     if (operand.presence == Presence::kSolid) {
-      problems.add(subtree_.syntax(child), "dimension", [&] {
-        const bool is_plane = dimension == 2;
-        return NodeProblems::Description{is_plane ? ": Ignoring 3D child object for 2D operation"
-                                                  : ": Ignoring 2D child object for 3D operation",
-                                         wants_plane(subtree_.syntax(node).kind)
-                                             ? "it extrudes or moves the outlines of 2D objects"
-                                             : "Mixing 2D and 3D objects is not supported"};
-      });
+      problems.add(subtree_.syntax(child),
+                   {dimension == 2 ? ": Ignoring 3D child object for 2D operation"
+                                   : ": Ignoring 2D child object for 3D operation",
+                    wants_plane(subtree_.syntax(node).kind)
+                        ? "it extrudes or moves the outlines of 2D objects"
+                        : "Mixing 2D and 3D objects is not supported"});
       operand.presence = Presence::kEmpty;
     }
   });

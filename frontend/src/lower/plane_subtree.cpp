@@ -139,9 +139,7 @@ const ImportedDrawing* drawing_of(const SyntaxTree& tree, const SyntaxNode& node
   arguments.svg.is_faceted = options.facets == Facets::kAll;
   const ImportedDrawing& drawing = files.drawing(arguments);
   for (const DrawingProblem& problem : drawing.problems) {
-    problems.add(node, problem.what, [&] {
-      return NodeProblems::Description{": " + problem.what, problem.todo};
-    });
+    problems.add(node, {": " + problem.what, problem.todo});
   }
   return &drawing;
 }

@@ -52,18 +52,13 @@ std::optional<Polygon> read_points(const SyntaxTree& tree, const SyntaxNode& nod
   for (size_t i = 0; i < values.size(); ++i) {
     const std::optional<Vec2> point = pair_of(tree, values[i]);
     if (!point || std::isinf(point->x) || std::isinf(point->y)) {
-      problems.add(node, "a point", [&] {
-        return NodeProblems::Description{": Unable to convert points[" + std::to_string(i) +
-                                             "] = " + printed(tree, values[i]) +
-                                             " to a vec2 of numbers",
-                                         "it is left out"};
-      });
+      problems.add(node, {": Unable to convert points[" + std::to_string(i) +
+                              "] = " + printed(tree, values[i]) + " to a vec2 of numbers",
+                          "it is left out"});
       return std::nullopt;
     }
     if (std::isnan(point->x) || std::isnan(point->y)) {
-      problems.add(node, "nan", [&] {
-        return NodeProblems::Description{": Range check failed", "it is left out"};
-      });
+      problems.add(node, {": Range check failed", "it is left out"});
       return std::nullopt;
     }
     points.push_back(*point);
@@ -80,8 +75,8 @@ uint32_t index_of(const Value& value) {
   return static_cast<uint32_t>(static_cast<int64_t>(number));
 }
 
-Polygon read_path(const SyntaxTree& tree, const SyntaxNode& node, const Polygon& points,
-                  const Value& path, size_t path_index, NodeProblems& problems) {
+Polygon read_path(const SyntaxTree& tree, const Polygon& points, const Value& path,
+                  size_t path_index, ElementProblem& beyond_points) {
   Polygon result;
   if (path.kind != ValueKind::kList) return result;
   const std::span<const Value> indices = tree.elements_of(path);
@@ -91,7 +86,7 @@ Polygon read_path(const SyntaxTree& tree, const SyntaxNode& node, const Polygon&
       result.push_back(points[index]);
       continue;
     }
-    problems.add(node, "an index", [&] {
+    beyond_points.add([&] {
       return NodeProblems::Description{
           ": Point index " + std::to_string(index) + " is out of bounds (from paths[" +
               std::to_string(path_index) + "][" + std::to_string(i) + "])",
@@ -160,12 +155,9 @@ Rectangle read_square(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
     } else if (const std::optional<Vec2> pair = pair_of(tree, *given)) {
       size = *pair;
     } else {
-      problems.add(node, "size", [&] {
-        return NodeProblems::Description{
-            ": Unable to convert square(size=" + printed(tree, *given) +
-                ", ...) parameter to a number or a vec2 of numbers",
-            "its size is 1"};
-      });
+      problems.add(node, {": Unable to convert square(size=" + printed(tree, *given) +
+                              ", ...) parameter to a number or a vec2 of numbers",
+                          "its size is 1"});
     }
   }
   const Value* center = find_argument(tree, node, "center", 1);
@@ -179,9 +171,11 @@ Polygons read_polygon(const SyntaxTree& tree, const SyntaxNode& node, NodeProble
   const std::span<const Value> paths = list_argument(tree, node, "paths", 1, problems);
   Polygons result;
   if (paths.empty()) result.push_back(std::move(*points));
+  ElementProblem beyond_points;
   for (size_t i = 0; i < paths.size(); ++i) {
-    result.push_back(read_path(tree, node, *points, paths[i], i, problems));
+    result.push_back(read_path(tree, *points, paths[i], i, beyond_points));
   }
+  beyond_points.tell(node, problems);
   std::erase_if(result, [](const Polygon& polygon) { return polygon.size() < 3; });
   return result;
 }

@@ -53,12 +53,9 @@ auto align_argument(const SyntaxTree& tree, const SyntaxNode& node, std::string_
     if (given == known.word) return known.align;
   }
   if (!given.empty() && given != kDefaultWord) {
-    problems.add(node, name, [&] {
-      return NodeProblems::Description{": Unknown value for the " + std::string(name) +
-                                           " parameter (use " + listed(words) + "): '" +
-                                           std::string(given) + "'",
-                                       "it counts as missing"};
-    });
+    problems.add(node, {": Unknown value for the " + std::string(name) + " parameter (use " +
+                            listed(words) + "): '" + std::string(given) + "'",
+                        "it counts as missing"});
   }
   return words.front().align;
 }
@@ -83,27 +80,20 @@ TextSettings read_text(const SyntaxTree& tree, const SyntaxNode& node, NodeProbl
 std::vector<PlacedGlyph> letters_of(const SyntaxNode& node, const TextSettings& text, int pieces,
                                     DesignFonts& fonts, NodeProblems& problems) {
   DrawnText drawn = fonts.letters(text, pieces);
-  using Description = NodeProblems::Description;
   switch (drawn.problem) {
     case DrawnText::Problem::kNoLibraries:
-      problems.add(node, "libraries", [] {
-        return Description{" is left out: FreeType, HarfBuzz or fontconfig is not installed",
-                           "install libfreetype6, libharfbuzz0b and libfontconfig1"};
-      });
+      problems.add(node, {" is left out: FreeType, HarfBuzz or fontconfig is not installed",
+                          "install libfreetype6, libharfbuzz0b and libfontconfig1"});
       break;
     case DrawnText::Problem::kNoFont:
-      problems.add(node, "a font", [&] {
-        return Description{" is left out: no font can be opened for '" + text.font + "'",
-                           "install a font with outlines"};
-      });
+      problems.add(node, {" is left out: no font can be opened for '" + text.font + "'",
+                          "install a font with outlines"});
       break;
     case DrawnText::Problem::kNone:
       if (drawn.missing_family.empty()) break;
-      problems.add(node, "a missing font", [&] {
-        return Description{": the font '" + drawn.missing_family + "' is not installed: '" +
-                               drawn.font_family + "' stands in for it",
-                           "install it, or name its file in use <…>", true};
-      });
+      problems.add(node, {": the font '" + drawn.missing_family + "' is not installed: '" +
+                              drawn.font_family + "' stands in for it",
+                          "install it, or name its file in use <…>", true});
       break;
   }
   return std::move(drawn.glyphs);

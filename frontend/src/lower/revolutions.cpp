@@ -1,5 +1,3 @@
-#include "lower/revolutions.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "heal/matrix_healing.hpp"
 #include "lower/faceted_box.hpp"
+#include "lower/revolutions.hpp"
 
 namespace frontend {
 namespace {
@@ -165,14 +164,12 @@ std::optional<Rectangle> on_one_side(Rectangle bounds, const SyntaxNode& node,
     (bounds.max.x > -bounds.min.x ? bounds.min.x : bounds.max.x) = 0;
     return bounds;
   }
-  problems.add(node, "sides", [&] {
-    std::array<char, 160> text;
-    std::snprintf(text.data(), text.size(),
-                  ": all points for rotate_extrude() must have the same X coordinate sign "
-                  "(range is %.2f -> %.2f)",
-                  bounds.min.x, bounds.max.x);
-    return NodeProblems::Description{text.data(), "keep the profile on one side of the Y axis"};
-  });
+  std::array<char, 160> text;
+  std::snprintf(text.data(), text.size(),
+                ": all points for rotate_extrude() must have the same X coordinate sign "
+                "(range is %.2f -> %.2f)",
+                bounds.min.x, bounds.max.x);
+  problems.add(node, {text.data(), "keep the profile on one side of the Y axis"});
   return std::nullopt;
 }
 

@@ -54,10 +54,8 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
   std::optional<SimplePolygons> outline =
       united(figures, chords_for(layers, given.slices, reach_of_figures(figures)));
   if (!outline) {
-    problems.add(node, "crossings", [] {
-      return NodeProblems::Description{" is left out: its edges cross too often",
-                                       "let its outline not cross itself"};
-    });
+    problems.add(node,
+                 {" is left out: its edges cross too often", "let its outline not cross itself"});
     return std::nullopt;
   }
   if (outline->empty()) return std::nullopt;
@@ -66,11 +64,9 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
   const double slices = given.slices ? *given.slices : slice_count(layers, *outline, given.facets);
   Slicing slicing = openscad_slicing(slices, given.segments, *outline);
   if (slicing.slices < slices) {
-    problems.add(node, "slices", [&] {
-      return NodeProblems::Description{" is drawn with " + std::to_string(slicing.slices) +
-                                           " slices: more would be too many triangles",
-                                       "give fewer slices, or a simpler outline"};
-    });
+    problems.add(node, {" is drawn with " + std::to_string(slicing.slices) +
+                            " slices: more would be too many triangles",
+                        "give fewer slices, or a simpler outline"});
   }
   const csgcore::Box box = sliced_box(layers, slicing.slices, *outline);
   if (!data.is_faceted) slicing = smooth_slicing(layers, slices, std::move(*outline));

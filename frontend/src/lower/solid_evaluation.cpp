@@ -82,14 +82,11 @@ std::optional<FigureOperations> SolidEvaluation::projection(uint32_t node) {
 std::optional<FigureOperations> SolidEvaluation::section(uint32_t node, const SolidValue& value) {
   Section section = section_of(value);
   if (section.has_open_mesh) {
-    problems_.add(subtree_.syntax(node), "an open mesh", [] {
-      return NodeProblems::Description{": The given mesh is not closed",
-                                       "it has no section: close it"};
-    });
+    problems_.add(subtree_.syntax(node),
+                  {": The given mesh is not closed", "it has no section: close it"});
   } else if (section.operations.is_empty()) {
-    problems_.add(subtree_.syntax(node), "nothing", [] {
-      return NodeProblems::Description{": Projection() failed", "nothing meets the plane z = 0"};
-    });
+    problems_.add(subtree_.syntax(node),
+                  {": Projection() failed", "nothing meets the plane z = 0"});
   }
   return std::move(section.operations);
 }
@@ -179,9 +176,7 @@ const SolidOfFaces* SolidEvaluation::solid_of_file(uint32_t node) {
   const ImportedFile& file = syntax.kind == NodeKind::kSurface ? sources_.files.surface(arguments)
                                                                : sources_.files.import(arguments);
   if (!file.problem.empty()) {
-    problems_.add(syntax, "a file", [&] {
-      return NodeProblems::Description{": " + file.problem, file.todo};
-    });
+    problems_.add(syntax, {": " + file.problem, file.todo});
   }
   return file.solid;
 }

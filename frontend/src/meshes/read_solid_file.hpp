@@ -18,7 +18,7 @@ struct SolidFile {
 /// time out of proportion to its size.
 
 /// STL, binary if its length is that of its count of facets, and else text if it begins with
-/// "solid". Anything else is empty, without a problem.
+/// "solid". Anything else is empty, and so is a file without facets: the problem says why.
 SolidFile read_stl(std::string_view bytes, const std::string& name);
 /// OFF with or without colours and normals, which are ignored.
 SolidFile read_off(std::string_view bytes, const std::string& name);

@@ -92,14 +92,16 @@ TEST(ImporterPrimitives, HaveAWarningForEachKindOfProblem) {
   EXPECT_THAT(
       warnings_of("cube(\"a\"); sphere(\"a\");\ncube([1]); cylinder(\"a\", \"b\"); cube(1, 1);"
                   "roof() { cube(); } cube([2]); roof() { cube(); }"),
-      ElementsAre("a.csg:1:1: warning: cube: size is \"a\", and counts as missing; the "
-                  "first of 3 (it must be a number or a list of three numbers)",
+      ElementsAre("a.csg:1:1: warning: cube: size is \"a\", and counts as missing (it must be a "
+                  "number or a list of three numbers)",
                   HasSubstr("a.csg:1:12: warning: sphere: r is a string, and"),
+                  HasSubstr("a.csg:2:1: warning: cube: size is [1], and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: h is a string, and"),
                   HasSubstr("a.csg:2:12: warning: cylinder: r1 is a string, and"),
                   HasSubstr("a.csg:2:32: warning: cube: center is a number, and"),
                   "a.csg:2:43: warning: roof is left out; the first of 2 (OpenSCAD 2021.01 "
-                  "does not know it)"));
+                  "does not know it)",
+                  HasSubstr("a.csg:2:62: warning: cube: size is [2], and")));
 }
 
 TEST(ImporterPrimitives, AreLeftOutWhereNoScaleMakesThemDrawable) {

@@ -66,7 +66,7 @@ TEST(ImporterColor, AnUnknownNameIsAWarning) {
   ASSERT_THAT(design.warnings, SizeIs(1));
   EXPECT_THAT(design.warnings[0].text,
               HasSubstr("a.csg:1:1: warning: color: \"rad\" is no colour"));
-  EXPECT_THAT(warning_of("color(\"rad\"); color(\"blu\");"),
+  EXPECT_THAT(warning_of("color(\"rad\"); color(\"rad\");"),
               HasSubstr("\"rad\" is no colour, and is ignored; the first of 2 (use a CSS"));
 }
 

@@ -18,6 +18,7 @@ namespace {
 using csgcore::Primitive;
 using csgcore::Shape;
 using csgcore::Vec3;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -81,11 +82,11 @@ TEST_F(ImporterFiles, ShareOneMesh) {
 TEST_F(ImporterFiles, ThatAreMissingAreEmpty) {
   const ImportedDesign design =
       import("sphere();\n import(\"gone.stl\"); import(\"away.stl\"); surface(\"gone.dat\");");
-  ASSERT_THAT(design.warnings, SizeIs(2));
+  ASSERT_THAT(design.warnings, SizeIs(3));
   EXPECT_EQ(design.warnings[0].text,
             "a.csg:2:2: warning: import: Can't open import file '" + folder / "gone.stl" +
-                "'; the first of 2 (check its name; it is relative to the design's folder)");
-  EXPECT_EQ(design.warnings[1].text,
+                "' (check its name; it is relative to the design's folder)");
+  EXPECT_EQ(design.warnings[2].text,
             "a.csg:2:42: warning: surface: The file '" + folder / "gone.dat" +
                 "' couldn't be opened (check its name; it is relative to the design's folder)");
   EXPECT_THAT(design.files,
@@ -106,7 +107,7 @@ TEST_F(ImporterFiles, ThatAreNoFilesAreNotWaitedFor) {
 
 TEST_F(ImporterFiles, OfOtherKindsAreNotDrawn) {
   EXPECT_THAT(
-      warnings("import(\"a.obj\"); import();"),
+      warnings("import(\"a.obj\"); import(\"a.obj\");"),
       ElementsAre("a.csg:1:1: warning: import: Unsupported file format while trying to "
                   "import file '\"a.obj\"'; the first of 2 (convert it to .stl, .off, .amf, "
                   ".3mf, .nef3, .svg or .dxf)"));
@@ -151,7 +152,9 @@ TEST_F(ImporterFiles, ThatAreMissingDrawingsAreTold) {
 TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
   folder.write("a.stl", "solid x\nouter loop\nvertex 1 2 x\n");
   folder.write("a.amf", "none");
-  folder.write("b.stl", "solid x\nouter loop\nvertex 1 2 3\nvertex 2 2 3\nvertex 5 inf 5\n");
+  folder.write("b.stl",
+               "solid x\nouter loop\nvertex 1 2 3\nvertex 2 2 3\nvertex 5 inf 5\n"
+               "endloop\nendfacet\nendsolid x\n");
   EXPECT_THAT(warnings("import(\"a.stl\");"),
               ElementsAre("a.csg:1:1: warning: import: STL line 3, can't parse vertex line 'vertex "
                           "1 2 x' importing file '" +
@@ -164,7 +167,22 @@ TEST_F(ImporterFiles, SayWhatIsWrongWithThem) {
   folder.write("d.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_THAT(warnings("import(\"c.off\");"), ElementsAre(HasSubstr("is not in OFF")));
   EXPECT_THAT(warnings("import(\"d.off\");"),
-              ElementsAre(HasSubstr("import is not closed: 3 edges")));
+              ElementsAre(HasSubstr("import is not closed: 3 edges of 'd.off' have a face")));
+}
+
+TEST_F(ImporterFiles, AreEachToldOf) {
+  folder.write("open1.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder.write("open2.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n");
+  EXPECT_THAT(
+      warnings("import(\"a.stl\"); import(\"b.stl\"); import(\"a.stl\"); surface(\"a.dat\"); "
+               "surface(\"b.png\"); import(\"open1.off\"); import(\"open2.off\"); "
+               "import(\"open2.off\");"),
+      ElementsAre(
+          AllOf(HasSubstr("Can't open import file"), HasSubstr("a.stl'; the first of 2")),
+          AllOf(HasSubstr("Can't open import file"), HasSubstr("b.stl' (")),
+          HasSubstr("a.dat' couldn't be opened ("), HasSubstr("b.png' couldn't be opened ("),
+          HasSubstr("3 edges of 'open1.off' have a face on one side only ("),
+          HasSubstr("3 edges of 'open2.off' have a face on one side only; the first of 2")));
 }
 
 TEST_F(ImporterFiles, BeyondAllSizesAreLeftOut) {

@@ -139,6 +139,16 @@ TEST(ImporterPolyhedron, IsDrawnOpen) {
   EXPECT_THAT(warnings_of("polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);"), IsEmpty());
 }
 
+TEST(ImporterPolyhedron, FoldsWhatIsEqualAlone) {
+  EXPECT_THAT(
+      warnings_of("polyhedron([[0,0,0]], [[7,8]]); polyhedron([[0,0,0]], [[9]]); "
+                  "polyhedron([[0,0,0]], [[9]]);"),
+      ElementsAre(HasSubstr("Point index 7 is out of bounds (from faces[0][0]), and is left out; "
+                            "the first of 2 ("),
+                  HasSubstr("Point index 9 is out of bounds (from faces[0][0]), and is left out; "
+                            "the first of 2 (")));
+}
+
 TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
   const Primitive wanted = only_primitive("polyhedron(" + kCorner + kFaces + ");");
   for (const char* faces :
@@ -159,18 +169,16 @@ TEST(ImporterPolyhedron, FacesMayRunEitherWay) {
 TEST(ImporterPolyhedron, BadIndicesAreLeftOutOrZero) {
   const auto expect_whole = [](const std::string& faces, const std::string& warning) {
     const std::string text = "polyhedron(" + kCorner + "faces = " + faces + ");";
-    EXPECT_EQ(warning_of(text), "a.csg:1:1: warning: polyhedron: " + warning);
+    EXPECT_EQ(warnings_of(text).at(0), "a.csg:1:1: warning: polyhedron: " + warning);
     expect_box(box_of(only_primitive(text)), Vec3(0.0), Vec3(3, 4, 5), 0);
   };
   expect_whole("[[0,1,2,4],[0,3,1],[-1,0,2,3],[1,3,nan,2]]",
                "Point index 4 is out of bounds (from faces[0][3]), and is left out; the first of 3 "
                "(the points are 0 to 3)");
   expect_whole("[[\"a\",1,2],[undef,3,1],[[1],2,3],[1,3,2]]",
-               "an index of a face is a string, and counts as 0; the first of 3 (it must be a "
-               "number)");
+               "an index of a face is a string, and counts as 0 (it must be a number)");
   expect_whole("[[0,1,2],[0,3,1],7,[0,2,3],undef,[1,3,2]]",
-               "a face is a number, and is left out; the first of 2 (it must be a list of indices "
-               "of points)");
+               "a face is a number, and is left out (it must be a list of indices of points)");
 }
 
 TEST(ImporterPolyhedron, ABadPointEndsTheFaces) {

@@ -65,7 +65,7 @@ TEST(MeshFiles, HoldTheSameStepInEveryFormat) {
 }
 
 TEST(MeshFiles, AnotherFormatIsNone) {
-  EXPECT_EQ(read_stl("garbage", "a.stl").problem, "");
+  EXPECT_EQ(read_stl("garbage", "a.stl").problem, "'a.stl' is no STL: nothing is read");
   EXPECT_EQ(read_off("garbage", "a.off").problem, "The file 'a.off' is not in OFF");
   EXPECT_EQ(read_amf("garbage", "a.amf").problem, "Failed to parse file 'a.amf'");
   EXPECT_EQ(read_3mf("garbage", "a.3mf").problem, "Could not read file 'a.3mf'");
@@ -132,6 +132,28 @@ TEST(Stl, IsTextByItsFirstWordAndBinaryByItsLength) {
   EXPECT_EQ(read_stl(more, "a").faces.face_count(), 0u);
 }
 
+/// OpenSCAD reads nothing of them, and says nothing.
+TEST(Stl, SaysWhyItHasNoFacets) {
+  const auto problem = [](const std::string& bytes) { return read_stl(bytes, "a").problem; };
+  const std::string binary = content_of("step.stl"), text = content_of("step_text.stl");
+  EXPECT_EQ(problem(""), "'a' is empty");
+  EXPECT_EQ(problem("solid x\nendsolid x\n"), "'a' has no facets");
+  EXPECT_EQ(problem(std::string(84, '\0')), "'a' has no facets");
+  EXPECT_EQ(problem("\xEF\xBB\xBF" + text), "'a' begins with a byte order mark: nothing is read");
+  EXPECT_EQ(problem("\n " + text), "'a' begins with blanks before \"solid\": nothing is read");
+  EXPECT_EQ(problem(binary.substr(0, 300)),
+            "'a' is cut off, or miscounted: it counts 20 facets, and has 4: nothing is read");
+  EXPECT_EQ(problem("solid" + binary.substr(5, 300)),
+            "'a' is cut off, or miscounted: it counts 20 facets, and has 4: nothing is read");
+  EXPECT_EQ(problem(binary + "abcd"),
+            "'a' is miscounted: it counts 20 facets, and has 4 bytes behind them: nothing is read");
+  EXPECT_EQ(problem(std::string(50, '\0')), "'a' is cut off: nothing is read");
+  // What stands before the end is drawn.
+  const SolidFile cut = read_stl(text.substr(0, text.rfind("endloop")), "a");
+  EXPECT_EQ(cut.problem, "'a' is cut off: no endfacet ends the last facet");
+  EXPECT_EQ(cut.faces.face_count(), 20u);
+}
+
 /// What OpenSCAD takes for no number, each reader has in words of its own.
 TEST(MeshFiles, HaveNoNumberBeyondTheLargestDouble) {
   const auto put = [](const std::string& name, const std::string& from, const std::string& to) {
@@ -165,7 +187,7 @@ TEST(Stl, TextIsReadByItsLines) {
   EXPECT_EQ(faces_of("vertex 0 0 0\n\tvertex\t1 +1 1e0 # more\r\nxvertex 0 1 -.5\n"), 1u);
   // Without a third number, or a third line, a facet is lost.
   EXPECT_EQ(faces_of("vertex 0 0 0\nvertex 1 1\nvertex 0 1 0\nouter loop\nvertex 1 1 1"), 0u);
-  EXPECT_EQ(read_stl(text_of("vertex 1 1\n"), "f").problem, "");
+  EXPECT_EQ(read_stl(text_of("vertex 1 1\nendfacet\n"), "f").problem, "'f' has no facets");
   EXPECT_EQ(faces_of("VERTEX 0 0 0\nvertex 1 1 2\nvertexes 0 1 0\nvertex 1 1 1"), 0u);
   EXPECT_EQ(read_stl(text_of("vertex 0 0 0\n vertex 1 0 z9\n"), "f").problem,
             "STL line 4, can't parse vertex line 'vertex 1 0 z9' importing file 'f'");
