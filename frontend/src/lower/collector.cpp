@@ -1,3 +1,5 @@
+#include "lower/collector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -5,7 +7,7 @@
 #include "base/elapsed.hpp"
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
-#include "lower/collector.hpp"
+#include "hulls/point_hull.hpp"
 #include "lower/faceted_box.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/import_arguments.hpp"
@@ -80,6 +82,29 @@ void note_open_mesh(const SyntaxNode& node, const csgcore::TriangleMesh& mesh,
                     (file.empty() ? "" : " of '" + file + "'") + (edges == 1 ? " has" : " have") +
                     " a face on one side only",
                 "it is drawn as thin sheets where a ray passes a hole"});
+}
+
+/// OpenSCAD shows the faces of a closed body that has no volume.
+void note_sheet(const SyntaxNode& node, const std::string& file, NodeProblems& problems) {
+  problems.add(node, {(file.empty() ? "" : ": '" + file + "'") + " has no volume",
+                      "it is drawn as a thin sheet, and cuts nothing"});
+}
+
+/// The faces of a polyhedron or a mesh under its matrix.
+FaceSet flat_faces_of(const Primitive& primitive) {
+  FaceSet faces;
+  const auto add_all = [&](std::span<const csgcore::Vec3> vertices, const auto& triangles) {
+    for (const csgcore::Vec3& vertex : vertices) {
+      faces.points.push_back(primitive.local_to_world.point(vertex));
+    }
+    for (const auto& t : triangles) faces.corners.insert(faces.corners.end(), t.begin(), t.end());
+  };
+  if (primitive.mesh) add_all(primitive.mesh->vertices(), primitive.mesh->triangles());
+  if (primitive.polyhedron) {
+    const std::vector<csgcore::Vec3>& vertices = primitive.polyhedron->vertices();
+    add_all(vertices, point_hull(on_grid(vertices)).triangles);
+  }
+  return faces;
 }
 
 /// A part of a final render that has another dimension than the first one.
@@ -291,9 +316,13 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
     if (solid->exponent > kLargestExponent) leave_out(index, kBecauseTooLarge);
     return false;
   }
-  primitive = solid->under(to_world);
+  primitive = solid->sheet ? solid->under(solid->sheet, to_world) : solid->under(to_world);
   faces = solid;
-  if (solid->mesh && !solid->mesh->is_closed()) note_open_mesh(node, *solid->mesh, file, problems);
+  if (solid->sheet) {
+    note_sheet(node, file, problems);
+  } else if (solid->mesh && !solid->mesh->is_closed()) {
+    note_open_mesh(node, *solid->mesh, file, problems);
+  }
   return true;
 }
 
@@ -333,6 +362,12 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   csgcore::FacetSettings facets;
   const SolidOfFaces* faces = nullptr;
   if (!read_solid(index, primitive, facets, faces) || context.flattened) return;
+  uint32_t frame = context.frame;
+  if (primitive.local_to_world.determinant() == 0 && fit_of(primitive) == Fit::kFlat) {
+    if (!flatten(index, facets, primitive)) return;
+    faces = nullptr;
+    frame = 0;
+  }
   primitive.id = id;
   if (faces != nullptr && faces->inner_faces && !context.in_leaf) {
     return add_sides(index, primitive, *faces, context);
@@ -340,13 +375,30 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
   const csgcore::Box box = faceted_box(primitive, facets);
   const int count =
       keeps_facets(options_, facets) ? traits_of(primitive.shape).fragments(primitive, facets) : 0;
-  primitive_of[index] = add_primitive(std::move(primitive), index, context,
-                                      typed_frame(index, context.frame), box, count);
+  primitive_of[index] =
+      add_primitive(std::move(primitive), index, context, typed_frame(index, frame), box, count);
   const bool is_inside_out =
       options_.picture == PictureKind::kThrownTogether && faces != nullptr && faces->is_inside_out;
   if (is_inside_out && primitive_of[index] != kNoPrimitive) {
     primitives.back().color = kSeenFromWithin;
   }
+}
+
+/// Makes a sheet in the world's coordinates of a solid that its matrix flattens, as OpenSCAD maps
+/// its facets. Returns false if nothing is left.
+bool Collector::flatten(uint32_t index, const csgcore::FacetSettings& facets,
+                        Primitive& primitive) {
+  const int count = traits_of(primitive.shape).fragments(primitive, facets);
+  const Affine to_world = std::exchange(primitive.local_to_world, {});
+  if (count > 0) polyhedra.facet(primitive, count);
+  primitive.local_to_world = compose(to_world, primitive.local_to_world);
+  FaceSet faces = flat_faces_of(primitive);
+  uint64_t unfinite_faces = 0;
+  const SolidOfFaces& solid = polyhedra.solid(std::move(faces), unfinite_faces);
+  if (!solid.sheet) return false;
+  primitive = solid.under(solid.sheet, {});
+  note_sheet(tree_.nodes[index], {}, problems);
+  return true;
 }
 
 /// Returns the frame of a node's shape: that around it, or one within, which bears the errors of

@@ -120,6 +120,7 @@ class Collector final : public NodeSink {
   void enter_leaf(uint32_t node);
   void leave_leaf(uint32_t node);
   void add_solid(uint32_t node, uint32_t id);
+  bool flatten(uint32_t node, const csgcore::FacetSettings& facets, csgcore::Primitive& primitive);
   uint32_t typed_frame(uint32_t node, uint32_t frame);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/hashes.hpp"
+#include "meshes/sheet_faces.hpp"
 
 namespace frontend {
 namespace {
@@ -80,6 +81,13 @@ SharedMesh mesh_of(FaceSet faces) {
   if (single.size() == mesh->triangles().size()) return mesh;
   return std::make_shared<const csgcore::TriangleMesh>(
       std::vector<Vec3>(mesh->vertices().begin(), mesh->vertices().end()), std::move(single));
+}
+
+SharedMesh sheet_mesh(const csgcore::TriangleMesh& closed) {
+  std::vector<Triangle> triangles = sheet_of(closed.vertices(), closed.triangles());
+  if (triangles.empty()) return nullptr;
+  return std::make_shared<const csgcore::TriangleMesh>(
+      std::vector<Vec3>(closed.vertices().begin(), closed.vertices().end()), std::move(triangles));
 }
 
 /// Returns the triangle with its least corner first.
@@ -191,6 +199,7 @@ const SolidOfFaces& PolyhedronPool::solid(FaceSet faces, uint64_t& unfinite_face
     }
   }
   if (!solid.polyhedron) solid.mesh = mesh_of(std::move(faces));
+  if (solid.mesh && solid.mesh->is_closed()) solid.sheet = sheet_mesh(*solid.mesh);
   return solid;
 }
 

@@ -38,6 +38,8 @@ struct SolidOfFaces {
   int exponent = 0;
   /// The faces run clockwise, seen from outside.
   bool is_inside_out = false;
+  /// One side of a body that is closed but has no volume: it is drawn as a thin sheet.
+  std::shared_ptr<const csgcore::TriangleMesh> sheet;
   /// The faces that are seen from outside, and those that are seen from within, which run
   /// counterclockwise in the file. Set for a closed solid that has both, where the pool tells them.
   std::shared_ptr<const csgcore::TriangleMesh> outer_faces, inner_faces;

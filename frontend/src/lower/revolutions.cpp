@@ -1,13 +1,17 @@
+#include "lower/revolutions.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "heal/matrix_healing.hpp"
 #include "lower/faceted_box.hpp"
-#include "lower/revolutions.hpp"
+#include "meshes/sheet_faces.hpp"
 
 namespace frontend {
 namespace {
@@ -98,6 +102,15 @@ class Revolving {
     std::optional<SimplePolygons> outline = united(evaluation_.figures(subtree_.root()));
     if (!outline || outline->empty()) return;
     Primitive mesh = revolved_mesh(cut_at_axis(std::move(*outline), is_left_), sections_);
+    std::vector<csgcore::TriangleMesh::Triangle> sheet =
+        sheet_of(mesh.mesh->vertices(), mesh.mesh->triangles());
+    if (!sheet.empty()) {
+      const std::span<const Vec3> vertices = mesh.mesh->vertices();
+      mesh = csgcore::make_mesh(std::make_shared<csgcore::TriangleMesh>(
+          std::vector<Vec3>(vertices.begin(), vertices.end()), std::move(sheet)));
+      problems_.add(subtree_.syntax(subtree_.root()),
+                    {" has no volume", "it is drawn as a thin sheet: give it more fragments"});
+    }
     mesh.local_to_world = root_to_world_;
     mesh.id = figures.figures.front().id;
     result.parts.push_back({std::move(mesh), frame_, box_});

@@ -203,6 +203,15 @@ TEST_F(ImporterFiles, BeyondAllSizesAreLeftOut) {
   EXPECT_THAT(warnings("surface(\"a.dat\");"), SizeIs(1));
 }
 
+TEST_F(ImporterFiles, WithoutVolumeAreSheets) {
+  folder.write("a.dat", "1 2 3\n");
+  const ImportedDesign design = import("surface(\"a.dat\");");
+  ASSERT_THAT(design.warnings, SizeIs(1));
+  EXPECT_THAT(design.warnings[0].text, HasSubstr("surface: 'a.dat' has no volume"));
+  ASSERT_THAT(design.scene.primitives, SizeIs(1));
+  EXPECT_FALSE(design.scene.primitives[0].mesh->is_closed());
+}
+
 TEST_F(ImporterFiles, OfHeightsAreSolids) {
   folder.write("a.dat", "1 2\n3 9\n2 2\n");
   const ImportedDesign design = import(

@@ -135,8 +135,38 @@ TEST(ImporterPolyhedron, IsDrawnOpen) {
   const std::string sheet = "polyhedron([[0,0],[1,0],[0,1]], [[0,1,2]]);";
   EXPECT_THAT(warning_of(sheet), HasSubstr("3 edges have a face"));
   EXPECT_EQ(only_primitive(sheet).mesh->triangles().size(), 1u);
-  // Two sheets back to back are closed.
-  EXPECT_THAT(warnings_of("polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);"), IsEmpty());
+}
+
+/// OpenSCAD draws their faces.
+TEST(ImporterPolyhedron, WithoutVolumeIsASheet) {
+  const std::string square = "polyhedron([[0,0,0],[9,0,0],[9,9,0],[0,9,0]], ";
+  for (const std::string& flat :
+       {std::string("polyhedron([[0,0],[1,0],[0,1]], [[0,1,2],[2,1,0]]);"),
+        square + "[[0,1,2,3],[3,2,1,0]]);", square + "[[0,1,2],[0,2,3],[3,2,1],[3,1,0]]);",
+        // A box whose walls are drawn from both sides.
+        std::string("polyhedron([[0,0,0],[9,0,0],[9,9,0],[0,0,9]], "
+                    "[[0,1,2],[2,1,0],[0,1,3],[3,1,0],[1,2,3],[3,2,1]]);")}) {
+    const csgcore::Primitive sheet = only_primitive(flat);
+    ASSERT_EQ(sheet.shape, csgcore::Shape::kMesh) << flat;
+    EXPECT_FALSE(sheet.mesh->is_closed()) << flat;
+    EXPECT_THAT(warning_of(flat), HasSubstr("polyhedron has no volume (it is drawn as a thin"));
+  }
+  const csgcore::Primitive solid = only_primitive("polyhedron(" + kCorner + kFaces + ");");
+  EXPECT_EQ(solid.shape, csgcore::Shape::kPolyhedron);
+  EXPECT_THAT(warnings_of("polyhedron([[0,0,0],[1,0,0],[0,1,0],[0,0,1e200]], " + kFaces + ");"),
+              ElementsAre(HasSubstr("it is too large")));
+}
+
+TEST(ImporterPrimitives, ThatAMatrixFlattensAreSheets) {
+  const std::string flat = "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]])";
+  for (const std::string solid : {"cube(8);", "sphere(8, $fn = 20);", "cylinder(h = 2, r = 3);"}) {
+    const csgcore::Primitive sheet = only_primitive(flat + "{" + solid + "}");
+    ASSERT_EQ(sheet.shape, csgcore::Shape::kMesh) << solid;
+    EXPECT_FALSE(sheet.mesh->is_closed()) << solid;
+    EXPECT_THAT(warning_of(flat + "{" + solid + "}"), HasSubstr(" has no volume"));
+  }
+  // Nothing is left of a line.
+  EXPECT_EQ(model_of("multmatrix([[1,0,0,0],[0,0,0,0],[0,0,0,0]]) { cube(8); } sphere();"), "1");
 }
 
 TEST(ImporterPolyhedron, FoldsWhatIsEqualAlone) {

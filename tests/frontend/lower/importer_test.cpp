@@ -62,7 +62,7 @@ TEST(ImporterMatrix, MissingEntriesAreTheIdentitys) {
 
 TEST(ImporterMatrix, FlattensItsSubtree) {
   for (const char* matrix :
-       {"[[inf,0,0,0]]", "[[1,0,0,nan]]", "[[1,0,0,0],[0,0,0,0],[0,0,1,0],[0,0,0,1]]",
+       {"[[inf,0,0,0]]", "[[1,0,0,nan]]", "[[1,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]",
         "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,0]]"}) {
     const std::string flat = "multmatrix(" + std::string(matrix) + ") { sphere(); } ";
     EXPECT_EQ(model_of(flat + "sphere();"), "1") << matrix;
