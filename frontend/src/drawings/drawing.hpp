@@ -37,8 +37,9 @@ struct SvgSettings {
   bool is_faceted = false;
 };
 
-/// Leaves out the figures that would take too long to draw, and tells of it.
-void leave_out_tangles(const std::string& name, Drawing& drawing);
+/// Leaves out the figures that would take too long to draw, and tells of it, and of others that are
+/// left out already.
+void leave_out_tangles(const std::string& name, bool are_others_left_out, Drawing& drawing);
 
 /// These read the bytes of a file, whose name is for messages. No file makes them take memory or
 /// time out of proportion to its size.

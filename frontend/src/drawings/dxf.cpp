@@ -102,7 +102,7 @@ class DxfReader {
     std::erase_if(outline.loops, is_line_and_back);
     if (outline.loops.empty()) return std::move(drawing_);
     drawing_.figures = disjoint_figures({std::move(outline)});
-    leave_out_tangles(name_, drawing_);
+    leave_out_tangles(name_, false, drawing_);
     return std::move(drawing_);
   }
 

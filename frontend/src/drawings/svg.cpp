@@ -13,6 +13,7 @@
 #include "drawings/svg_numbers.hpp"
 #include "drawings/svg_page.hpp"
 #include "drawings/svg_path.hpp"
+#include "plane/offset.hpp"
 #include "plane/outlines.hpp"
 
 namespace frontend {
@@ -166,7 +167,7 @@ class SvgReader {
     }
     if (settings_.is_centered) move_to_middle(figures_);
     drawing_.figures = disjoint_figures(std::move(figures_));
-    leave_out_tangles(name_, drawing_);
+    leave_out_tangles(name_, has_tangles_, drawing_);
     return std::move(drawing_);
   }
 
@@ -247,13 +248,25 @@ class SvgReader {
            });
   }
 
-  /// Adds what pens draw to the outline.
-  void add_strokes(const SvgShape& shape, const CurveFineness& fineness, Outline& outline) const {
+  /// Adds what pens draw to the outline, by the even-odd rule. A line that is alone in its shape is
+  /// a figure by itself, with the pen's curves, and so is one that crosses itself too often.
+  void add_strokes(const SvgShape& shape, const CurveFineness& fineness, Outline& outline) {
+    const bool is_alone = shape.path.filled.empty() && shape.path.open.size() == 1;
     for (const CurvePath& path : shape.path.open) {
       StrokeSettings settings = shape.stroke;
       settings.is_coarse = settings_.is_faceted;
       const Polygon line = settings_.is_faceted ? path.openscad_points() : chords(path, fineness);
-      for (Polygon& polygon : stroked(line, settings)) {
+      std::optional<SimplePolygons> polygons;
+      if (settings_.is_faceted || !is_alone) polygons = stroked(line, settings);
+      if (!polygons && crosses_itself(line, settings.width, kMostCrossingsOfPath)) {
+        has_tangles_ = true;
+        continue;
+      }
+      if (!polygons) {
+        figures_.push_back(mapped(shape.map, pen_trace(line, settings)));
+        continue;
+      }
+      for (Polygon& polygon : *polygons) {
         for (Vec2& point : polygon) point = shape.map.point(point);
         outline.loops.push_back(std::move(outline_of(Polygons{std::move(polygon)}).loops.front()));
       }
@@ -331,6 +344,7 @@ class SvgReader {
   SvgPage page_;
   std::vector<SvgShape> shapes_;
   std::vector<Figure> figures_;
+  bool has_tangles_ = false;  // which are none of the figures
   Drawing drawing_;
 };
 

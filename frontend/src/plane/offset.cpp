@@ -26,10 +26,49 @@ ProfileEdge line_to(const Vec2& end) {
   return edge;
 }
 
-/// The boundary of the polygon, of a rectangle upon each edge and of a sector upon each convex
-/// corner, all of which run counterclockwise, added up. What cancels is left out. So the winding
-/// number is nowhere negative, and is not 0 on the union: the offset.
-ProfileLoop outset(const Polygon& polygon, double distance) {
+/// A convex corner with the normals of the edges before and after it.
+struct Corner {
+  Vec2 at, n_before, n_after;
+  size_t index;
+
+  /// From 0 to π, where a line turns back.
+  double turn() const {
+    return std::atan2(std::abs(cross(n_before, n_after)), glm::dot(n_before, n_after));
+  }
+};
+
+/// Adds the way around the corner at that distance, from the first normal to the second.
+void add_arc(const Corner& corner, double distance, ProfileLoop& loop) {
+  ProfileEdge arc;
+  arc.kind = ProfileEdge::Kind::kArc;
+  arc.control = corner.at;
+  arc.end = corner.at + distance * corner.n_after;
+  loop.push_back(arc);
+}
+
+/// Cuts the corner square at that distance.
+void add_square(const Corner& corner, double distance, ProfileLoop& loop) {
+  const double t = std::tan(corner.turn() / 4);
+  const Vec2 &a = corner.n_before, &b = corner.n_after;
+  loop.push_back(line_to(corner.at + distance * (a + t * Vec2(-a.y, a.x))));
+  loop.push_back(line_to(corner.at + distance * (b + t * Vec2(b.y, -b.x))));
+  loop.push_back(line_to(corner.at + distance * b));
+}
+
+/// Lets the edges run on until they meet, unless that is too far away, as SVG does by default.
+void add_sharp(const Corner& corner, double distance, ProfileLoop& loop) {
+  constexpr double kMiterLimit = 2;  // Clipper's own, and OpenSCAD's: a share of the distance
+  const double share = 1 + glm::dot(corner.n_before, corner.n_after);
+  if (share < 2 / (kMiterLimit * kMiterLimit)) return add_square(corner, distance, loop);
+  loop.push_back(line_to(corner.at + distance / share * (corner.n_before + corner.n_after)));
+  loop.push_back(line_to(corner.at + distance * corner.n_after));
+}
+
+/// The boundary of the polygon, of a rectangle upon each edge and of what add_corner(corner, loop)
+/// makes of each convex corner, all of which run counterclockwise, added up. What cancels is left
+/// out. So the winding number is nowhere negative, and is not 0 on the union: the offset.
+template <typename AddCorner>
+ProfileLoop outset(const Polygon& polygon, double distance, const AddCorner& add_corner) {
   ProfileLoop loop;
   const size_t count = polygon.size();
   for (size_t i = 0; i < count; ++i) {
@@ -41,11 +80,7 @@ ProfileLoop outset(const Polygon& polygon, double distance) {
     const double turn = cross(n_before, n_after);
     loop.push_back(line_to(at + distance * n_before));
     if (turn > 0 || (turn == 0 && glm::dot(n_before, n_after) < 0)) {
-      ProfileEdge arc;
-      arc.kind = ProfileEdge::Kind::kArc;
-      arc.control = at;
-      arc.end = at + distance * n_after;
-      loop.push_back(arc);
+      add_corner(Corner{at, n_before, n_after, i}, loop);
     } else if (turn < 0) {
       loop.push_back(line_to(at));
       loop.push_back(line_to(at + distance * n_after));
@@ -68,7 +103,11 @@ std::optional<Figure> rounded(const Figure& figure, double distance) {
   if (!polygons) return std::nullopt;
   Outline outline;
   outline.fill_rule = FillRule::kNonZero;
-  for (const Polygon& polygon : *polygons) outline.loops.push_back(outset(polygon, distance));
+  for (const Polygon& polygon : *polygons) {
+    outline.loops.push_back(outset(polygon, distance, [&](const Corner& corner, ProfileLoop& loop) {
+      add_arc(corner, distance, loop);
+    }));
+  }
   return outline;
 }
 
@@ -191,6 +230,40 @@ std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
   result.push_back(filled(moved_outline(*polygons, settings.distance, settings.corners,
                                         settings.fragments.value_or(kChordsOfCircle))));
   return result;
+}
+
+Figure pen_trace(Polygon path, const StrokeSettings& settings) {
+  const double distance = settings.width / 2;
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  Outline outline;
+  outline.fill_rule = FillRule::kNonZero;
+  if (path.size() == 1 && settings.corners == CornerStyle::kRound) {
+    return Disc{path.front(), distance};
+  }
+  if (path.size() == 1) {
+    const Vec2 &at = path.front(), up(-distance, distance);
+    return outline_of(Polygons{{at - distance, at - up, at + distance, at + up}});
+  }
+  // There and back: a polygon without an area, whose corners at the ends turn by 180°.
+  const size_t last = path.size() - 1;
+  for (size_t i = last; i-- > 1;) path.push_back(path[i]);
+  const auto add_end = [&](const Corner& end, ProfileLoop& loop) {
+    if (settings.ends == LineEnds::kRound) return add_arc(end, distance, loop);
+    if (settings.ends == LineEnds::kSquare) return add_square(end, distance, loop);
+    loop.push_back(line_to(end.at + distance * end.n_after));
+  };
+  outline.loops.push_back(outset(path, distance, [&](const Corner& corner, ProfileLoop& loop) {
+    if (corner.index == 0 || corner.index == last) return add_end(corner, loop);
+    switch (settings.corners) {
+      case CornerStyle::kRound:
+        return add_arc(corner, distance, loop);
+      case CornerStyle::kSquare:
+        return add_square(corner, distance, loop);
+      case CornerStyle::kSharp:
+        return add_sharp(corner, distance, loop);
+    }
+  }));
+  return outline;
 }
 
 std::optional<std::vector<Figure>> minkowski_sum(std::span<const Figure> a,

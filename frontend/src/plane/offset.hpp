@@ -23,6 +23,10 @@ struct OffsetSettings {
 std::optional<std::vector<Figure>> offset(std::span<const Figure> figures,
                                           const OffsetSettings& settings);
 
+/// Returns what a pen draws along the open path, which has a point, with round corners and ends as
+/// arcs; nothing is united, so that it takes as long as the path is.
+Figure pen_trace(Polygon path, const StrokeSettings& settings);
+
 /// Returns figures whose union is the Minkowski sum of both unions; nothing if edges cross too
 /// often.
 std::optional<std::vector<Figure>> minkowski_sum(std::span<const Figure> a,

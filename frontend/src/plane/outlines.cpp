@@ -239,7 +239,21 @@ SimplePolygons moved_outline(const SimplePolygons& polygons, double distance, Co
   return grid.polygons(result);
 }
 
-SimplePolygons stroked(const Polygon& path, const StrokeSettings& settings) {
+bool crosses_itself(const Polygon& path, double width, uint64_t most) {
+  std::vector<Segment> segments;
+  add_segments({&path, 1}, segments);
+  segments.pop_back();  // the path does not run back to its start
+  for (Segment& segment : segments) {
+    segment.min -= width / 2;
+    segment.max += width / 2;
+  }
+  return overlap_more_than(std::move(segments), most);
+}
+
+std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings& settings) {
+  // Both sides of a line cross both of another one.
+  constexpr uint64_t kCrossingsOfLines = 4;
+  if (crosses_itself(path, settings.width, kMostCrossings / kCrossingsOfLines)) return std::nullopt;
   const double reach = reach_of(bounds_of(std::span(&path, 1))) + settings.width;
   // OpenSCAD's whole numbers, as far as the library has them.
   constexpr double kCoarseUnit = 1e-4;

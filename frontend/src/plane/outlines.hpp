@@ -68,7 +68,16 @@ struct StrokeSettings {
   bool is_coarse = false;
 };
 
-/// Returns what a pen draws along the open path, whose points are finite.
-SimplePolygons stroked(const Polygon& path, const StrokeSettings& settings);
+/// The most crossings of a path that is drawn at all: a ray along it passes thousands of lines, and
+/// a picture takes seconds.
+constexpr uint64_t kMostCrossingsOfPath = 1 << 23;
+
+/// Returns whether a path that is drawn with a pen of that width crosses itself more often. Boxes
+/// that overlap count as crossings.
+bool crosses_itself(const Polygon& path, double width, uint64_t most);
+
+/// Returns what a pen draws along the open path, whose points are finite; nothing if it crosses
+/// itself too often (kMostCrossings).
+std::optional<SimplePolygons> stroked(const Polygon& path, const StrokeSettings& settings);
 
 }  // namespace frontend

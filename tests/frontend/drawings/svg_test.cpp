@@ -148,6 +148,45 @@ TEST(SvgPath, IsStrokedWhereItIsOpen) {
   EXPECT_NEAR(filled_area(svg_path("M0 0 L10 0 L10 10z M20 0 L30 0 L30 10")), 100, 1e-6);
 }
 
+/// A polyline whose lines nearly all cross each other.
+std::string tangle(int points, const std::string& style) {
+  std::string list;
+  for (int i = 0; i < points; ++i) {
+    list += std::to_string(i * 4603 % 9973) + ',' + std::to_string(i * 7001 % 9967) + ' ';
+  }
+  return svg("<polyline " + style + " points=\"" + list + "\"/>");
+}
+
+TEST(SvgStroke, TakesAsLongAsItsPath) {
+  const std::string pen = "stroke-width=\"9\" ";
+  for (const std::string& style :
+       {pen + "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+        pen + "stroke-linecap=\"butt\" stroke-linejoin=\"bevel\"", pen}) {
+    for (const bool is_faceted : {false, true}) {
+      const Drawing drawing = read_one(tangle(2000, style), {.is_faceted = is_faceted});
+      EXPECT_THAT(drawing.problems, IsEmpty()) << style;
+      ASSERT_THAT(drawing.figures, SizeIs(1)) << style;
+      EXPECT_LT(std::get<Outline>(drawing.figures.front()).loops.front().size(), 20'000u) << style;
+      const Drawing left_out = read_one(tangle(9000, style), {.is_faceted = is_faceted});
+      EXPECT_THAT(left_out.figures, IsEmpty()) << style;
+      ASSERT_THAT(left_out.problems, SizeIs(1)) << style;
+      EXPECT_THAT(left_out.problems.front().what, HasSubstr("their edges cross too often"));
+    }
+  }
+}
+
+/// Clipper's, in steps of a grid.
+TEST(SvgStroke, IsThatOfTheLibrary) {
+  for (const std::string ends : {"butt", "square", "round"}) {
+    for (const std::string corners : {"miter", "bevel", "round"}) {
+      const std::string style = "stroke-width=\"400\" stroke-linecap=\"" + ends +
+                                "\" stroke-linejoin=\"" + corners + "\"";
+      const std::string text = tangle(12, style);
+      EXPECT_NEAR(filled_area(text) / filled_area(text, kFaceted), 1, 2e-4) << style;
+    }
+  }
+}
+
 TEST(SvgStroke, HasWidthEndsAndCorners) {
   const auto line = [](const std::string& attributes) {
     return svg("<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"0\" " + attributes + "/>");
