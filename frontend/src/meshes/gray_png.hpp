@@ -16,7 +16,8 @@ struct GrayPicture {
 
 bool is_png(std::string_view bytes);
 
-/// Reads a picture of any type and depth; transparency is ignored. Returns nothing if it is damaged
+/// Reads a picture of any type and depth, which begins as one (is_png()); transparency is ignored.
+/// Returns nothing if it is damaged
 /// or has more than `most_pixels`.
 std::optional<GrayPicture> read_gray_png(std::string_view bytes, size_t most_pixels);
 

@@ -1,6 +1,7 @@
 // Tests the readers of imported files, on files that files/make_files has written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -295,6 +296,64 @@ TEST(HeightMaps, EndWhereAWordIsNoNumber) {
   EXPECT_EQ(second.rows, 3u);
   EXPECT_EQ(second.heights, (std::vector<double>{1, 2, 0, 3, 4, 0, 5, 6, 7}));
   EXPECT_EQ(read_height_map("END\n", "f", false).rows, 0u);
+}
+
+/// The bytes of a zlib stream that unpacks to 258 zeros `count` times: matches of length 258.
+std::string zeros(size_t count) {
+  std::string result = "\x78\x9C";
+  uint32_t bits = 0;
+  int used = 0;
+  const auto put = [&](uint32_t value, int size) {
+    bits |= value << used;
+    for (used += size; used >= 8; used -= 8, bits >>= 8) result += static_cast<char>(bits);
+  };
+  put(3, 3);     // one block, of fixed codes
+  put(0x0C, 8);  // the literal 0: 00110000
+  for (size_t i = 0; i < count; ++i) {
+    put(0xA3, 8);  // length 258: 11000101
+    put(0, 5);     // distance 1
+  }
+  put(0, 7);  // the end
+  put(0, 8);
+  return result;
+}
+
+std::string png_chunk(const std::string& type, const std::string& data) {
+  const auto big_endian = [](uint32_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift);
+    return bytes;
+  };
+  uint32_t crc = ~0u;
+  for (const char c : type + data) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
+  }
+  return big_endian(static_cast<uint32_t>(data.size())) + type + data + big_endian(~crc);
+}
+
+long peak_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+TEST(HeightMaps, UnpackNothingBesideThePicture) {
+  const std::string plain = content_of("gray8.png");
+  const size_t header = 8 + 12 + 13;
+  const std::vector<double> heights = read_height_map(plain, "f", false).heights;
+  const long before = peak_kb();
+  constexpr size_t kMatches = 800'000;  // 200 MB
+  const std::string packed = zeros(kMatches);
+  for (const std::string& chunk : {png_chunk("iCCP", std::string("a\0\0", 3) + packed),
+                                   png_chunk("zTXt", std::string("a\0\0", 3) + packed)}) {
+    std::string bytes = plain;
+    bytes.insert(header, chunk);
+    const HeightMap map = read_height_map(bytes, "f", false);
+    EXPECT_EQ(map.problem, "");
+    EXPECT_EQ(map.heights, heights);
+  }
+  EXPECT_LT(peak_kb() - before, 50'000);
 }
 
 TEST(HeightMaps, ArePicturesOfAnyType) {
