@@ -43,6 +43,24 @@ SolidPart faceted_part(Primitive mesh, bool is_smooth) {
   return part;
 }
 
+/// Bodies of fewer generators are copied, so that generators are in the order of the design:
+/// rounding may follow it.
+constexpr size_t kManyGenerators = 4096;
+
+/// Returns the operand that is one body of many generators, the largest of several; null: none is.
+SolidPart* largest_body(std::vector<SolidValue>& operands) {
+  SolidPart* largest = nullptr;
+  size_t most = kManyGenerators;
+  for (SolidValue& operand : operands) {
+    if (operand.parts.size() != 1 || !operand.is_union()) continue;
+    SolidPart& part = operand.parts.front();
+    if (part.primitive || part.body.generators.size() <= most) continue;
+    largest = &part;
+    most = part.body.generators.size();
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
@@ -251,11 +269,21 @@ SolidValue SolidEvaluation::revolved_in(const TurnSections& sections,
 SolidValue SolidEvaluation::hull(uint32_t node) {
   SupportSet support;
   Box box;
-  for (const SolidValue& operand : operands(node)) {
-    for (const SolidPart& part : united(operand)) {
-      part.add_support(support);
-      box.merge(part.box);
-    }
+  const auto add = [&](const SolidPart& part) {
+    part.add_support(support);
+    box.merge(part.box);
+  };
+  std::vector<SolidValue> all = operands(node);
+  // The largest body is added to: a chain of hulls within hulls copies none at each of them.
+  SolidPart* const largest = largest_body(all);
+  if (largest != nullptr) {
+    support = std::move(largest->body);
+    largest->body = {};
+    box.merge(largest->box);
+  }
+  for (const SolidValue& operand : all) {
+    if (largest != nullptr && operand.parts.data() == largest) continue;
+    for (const SolidPart& part : united(operand)) add(part);
   }
   if (support.generators.empty()) return {};
   return value_of(part_of(std::move(support), box));
