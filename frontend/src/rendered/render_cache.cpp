@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
@@ -144,8 +145,8 @@ std::optional<RingedFaces> RenderCache::find(std::string_view key) const {
   if (folder_.empty()) return std::nullopt;
   const std::string path = path_of(key);
   struct stat status {};
-  // Another's file may be of any size.
-  if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) ||
+  // Another's file may be of any size, and a link may lead anywhere.
+  if (lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) ||
       static_cast<uint64_t>(status.st_size) > kMostBytesOfFile) {
     return std::nullopt;
   }
@@ -160,18 +161,29 @@ std::optional<RingedFaces> RenderCache::find(std::string_view key) const {
 
 void RenderCache::keep(std::string_view key, const RingedFaces& faces) const {
   if (folder_.empty()) return;
-  std::error_code failed;
-  fs::create_directories(folder_, failed);
-  if (failed) return;
+  if (!make_private_folder()) return;
   const std::string bytes = bytes_of(key, faces);
   if (bytes.size() > kMostBytesOfFile) return;
   try {
     const PendingOutput file{path_of(key), frontend::bytes_of(bytes)};
+    // Outputs go where links lead; what is kept here does not.
+    std::error_code failed;
+    if (fs::is_symlink(fs::symlink_status(file.path, failed))) fs::remove(file.path);
     write_outputs({&file, 1});
     make_room();
   } catch (const std::exception&) {
     // The disk is full, or the folder is not ours: it will be rendered again.
   }
+}
+
+/// Makes the folder, if need be, and closes it to others: the files tell what their designs hold.
+bool RenderCache::make_private_folder() const {
+  std::error_code failed;
+  fs::create_directories(fs::path(folder_).parent_path(), failed);
+  if (failed) return false;
+  if (mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST) return false;
+  fs::permissions(folder_, fs::perms::owner_all, failed);
+  return !failed;
 }
 
 void RenderCache::make_room() const {

@@ -28,6 +28,7 @@ class RenderCache {
 
  private:
   std::string path_of(std::string_view key) const;
+  bool make_private_folder() const;
   void make_room() const;
 
   std::string folder_;  // empty: none

@@ -363,6 +363,23 @@ TEST_F(RenderCacheTest, RemovesFirstWhatWasNotUsedForTheLongestTime) {
   EXPECT_FALSE(folder_.has("scadray/.scadray-1-2.tmp"));
 }
 
+TEST_F(RenderCacheTest, IsPrivateAndFollowsNoLink) {
+  fs::create_directory(folder_ / "scadray");
+  fs::permissions(folder_ / "scadray", fs::perms::all);
+  const RenderCache cache;
+  cache.keep("a", faces(1));
+  EXPECT_EQ(fs::status(folder_ / "scadray").permissions(), fs::perms::owner_all);
+  const std::string target = folder_.write("target", "mine");
+  const fs::path kept = *fs::directory_iterator(folder_ / "scadray");
+  fs::remove(kept);
+  fs::create_symlink(target, kept);
+  EXPECT_FALSE(cache.find("a"));
+  cache.keep("a", faces(2));
+  EXPECT_EQ(std::string(read_file(target).view()), "mine");
+  EXPECT_FALSE(fs::is_symlink(kept));
+  EXPECT_TRUE(cache.find("a"));
+}
+
 TEST_F(RenderCacheTest, MayBeUsedBySeveralAtOnce) {
   std::vector<std::jthread> threads;
   for (int t = 0; t < 4; ++t) {
