@@ -51,6 +51,9 @@ class DxfReader {
     const std::string word = shortened(problem.word);
     switch (problem.kind) {
       case language::DxfProblem::Kind::kIllegalCode:
+        if (word.empty()) {
+          return tell("'" + name_ + "' is no DXF", "export the drawing again, as text");
+        }
         return tell("Illegal ID '" + word + "' in '" + name_ + "'",
                     "what follows is not read; export the drawing again, as text");
       case language::DxfProblem::Kind::kIllegalValue:

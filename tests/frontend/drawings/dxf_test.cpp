@@ -163,7 +163,10 @@ TEST(Dxf, SaysWhatItCannotRead) {
               ElementsAre("Unsupported DXF Entity 'SPLINE' (2), 'TEXT' (1) in 'a.dxf'"));
   EXPECT_THAT(problems(file_of("0\nSPLINE\n8\n0\n0\nSPLINE\n8\nA\n"), {.layer = "A"}),
               ElementsAre("Unsupported DXF Entity 'SPLINE' (1) in layer 'A' of 'a.dxf'"));
-  EXPECT_THAT(problems("garbage\nfoo\n"), ElementsAre("Illegal ID 'garbage' in 'a.dxf'"));
+  EXPECT_THAT(problems(file_of("garbage\nfoo\n")), ElementsAre("Illegal ID 'garbage' in 'a.dxf'"));
+  // The file may be anybody's.
+  EXPECT_THAT(problems("root:x:0:0\nfoo\n"), ElementsAre("'a.dxf' is no DXF"));
+  EXPECT_THAT(problems("10\nsecret\n"), ElementsAre("Illegal value '' in 'a.dxf'"));
   EXPECT_THAT(problems(file_of("0\nSPLINE\n10\n1,5\n20\n2\n")),
               ElementsAre("Illegal value '1,5' in 'a.dxf'", HasSubstr("Unsupported")));
   EXPECT_THAT(problems(file_of("0\nLINE\n10\n0\n20\n0\n" + ring(kTriangle))),

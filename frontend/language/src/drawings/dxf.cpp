@@ -130,7 +130,11 @@ class Reader {
 
  private:
   using Kind = DxfProblem::Kind;
-  void tell(Kind kind, std::string_view word) { settings_.tell({kind, word}); }
+  /// Before its first section a file may be anything: a message shows none of its words, which are
+  /// no business of the design's author.
+  void tell(Kind kind, std::string_view word) {
+    settings_.tell({kind, has_section_ ? word : std::string_view()});
+  }
 
   /// The entity before the new one is complete. If it lacks points, OpenSCAD gives it those of the
   /// new one, whose name it does not see.
@@ -138,6 +142,7 @@ class Reader {
     if (!finish_entity()) return tell(Kind::kMissingPoints, name);
     entity_ = Entity();
     entity_.name = name;
+    has_section_ = has_section_ || name == "SECTION";
   }
 
   void take_value(int code, std::string_view value) {
@@ -323,6 +328,7 @@ class Reader {
   const DxfSettings& settings_;
   DxfContents contents_;
   Section section_ = Section::kOther;
+  bool has_section_ = false;
   Entity entity_;
   std::string block_;
   std::map<std::string, std::vector<DxfStroke>, std::less<>> blocks_;
