@@ -1,0 +1,204 @@
+// Damages files that designs import, of every format, in ways that depend only on a seed. Each is
+// read, whatever it holds, or told of at its node. SCADRAY_FUZZ_ITERATIONS sets the length,
+// SCADRAY_FUZZ_SEED the first seed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
+
+namespace {
+
+constexpr uint64_t kSample = 150;  // of each format
+
+uint64_t setting(const char* name, uint64_t otherwise) {
+  const char* const text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+std::string content_of(const std::string& name) {
+  std::ifstream file(std::string(SCADRAY_FUZZ_FILES) + '/' + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// What numbers, indices and lengths may be, and what stands around them.
+constexpr std::string_view kWords[] = {
+    "1e300",
+    "-1e160",
+    "1e400",
+    "1e-320",
+    "1e-400",
+    "nan",
+    "-inf",
+    "0x10",
+    "-1",
+    "0",
+    "4294967295",
+    "99999999999999999999",
+    "1e46",
+    "7e13",
+    "-0",
+    ".",
+    "e",
+    "-",
+    " ",
+    "\n",
+    "\r\n",
+    "\t",
+    ",",
+    "\"",
+    "/>",
+    "<g>",
+    "</g>",
+    "M",
+    "z",
+    "A1,1 0 0 1 ",
+    "c",
+    "rotate(1e9)",
+    "stroke-width=\"1e30\" ",
+    "0\nINSERT\n2\nb\n10\n0\n20\n0\n",
+    "0\nENDSEC\n",
+    "vertex 0 0 ",
+    "outer loop\n",
+    "solid",
+    "endfacet\n",
+    "#",
+    "OFF",
+    "3 0 1 2\n",
+    std::string_view("\0", 1),
+    "\xFF\xFF\xFF\xFF",
+    "\xEF\xBB\xBF",
+    "IDAT",
+    "iCCP",
+    "PK\x05\x06",
+};
+
+class Mutator {
+ public:
+  explicit Mutator(uint64_t seed) : random_(seed) {}
+
+  std::string damaged(std::string text) {
+    for (size_t changes = 1 + below(5); changes > 0; --changes) change(text);
+    return text;
+  }
+
+ private:
+  size_t below(size_t limit) { return limit == 0 ? 0 : random_() % limit; }
+
+  void change(std::string& text) {
+    constexpr size_t kLongest = 100;
+    const size_t at = below(text.size() + 1);
+    const size_t length = below(std::min(text.size() - at, kLongest) + 1);
+    const std::string_view word = kWords[below(std::size(kWords))];
+    switch (below(8)) {
+      case 0:
+        if (at < text.size()) text[at] = static_cast<char>(random_());
+        break;
+      case 1:
+        if (at < text.size()) text[at] ^= static_cast<char>(1u << below(8));
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(below(text.size() + 1), text.substr(at, length));
+        break;
+      case 4:
+        if (below(4) == 0) text.resize(at);
+        break;
+      case 5:
+        text.insert(at, word);
+        break;
+      default:
+        replace_number(at, word, text);
+    }
+  }
+
+  /// Puts the word in the place of the next number.
+  static void replace_number(size_t at, std::string_view word, std::string& text) {
+    const size_t begin = text.find_first_of("0123456789", at);
+    if (begin == std::string::npos) return;
+    const size_t end = std::min(text.find_first_not_of("0123456789.", begin), text.size());
+    text.replace(begin, end - begin, word);
+  }
+
+  std::mt19937_64 random_;
+};
+
+const std::string kSvg =
+    "<svg width=\"40mm\" height=\"30\" viewBox=\"0 0 40 30\"><g transform=\"rotate(5 1 2) "
+    "scale(2,1)\"><path d=\"M1,1 h5 v3 C9,9 8,3 4,1 A2,3 10 0 1 7,7 z m1 1 l2 2 q1 0 3 3 t1 1\"/>"
+    "<rect x=\"1\" y=\"2\" width=\"9\" height=\"5\" rx=\"1\"/></g><circle cx=\"9\" cy=\"9\" "
+    "r=\"3\"/>"
+    "<polyline points=\"0,0 9,1 3,8 7,2\" stroke-width=\"2\" stroke-linecap=\"round\" "
+    "stroke-linejoin=\"round\"/><line x1=\"1\" y1=\"2\" x2=\"9\" y2=\"3\" "
+    "style=\"stroke-width:3;stroke-linejoin:bevel\"/><polygon points=\"1,1 5,1 3,4\"/></svg>";
+const std::string kDxf =
+    "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n0\nLINE\n10\n0\n20\n0\n11\n3\n21\n0\n0\nENDBLK\n0\n"
+    "ENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n10\n9\n20\n0\n10\n5\n20\n"
+    "7\n0\nARC\n10\n4\n20\n4\n40\n2\n50\n10\n51\n200\n0\nCIRCLE\n10\n20\n20\n4\n40\n3\n0\nELLIPSE\n"
+    "10"
+    "\n1\n20\n1\n11\n4\n21\n0\n40\n."
+    "5\n41\n0\n42\n6\n0\nINSERT\n2\nb\n10\n2\n20\n2\n41\n2\n50\n30\n0\n"
+    "ENDSEC\n0\nEOF\n";
+
+class MutatedImports : public testing::Test {
+ protected:
+  MutatedImports() {
+    std::string name = testing::TempDir() + "scadray-test-XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  ~MutatedImports() override { std::filesystem::remove_all(folder_); }
+
+  /// Damages the file that a design reads under that name.
+  void run(const std::string& name, const std::string& content, const std::string& design) {
+    const uint64_t first = setting("SCADRAY_FUZZ_SEED", 1);
+    const uint64_t count = setting("SCADRAY_FUZZ_ITERATIONS", kSample);
+    for (uint64_t seed = first; seed < first + count; ++seed) {
+      const std::string damaged = Mutator(seed).damaged(content);
+      std::ofstream(folder_ + '/' + name, std::ios::binary) << damaged;
+      SCOPED_TRACE("SCADRAY_FUZZ_SEED=" + std::to_string(seed) + " " + name);
+      const std::clock_t start = std::clock();
+      const frontend::SyntaxTree tree = frontend::parse(design, "fuzz.csg");
+      const auto import = frontend::import_design(tree, {.folder = folder_});
+      constexpr double kMost_s = 10;  // under sanitizers; 2 without
+      ASSERT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kMost_s);
+      for (const frontend::Warning& warning : import.warnings) {
+        ASSERT_TRUE(warning.text.starts_with("fuzz.csg:1:")) << warning.text;
+      }
+    }
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(MutatedImports, OfSolidsAreReadOrToldOf) {
+  for (const std::string name : {"step.stl", "step_text.stl", "step.off", "step.amf",
+                                 "step_zipped.amf", "step.3mf", "frame.nef3"}) {
+    run(name, content_of(name), "import(\"" + name + "\");");
+  }
+}
+
+TEST_F(MutatedImports, OfHeightsAreReadOrToldOf) {
+  run("h.dat", "# heights\n1 2 3\n4 5 6.5\n1e1 -2 3\n7 8 9\n", "surface(\"h.dat\");");
+  for (const std::string name : {"gray8.png", "palette.png", "interlaced.png"}) {
+    run(name, content_of(name), "surface(\"" + name + "\", center = true);");
+  }
+}
+
+TEST_F(MutatedImports, OfDrawingsAreReadOrToldOf) {
+  run("a.svg", kSvg, "linear_extrude(height = 2) { import(\"a.svg\"); }");
+  run("a.dxf", kDxf, "import(\"a.dxf\");");
+}
+
+}  // namespace
