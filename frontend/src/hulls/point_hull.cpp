@@ -256,8 +256,41 @@ Simplex simplex_of(const std::vector<GridPoint>& points) {
   return simplex;
 }
 
-/// The corners of points in one plane, around it: Andrew's chains, in the coordinate plane that the
-/// points' plane is nearest to.
+/// Returns the points of a plane or a line that no point is further from than `flat_thickness` of
+/// the size; where there is none, the given points of a solid. The given ones do not tell: they may
+/// lie close together.
+Simplex flattened(const std::vector<GridPoint>& points, const Simplex& solid,
+                  double flat_thickness) {
+  csgcore::Box box;
+  for (const GridPoint& point : points) box.merge(place_of(point));
+  const Vec3 size = box.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto [least, most] = std::minmax_element(points.begin(), points.end(),
+                                                 [axis](const GridPoint& a, const GridPoint& b) {
+                                                   return place_of(a)[axis] < place_of(b)[axis];
+                                                 });
+  Simplex flat;
+  const auto add = [&](uint32_t point) { flat.points[static_cast<size_t>(flat.count++)] = point; };
+  add(static_cast<uint32_t>(least - points.begin()));
+  add(static_cast<uint32_t>(most - points.begin()));
+  const Vec3 line = glm::normalize(vector_of(*least, *most));
+  const auto from_line = [&](uint32_t i) {
+    return glm::length(glm::cross(line, vector_of(*least, points[i])));
+  };
+  const double thickness = flat_thickness * size[axis];
+  const auto third = furthest(points.size(), from_line);
+  if (!third || from_line(*third) <= thickness) return flat;
+  add(*third);
+  const Vec3 normal = glm::normalize(normal_of(*least, *most, points[*third]));
+  const auto from_plane = [&](uint32_t i) {
+    return std::abs(glm::dot(normal, vector_of(*least, points[i])));
+  };
+  const auto fourth = furthest(points.size(), from_plane);
+  return !fourth || from_plane(*fourth) <= thickness ? flat : solid;
+}
+
+/// The corners of points in one plane, or nearly, around it: Andrew's chains, in the coordinate
+/// plane that the points' plane is nearest to.
 std::vector<uint32_t> polygon_of(const std::vector<GridPoint>& points, const Simplex& simplex) {
   const Vec3 normal =
       normal_of(points[simplex.points[0]], points[simplex.points[1]], points[simplex.points[2]]);
@@ -286,7 +319,7 @@ std::vector<uint32_t> polygon_of(const std::vector<GridPoint>& points, const Sim
       while (hull.size() >= first + 2 && !turns_left(hull[hull.size() - 2], hull.back(), *at)) {
         hull.pop_back();
       }
-      if (hull.size() > first && points[hull.back()] == points[*at]) continue;
+      if (hull.size() > first && flat(points[hull.back()]) == flat(points[*at])) continue;
       hull.push_back(*at);
     }
     hull.pop_back();  // the other chain starts there
@@ -298,9 +331,15 @@ std::vector<uint32_t> polygon_of(const std::vector<GridPoint>& points, const Sim
 
 }  // namespace
 
-PointHull point_hull(const PointGrid& grid) {
+PointHull point_hull(const PointGrid& grid, double flat_thickness) {
   PointHull hull;
-  const Simplex simplex = simplex_of(grid.points);
+  Simplex simplex = simplex_of(grid.points);
+  if (simplex.count == 4 && flat_thickness > 0) {
+    simplex = flattened(grid.points, simplex, flat_thickness);
+    if (simplex.count == 3) {
+      hull.base = {simplex.points[0], simplex.points[1], simplex.points[2]};
+    }
+  }
   hull.dimension = simplex.count - 1;
   if (hull.dimension == 3) {
     Quickhull quickhull(grid.points);

@@ -29,6 +29,10 @@ constexpr size_t kMostFaces = 2000;
 constexpr double kSamePlane = 0x1p-46;
 /// The thickness of a flat hull, as a share of its size: below a pixel.
 constexpr double kSheet = 0x1p-12;
+/// A hull that is no thicker, as a share of its size, is flat: nothing thinner than 1e-9 of a
+/// design is drawn, and the faces of a thinner one meet at angles so small that their rounding
+/// moves its edges into sight. At this angle it moves them by 2^-23 of the size.
+constexpr double kFlat = 0x1p-30;
 
 /// The hull in coordinates of its own, up to 1.
 class LocalHull {
@@ -61,7 +65,8 @@ class LocalHull {
 
   Primitive sheet() const {
     const std::vector<uint32_t>& around = hull_.corners;
-    const Vec3 normal = glm::normalize(normal_of_polygon());
+    const Vec3 normal =
+        glm::normalize(hull_.base ? this->normal(*hull_.base) : normal_of_polygon());
     const Vec3 half = 0.5 * kSheet * normal;
     std::vector<HalfSpace> faces{{normal, glm::dot(normal, vertices_[0] + half)},
                                  {-normal, glm::dot(-normal, vertices_[0] - half)}};
@@ -69,10 +74,14 @@ class LocalHull {
     for (size_t i = 0; i < around.size(); ++i) {
       const Vec3& a = vertices_[i];
       const Vec3& b = vertices_[(i + 1) % around.size()];
-      const Vec3 side = glm::normalize(glm::cross(b - a, normal));
-      faces.push_back({side, std::max(glm::dot(side, a), glm::dot(side, b))});
       vertices.push_back(a + half);
       vertices.push_back(a - half);
+      const Vec3 across = glm::cross(b - a, normal);
+      const double length = glm::length(across);
+      if (length == 0) continue;  // of an edge across what counts as the plane
+      const Vec3 side = across / length;
+      faces.push_back(
+          {side, hull_.base ? reach(side) : std::max(glm::dot(side, a), glm::dot(side, b))});
     }
     return placed(csgcore::make_polyhedron(
         std::make_shared<csgcore::Polyhedron>(std::move(faces), std::move(vertices))));
@@ -93,6 +102,14 @@ class LocalHull {
 
   Vec3 normal(const Triangle& t) const {
     return normal_of(grid_.points[t[0]], grid_.points[t[1]], grid_.points[t[2]]);
+  }
+
+  /// Returns how far the corners reach. The short edges of what only counts as flat have any
+  /// direction: a plane through their ends may cut off others.
+  double reach(const Vec3& direction) const {
+    double result = -std::numeric_limits<double>::infinity();
+    for (const Vec3& corner : vertices_) result = std::max(result, glm::dot(direction, corner));
+    return result;
   }
 
   Vec3 normal_of_polygon() const {
@@ -181,14 +198,14 @@ class LocalHull {
 
 std::vector<HalfSpace> faces_of(std::span<const Vec3> corners) {
   const PointGrid grid = on_grid(corners);
-  const PointHull hull = point_hull(grid);
+  const PointHull hull = point_hull(grid, kFlat);
   if (hull.dimension < 3) return {};
   return LocalHull(grid, hull).placed_half_spaces();
 }
 
 std::optional<PointSolid> solid_of_points(std::span<const Vec3> points) {
   const PointGrid grid = on_grid(points);
-  const PointHull hull = point_hull(grid);
+  const PointHull hull = point_hull(grid, kFlat);
   if (hull.dimension < 2) return std::nullopt;
   const LocalHull local(grid, hull);
   if (hull.dimension == 2) return PointSolid{local.sheet(), true};

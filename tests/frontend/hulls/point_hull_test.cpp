@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "csgcore/polyhedron.hpp"
 #include "csgcore/triangle_mesh.hpp"
@@ -126,6 +130,78 @@ TEST(PointSolid, IsASheetOrNothingWithoutVolume) {
   EXPECT_TRUE(csgcore::is_valid(sheet->primitive));
   EXPECT_FALSE(solid_of_points(std::vector<Vec3>{Vec3(0.0), Vec3(1, 2, 3), Vec3(2, 4, 6)}));
   EXPECT_FALSE(solid_of_points(std::vector<Vec3>(9, Vec3(5, 6, 7))));
+}
+
+/// Returns how far a point is from a polyhedron whose own vertices are near to it; at most 0
+/// within.
+double height_over(const csgcore::Primitive& primitive, const Vec3& point) {
+  const csgcore::Affine to_world = primitive.local_to_world;
+  const Vec3 local = glm::inverse(to_world.linear) * (point - to_world.translation);
+  double height = -std::numeric_limits<double>::infinity();
+  for (const csgcore::HalfSpace& face : primitive.polyhedron->half_spaces()) {
+    height = std::max(height, glm::dot(face.normal, local) - face.offset);
+  }
+  return height;
+}
+
+TEST(PointSolid, OfNearlyFlatPointsIsTheirPolygon) {
+  // OpenSCAD's issue1089: three of the points lie on a line but for rounding, so that the hull is a
+  // tetrahedron, 1e-16 thick, whose faces meet anywhere.
+  const std::vector<Vec3> points = {
+      Vec3(-.249434174697079, -9.946811825017596, 7.668480694904858),
+      Vec3(-.503165223042537, 8.896479509554647, .896037100784632),
+      Vec3(-.503165223042537, -.666568050075708, 3.819754148011999),
+      Vec3(-.503165223042537, -10.229615609706061, 6.743471195239366)};
+  const auto hull = solid_of_points(points);
+  ASSERT_TRUE(hull);
+  EXPECT_TRUE(hull->is_sheet);
+  EXPECT_TRUE(csgcore::is_valid(hull->primitive));
+  // It is the triangle of the other three: not a point beside its edges belongs to it.
+  const Vec3 &a = points[0], &b = points[1], &c = points[3];
+  for (double s = 0; s <= 1; s += 0.01) {
+    for (const auto& [from, to, other] :
+         {std::tuple(a, b, c), std::tuple(b, c, a), std::tuple(c, a, b)}) {
+      const Vec3 edge = from + s * (to - from);
+      const Vec3 outwards = edge - (from + to + other) / 3.0;
+      EXPECT_LE(height_over(hull->primitive, edge - 1e-6 * outwards), 0) << s;
+      EXPECT_GT(height_over(hull->primitive, edge + 1e-6 * outwards), 0) << s;
+    }
+  }
+}
+
+TEST(PointSolid, OfNearlyFlatPointsHoldsThemHoweverCloseTheyAre) {
+  for (uint32_t seed = 0; seed < 50; ++seed) {
+    std::mt19937 engine(seed);
+    const double noise = std::ldexp(1.0, -32 - static_cast<int>(seed % 20));
+    std::uniform_real_distribution<double> offset(-noise, noise), place(-1, 1);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 12; ++i) {
+      const double x = place(engine), y = place(engine);
+      for (int copy = 0; copy < 4; ++copy) {
+        points.emplace_back(x + offset(engine), y + offset(engine),
+                            0.3 * x - 0.7 * y + offset(engine));
+      }
+    }
+    const auto hull = solid_of_points(points);
+    ASSERT_TRUE(hull);
+    EXPECT_TRUE(hull->is_sheet);
+    EXPECT_TRUE(csgcore::is_valid(hull->primitive));
+    for (const Vec3& point : points) EXPECT_LE(height_over(hull->primitive, point), noise) << seed;
+    csgcore::Box box;
+    for (const Vec3& point : points) box.merge(point);
+    EXPECT_GT(height_over(hull->primitive, box.max + Vec3(1e-3, 1e-3, 0)), 0);
+  }
+  // Nearly on a line there is nothing to draw; a hundred times thicker than flat is a solid.
+  std::vector<Vec3> line, thin;
+  for (int i = 0; i < 8; ++i) {
+    const double t = 0.125 * i;
+    line.emplace_back(t, 2 * t + 1e-15 * (i % 2), -t + 1e-15 * (i % 3));
+    thin.emplace_back(i % 2, (i / 2) % 2, 1e-7 * (i / 4));
+  }
+  EXPECT_FALSE(solid_of_points(line));
+  const auto solid = solid_of_points(thin);
+  ASSERT_TRUE(solid);
+  EXPECT_FALSE(solid->is_sheet);
 }
 
 TEST(PointSolid, OfVeryManyPointsIsAMesh) {
