@@ -117,7 +117,8 @@ Json json_of(const RuleTimes& times) {
 }
 
 std::string table_of(const std::string& file, const Result& result) {
-  std::string text = file + ": " + grouped(result.primitives) + " primitives, " +
+  std::string text = file + ": " + grouped(result.primitives) +
+                     (result.primitives == 1 ? " primitive, " : " primitives, ") +
                      grouped(result.hits) + " of " + grouped(result.pixels) + " pixels show it\n";
   if (result.frames.empty() && result.rules.empty() && result.wrong.empty()) {
     return text + "  the design is empty: nothing to measure\n";

@@ -76,6 +76,9 @@ TEST(Measurement, ReportsCellsThatWereGivenUp) {
   result.rules = {times};
   EXPECT_THAT(table_of("x.csg", result), testing::Not(testing::HasSubstr("given up")));
   EXPECT_EQ(json_of(times)["leaves_given_up"], 0);
+  EXPECT_THAT(table_of("x.csg", result), testing::HasSubstr(": 0 primitives, "));
+  result.primitives = 1;
+  EXPECT_THAT(table_of("x.csg", result), testing::HasSubstr(": 1 primitive, "));
   result.rules[0].cells.leaves_given_up = 23456;
   EXPECT_THAT(table_of("x.csg", result),
               testing::HasSubstr("1,234,567 leaves, 23,456 of them given up"));

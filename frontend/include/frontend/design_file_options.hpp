@@ -9,10 +9,7 @@
 #include "frontend/design_inputs.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/import_options.hpp"
-
-namespace language {
-class EvaluationCache;
-}
+#include "language/evaluation.hpp"
 
 namespace frontend {
 
@@ -21,6 +18,7 @@ struct DesignFileOptions {
   std::vector<std::string> openscad_arguments;  // OpenSCAD's options for the evaluation of a .scad
   Evaluator evaluator = Evaluator::kOpenScad;
   DesignInputs inputs;
+  language::CameraChoice camera{};
   /// What the own evaluator keeps between readings of the design; null: nothing.
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;

@@ -13,6 +13,7 @@
 #include "frontend/picture_file.hpp"
 #include "frontend/render_settings.hpp"
 #include "frontend/text_kind.hpp"
+#include "language/evaluation.hpp"
 
 namespace frontend {
 
@@ -52,6 +53,11 @@ struct Options {
   bool has_hard_warnings = false;  // a warning of the design ends the run
   bool info = false;
 };
+
+/// Returns what a picture's camera is chosen by.
+inline language::CameraChoice camera_choice(const Options& options) {
+  return options.camera.camera ? language::CameraChoice::kCommand : language::CameraChoice::kDesign;
+}
 
 /// The most pictures of a run. Each is registered for removal at an interruption, as are the
 /// statistics and the rule for make.

@@ -90,27 +90,35 @@ Result by_scadray(const std::string& file, const std::vector<std::string>& optio
   return result;
 }
 
-/// Removes and returns the first line.
-std::string_view take_line(std::string_view& text) {
-  const std::string_view line = text.substr(0, text.find('\n'));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
+/// Removes and returns the first line, without its end; nothing after the last one. After a text's
+/// last line feed there is one more line, which is empty.
+std::optional<std::string_view> take_line(std::optional<std::string_view>& text) {
+  if (!text) return std::nullopt;
+  const std::size_t end = text->find('\n');
+  const std::string_view line = text->substr(0, end);
+  text = end == std::string_view::npos ? std::nullopt : std::optional(text->substr(end + 1));
   return line;
 }
 
+/// Returns a line as it is shown beside another one, from which it differs.
+std::string shown_line(const std::optional<std::string_view>& line) {
+  if (!line) return "(the end)";
+  return line->empty() ? "(an empty line)" : std::string(*line);
+}
+
 /// Says where two texts differ first. Returns whether they do.
-bool show_difference(const std::string& file, const char* what, std::string_view own,
-                     std::string_view openscad) {
+bool show_difference(const std::string& file, const char* what, const std::string& own,
+                     const std::string& openscad) {
   if (own == openscad) return false;
   std::size_t number = 0;
-  std::string_view ours, theirs;
+  std::optional<std::string_view> our_rest = own, their_rest = openscad, ours, theirs;
   do {
     ++number;
-    ours = take_line(own);
-    theirs = take_line(openscad);
-  } while (ours == theirs && !(own.empty() && openscad.empty()));
-  std::printf("%s: the %s differ in line %zu:\n  scadray:  %.*s\n  openscad: %.*s\n", file.c_str(),
-              what, number, static_cast<int>(ours.size()), ours.data(),
-              static_cast<int>(theirs.size()), theirs.data());
+    ours = take_line(our_rest);
+    theirs = take_line(their_rest);
+  } while (ours == theirs);
+  std::printf("%s: the %s differ in line %zu:\n  scadray:  %s\n  openscad: %s\n", file.c_str(),
+              what, number, shown_line(ours).c_str(), shown_line(theirs).c_str());
   return true;
 }
 

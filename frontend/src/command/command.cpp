@@ -174,6 +174,7 @@ class Run {
     };
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
+    reading.camera = camera_choice(options_);
     if (options_.frames > 0) reading.inputs.time = static_cast<double>(frame_) / options_.frames;
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {

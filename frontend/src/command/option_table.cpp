@@ -96,7 +96,7 @@ constexpr OptionRow kOwnOptions[] = {
      kOneOf<kFacets>},
     {"show", Takes::kText, "WHAT", "surface, cells, depth, normals or id; default surface",
      kOneOf<kShows>},
-    {"shading", Takes::kText, "HOW", "openscad or phong; default own", kOneOf<kShadings>},
+    {"shading", Takes::kText, "HOW", "openscad (default) or phong", kOneOf<kShadings>},
     {"editor", Takes::kText, "COMMAND",
      "the window's editor, a command line with {file}, {line} and {column}, or one whose form is "
      "known (code, subl, emacsclient, gvim, kate …); default: $SCADRAY_EDITOR, $VISUAL, $EDITOR",

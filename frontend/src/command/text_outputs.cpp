@@ -54,6 +54,7 @@ class TextRun {
     if (!known || options_.evaluator == Evaluator::kOpenScad) {
       return write_by_openscad(options_, output_);
     }
+    known->camera = camera_choice(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
     const FileText input = options_.input == "-" ? read_file("-") : FileText();
     language::Evaluation evaluation = language::evaluate(

@@ -222,6 +222,7 @@ class DesignFollower::Follower {
     options.import.hulls = hulls_;
     options.openscad_arguments = options_.openscad_arguments;
     options.evaluator = options_.evaluator;
+    options.camera = language::CameraChoice::kWindow;
     options.cache = cache_;
     options.progress = [this](const char* stage) { activity_.update(stage); };
     options.import.rendering.progress = [this](const RenderingProgress& progress) {

@@ -68,6 +68,7 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   if (!known) return nullptr;
   known->parameters = options.inputs.parameters;
   known->time = options.inputs.time.value_or(0);
+  known->camera = options.camera;
   known->is_preview = options.import.picture != PictureKind::kRendered;
   known->stop = stop;
   known->cache = options.cache.get();

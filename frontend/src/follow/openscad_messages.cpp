@@ -52,19 +52,18 @@ void OpenScadMessages::pass_errors() {
 }
 
 Error openscad_error(const std::string& scad_path, const std::string& text) {
-  constexpr const char* kTodo = "correct the design; the words are OpenSCAD's";
   constexpr std::string_view kFile = " in file ", kLine = ", line ";
   const std::size_t file_at = text.rfind(kFile);
   const std::size_t line_at = text.rfind(kLine);
   if (file_at == std::string::npos || line_at == std::string::npos || line_at < file_at) {
-    return Error(scad_path, {}, text, kTodo);
+    return Error(scad_path, {}, text, "");
   }
   std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
   if (is_same_file(file, scad_path)) file = scad_path;
   Location location;
   const char* digits = text.data() + line_at + kLine.size();
   std::from_chars(digits, text.data() + text.size(), location.line);
-  return Error(file, location, text.substr(0, file_at), kTodo);
+  return Error(file, location, text.substr(0, file_at), "");
 }
 
 }  // namespace frontend

@@ -277,6 +277,7 @@ TEST(Options, RenderAndPreview) {
 }
 
 TEST(Options, ShadingAndShow) {
+  EXPECT_THAT(help_text(), HasSubstr("openscad (default) or phong"));
   EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
   EXPECT_EQ(parse_drawing({"--shading=openscad"}).render.shading, Shading::kOpenScad);
   EXPECT_THAT(drawing_error({"--shading=x"}), HasSubstr("--shading"));

@@ -121,6 +121,12 @@ TEST_F(EvaluatedDesign, SetsTheCameraUnlessTheCommandDoes) {
   EXPECT_EQ(view_.eye, csgcore::Vec3(1, 2, 53));
   run({"-o", folder_ / "x.png", "--camera=0,0,0,0,0,0,7", file});
   EXPECT_EQ(view_.eye, csgcore::Vec3(0, 0, 7));
+  // As openscad, which says so of a picture that has no --camera.
+  constexpr const char* kSaid = "WARNING: Viewall and autocenter disabled in favor of $vp*\n";
+  for (const char* output : {"x.png", "x.csg"}) {
+    EXPECT_EQ(run({"-o", folder_ / output, file}).err, kSaid);
+    EXPECT_EQ(run({"-o", folder_ / output, "--camera=0,0,0,0,0,0,7", file}).err, "");
+  }
 }
 
 TEST_F(EvaluatedDesign, IsDrawnAfterErrorsThatOpenScadGoesOnAfter) {
@@ -150,6 +156,12 @@ TEST_F(EvaluatedDesign, IsComparedWithOpenScads) {
   EXPECT_THAT(different.out, HasSubstr("the trees differ in line 1:\n  scadray:  hull();\n"
                                        "  openscad: group();\n"));
   EXPECT_EQ(run({"check"}).code, ExitCode::kFailure);
+  const Environment longer("OPENSCAD", folder_.script("longer",
+                                                      "echo 'ECHO: 1' >&2\n"
+                                                      "printf 'group();\\n\\n\\n' >\"$2\"\n"));
+  EXPECT_THAT(run({"check", design("echo(1); group();")}).out,
+              HasSubstr("the trees differ in line 4:\n  scadray:  (the end)\n"
+                        "  openscad: (an empty line)\n"));
 }
 
 }  // namespace

@@ -90,6 +90,25 @@ TEST(Evaluation, ReadsTheCamera) {
             "WARNING: Viewall and autocenter disabled in favor of $vp*\n");
 }
 
+TEST(Evaluation, SaysOfTheCameraWhatOpenScadSays) {
+  const Folder folder;
+  const auto said = [&](CameraChoice choice) {
+    EvaluationOptions options;
+    options.camera = choice;
+    std::string messages;
+    const auto sink = [&](std::string_view line) { (messages += line) += "\n"; };
+    const Evaluation result =
+        evaluate(folder.write("camera.scad", "$vpt = \"a\"; $vpd = 5;"), options, sink);
+    EXPECT_EQ(result.camera.distance, 5);
+    return messages;
+  };
+  const std::string wrong = "WARNING: Unable to convert $vpt=\"a\" to a vec3 or vec2 of numbers\n";
+  EXPECT_EQ(said(CameraChoice::kDesign),
+            wrong + "WARNING: Viewall and autocenter disabled in favor of $vp*\n");
+  EXPECT_EQ(said(CameraChoice::kWindow), wrong);
+  EXPECT_EQ(said(CameraChoice::kCommand), "");
+}
+
 TEST(Evaluation, AppliesParameterSets) {
   const Folder folder;
   EvaluationOptions options;

@@ -18,6 +18,13 @@
 
 namespace language {
 
+/// What the camera is chosen by, which decides what is said of a design's own.
+enum class CameraChoice : uint8_t {
+  kDesign,   // openscad -o without --camera: it is said that $vpt, $vpr, $vpd and $vpf count
+  kWindow,   // openscad's window: that is not said
+  kCommand,  // --camera: nor is that a value is no camera's
+};
+
 struct EvaluationOptions {
   std::vector<std::string> definitions;       // -D, in order, as typed
   std::string parameter_file, parameter_set;  // -p, -P; empty: none
@@ -27,6 +34,7 @@ struct EvaluationOptions {
   bool check_ranges = false;                  // --check-parameter-ranges
   bool is_preview = true;                     // $preview
   double time = 0;                            // $t
+  CameraChoice camera = CameraChoice::kDesign;
   std::stop_token stop;
   EvaluationCache* cache = nullptr;  // null: nothing is kept
 };

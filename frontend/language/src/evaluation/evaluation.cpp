@@ -119,7 +119,7 @@ void Session::read_camera_value(const Machine& machine, std::string_view name,
   bool is_converted = false;
   target = convert(value, is_converted);
   has_camera_ = has_camera_ || is_converted;
-  if (is_converted) return;
+  if (is_converted || options_.camera == CameraChoice::kCommand) return;
   messages_.say(MessageGroup::kWarning, "Unable to convert " + std::string(name) + "=" +
                                             echo_text(value) + " to a " + std::string(type));
 }
@@ -131,7 +131,7 @@ void Session::read_camera(const Machine& machine) {
   read_camera_value(machine, "$vpt", kVector, three_numbers, camera.translation);
   read_camera_value(machine, "$vpd", kNumber, one_number, camera.distance);
   read_camera_value(machine, "$vpf", kNumber, one_number, camera.field_of_view_deg);
-  if (has_camera_)
+  if (has_camera_ && options_.camera == CameraChoice::kDesign)
     messages_.say(MessageGroup::kWarning, "Viewall and autocenter disabled in favor of $vp*");
 }
 
