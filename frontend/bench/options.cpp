@@ -79,7 +79,7 @@ std::string help_text() {
           "turning camera; and what the paper measures: S subdivide, T_S traverse and pass the\n"
           "parameters to OpenGL, T_R traverse and render, S_R render while subdividing. FILE is a "
           ".csg,\n"
-          "a .scad, or - for a .csg from standard input. The pictures are\n"
+          "a .scad, a mesh or a drawing, or - for standard input. The pictures are\n"
           "compared first: exit status 1 where they differ, or anything fails.\n"
        << option_table();
   return text.str();

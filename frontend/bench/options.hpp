@@ -17,7 +17,7 @@ enum class Action : uint8_t { kMeasure, kHelp, kVersion };
 /// The checked command line: every value is in its documented range.
 struct Options {
   Action action = Action::kMeasure;
-  std::vector<std::string> inputs;  // at least one; "-", at most once: a .csg from standard input
+  std::vector<std::string> inputs;  // at least one; "-", at most once: standard input
   frontend::CameraOptions camera;
   frontend::ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad

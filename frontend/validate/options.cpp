@@ -71,9 +71,9 @@ std::string help_text() {
   text << "Usage: scadray validate [options] FILE\n"
           "Compares what scadray draws of a design with exact arithmetic by CGAL. FILE is a .csg, "
           "a\n"
-          ".scad, or - for a .csg from standard input. Exit status: 0 "
-          "agrees,\n"
-          "2 disagrees, 1 failed.\n"
+          ".scad, a mesh or a drawing, or - for standard input. Exit status: 0 agrees, 2 "
+          "disagrees,\n"
+          "1 failed.\n"
        << option_table();
   return text.str();
 }

@@ -16,7 +16,7 @@ enum class Action : uint8_t { kValidate, kHelp, kVersion };
 /// The checked command line: every value is in its documented range.
 struct Options {
   Action action = Action::kValidate;
-  std::string input;   // "-": a .csg from standard input
+  std::string input;   // "-": standard input
   std::string report;  // empty: none; "-": standard output
   frontend::ImportOptions import;
   std::vector<std::string> openscad_arguments;  // OpenSCAD's, for the evaluation of a .scad

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ namespace frontend {
 /// A design, ready to be parsed or, where it is evaluated already, to be imported.
 struct DesignText {
   FileText csg;
+  /// What text_in_memory() gives of the design: the text that is evaluated.
+  std::optional<FileText> scad{};
   std::shared_ptr<const language::Evaluation> evaluation{};  // in place of a text, if not null
   std::string name;                                          // for the parser's messages
   bool is_exported = false;        // it was made from a .scad, by scadray or openscad
@@ -46,10 +49,17 @@ struct DesignFile {
 /// Returns whether the path has the suffix of a .scad, which has to be evaluated.
 bool is_scad(const std::string& path);
 
-/// Returns whether a file that cannot be parsed may be a .scad: a regular file of any name but a
-/// .csg's. (Editors' plugins pass temporary files without a suffix. A file that is not regular can
-/// be read only once.)
+/// Returns whether a text that cannot be parsed may be a .scad's: that of any name but a .csg's.
+/// (Editors' plugins pass temporary files without a suffix.)
 bool may_be_scad(const std::string& path);
+
+/// Returns the design's text where it is not to be read from the path anew: a call of import() for
+/// a mesh or a drawing; what a path that can be read only once gives (is_read_once()); and the text
+/// of a file whose name does not tell whether it is a .csg or a .scad. Nothing for other .csg and
+/// .scad files, and for one that does not exist. A text that no .csg begins like may be a start of
+/// it if it is larger than any .scad. Throws Error for what is neither text, mesh nor drawing;
+/// Stopped (stop.hpp) once `stop` is requested.
+std::optional<FileText> text_in_memory(const std::string& path, const std::stop_token& stop = {});
 
 /// Returns the options with the folder of the files that the design names: its own; and with the
 /// fonts that it uses, if it is a .scad, which was exported.
@@ -64,10 +74,10 @@ void add_imported_files(const ImportedDesign& design, std::vector<std::string>& 
 std::vector<NamedPath> design_inputs(const std::string& path,
                                      const std::vector<std::string>& openscad_arguments);
 
-/// Reads and parses a design. `path` is a .csg; a .scad, which is evaluated; or
-/// "-", a .csg from standard input. A file of any other name is a .csg if it parses as one, else a
-/// .scad. Throws Error, also if `files` are wanted and openscad does not name them, and if memory
-/// runs out.
+/// Reads and parses a design. `path` is a .csg; a .scad, which is evaluated; a mesh or drawing,
+/// which is shown as import() shows it; or "-", standard input. That, and a file of any other name,
+/// is a .csg if it parses as one, else a .scad. Throws Error, also if `files` are wanted and
+/// openscad does not name them, and if memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
 /// Starts the import of what was read. Throws what TextImport throws.
@@ -84,9 +94,9 @@ ImportedDesign import_design(DesignFile& file);
 
 // The two steps of read_design(). Both throw Stopped (stop.hpp) once `stop` is requested.
 
-/// Exports a file whose name is a .scad's; reads any other. The result may be only a start of the
-/// text, if that start shows that the text cannot be parsed. `files` lacks what openscad does not
-/// name. Throws Error.
+/// Exports a file whose name is a .scad's or that import() reads; reads any other. The result may
+/// be only a start of the text, if that start shows that the text cannot be parsed. `files` lacks
+/// what openscad does not name. Throws Error.
 DesignText read_design_text(const std::string& path, const DesignFileOptions& options,
                             const std::stop_token& stop = {});
 

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "frontend/design_inputs.hpp"
 #include "frontend/evaluator.hpp"
+#include "frontend/file_text.hpp"
 #include "frontend/import_options.hpp"
 #include "language/evaluation.hpp"
 
@@ -19,6 +21,8 @@ struct DesignFileOptions {
   Evaluator evaluator = Evaluator::kOpenScad;
   DesignInputs inputs;
   language::CameraChoice camera{};
+  /// What text_in_memory() has given of the design before; nothing: it is asked.
+  std::optional<FileText> text{};
   /// What the own evaluator keeps between readings of the design; null: nothing.
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;

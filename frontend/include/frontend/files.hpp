@@ -12,19 +12,26 @@
 
 namespace frontend {
 
-/// Reads a file, or standard input for "-". Once `is_hopeless` returns true, the rest is not read,
-/// and the result is a start of the text that fails as the whole would. Throws Error if the file is
-/// missing, is a folder, cannot be read, or is larger than kMaxInputBytes; Stopped (stop.hpp) once
-/// `stop` is requested.
+/// Returns how messages name an input: the path, or "standard input" for "-".
+std::string input_name(const std::string& path);
+
+/// Returns whether the path can be read only once: standard input, a pipe or a device.
+bool is_read_once(const std::string& path);
+
+/// Reads a file, or standard input for "-". Once `is_hopeless` returns true, the rest is not read
+/// beyond `most_if_hopeless` bytes, and the result may be a start of the text that fails as the
+/// whole would. Throws Error if the file is missing, is a folder, cannot be read, or is larger than
+/// kMaxInputBytes; Stopped (stop.hpp) once `stop` is requested.
 FileText read_file(const std::string& path, const IsHopeless& is_hopeless = {},
-                   const std::stop_token& stop = {});
+                   const std::stop_token& stop = {}, std::size_t most_if_hopeless = 0);
 
 /// Reads a regular file, which ends. Throws Error for any other.
 FileText read_regular_file(const std::string& path);
 
 /// Reads an open descriptor to its end; `name` is for messages.
 FileText read_descriptor(int descriptor, const std::string& name,
-                         const IsHopeless& is_hopeless = {}, const std::stop_token& stop = {});
+                         const IsHopeless& is_hopeless = {}, const std::stop_token& stop = {},
+                         std::size_t most_if_hopeless = 0);
 
 /// Throws Error if it can be told beforehand that `path` cannot be read as a file.
 void check_input(const std::string& path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct OpenScadExport {
 /// Runs openscad (the program that $OPENSCAD names, or else `openscad` on PATH) on a .scad file and
 /// returns the .csg that it writes. The result may be only a start of it, if that start shows that
 /// the .csg cannot be parsed (is_beyond_repair() in parser.hpp). `arguments` are passed on as they
-/// are. `message` is called with each line that openscad prints; a very long line comes in pieces.
-/// `waiting` is called about ten times a second.
+/// are. openscad reads `text` in place of the file, where there is one. `message` is called with
+/// each line that openscad prints; a very long line comes in pieces. `waiting` is called about ten
+/// times a second.
 ///
 /// Throws Error if openscad is missing, fails, reports an error (which it may do with exit code 0),
 /// or writes nothing. Throws Stopped (stop.hpp) as soon as `stop` is requested. In every case
@@ -29,6 +31,7 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,
                                     const std::function<void()>& waiting,
-                                    const std::stop_token& stop = {});
+                                    const std::stop_token& stop = {},
+                                    const std::optional<FileText>& text = {});
 
 }  // namespace frontend

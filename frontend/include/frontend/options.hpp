@@ -33,7 +33,7 @@ enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kVersion, kInfo };
 /// The whole command line, checked: every value is in its documented range.
 struct Options {
   Action action = Action::kDraw;
-  std::string input;              // "-": a .csg from standard input
+  std::string input;              // "-": standard input
   std::vector<Output> outputs;    // kDraw: these or `texts` are at least one; one of all may be "-"
   std::vector<TextOutput> texts;  // written before the pictures
   Evaluator evaluator = kDefaultEvaluator;

@@ -55,8 +55,16 @@ struct stat status_of(int descriptor, const std::string& name) {
 
 }  // namespace
 
+std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+bool is_read_once(const std::string& path) {
+  if (path == "-") return true;
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
 FileText read_descriptor(int descriptor, const std::string& name, const IsHopeless& is_hopeless,
-                         const std::stop_token& stop) {
+                         const std::stop_token& stop, std::size_t most_if_hopeless) {
   const struct stat status = status_of(descriptor, name);
   std::optional<StopEvent> stop_event;
   if (stop.stop_possible() && !S_ISREG(status.st_mode)) stop_event.emplace(stop);
@@ -65,9 +73,14 @@ FileText read_descriptor(int descriptor, const std::string& name, const IsHopele
   GrowingText text(expected);
   std::optional<StartCheck> check;
   if (is_hopeless) check.emplace(is_hopeless, expected);
+  bool has_failed = false;
   while (true) {
     throw_if_stopped(stop);
-    if (check && check->fails(text.view(), stop)) break;
+    if (check && check->fails(text.view(), stop)) {
+      has_failed = true;
+      check.reset();
+    }
+    if (has_failed && text.size() >= most_if_hopeless) break;
     if (stop_event) wait_for_input(descriptor, *stop_event);
     std::span<char> room = text.room();
     if (check) room = room.first(std::min(room.size(), check->until_next(text.size())));
@@ -82,10 +95,10 @@ FileText read_descriptor(int descriptor, const std::string& name, const IsHopele
 }
 
 FileText read_file(const std::string& path, const IsHopeless& is_hopeless,
-                   const std::stop_token& stop) {
-  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input", is_hopeless, stop);
-  const Descriptor file = open_to_read(path, stop);
-  return read_descriptor(file.number(), path, is_hopeless, stop);
+                   const std::stop_token& stop, std::size_t most_if_hopeless) {
+  const Descriptor file = path == "-" ? Descriptor(-1) : open_to_read(path, stop);
+  return read_descriptor(path == "-" ? STDIN_FILENO : file.number(), input_name(path), is_hopeless,
+                         stop, most_if_hopeless);
 }
 
 FileText read_regular_file(const std::string& path) {

@@ -79,7 +79,7 @@ Result by_openscad(const std::string& file, const std::vector<std::string>& opti
 }
 
 Result by_scadray(const std::string& file, const std::vector<std::string>& options) {
-  const std::optional<language::EvaluationOptions> known = evaluation_options(options);
+  const std::optional<language::EvaluationOptions> known = evaluation_options(options, file);
   if (!known) throw Error("", {}, "an option of check is not known", "see scadray check --help");
   Result result;
   const language::Evaluation evaluation = language::evaluate(

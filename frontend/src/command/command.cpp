@@ -62,8 +62,10 @@ std::string frame_path(const std::string& path, uint32_t frame) {
 /// One run of the command that draws.
 class Run {
  public:
-  Run(const Options& options, const Renderer& renderer)
+  /// `text` is what text_in_memory() has given of the design, if it was asked.
+  Run(const Options& options, const std::optional<FileText>& text, const Renderer& renderer)
       : options_(options),
+        text_(text),
         renderer_(renderer),
         progress_(!options.quiet && isatty(STDERR_FILENO) == 1) {}
 
@@ -175,6 +177,7 @@ class Run {
     reading.openscad_arguments = options_.openscad_arguments;
     reading.evaluator = options_.evaluator;
     reading.camera = camera_choice(options_);
+    reading.text = text_;
     if (options_.frames > 0) reading.inputs.time = static_cast<double>(frame_) / options_.frames;
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
@@ -302,13 +305,15 @@ class Run {
   std::string rule() const { return rule_of(files_); }
 
   /// Throws Error for a name that no rule can contain.
-  std::string rule_of(const std::vector<std::string>& files) const {
+  std::string rule_of(std::vector<std::string> files) const {
+    std::erase(files, "-");  // make has no name for standard input
     std::vector<std::string> targets = picture_paths();
     std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
     return make_rule(targets, files);
   }
 
   const Options& options_;
+  const std::optional<FileText>& text_;
   const Renderer& renderer_;
   Clock::time_point start_ = Clock::now();  // start of the frame
   uint32_t frame_ = 0;
@@ -338,6 +343,16 @@ void run_gl_program(const std::vector<std::string>& arguments, RendererKind kind
   } catch (const Error&) {
     if (kind == RendererKind::kGl) throw;
   }
+}
+
+/// Writes all outputs of a design. What is read more than once is read into memory first: it may be
+/// a pipe.
+ExitCode draw(const Options& options, const Renderer& renderer) {
+  std::optional<FileText> text;
+  if (!options.texts.empty() || options.frames > 0) text = text_in_memory(options.input);
+  if (const ExitCode code = write_texts(options, text); code != ExitCode::kDone) return code;
+  if (!options.outputs.empty()) Run(options, text, renderer).execute();
+  return ExitCode::kDone;
 }
 
 ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer,
@@ -374,9 +389,7 @@ ExitCode run(const std::vector<std::string>& arguments, const Renderer& renderer
       if (!options.outputs.empty() && drawn_by_gl_program && drawn_by_gl_program(options.render)) {
         run_gl_program(arguments, options.render.renderer);
       }
-      if (const ExitCode code = write_texts(options); code != ExitCode::kDone) return code;
-      if (!options.outputs.empty()) Run(options, renderer).execute();
-      break;
+      return draw(options, renderer);
   }
   return ExitCode::kDone;
 }

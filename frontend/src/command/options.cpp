@@ -275,7 +275,7 @@ void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
   if (arguments.has("autocenter") && arguments.has("camera") && !arguments.has("viewall")) {
     options.warnings.push_back("--autocenter has no effect without --viewall, as in OpenSCAD");
   }
-  const bool is_csg = options.input == "-" || lower_case(options.input).ends_with(".csg");
+  const bool is_csg = lower_case(options.input).ends_with(".csg");
   if (const std::string list = given(kForScad); !list.empty() && is_csg) {
     options.warnings.push_back("without effect on a .csg: " + list);
   }
@@ -300,9 +300,10 @@ Options parse_options(const std::vector<std::string>& words) {
   }
   const std::vector<std::string> files = arguments.texts("file");
   if (files.empty()) {
-    fail("no file to draw",
-         "give a .csg or .scad file, or - for a .csg from standard input; an option before it may "
-         "have taken its name as a value");
+    fail(
+        "no file to draw",
+        "give a .csg or .scad file, a mesh or a drawing, or - for standard input; an option before "
+        "it may have taken its name as a value");
   }
   if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
   options.input = files[0];
@@ -337,9 +338,10 @@ std::string help_text() {
       "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"
       "       scadray check [options] FILE...    (scadray check --help)\n"
-      "Ray traces a design: FILE is a .scad, a .csg that OpenSCAD exported, or - for a\n"
-      ".csg from standard input. `bench` measures how long that takes, `validate` compares\n"
-      "it with exact arithmetic, `check` compares evaluations with openscad's",
+      "Ray traces a design: FILE is a .scad, a .csg that OpenSCAD exported, a mesh or a\n"
+      "drawing that import() reads (.stl, .off, .amf, .3mf, .nef3, .svg, .dxf), or - for a\n"
+      ".scad or .csg from standard input. `bench` measures how long that takes, `validate`\n"
+      "compares it with exact arithmetic, `check` compares evaluations with openscad's",
       kHelpColumns);
   all.add(openscad_table()).add(own_table());
   std::ostringstream text;

@@ -16,7 +16,9 @@
 #include "frontend/openscad_export.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
+#include "lower/import_files.hpp"
 #include "process/child_process.hpp"
+#include "process/memory_file.hpp"
 #include "process/openscad_program.hpp"
 
 namespace frontend {
@@ -25,7 +27,8 @@ namespace {
 const char* word_of(TextKind kind) { return kind == TextKind::kCsg ? "csg" : "echo"; }
 
 /// Returns the command of openscad that writes the output.
-std::vector<std::string> openscad_command(const Options& options, const TextOutput& output) {
+std::vector<std::string> openscad_command(const Options& options, const TextOutput& output,
+                                          const std::string& input) {
   std::vector<std::string> command = {openscad_program(), "-o", output.path,
                                       "--export-format=" + std::string(word_of(output.kind))};
   if (options.quiet) command.push_back("-q");
@@ -33,32 +36,39 @@ std::vector<std::string> openscad_command(const Options& options, const TextOutp
   if (!options.rule_path.empty()) command.insert(command.end(), {"-d", options.rule_path});
   command.insert(command.end(), options.openscad_arguments.begin(),
                  options.openscad_arguments.end());
-  command.insert(command.end(), {"--", options.input});
+  command.insert(command.end(), {"--", input});
   return command;
 }
 
-ExitCode write_by_openscad(const Options& options, const TextOutput& output) {
+ExitCode write_by_openscad(const Options& options, const TextOutput& output,
+                           const std::optional<FileText>& text) {
   std::fflush(stdout);
-  ChildProcess openscad({openscad_command(options, output), STDOUT_FILENO, STDERR_FILENO});
+  std::optional<MemoryFile> input;
+  if (text && is_read_once(options.input)) input.emplace(text->view());
+  ChildProcess openscad({.command = openscad_command(options, output, input ? "-" : options.input),
+                         .output = STDOUT_FILENO,
+                         .errors = STDERR_FILENO,
+                         .input = input ? input->descriptor() : -1});
   return openscad.wait() == 0 ? ExitCode::kDone : ExitCode::kFailure;
 }
 
 /// One evaluation, and where its messages go.
 class TextRun {
  public:
-  TextRun(const Options& options, const TextOutput& output) : options_(options), output_(output) {}
+  TextRun(const Options& options, const TextOutput& output, const std::optional<FileText>& text)
+      : options_(options), output_(output), text_(text) {}
 
   ExitCode run() {
     std::optional<language::EvaluationOptions> known =
-        evaluation_options(options_.openscad_arguments);
-    if (!known || options_.evaluator == Evaluator::kOpenScad) {
-      return write_by_openscad(options_, output_);
+        evaluation_options(options_.openscad_arguments, options_.input);
+    const bool wants_openscad = options_.evaluator == Evaluator::kOpenScad;
+    if (!known || (wants_openscad && !is_importable(options_.input))) {
+      return write_by_openscad(options_, output_, text_);
     }
     known->camera = camera_choice(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
-    const FileText input = options_.input == "-" ? read_file("-") : FileText();
     language::Evaluation evaluation = language::evaluate(
-        options_.input, *known, [&](std::string_view line) { add(line); }, input.view());
+        options_.input, *known, [&](std::string_view line) { add(line); }, view_of(text_));
     return write(evaluation);
   }
 
@@ -93,24 +103,27 @@ class TextRun {
     for (const TextOutput& output : options_.texts) {
       targets.push_back(output.path == "-" ? "<stdout>" : output.path);
     }
-    return make_rule(targets, files_of(evaluation, options_.input));
+    std::vector<std::string> files = files_of(evaluation, options_.input);
+    std::erase(files, "-");  // make has no name for standard input
+    return make_rule(targets, files);
   }
 
   const Options& options_;
   const TextOutput& output_;
+  const std::optional<FileText>& text_;
   std::string messages_;  // which are the output, or a line that is being said
 };
 
 }  // namespace
 
-ExitCode write_texts(const Options& options) {
+ExitCode write_texts(const Options& options, const std::optional<FileText>& text) {
   std::vector<NamedPath> paths;
   for (const TextOutput& output : options.texts) paths.push_back({"-o", output.path});
   if (!options.rule_path.empty()) paths.push_back({"-d", options.rule_path});
   for (const NamedPath& path : paths) check_output(path.path);
   check_outputs_differ(paths, design_inputs(options.input, options.openscad_arguments));
   for (const TextOutput& output : options.texts) {
-    const ExitCode code = TextRun(options, output).run();
+    const ExitCode code = TextRun(options, output, text).run();
     if (code != ExitCode::kDone) return code;
   }
   return ExitCode::kDone;

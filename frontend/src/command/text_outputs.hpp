@@ -1,14 +1,18 @@
 // Writes what `openscad -o` writes of a design as text: its tree, or its messages.
 #pragma once
 
+#include <optional>
+
+#include "frontend/file_text.hpp"
 #include "frontend/options.hpp"
 #include "frontend/run_program.hpp"
 
 namespace frontend {
 
 /// Writes options.texts, and the rule for make where there are no pictures. Each is evaluated by
-/// itself, as by OpenSCAD, whose exit codes and messages these are. Throws Error for what cannot be
+/// itself, as by OpenSCAD, whose exit codes and messages these are. `text` is what text_in_memory()
+/// has given of the design. Throws Error for what cannot be
 /// read or written.
-ExitCode write_texts(const Options& options);
+ExitCode write_texts(const Options& options, const std::optional<FileText>& text);
 
 }  // namespace frontend

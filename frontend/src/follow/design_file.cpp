@@ -17,9 +17,11 @@
 #include "follow/evaluated_design.hpp"
 #include "follow/included_files.hpp"
 #include "frontend/error.hpp"
+#include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
 #include "language/parameter_set_file.hpp"
+#include "lower/import_files.hpp"
 #include "process/memory_file.hpp"
 
 namespace frontend {
@@ -54,7 +56,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   const double export_before_ms = text.export_ms;
   const Clock::time_point parse_start = Clock::now();
   DesignFile design{.import = parse_either(path, options, text)};
-  design.name = path == "-" ? "standard input" : path;
+  design.name = input_name(path);
   design.parse_ms = ms_since(parse_start) - (text.export_ms - export_before_ms);
   if (text.is_exported && options.wants_files && text.files.empty()) {
     throw Error(path, {}, "openscad does not say which files it reads",
@@ -74,6 +76,39 @@ std::string time_assignment(double time) {
   std::array<char, 32> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), time).ptr;
   return "$t=" + std::string(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+constexpr std::string_view kCsg = ".csg";
+
+/// Returns the .scad that shows a mesh or a drawing.
+std::string import_of(const std::string& path) {
+  std::string text = "import(\"";
+  for (const char c : std::filesystem::path(path).filename().string()) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c == '\n' ? "\\n" : std::string(1, c);  // a raw one is no part of a string
+  }
+  return text + "\");\n";
+}
+
+/// The most bytes of a text that may be a .scad's alone. Published designs have up to some 20 MB; a
+/// pipe may be endless.
+constexpr std::size_t kMostScadBytes = std::size_t{64} << 20;
+
+/// Reads the text of a .csg or a .scad. Throws Error for what can be neither.
+FileText read_text(const std::string& path, const std::stop_token& stop) {
+  const auto is_no_csg = [&](std::string_view start, const std::stop_token& stop_parsing) {
+    return is_scad(path) || is_beyond_repair(start, stop_parsing);
+  };
+  FileText text = read_file(path, is_no_csg, stop, kMostScadBytes + 1);
+  if (!may_be_scad(path)) return text;  // its parser says what is wrong, and where
+  if (!is_scad(path) && text.view().find('\0') != std::string_view::npos) {
+    throw Error(input_name(path), {}, "is no design",
+                std::string("give a .scad, a .csg, or what import() reads: ") + kImportable);
+  }
+  if (text.view().size() > kMostScadBytes && is_no_csg(text.view(), stop)) {
+    throw Error(input_name(path), {}, "is larger than 64 MiB, and no .csg", "check the file");
+  }
+  return text;
 }
 
 constexpr const char* kSetName = "scadray";
@@ -107,7 +142,7 @@ auto within_memory(const std::string& path, Work work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    throw Error(path == "-" ? "standard input" : path, {}, "out of memory", "try a smaller design");
+    throw Error(input_name(path), {}, "out of memory", "try a smaller design");
   }
 }
 
@@ -115,10 +150,20 @@ auto within_memory(const std::string& path, Work work) {
 
 bool is_scad(const std::string& path) { return has_suffix(path, ".scad"); }
 
-bool may_be_scad(const std::string& path) {
+bool may_be_scad(const std::string& path) { return !has_suffix(path, kCsg); }
+
+std::optional<FileText> text_in_memory(const std::string& path, const std::stop_token& stop) {
   std::error_code failed;
-  return is_scad(path) || (path != "-" && !has_suffix(path, ".csg") &&
-                           std::filesystem::is_regular_file(path, failed));
+  if (path != "-" && !std::filesystem::exists(path, failed)) return std::nullopt;
+  if (is_importable(path)) {
+    check_input(path);
+    if (is_read_once(path)) throw Error(path, {}, "is no regular file", "check the file");
+    return FileText(import_of(path));
+  }
+  const bool is_told_by_name = is_scad(path) || has_suffix(path, kCsg);
+  if (is_told_by_name && !is_read_once(path)) return std::nullopt;
+  if (is_scad(path)) check_input(path);
+  return read_text(path, stop);
 }
 
 ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options) {
@@ -161,10 +206,9 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
                         const std::stop_token& stop) {
   text.is_exported = true;
   const Clock::time_point start = Clock::now();
-  if (options.evaluator == Evaluator::kOwn) {
+  if (options.evaluator == Evaluator::kOwn || is_importable(path)) {
     options.progress("evaluating");
-    text.evaluation = evaluate_design(path, options, stop);
-    text.name = path;
+    text.evaluation = evaluate_design(path, text.scad, options, stop);
     text.export_ms = ms_since(start);
     if (text.evaluation) {
       text.files = files_of(*text.evaluation, path);
@@ -172,7 +216,7 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
     }
   }
   // Places in the exported text must not look like places in the .scad.
-  text.name = path + " (its .csg)";
+  text.name = input_name(path) + " (its .csg)";
   std::vector<std::string> arguments = options.openscad_arguments;
   if (options.import.picture == PictureKind::kRendered) {
     // An export to .csg is a preview for OpenSCAD. Of several -D the last one counts.
@@ -188,9 +232,11 @@ void export_design_text(const std::string& path, const DesignFileOptions& option
   }
   OpenScadExport result = export_with_openscad(
       path, arguments, options.wants_files, options.message,
-      [&options] { options.progress("openscad"); }, stop);
+      [&options] { options.progress("openscad"); }, stop,
+      is_read_once(path) ? text.scad : std::nullopt);
   text.csg = std::move(result.csg);
   text.files = std::move(result.files);
+  if (options.wants_files && is_read_once(path)) text.files.push_back(path);  // openscad reads "-"
   text.export_ms = ms_since(start);
 }
 
@@ -198,16 +244,17 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
                             const std::stop_token& stop) {
   DesignText text;
   const Clock::time_point start = Clock::now();
-  text.name = path == "-" ? "standard input" : path;
-  if (is_scad(path)) {
-    check_input(path);
+  text.name = input_name(path);
+  text.scad = options.text ? options.text : text_in_memory(path, stop);
+  if (is_scad(path) || is_importable(path)) {
+    if (!text.scad) check_input(path);
     text.read_ms = ms_since(start);
     export_design_text(path, options, text, stop);
     return text;
   }
-  text.csg = read_file(path, is_beyond_repair, stop);
+  text.csg = text.scad ? *text.scad : read_file(path, is_beyond_repair, stop);
   text.read_ms = ms_since(start);
-  if (options.wants_files && path != "-") text.files = {path};
+  if (options.wants_files) text.files = {path};
   return text;
 }
 

@@ -18,6 +18,7 @@
 #include "follow/included_files.hpp"
 #include "follow/input_turn.hpp"
 #include "frontend/design_file.hpp"
+#include "frontend/files.hpp"
 #include "frontend/stop.hpp"
 #include "language/evaluation_cache.hpp"
 #include "lower/hull_pool.hpp"
@@ -31,14 +32,6 @@ std::string absolute(const std::string& path) {
   std::error_code failed;  // the working folder is gone
   const std::filesystem::path result = std::filesystem::absolute(path, failed);
   return failed ? path : result.string();
-}
-
-/// Returns whether the path can be read only once: standard input, a pipe or a device.
-bool is_read_once(const std::string& path) {
-  if (path == "-") return true;
-  std::error_code missing;
-  const std::filesystem::file_status status = std::filesystem::status(path, missing);
-  return std::filesystem::exists(status) && std::filesystem::is_other(status);
 }
 
 int64_t system_time_ns() {
@@ -105,7 +98,7 @@ class DesignFollower::Follower {
       if (wants_stop_.exchange(false)) give_up();
       if (is_followed_ && watch_.update()) notice(Clock::now());
       if (is_followed_ && wants_reload_.exchange(false)) notice(Clock::now());
-      if (is_followed_ && has_new_inputs_.exchange(false)) notice_inputs();
+      if (has_new_inputs_.exchange(false)) notice_inputs();
       if (has_read_.exchange(false)) finish_reading();
       if (const auto due = inputs_due(); due && Clock::now() >= *due) read_with_new_inputs();
       if (noticed_ && Clock::now() >= watch_.settled_at().value_or(Clock::time_point::min())) {

@@ -85,6 +85,10 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   file_options.import.rendering.waits = false;
   file_options.message = keeping_messages(version);
   if (!file_options.progress) file_options.progress = [](const char*) {};
+  if (is_read_once(path)) {
+    if (!reading.good.stream) reading.good.stream = text_in_memory(path, stop);
+    file_options.text = reading.good.stream;
+  }
   DesignText text = read_design_text(path, file_options, stop);
   std::optional<TextImport> import;
   try {
@@ -115,9 +119,11 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
 /// Finds what the main file of a .scad offers, also of one that cannot be evaluated.
 void find_parameters(DesignReading& reading, const std::string& path) {
   std::shared_ptr<const DesignParameters>& known = reading.good.parameters;
+  const std::optional<FileText>& stream = reading.good.stream;
   std::error_code failed;
-  if ((is_scad(path) || reading.is_scad) && std::filesystem::is_regular_file(path, failed)) {
-    const FileText text = read_file(path);
+  if ((is_scad(path) || reading.is_scad) &&
+      (stream || std::filesystem::is_regular_file(path, failed))) {
+    const FileText text = stream ? *stream : read_file(path);
     if (!known || known->text != text.view()) {
       auto list = language::customizer_parameters(text.view());
       if (list) {
@@ -137,9 +143,9 @@ void report_failures(const std::string& path, DesignReading& reading, const Work
   } catch (const Error& error) {
     reading.version.error = error.what();
   } catch (const std::bad_alloc&) {
-    reading.version.error = path + ": error: out of memory (try a smaller design)";
+    reading.version.error = input_name(path) + ": error: out of memory (try a smaller design)";
   } catch (const std::exception& error) {
-    reading.version.error = path + ": error: " + error.what();
+    reading.version.error = input_name(path) + ": error: " + error.what();
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -18,6 +19,9 @@ struct GoodVersion {
   std::string text_name;     // of the text, for messages
   bool is_exported = false;  // openscad made the text
   std::shared_ptr<const DesignParameters> parameters;
+  /// What text_in_memory() has given of a design that can be read only once, also of one that could
+  /// not be parsed.
+  std::optional<FileText> stream;
 };
 
 struct DesignReading {

@@ -10,6 +10,7 @@
 #include "frontend/error.hpp"
 #include "frontend/stop.hpp"
 #include "language/stopped.hpp"
+#include "lower/import_files.hpp"
 
 namespace frontend {
 namespace {
@@ -41,7 +42,7 @@ bool read_word(std::string_view word, language::EvaluationOptions& options) {
 }  // namespace
 
 std::optional<language::EvaluationOptions> evaluation_options(
-    const std::vector<std::string>& openscad_arguments) {
+    const std::vector<std::string>& openscad_arguments, const std::string& path) {
   language::EvaluationOptions options;
   for (std::size_t i = 0; i < openscad_arguments.size(); ++i) {
     const std::string& word = openscad_arguments[i];
@@ -54,17 +55,23 @@ std::optional<language::EvaluationOptions> evaluation_options(
       options.parameter_file = value;
     } else if (word == "-P") {
       options.parameter_set = value;
-    } else {
+    } else if (!is_importable(path)) {
       return std::nullopt;
     }
   }
   return options;
 }
 
+std::optional<std::string_view> view_of(const std::optional<FileText>& text) {
+  return text ? std::optional(text->view()) : std::nullopt;
+}
+
 std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const std::optional<FileText>& text,
                                                             const DesignFileOptions& options,
                                                             const std::stop_token& stop) {
-  std::optional<language::EvaluationOptions> known = evaluation_options(options.openscad_arguments);
+  std::optional<language::EvaluationOptions> known =
+      evaluation_options(options.openscad_arguments, path);
   if (!known) return nullptr;
   known->parameters = options.inputs.parameters;
   known->time = options.inputs.time.value_or(0);
@@ -76,7 +83,8 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   language::Evaluation evaluation;
   try {
     evaluation = language::evaluate(
-        path, *known, [&](std::string_view message) { messages.take(std::string(message)); });
+        path, *known, [&](std::string_view message) { messages.take(std::string(message)); },
+        view_of(text));
   } catch (const language::Stopped&) {
     throw Stopped{};
   }

@@ -14,16 +14,20 @@
 namespace frontend {
 
 /// Returns OpenSCAD's command-line arguments as options of the own evaluator; nothing if one of
-/// them is for openscad alone (-m).
+/// them is for openscad alone: -m, unless the file is a mesh or a drawing, which misses no files.
 std::optional<language::EvaluationOptions> evaluation_options(
-    const std::vector<std::string>& openscad_arguments);
+    const std::vector<std::string>& openscad_arguments, const std::string& path);
 
-/// Evaluates a design; its messages go to `options.message`. Returns null if the arguments are none
-/// of the own evaluator's. Throws Error where openscad would report an error, and Stopped
-/// (stop.hpp) once `stop` is requested.
+/// Evaluates a design, in the file or, where there is one, in `text`; its messages go to
+/// `options.message`. Returns null if the arguments are none of the own evaluator's. Throws Error
+/// where openscad would report an error, and Stopped (stop.hpp) once `stop` is requested.
 std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& path,
+                                                            const std::optional<FileText>& text,
                                                             const DesignFileOptions& options,
                                                             const std::stop_token& stop);
+
+/// Returns the view of a text, if there is one.
+std::optional<std::string_view> view_of(const std::optional<FileText>& text);
 
 /// Returns the files that a design was read from, itself last, under the name that it was given.
 std::vector<std::string> files_of(const language::Evaluation& evaluation, const std::string& path);

@@ -157,7 +157,8 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
                                     const std::function<void(const std::string&)>& message,
                                     const std::function<void()>& waiting,
-                                    const std::stop_token& stop) {
+                                    const std::stop_token& stop,
+                                    const std::optional<FileText>& text) {
   std::optional<StopEvent> stop_event;
   if (stop.stop_possible()) stop_event.emplace(stop);
   const int stop_descriptor = stop_event ? stop_event->descriptor() : -1;
@@ -170,11 +171,16 @@ OpenScadExport export_with_openscad(const std::string& scad_path,
   }
   command.insert(command.end(), arguments.begin(), arguments.end());
   command.push_back("--");  // a name may begin with a dash
-  command.push_back(scad_path);
+  std::optional<MemoryFile> input;
+  if (text) input.emplace(text->view());
+  command.push_back(text ? "-" : scad_path);
 
   Pipe out, err;
-  ChildProcess openscad =
-      start({command, out.write_end(), err.write_end(), rule ? rule->descriptor() : -1});
+  ChildProcess openscad = start({.command = command,
+                                 .output = out.write_end(),
+                                 .errors = err.write_end(),
+                                 .kept = rule ? rule->descriptor() : -1,
+                                 .input = input ? input->descriptor() : -1});
   out.close_write_end();
   err.close_write_end();
   OpenScadMessages messages(message);

@@ -1,8 +1,11 @@
 #include "follow/openscad_messages.hpp"
 
+#include <sys/stat.h>
+
 #include <charconv>
 #include <filesystem>
-#include <system_error>
+
+#include "frontend/files.hpp"
 
 namespace frontend {
 namespace {
@@ -13,11 +16,13 @@ constexpr std::string_view kError = "ERROR: ";
 constexpr std::string_view kMissingFont = "ERROR: Can't read font with path";
 
 /// Returns whether openscad means `scad_path` by `name`: it shortens a path to the file's name, or
-/// makes it relative to the working folder.
+/// makes it relative to the working folder. (std::filesystem::equivalent() takes no pipes.)
 bool is_same_file(const std::string& name, const std::string& scad_path) {
-  const std::filesystem::path path(scad_path);
-  std::error_code missing;
-  return name == path.filename() || std::filesystem::equivalent(name, path, missing);
+  if (name == "<stdin>" || name == std::filesystem::path(scad_path).filename()) return true;
+  struct stat a {};
+  struct stat b {};
+  return stat(name.c_str(), &a) == 0 && stat(scad_path.c_str(), &b) == 0 && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
 }
 
 }  // namespace
@@ -56,10 +61,10 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
   const std::size_t file_at = text.rfind(kFile);
   const std::size_t line_at = text.rfind(kLine);
   if (file_at == std::string::npos || line_at == std::string::npos || line_at < file_at) {
-    return Error(scad_path, {}, text, "");
+    return Error(input_name(scad_path), {}, text, "");
   }
   std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
-  if (is_same_file(file, scad_path)) file = scad_path;
+  if (is_same_file(file, scad_path)) file = input_name(scad_path);
   Location location;
   const char* digits = text.data() + line_at + kLine.size();
   std::from_chars(digits, text.data() + text.size(), location.line);

@@ -27,10 +27,11 @@ constexpr std::array<Format, 5> kFormats{{{".stl", read_stl},
                                           {".3mf", read_3mf},
                                           {".nef3", read_nef3}}};
 
-std::string suffix_of(const std::string& name) {
+/// Returns the format of a solid's file, or the end of the list.
+auto format_of_solid(std::string_view name) {
   std::string suffix = std::filesystem::path(name).extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix;
+  return std::ranges::find(kFormats, suffix, &Format::suffix);
 }
 
 /// Returns nothing if there is no such file, or it cannot be read.
@@ -43,6 +44,10 @@ std::optional<FileText> bytes_of_file(const std::string& path) {
 }
 
 }  // namespace
+
+bool is_importable(std::string_view name) {
+  return format_of_solid(name) != kFormats.end() || drawing_format_of(name).has_value();
+}
 
 std::string FileImports::path_of(const std::string& name) {
   std::string path = (std::filesystem::path(folder_) / name).lexically_normal().string();
@@ -101,11 +106,10 @@ ImportedDrawing FileImports::read_drawing(const DrawingArguments& arguments) {
 ImportedFile FileImports::read_import(const std::string& name) {
   ImportedFile file;
   const std::string path = path_of(name);
-  const std::string suffix = suffix_of(name);
-  const auto format = std::ranges::find(kFormats, suffix, &Format::suffix);
+  const auto format = format_of_solid(name);
   if (format == kFormats.end()) {
     file.problem = "Unsupported file format while trying to import file '\"" + name + "\"'";
-    file.todo = "convert it to .stl, .off, .amf, .3mf, .nef3, .svg or .dxf";
+    file.todo = std::string("convert it to ") + kImportable;
     return file;
   }
   const std::optional<FileText> bytes = bytes_of_file(path);

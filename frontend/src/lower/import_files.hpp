@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -23,6 +24,12 @@ struct ImportedFile {
 
 /// A file's figures, and what is wrong with it.
 using ImportedDrawing = Drawing;
+
+/// Returns whether import() knows the kind of the file, which its name tells.
+bool is_importable(std::string_view name);
+
+/// The kinds of file that is_importable() knows, for messages.
+constexpr const char* kImportable = ".stl, .off, .amf, .3mf, .nef3, .svg or .dxf";
 
 /// Reads every file of a design once, and a drawing once for each way of reading it.
 class FileImports {

@@ -12,16 +12,6 @@
 namespace frontend {
 namespace {
 
-std::optional<DrawingFormat> format_of(std::string_view name) {
-  constexpr size_t kSuffix = 4;
-  if (name.size() < kSuffix) return std::nullopt;
-  std::string suffix(name.substr(name.size() - kSuffix));
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (suffix == ".dxf") return DrawingFormat::kDxf;
-  if (suffix == ".svg") return DrawingFormat::kSvg;
-  return std::nullopt;
-}
-
 /// Returns the name of the node's file; empty if it is missing.
 std::string_view file_of(const SyntaxTree& tree, const SyntaxNode& node) {
   const size_t position = is_extrusion(node.kind) ? kByNameOnly : 0;
@@ -53,9 +43,19 @@ Vec2 read_origin(const SyntaxTree& tree, const SyntaxNode& node) {
 
 }  // namespace
 
+std::optional<DrawingFormat> drawing_format_of(std::string_view name) {
+  constexpr size_t kSuffix = 4;
+  if (name.size() < kSuffix) return std::nullopt;
+  std::string suffix(name.substr(name.size() - kSuffix));
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (suffix == ".dxf") return DrawingFormat::kDxf;
+  if (suffix == ".svg") return DrawingFormat::kSvg;
+  return std::nullopt;
+}
+
 bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node) {
   if (is_extrusion(node.kind)) return !file_of(tree, node).empty();
-  return node.kind == NodeKind::kImport && format_of(file_of(tree, node)).has_value();
+  return node.kind == NodeKind::kImport && drawing_format_of(file_of(tree, node)).has_value();
 }
 
 bool has_place(const SyntaxTree& tree, const SyntaxNode& node) {
@@ -67,7 +67,7 @@ DrawingArguments read_drawing_arguments(const SyntaxTree& tree, const SyntaxNode
   DrawingArguments result;
   result.file = file_of(tree, node);
   if (node.kind == NodeKind::kImport) {
-    result.format = format_of(result.file).value_or(DrawingFormat::kDxf);
+    result.format = drawing_format_of(result.file).value_or(DrawingFormat::kDxf);
   }
   if (result.format == DrawingFormat::kSvg) {
     const Value* center = find_argument(tree, node, "center", kByNameOnly);

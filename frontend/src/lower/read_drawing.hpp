@@ -1,7 +1,9 @@
 // Nodes that read a drawing: import() of a DXF or SVG, and the extrusions of older designs.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "drawings/drawing.hpp"
 #include "frontend/syntax_tree.hpp"
@@ -17,6 +19,9 @@ bool names_drawing(const SyntaxTree& tree, const SyntaxNode& node);
 bool has_place(const SyntaxTree& tree, const SyntaxNode& node);
 
 enum class DrawingFormat : uint8_t { kDxf, kSvg };
+
+/// Returns the format that a file's name tells; nothing: it is no drawing's.
+std::optional<DrawingFormat> drawing_format_of(std::string_view name);
 
 /// What a node says of its drawing; is_faceted is left to its reader.
 struct DrawingArguments {

@@ -23,7 +23,11 @@ Pipe::Pipe() {
 
 ChildProcess::ChildProcess(const ChildSetup& setup) {
   FileActions files;
-  files.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  if (setup.input >= 0) {
+    files.give(setup.input, STDIN_FILENO);
+  } else {
+    files.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  }
   files.give(setup.output, STDOUT_FILENO);
   files.give(setup.errors, STDERR_FILENO);
   if (setup.kept >= 0) files.give(setup.kept, setup.kept);

@@ -44,6 +44,7 @@ struct ChildSetup {
   int kept = -1;                     // one more descriptor that it inherits, with the same number;
                                      // -1: none
   bool is_in_background = false;     // it gets the processors that nothing else wants
+  int input = -1;                    // its standard input; -1: empty
 };
 
 /// A running program. It and everything that it starts are in a process group of their own. The
@@ -53,7 +54,7 @@ struct ChildSetup {
 /// (PR_SET_PDEATHSIG would reach the program alone, not what a wrapper script has started.)
 class ChildProcess {
  public:
-  /// Starts the program with an empty standard input. Throws std::system_error if it cannot be
+  /// Starts the program. Throws std::system_error if it cannot be
   /// started.
   explicit ChildProcess(const ChildSetup& setup);
   ~ChildProcess();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <string>
@@ -20,7 +21,7 @@ class MemoryFile {
   MemoryFile() : file_(memfd_create("scadray", MFD_CLOEXEC)) {
     if (file_.number() < 0) fail();
   }
-  /// A file that holds the text. Throws std::system_error.
+  /// A file that holds the text, and is read from its start. Throws std::system_error.
   explicit MemoryFile(std::string_view text) : MemoryFile() {
     while (!text.empty()) {
       const ssize_t count = write(file_.number(), text.data(), text.size());
@@ -28,6 +29,7 @@ class MemoryFile {
       if (count < 0) fail();
       text.remove_prefix(static_cast<std::size_t>(count));
     }
+    if (lseek(file_.number(), 0, SEEK_SET) != 0) fail();
   }
 
   int descriptor() const { return file_.number(); }

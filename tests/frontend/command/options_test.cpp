@@ -396,6 +396,7 @@ TEST(Options, OpenScadsArgumentsAreHandedOnInOrder) {
   EXPECT_THAT(parse_drawing({"-D", "a=1"}).warnings, ElementsAre(HasSubstr(".csg: -D")));
   EXPECT_THAT(parse_drawing({"--hardwarnings"}).warnings, IsEmpty());
   EXPECT_THAT(parse_options({"-o", "x.png", "-D", "a=1", "scad-x7Qf"}).warnings, IsEmpty());
+  EXPECT_THAT(parse_options({"-o", "x.png", "-D", "a=1", "-"}).warnings, IsEmpty());
 }
 
 TEST(Options, WhatHasNoEffectIsSaidOnce) {

@@ -1,9 +1,16 @@
 // Tests the command with designs that scadray evaluates itself. No openscad runs here unless a test
 // plays one.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "frontend/command.hpp"
@@ -41,6 +48,24 @@ class EvaluatedDesign : public testing::Test {
     return said;
   }
   std::string design(const std::string& text) { return folder_.write("a.scad", text); }
+
+  /// Runs the command with a pipe in place of standard input, into which `text` is written.
+  Said run_with_input(const std::string& text, const std::vector<std::string>& arguments) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+    const int saved = dup(STDIN_FILENO);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    std::thread writer([&] {
+      EXPECT_EQ(write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+      close(ends[1]);
+    });
+    Said said = run(arguments);
+    writer.join();
+    dup2(saved, STDIN_FILENO);
+    close(saved);
+    return said;
+  }
 
   TemporaryFolder folder_;
   csgcore::Scene scene_;
@@ -107,6 +132,133 @@ TEST_F(EvaluatedDesign, TellsARuleItsFiles) {
   const std::string file = design("use <b.scad>\nb();");
   EXPECT_EQ(run({"-o", folder_ / "x.csg", "-d", folder_ / "x.d", file}).code, ExitCode::kDone);
   EXPECT_EQ(folder_.read("x.d"), folder_ / "x.csg" + ": \\\n\t" + used + " \\\n\t" + file + "\n");
+}
+
+TEST_F(EvaluatedDesign, MayComeFromAPipe) {
+  // All outputs are of the text that is read once.
+  const std::vector<std::string> outputs = {"-o", folder_ / "x.png",  "-o", folder_ / "x.csg",
+                                            "-o", folder_ / "x.echo", "-d", folder_ / "x.d"};
+  const auto check = [&](const Said& said, const std::string& name) {
+    EXPECT_EQ(said.code, ExitCode::kDone) << name << said.err;
+    EXPECT_EQ(scene_.primitives.size(), 1u) << name;
+    EXPECT_THAT(folder_.read("x.csg"), HasSubstr("[3, 3, 3]")) << name;
+    EXPECT_EQ(folder_.read("x.echo"), "ECHO: 3\n") << name;
+  };
+  const std::string text = "n = 3; echo(n); cube(n);";
+  for (const char* name : {"-", "/dev/stdin"}) {
+    std::vector<std::string> arguments = outputs;
+    arguments.push_back(name);
+    check(run_with_input(text, arguments), name);
+  }
+  for (const char* name : {"pipe", "pipe.scad", "pipe.csg"}) {
+    const std::string path = folder_ / name;
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    std::vector<std::string> arguments = outputs;
+    arguments.push_back(path);
+    // A .csg holds no more than OpenSCAD exports; it may be read as a .scad for the texts.
+    const bool is_csg = path.ends_with(".csg");
+    std::thread writer([&] { folder_.write(name, is_csg ? "cube(size = [3, 3, 3]);" : text); });
+    const Said said = run(arguments);
+    writer.join();
+    if (!is_csg) check(said, name);
+    EXPECT_EQ(said.code, ExitCode::kDone) << name << said.err;
+    EXPECT_EQ(scene_.primitives.size(), 1u) << name;
+  }
+  // The texts are of the whole, also of what is known to be no .csg after its start.
+  const std::string csg_pipe = folder_ / "pipe.csg";
+  std::thread writer([&] { folder_.write("pipe.csg", text + std::string(100000, ' ') + text); });
+  EXPECT_EQ(run({"-o", folder_ / "x.echo", csg_pipe}).code, ExitCode::kDone);
+  writer.join();
+  EXPECT_EQ(folder_.read("x.echo"),
+            "WARNING: n was assigned on line 1 but was overwritten in file pipe.csg, line 1\n"
+            "ECHO: 3\nECHO: 3\n");
+  EXPECT_EQ(run_with_input("include <b.scad>\nb();", {"-o", folder_ / "x.png", "-d", "-", "-"}).out,
+            folder_ / "x.png" + ":\n");
+  EXPECT_THAT(run_with_input("\ncube(1", {"-o", folder_ / "x.png", "-"}).err,
+              HasSubstr("standard input:3: error: Parser error: syntax error\n"));
+}
+
+TEST_F(EvaluatedDesign, FromAPipeMayNotBeEndless) {
+  const auto on_pipe = signal(SIGPIPE, SIG_IGN);  // the reader stops before the end
+  constexpr std::size_t kBytes = (std::size_t{64} << 20) + 2;
+  const std::string path = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  std::thread writer([&] {
+    const int end = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    std::string lines;
+    while (lines.size() < std::size_t{1} << 20) lines += "yes\n";
+    for (std::size_t written = 0; written < 2 * kBytes;) {
+      const ssize_t count = write(end, lines.data(), lines.size());
+      if (count <= 0) break;
+      written += static_cast<std::size_t>(count);
+    }
+    close(end);
+  });
+  EXPECT_EQ(run({"-o", folder_ / "x.png", path}).err,
+            path + ": error: is larger than 64 MiB, and no .csg (check the file)\n");
+  writer.join();
+  signal(SIGPIPE, on_pipe);
+  EXPECT_FALSE(folder_.has("x.png"));
+}
+
+TEST_F(EvaluatedDesign, FromAPipeIsGivenToOpenScad) {
+  const Environment openscad(
+      "OPENSCAD",
+      folder_.script("openscad", "cat >" + folder_ / "text" + "; echo \"$@\" >" +
+                                     folder_ / "arguments" + "; echo 'sphere(r = 1);'"));
+  EXPECT_EQ(
+      run_with_input("module a() {} a();", {"--evaluator=openscad", "-o", folder_ / "x.png", "-"})
+          .err,
+      "");
+  EXPECT_EQ(folder_.read("text"), "module a() {} a();");
+  EXPECT_EQ(folder_.read("arguments"), "-o - --export-format=csg -- -\n");
+  run_with_input("b();", {"--evaluator=openscad", "-o", folder_ / "x.csg", "-"});
+  EXPECT_EQ(folder_.read("text"), "b();");
+}
+
+constexpr const char* kOff =
+    "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 5\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
+
+TEST_F(EvaluatedDesign, MayBeAMeshOrADrawing) {
+  const std::string off = folder_.write("a \"b\\\n.OFF", kOff);
+  const Said said = run({"-o", folder_ / "x.png", "-o", folder_ / "x.csg", "-d", folder_ / "x.d",
+                         "-m", "make", "--evaluator=openscad", off});
+  EXPECT_EQ(said.code, ExitCode::kFailure) << "no rule can name it";
+  const std::string part = folder_.write("part.off", kOff);
+  const std::vector<std::string> outputs = {"-o", folder_ / "x.png", "-o", folder_ / "x.csg"};
+  for (const std::string& path : {off, part}) {
+    std::vector<std::string> arguments = outputs;
+    arguments.insert(arguments.end(), {"-m", "make", "--evaluator=openscad", path});
+    EXPECT_EQ(run(arguments).err, "") << path;
+    EXPECT_EQ(scene_.primitives.size(), 1u) << path;
+    EXPECT_THAT(folder_.read("x.csg"), StartsWith("import(file = \"")) << path;
+  }
+  run({"-o", folder_ / "x.png", "-d", folder_ / "x.d", part});
+  EXPECT_EQ(folder_.read("x.d"), folder_ / "x.png" + ": \\\n\t" + part + "\n");
+  const std::string svg = folder_.write(
+      "a.svg", "<svg><rect width=\"3\" height=\"4\"/><circle cx=\"9\" r=\"2\"/></svg>");
+  EXPECT_EQ(run({"-o", folder_ / "x.png", svg}).err, "");
+  EXPECT_FALSE(scene_.primitives.empty());
+  EXPECT_EQ(run({"-o", folder_ / "x.csg", "-D", "$fn=7", svg}).err, "");
+  EXPECT_THAT(folder_.read("x.csg"), HasSubstr("$fn = 7"));
+}
+
+TEST_F(EvaluatedDesign, MayBeNoPicture) {
+  using std::string_literals::operator""s;
+  const std::string png = folder_.write("a.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR"s);
+  for (const char* output : {"x.png", "x.csg", "x.echo"}) {
+    const Said said = run({"-o", folder_ / output, png});
+    EXPECT_EQ(said.code, ExitCode::kFailure);
+    EXPECT_THAT(said.err, StartsWith(png + ": error: is no design (give a .scad, a .csg, or what "
+                                           "import() reads: .stl, "));
+    EXPECT_FALSE(folder_.has(output));
+  }
+  EXPECT_THAT(run({"-o", folder_ / "x.png", folder_ / "none.stl"}).err,
+              HasSubstr("none.stl: error: cannot be read"));
+  const std::string pipe = folder_ / "pipe.stl";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(run({"-o", folder_ / "x.png", pipe}).err,
+            pipe + ": error: is no regular file (check the file)\n");
 }
 
 TEST_F(EvaluatedDesign, IsDrawnWithAllDigits) {

@@ -113,6 +113,24 @@ TEST_P(Follow, ImportedFilesAreFollowed) {
   design.next([](const DesignVersion& version) { return !version.messages.empty(); });
 }
 
+TEST_P(Follow, AMeshIsFollowed) {
+  const auto off = [](const std::string& z) {
+    return "OFF 4 4 0\n0 0 0\n3 0 0\n0 4 0\n0 0 " + z + "\n3 2 1 0\n3 1 3 0\n3 3 2 0\n3 2 3 1\n";
+  };
+  const std::string path = folder_ / "part.off";
+  Followed design(path, options());
+  EXPECT_THAT(design.next_error().error, HasSubstr("part.off: error: cannot be read"));
+  for (const char* z : {"5", "7"}) {
+    folder_.write("part.off", off(z));
+    const DesignVersion found = design.next([&](const DesignVersion& version) {
+      return version.design && version.design->view_box.max.z == std::stod(z);
+    });
+    EXPECT_EQ(found.design->scene.primitives.size(), 1u);
+    EXPECT_THAT(found.files, ElementsAre(path));
+    EXPECT_FALSE(found.parameters);
+  }
+}
+
 TEST_P(Follow, HalfAFileDoesNotStay) {
   Followed design(folder_.write("a.csg", spheres(1)), options());
   design.next_of(1);
@@ -327,6 +345,22 @@ TEST_F(FromStandardInput, IsReadOnce) {
   design->reload();
   design.wait_until_idle();
   EXPECT_FALSE(design->take());
+}
+
+TEST_F(FromStandardInput, AScadIsEvaluatedAgainWithOtherInputs) {
+  FollowOptions options = by_inotify();
+  options.evaluator = Evaluator::kOwn;
+  Followed design("-", options);
+  constexpr std::string_view kText =
+      "n = 1; // [1:9]\n$vpt = [1, 2, 3];\nfor (i = [1:n]) sphere(i);";
+  ASSERT_GT(write(write_end_, kText.data(), kText.size()), 0);
+  close(std::exchange(write_end_, -1));
+  const DesignVersion first = design.next_of(1);
+  ASSERT_TRUE(first.parameters);
+  EXPECT_EQ(first.parameters->list.at(0).name, "n");
+  EXPECT_THAT(first.messages, testing::IsEmpty()) << "the window's camera is no news";
+  design->set_inputs({language::ParameterSet{{"n", "4"}}, std::nullopt});
+  design.next_of(4);
 }
 
 TEST_F(FromStandardInput, DoesNotHoldUpTheEnd) {

@@ -216,7 +216,7 @@ TEST(HardWarnings, EndTheParsingOfEachFile) {
 TEST(HardWarnings, EndTheParsing) {
   ParseOptions options;
   options.hard_warnings = true;
-  options.standard_input = "x=1;\nx=2;\ny=1;";
+  options.text = "x=1;\nx=2;\ny=1;";
   const ParsedDesign design("-", options);
   EXPECT_EQ(design.outcome, ParseOutcome::kNotParsed);
   ASSERT_EQ(design.lines.size(), 4u);

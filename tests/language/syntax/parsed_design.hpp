@@ -65,7 +65,7 @@ struct ParsedDesign {
 /// Parses a design of one file.
 inline ParsedDesign parse_text(std::string_view text) {
   ParseOptions options;
-  options.standard_input = text;
+  options.text = text;
   return ParsedDesign("-", options);
 }
 

@@ -68,11 +68,11 @@ struct Evaluation {
 /// Takes the lines that OpenSCAD would print, in order, without the line feed.
 using MessageSink = std::function<void(std::string_view line)>;
 
-/// Evaluates the design in the file `path` ("-": the standard input, whose text is
-/// `standard_input`). All messages go to `sink`, with OpenSCAD's texts, order and suppression
-/// (LANGUAGE.md, "Messages"). Throws nothing but Stopped (language/stopped.hpp), within 50 ms of a
-/// request of options.stop.
+/// Evaluates the design in the file `path`, or `text` in its place: that of the standard input,
+/// where the path is "-", or of any file that is not to be read here. All messages go to `sink`,
+/// with OpenSCAD's texts, order and suppression (LANGUAGE.md, "Messages"). Throws nothing but
+/// Stopped (language/stopped.hpp), within 50 ms of a request of options.stop.
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
-                    const MessageSink& sink, std::string_view standard_input = {});
+                    const MessageSink& sink, std::optional<std::string_view> text = {});
 
 }  // namespace language

@@ -22,11 +22,11 @@ namespace {
 class Session {
  public:
   Session(const std::string& path, const EvaluationOptions& options, const MessageSink& sink,
-          std::string_view standard_input)
+          std::optional<std::string_view> text)
       : path_(path),
         options_(options),
         sink_(sink),
-        standard_input_(standard_input),
+        text_(text),
         kept_(options.cache ? &options.cache->parts() : nullptr),
         tree_(std::make_shared<NodeTree>()),
         program_(kept_ ? std::make_unique<Program>(kept_->sources) : std::make_unique<Program>()),
@@ -52,8 +52,8 @@ class Session {
   const std::string& path_;
   const EvaluationOptions& options_;
   const MessageSink& sink_;
-  std::string_view standard_input_;
-  EvaluationCache::Parts* kept_;  // null: nothing is kept
+  std::optional<std::string_view> text_;  // of the main file
+  EvaluationCache::Parts* kept_;          // null: nothing is kept
   std::shared_ptr<NodeTree> tree_;
   KeptCalls calls_;
   std::unique_ptr<Program> program_;
@@ -222,7 +222,7 @@ void Session::parse_and_evaluate() {
   options.definitions = options_.definitions;
   options.hard_warnings = options_.hard_warnings;
   options.stop = options_.stop;
-  options.standard_input = standard_input_;
+  options.text = text_;
   const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
   if (parsed == ParseOutcome::kParsed) {
     const WorkWatch watch(options_.stop);
@@ -248,11 +248,11 @@ Evaluation Session::run() {
 }  // namespace
 
 Evaluation evaluate(const std::string& path, const EvaluationOptions& options,
-                    const MessageSink& sink, std::string_view standard_input) {
+                    const MessageSink& sink, std::optional<std::string_view> text) {
   if (options.cache)
     options.cache->parts().begin(
         {options.check_parameters, options.check_ranges, options.hard_warnings});
-  return Session(path, options, sink, standard_input).run();
+  return Session(path, options, sink, text).run();
 }
 
 }  // namespace language

@@ -1,6 +1,7 @@
 // How a design is parsed.
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@ struct ParseOptions {
   std::vector<std::string> definitions;  // -D, in order, as typed
   bool hard_warnings = false;
   std::stop_token stop;
-  std::string_view standard_input;  // the text of the file "-"
+  std::optional<std::string_view> text;  // of the main file; nothing: it is read
 };
 
 }  // namespace language

@@ -29,12 +29,18 @@ ProgramReader::ProgramReader(Program& program, Messages& messages, const ParseOp
 
 bool ProgramReader::read_main(const std::string& path) {
   std::error_code error;
-  if (path == "-") {
-    program_.files.add("<stdin>", unit_text(std::string(options_.standard_input)));
+  const bool is_standard_input = path == "-";
+  std::optional<std::string> text;
+  if (options_.text || is_standard_input) {
+    text = options_.text.value_or(std::string_view());
+  } else {
+    text = read_file(path);
+  }
+  if (!text) return false;
+  if (is_standard_input) {
+    program_.files.add("<stdin>", unit_text(std::move(*text)));
     add_unit(0, fs::current_path(error).string(), 0);
   } else {
-    auto text = read_file(path);
-    if (!text) return false;
     const fs::path absolute = fs::absolute(path, error);
     program_.files.add(absolute.string(), unit_text(std::move(*text)));
     add_unit(0, absolute.lexically_normal().parent_path().string(), 0);
