@@ -9,9 +9,9 @@
 
 #include "base/elapsed.hpp"
 #include "command/check.hpp"
+#include "command/output_paths.hpp"
 #include "command/text_outputs.hpp"
 #include "csgcore/workers.hpp"
-#include "follow/make_rule.hpp"
 #include "frontend/channel_picture.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/design_version.hpp"
@@ -50,15 +50,6 @@ std::string renderer_line(const RenderStats& stats) {
   return "renderer: " + stats.renderer + (stats.reason.empty() ? "" : " (" + stats.reason + ")");
 }
 
-/// Returns OpenSCAD's name of a frame's file: five digits before the suffix.
-std::string frame_path(const std::string& path, uint32_t frame) {
-  const std::filesystem::path whole(path);
-  std::string digits = std::to_string(frame);
-  digits.insert(0, 5 - std::min<std::size_t>(digits.size(), 5), '0');
-  return (whole.parent_path() / (whole.stem().string() + digits + whole.extension().string()))
-      .string();
-}
-
 /// One run of the command that draws.
 class Run {
  public:
@@ -82,7 +73,9 @@ class Run {
     if (!options_.stats_path.empty()) {
       outputs.push_back({options_.stats_path, bytes_of(to_json(stats_))});
     }
-    if (!options_.rule_path.empty()) outputs.push_back({options_.rule_path, bytes_of(rule())});
+    if (!options_.rule_path.empty()) {
+      outputs.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
+    }
     progress_.clear();
     check_outputs_differ(named_outputs(), named_inputs());  // all inputs are known now
     write_outputs(outputs);
@@ -111,23 +104,8 @@ class Run {
     encode(image, view, camera, outputs);
   }
 
-  /// Returns the path of an output for a frame.
-  std::string path_of(const Output& output, uint32_t frame) const {
-    return options_.frames == 0 ? output.path : frame_path(output.path, frame);
-  }
-
-  /// Returns the paths of all pictures.
-  std::vector<std::string> picture_paths() const {
-    std::vector<std::string> paths;
-    for (uint32_t frame = 0; frame < std::max(options_.frames, 1u); ++frame) {
-      for (const Output& output : options_.outputs) paths.push_back(path_of(output, frame));
-    }
-    return paths;
-  }
-
   std::vector<NamedPath> named_outputs() const {
-    std::vector<NamedPath> outputs;
-    for (std::string& path : picture_paths()) outputs.push_back({"-o", std::move(path)});
+    std::vector<NamedPath> outputs = output_paths(options_);
     if (!options_.stats_path.empty()) outputs.push_back({"--stats", options_.stats_path});
     if (!options_.rule_path.empty()) outputs.push_back({"-d", options_.rule_path});
     return outputs;
@@ -145,7 +123,7 @@ class Run {
     const std::vector<NamedPath> outputs = named_outputs();
     for (const NamedPath& output : outputs) check_output(output.path);
     check_outputs_differ(outputs, named_inputs());
-    if (!options_.rule_path.empty()) rule_of({options_.input});
+    if (!options_.rule_path.empty()) rule_of(options_, {options_.input});
   }
 
   void show_progress(const std::string& stage, double fraction) {
@@ -178,7 +156,7 @@ class Run {
     reading.evaluator = options_.evaluator;
     reading.camera = camera_choice(options_);
     reading.text = text_;
-    if (options_.frames > 0) reading.inputs.time = static_cast<double>(frame_) / options_.frames;
+    reading.inputs.time = frame_time(options_, frame_);
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
       if (options_.prints_echoes && is_echo(line)) {
@@ -278,7 +256,7 @@ class Run {
     }
     draw_overlays(image, view, camera, options_.overlays, scheme, design_);
     for (const Output& output : options_.outputs) {
-      outputs.push_back({path_of(output, frame_), encode_picture(image, output.format)});
+      outputs.push_back({path_of(output, options_, frame_), encode_picture(image, output.format)});
     }
     stats_.width_px = image.width_px;
     stats_.height_px = image.height_px;
@@ -300,16 +278,6 @@ class Run {
           "may cross (give a smaller $fn)");
     }
     draw_wireframe(image, view, camera, edges, options_.render.scheme);
-  }
-
-  std::string rule() const { return rule_of(files_); }
-
-  /// Throws Error for a name that no rule can contain.
-  std::string rule_of(std::vector<std::string> files) const {
-    std::erase(files, "-");  // make has no name for standard input
-    std::vector<std::string> targets = picture_paths();
-    std::replace(targets.begin(), targets.end(), std::string("-"), std::string("<stdout>"));
-    return make_rule(targets, files);
   }
 
   const Options& options_;

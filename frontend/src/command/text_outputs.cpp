@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "command/output_paths.hpp"
 #include "follow/evaluated_design.hpp"
-#include "follow/make_rule.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
@@ -36,6 +36,7 @@ std::vector<std::string> openscad_command(const Options& options, const TextOutp
   if (!options.rule_path.empty()) command.insert(command.end(), {"-d", options.rule_path});
   command.insert(command.end(), options.openscad_arguments.begin(),
                  options.openscad_arguments.end());
+  if (options.frames > 0) command.push_back("--animate=" + std::to_string(options.frames));
   command.insert(command.end(), {"--", input});
   return command;
 }
@@ -52,7 +53,7 @@ ExitCode write_by_openscad(const Options& options, const TextOutput& output,
   return openscad.wait() == 0 ? ExitCode::kDone : ExitCode::kFailure;
 }
 
-/// One evaluation, and where its messages go.
+/// The evaluations for one output, and where their messages go.
 class TextRun {
  public:
   TextRun(const Options& options, const TextOutput& output, const std::optional<FileText>& text)
@@ -67,9 +68,16 @@ class TextRun {
     }
     known->camera = camera_choice(options_);
     known->is_preview = options_.import.picture != PictureKind::kRendered;
-    language::Evaluation evaluation = language::evaluate(
-        options_.input, *known, [&](std::string_view line) { add(line); }, view_of(text_));
-    return write(evaluation);
+    bool is_read = true;
+    for (uint32_t frame = 0; is_read && frame < frame_count(options_); ++frame) {
+      is_read = evaluate(*known, frame);
+    }
+    if (output_.kind == TextKind::kEcho) outputs_.push_back({output_.path, bytes_of(messages_)});
+    if (is_read && !options_.rule_path.empty() && options_.outputs.empty()) {
+      outputs_.push_back({options_.rule_path, bytes_of(rule_of(options_, files_))});
+    }
+    if (is_read || output_.kind == TextKind::kEcho) write_outputs(outputs_);
+    return is_read ? ExitCode::kDone : ExitCode::kFailure;
   }
 
  private:
@@ -82,43 +90,43 @@ class TextRun {
     messages_.clear();
   }
 
-  ExitCode write(const language::Evaluation& evaluation) {
-    const bool is_read = evaluation.outcome != language::Outcome::kNotParsed &&
-                         evaluation.outcome != language::Outcome::kUnreadable;
-    std::vector<PendingOutput> outputs;
-    if (output_.kind == TextKind::kEcho) {
-      outputs.push_back({output_.path, bytes_of(messages_)});
-    } else if (is_read) {
-      outputs.push_back({output_.path, bytes_of(language::csg_text(*evaluation.tree))});
+  /// Returns whether the design could be read.
+  bool evaluate(language::EvaluationOptions options, uint32_t frame) {
+    options.time = frame_time(options_, frame).value_or(0);
+    if (output_.kind == TextKind::kEcho && options_.frames > 0) {
+      add("Exporting " + (options_.input == "-" ? "<stdin>" : options_.input) + "...");
     }
-    if (is_read && !options_.rule_path.empty() && options_.outputs.empty()) {
-      outputs.push_back({options_.rule_path, bytes_of(rule(evaluation))});
+    const language::Evaluation evaluation = language::evaluate(
+        options_.input, options, [&](std::string_view line) { add(line); }, view_of(text_));
+    if (evaluation.outcome == language::Outcome::kNotParsed ||
+        evaluation.outcome == language::Outcome::kUnreadable) {
+      return false;
     }
-    write_outputs(outputs);
-    return is_read ? ExitCode::kDone : ExitCode::kFailure;
-  }
-
-  std::string rule(const language::Evaluation& evaluation) const {
-    std::vector<std::string> targets;
-    for (const TextOutput& output : options_.texts) {
-      targets.push_back(output.path == "-" ? "<stdout>" : output.path);
+    if (output_.kind == TextKind::kCsg) {
+      outputs_.push_back(
+          {path_of(output_, options_, frame), bytes_of(language::csg_text(*evaluation.tree))});
     }
-    std::vector<std::string> files = files_of(evaluation, options_.input);
-    std::erase(files, "-");  // make has no name for standard input
-    return make_rule(targets, files);
+    for (std::string& file : files_of(evaluation, options_.input)) {
+      if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
+        files_.push_back(std::move(file));
+      }
+    }
+    return true;
   }
 
   const Options& options_;
   const TextOutput& output_;
   const std::optional<FileText>& text_;
-  std::string messages_;  // which are the output, or a line that is being said
+  std::string messages_;            // which are the output, or a line that is being said
+  std::vector<std::string> files_;  // that the design was read from, for all frames
+  std::vector<PendingOutput> outputs_;
 };
 
 }  // namespace
 
 ExitCode write_texts(const Options& options, const std::optional<FileText>& text) {
-  std::vector<NamedPath> paths;
-  for (const TextOutput& output : options.texts) paths.push_back({"-o", output.path});
+  if (options.texts.empty()) return ExitCode::kDone;
+  std::vector<NamedPath> paths = output_paths(options);
   if (!options.rule_path.empty()) paths.push_back({"-d", options.rule_path});
   for (const NamedPath& path : paths) check_output(path.path);
   check_outputs_differ(paths, design_inputs(options.input, options.openscad_arguments));

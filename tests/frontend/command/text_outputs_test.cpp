@@ -134,6 +134,31 @@ TEST_F(EvaluatedDesign, TellsARuleItsFiles) {
   EXPECT_EQ(folder_.read("x.d"), folder_ / "x.csg" + ": \\\n\t" + used + " \\\n\t" + file + "\n");
 }
 
+TEST_F(EvaluatedDesign, TellsARuleAllOutputs) {
+  const std::string file = design("cube(1);");
+  const std::string csg = folder_ / "x.csg", png = folder_ / "x.png", echo = folder_ / "x.echo";
+  const std::string rule = folder_ / "x.d";
+  EXPECT_EQ(run({"-o", png, "-o", csg, "-o", echo, "-d", rule, file}).code, ExitCode::kDone);
+  EXPECT_EQ(folder_.read("x.d"), csg + " " + echo + " " + png + ": \\\n\t" + file + "\n");
+  EXPECT_THAT(run({"-o", png, "-o", csg, "-d", csg, file}).err, HasSubstr("-d would overwrite -o"));
+}
+
+TEST_F(EvaluatedDesign, HasATreeForEachFrame) {
+  const std::string file = design("echo($t); cube(1 + $t);");
+  const Said said = run({"--animate=2", "-o", folder_ / "x.csg", "-o", folder_ / "x.echo", "-o",
+                         folder_ / "x.png", "-d", folder_ / "x.d", file});
+  EXPECT_EQ(said.code, ExitCode::kDone);
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a.scad", "x.d", "x.echo", "x00000.csg",
+                                                       "x00000.png", "x00001.csg", "x00001.png"}));
+  EXPECT_EQ(folder_.read("x00000.csg"), "cube(size = [1, 1, 1], center = false);\n\n");
+  EXPECT_EQ(folder_.read("x00001.csg"), "cube(size = [1.5, 1.5, 1.5], center = false);\n\n");
+  EXPECT_EQ(folder_.read("x.echo"),
+            "Exporting " + file + "...\nECHO: 0\nExporting " + file + "...\nECHO: 0.5\n");
+  EXPECT_THAT(folder_.read("x.d"),
+              StartsWith(folder_ / "x00000.csg" + " " + folder_ / "x00001.csg" + " " +
+                         folder_ / "x.echo" + " " + folder_ / "x00000.png"));
+}
+
 TEST_F(EvaluatedDesign, MayComeFromAPipe) {
   // All outputs are of the text that is read once.
   const std::vector<std::string> outputs = {"-o", folder_ / "x.png",  "-o", folder_ / "x.csg",
