@@ -164,12 +164,14 @@ Segment intersect(Ray ray, uint primitive) { return fallback_segment(canonical_r
 
 #endif
 
+// Set if the pixel is given up. The CPU draws it then (renderer.cpp).
+bool unfinished = false;
+
 #if HAS_NONCONVEX
 
 // Loop rounds that the pixel has spent on primitives that are not convex. If it would spend more
-// than MOST_NONCONVEX_ROUNDS, it is given up, and the CPU draws it (renderer.cpp).
+// than MOST_NONCONVEX_ROUNDS, it is given up.
 int rounds_spent = 0;
-bool unfinished = false;
 
 bool is_nonconvex(CanonicalRay ray);
 // Returns the stretch that begins at t. It always ends behind t.

@@ -17,8 +17,6 @@ const float BOX_MARGIN = 1.0 / 262144.0;  // Profile::kBoxMargin
 // Newton's method, which bisects now and then, ends by this many steps, or by a smaller one.
 const int MOST_STEPS = 40;
 const float LEAST_STEP = 1.0 / 8388608.0;
-// What a round counts for (rounds_spent): a driver may run those of the pixels around with it.
-const int ROUND_COST = 4;
 
 struct RevolutionPath {
   float offset, start, height, run, rise;
@@ -204,7 +202,7 @@ void cross_half(RevolutionPath path, PathCurve curve, bool from_within, bool to_
   bool is_level = path.rise == 0.0;
   int first_part = changes == 1 || is_level ? 6 : 0;
   for (int i = first_part; i < 7; ++i) {
-    rounds_spent += ROUND_COST;
+    ++rounds_spent;
     bool is_slope = i < 3;
     if (i == 3 || i == 6 && first_part == 6) {
       from = 0.0;
@@ -224,7 +222,7 @@ void cross_half(RevolutionPath path, PathCurve curve, bool from_within, bool to_
       float s = is_level ? (to_side ? 1.0 : 0.0) : 0.5 * (low + high);
       float step_before = high - low;
       for (int round = 0; round < MOST_STEPS && !is_level; ++round) {
-        rounds_spent += ROUND_COST;
+        ++rounds_spent;
         vec2 value;
         if (is_slope) {
           value = vec2(power.x + s * (2.0 * power.y + s * (3.0 * power.z + s * 4.0 * power.w)),

@@ -320,4 +320,35 @@ TEST(ProfilePictureTest, Edits) {
   }
 }
 
+/// A star whose lines pass near its middle, so that a ray crosses most of them.
+ProfileLoop crossed_star(int points, double radius) {
+  std::vector<Vec2> corners;
+  for (int i = 0; i < points; ++i) {
+    const double around = glm::two_pi<double>() * (points / 2) * i / points;
+    corners.push_back(radius * Vec2{std::cos(around), std::sin(around)});
+  }
+  return polygon(corners);
+}
+
+TEST(ProfileRoundsTest, WhereLoopsEndTooSoonTheTracerDraws) {
+  // A software driver ends the loops of all pixels that it runs at once: of those too whose rays
+  // cross few lines.
+  const Figure star = figure({translated(crossed_star(99, 10), {40, 0})}, FillRule::kNonZero);
+  const auto expect_hits_of_the_tracer = [](Primitive of_star, Primitive cut, const Way& way) {
+    LoadedScene loaded(
+        test_support::scene_of(Op::kIntersection, {std::move(of_star), std::move(cut)}), way);
+    View view = gl_test::view_from(loaded.solid.bounds(), Projection::kPerspective, 250, 20);
+    view.width_px = 24;
+    view.height_px = 18;
+    const Image gl = loaded.draw(view), cpu = gl_test::draw_by_cpu(loaded, view);
+    uint64_t other = 0;
+    for (size_t i = 0; i < cpu.z.size(); ++i) other += std::isinf(gl.z[i]) != std::isinf(cpu.z[i]);
+    EXPECT_EQ(other, 0u) << gl_test::name_of(way);
+  };
+  expect_hits_of_the_tracer(make_revolution(star), cube({0, 0, -10}, {60, 60, 10}),
+                            gl_test::leaves_of(8));
+  expect_hits_of_the_tracer(make_extrusion(star, 0, 30), cube({30, 0, -1}, {60, 10, 31}),
+                            gl_test::by_tiles());
+}
+
 }  // namespace
