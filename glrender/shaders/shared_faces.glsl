@@ -35,14 +35,21 @@ const uint MOST_SHARED = uint(SHORT_LIST);
 const uint MOST_SHARED = uint(LONG_LIST);
 #endif
 
-// Says how a test, or the list from that test on, behaves at the coincident faces. ENDS: it does
-// not hold behind them. HOLDS: it holds before and behind them. Any other number: it starts to hold
-// there. The number then encodes the test that starts it, and grows with its primitive's place in
-// the file.
-const uint ENDS = 0u;
+// The state of a test, or of an operation, at the coincident faces (`turning` in
+// csgcore/src/tree/list_expression.hpp): whether it holds before and behind them. FAILS: neither.
+// ENDS: before them alone. HOLDS: both. Any other number: it starts to hold there. The number then
+// encodes the test that starts it, and grows with its primitive's place in the file.
+const uint FAILS = 0u;
+const uint ENDS = 1u;
 const uint HOLDS = 0xFFFFFFFFu;
-uint starts_by(uint index, uint primitive) { return 1u + primitive * MOST_SHARED + index; }
-uint index_of(uint starting) { return (starting - 1u) % MOST_SHARED; }
+uint starts_by(uint index, uint primitive) { return 2u + primitive * MOST_SHARED + index; }
+uint index_of(uint starting) { return (starting - 2u) % MOST_SHARED; }
+bool is_turned(uint state) { return state > ENDS && state < HOLDS; }
+
+uint state_of(bool before, bool behind, uint starting) {
+  if (!behind) return before ? ENDS : FAILS;
+  return before ? HOLDS : starting;
+}
 
 // Returns where the test starts to hold (`starts`) or ends to. If the eye is inside, it is the
 // test's complement that starts or ends.
@@ -122,38 +129,90 @@ bool is_shared(Ray ray, Hit hit, out Hit last) {
   return shared;
 }
 
-uint across_test(Ray ray, Hit hit, uint index, BlistTest test) {
+// Returns the state of a test.
+uint state_across(Ray ray, Hit hit, uint index, BlistTest test) {
 #if HAS_NONCONVEX
   if (!test.is_convex) {
     Passage passage = passage_at(ray, hit, test);
-    if (!holds_behind(passage, test)) return ENDS;
-    return passage.changes ? starts_by(index, test.primitive) : HOLDS;
+    bool behind = holds_behind(passage, test);
+    return state_of(behind != passage.changes, behind, starts_by(index, test.primitive));
   }
 #endif
   Segment segment = segment_of(ray, index, test.primitive);
   bool starts = together(ray, hit, boundary(segment, test, true));
   bool ends = together(ray, hit, boundary(segment, test, false));
-  if (starts && !ends) return starts_by(index, test.primitive);
-  if (ends && !starts) return ENDS;
   bool inside = !starts && segment.start <= hit.t && hit.t < segment.end;  // false if the ray only
                                                                            // grazes it
-  return inside == (test.complement == u_eye_inside) ? HOLDS : ENDS;
+  bool changes = starts != ends;
+  bool behind = changes ? starts : inside == (test.complement == u_eye_inside);
+  return state_of(behind != changes, behind, starts_by(index, test.primitive));
 }
 
-uint across[MOST_SHARED];  // by test, for the list from that test on
-
-uint across_target(uint target) {
-  if (target < LIST_FALSE) return across[target];
-  return (target == LIST_TRUE) != u_eye_inside ? HOLDS : ENDS;
+// The state of a union and of an intersection. If several operands start, that of the last in file
+// order counts. If one ends as another one starts, the union holds, and the intersection fails.
+uint either(uint a, uint b) {
+  uint last = max(a, b);
+  return min(a, b) == ENDS && last > ENDS ? HOLDS : last;
 }
-
-// A union starts by its last operand that starts, unless one holds before; an intersection by the
-// last of those that have not held before.
-uint either(uint a, uint b) { return max(a, b); }
 uint both(uint a, uint b) {
-  if (a == HOLDS || b == ENDS) return b;
-  if (b == HOLDS || a == ENDS) return a;
-  return max(a, b);
+  uint first = min(a, b);
+  uint last = max(a, b);
+  if (last == HOLDS || first == last) return first;
+  return first > ENDS ? last : FAILS;
+}
+
+// Adjacent tests whose jumps out of the block have two targets. The list is read as the expression
+// that it was compiled from, as ListExpression does (csgcore/src/tree/list_expression.hpp).
+struct Block {
+  uint entry;  // the first test
+  uint if_true, if_false;
+  uint true_jumps, false_jumps;  // how many jumps lead there
+  uint state;
+};
+Block blocks[MOST_SHARED];  // no operands yet; the last one comes first in the list
+uint jumps[MOST_SHARED];    // by test, how many jumps lead there
+
+// Merges the blocks if they are operands of one operation, and returns whether they are.
+bool combine(inout Block block, Block next) {
+  bool is_intersection = block.if_true == next.entry && block.if_false == next.if_false &&
+                         block.true_jumps == jumps[next.entry];
+  bool is_union = block.if_false == next.entry && block.if_true == next.if_true &&
+                  block.false_jumps == jumps[next.entry];
+  if (is_intersection) {
+    block.if_true = next.if_true;
+    block.true_jumps = next.true_jumps;
+    block.false_jumps += next.false_jumps;
+  } else if (is_union) {
+    block.if_false = next.if_false;
+    block.false_jumps = next.false_jumps;
+    block.true_jumps += next.true_jumps;
+  } else {
+    return false;
+  }
+  // Around an eye in the solid, the complement of everything is evaluated.
+  block.state = is_intersection != u_eye_inside ? both(block.state, next.state)
+                                                : either(block.state, next.state);
+  return true;
+}
+
+uint state_of_list(Ray ray, Hit hit) {
+  for (uint i = 0u; i < v_list.y; ++i) jumps[i] = 0u;
+  for (uint i = 0u; i < v_list.y; ++i) {
+    BlistTest test = fetch_test(v_list.x + i);
+    if (test.if_inside < LIST_FALSE) ++jumps[test.if_inside];
+    if (test.if_outside < LIST_FALSE) ++jumps[test.if_outside];
+  }
+  uint count = 0u;
+  for (uint i = v_list.y; i-- > 0u;) {
+    BlistTest test = fetch_test(v_list.x + i);
+    Block block = Block(i, test.complement ? test.if_outside : test.if_inside,
+                        test.complement ? test.if_inside : test.if_outside, 1u, 1u,
+                        state_across(ray, hit, i, test));
+    while (count > 0u && combine(block, blocks[count - 1u])) --count;
+    blocks[count] = block;
+    ++count;
+  }
+  return count == 1u ? blocks[0].state : FAILS;
 }
 
 // Shows the last in file order of the operands that start the solid (NUMERICS.md, the definition).
@@ -165,18 +224,8 @@ bool is_seen(Ray ray, Hit hit, out Hit seen) {
     seen = last;
     return true;
   }
-  // The list from a test on is (the test and if_true) or if_false. It is evaluated from the last
-  // test on.
-  uint whole = ENDS;
-  for (uint i = v_list.y; i-- > 0u;) {
-    BlistTest test = fetch_test(v_list.x + i);
-    bool is_true_inside = test.complement == u_eye_inside;
-    uint if_true = across_target(is_true_inside ? test.if_inside : test.if_outside);
-    uint if_false = across_target(is_true_inside ? test.if_outside : test.if_inside);
-    whole = either(both(across_test(ray, hit, i, test), if_true), if_false);
-    across[i] = whole;
-  }
-  if (whole == ENDS || whole == HOLDS) return true;
+  uint whole = state_of_list(ray, hit);
+  if (!is_turned(whole)) return true;
   BlistTest test = fetch_test(v_list.x + index_of(whole));
   seen = start_beside(ray, hit, index_of(whole), test);
   return true;

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "agreement.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "fixture.hpp"
 #include "support/models.hpp"
@@ -98,7 +102,11 @@ std::vector<SharedFace> tops() {
       {"union with what is in common, before", any({all({kWide, kNarrow}), kLid}), 2},
       {"union with what is in common, behind", any({kLid, all({kWide, kNarrow})}), 2},
       {"union of differences", any({less({kWide, kAbove}), less({kNarrow, kLid})}), 1},
-      {"hole with a core", less({kWide, less({kLid, kPin})}), 2, 0.9},
+      {"hole with a core, which changes nothing there", less({kWide, less({kLid, kPin})}), 0, 0.9},
+      {"hole with a core, in a plate with a pocket",
+       less({any({kWide, less({kHigh, kAbove})}), less({kLid, kPin})}), 2, 0.9},
+      {"core that hands over to another",
+       any({less({kWide, less({kLid, kPin})}), less({kPin, kAbove})}), 4, 0.9},
   };
 }
 
@@ -162,6 +170,58 @@ TEST_P(ShownFaceTest, IsTheLastThatEndsTheSolidAroundTheEye) {
     view.height_px = 60;
     expect_shown(face, view);
   }
+}
+
+/// Returns a random operation on rods of which most have an end at z = 2.
+Part random_part(std::mt19937_64& random, int depth) {
+  const auto below = [&](uint64_t end) { return random() % end; };
+  if (depth == 0 || below(4) == 0) {
+    const Part rods[] = {kWide, kNarrow, kLid, kHigh, kAbove, kPin, kLow, rod(2, 5, 5)};
+    return rods[below(std::size(rods))];
+  }
+  std::vector<Part> operands;
+  for (uint64_t i = 0, count = 2 + below(2); i < count; ++i) {
+    operands.push_back(random_part(random, depth - 1));
+  }
+  const Op op = std::array{Op::kUnion, Op::kIntersection, Op::kDifference}[below(3)];
+  return {std::move(operands), op};
+}
+
+Part moved(Part part, const Vec3& by) {
+  std::vector<Part*> left{&part};
+  while (!left.empty()) {
+    Part& next = *left.back();
+    left.pop_back();
+    next.primitive.local_to_world.translation += by;
+    for (Part& operand : next.operands) left.push_back(&operand);
+  }
+  return part;
+}
+
+TEST_P(ShownFaceTest, IsTheTracersInRandomDesigns) {
+  constexpr int kSide = 14;  // designs in a row
+  std::mt19937_64 random(38);
+  Part all_of = any({});
+  for (int i = 0; i < kSide * kSide; ++i) {
+    all_of.operands.push_back(
+        moved(random_part(random, 4), Vec3(12 * (i % kSide), 12 * (i / kSide), 0)));
+  }
+  const Scene scene = scene_of(all_of);
+  LoadedScene loaded(scene, GetParam());
+  View view = gl_test::view_from(scene, Projection::kOrthographic, 25, 60);
+  view.width_px = view.height_px = 280;
+  const Image gl = loaded.draw(view), cpu = gl_test::draw_by_cpu(loaded, view);
+  uint64_t seen = 0;
+  for (size_t i = 0; i < cpu.z.size(); ++i) {
+    const glm::vec3& p = cpu.position[i];
+    if (std::isinf(cpu.z[i]) || std::abs(p.z - 2) > 1e-4) continue;
+    // Rods have radii of 1, 3 and 5, next to which either side is right.
+    const double radius = std::hypot(std::remainder(p.x, 12), std::remainder(p.y, 12));
+    if (std::abs(std::remainder(radius, 2)) > 0.9) continue;
+    ++seen;
+    ASSERT_EQ(gl.id[i], cpu.id[i]) << p.x << " " << p.y;
+  }
+  EXPECT_GT(seen, 1000u);
 }
 
 /// A list longer than a shader keeps: the last face that starts there is shown, without speckle.
