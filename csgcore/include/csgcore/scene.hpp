@@ -37,6 +37,10 @@ struct Scene {
   /// The layers of the picture, from the first that is drawn. Where no layer is of the model, the
   /// model itself is drawn before them, opaque.
   std::vector<Layer> layers;
+  /// Which primitives make one leaf, whose surface is seen as a whole (frontend/OPENSCAD.md,
+  /// "Leaves"): by primitive, the index of one of its leaf. Primitives beyond the end of this are
+  /// leaves by themselves. It counts only for an eye within the solid.
+  std::vector<uint32_t> leaf_of{};
 };
 
 }  // namespace csgcore

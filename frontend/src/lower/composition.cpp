@@ -1,6 +1,7 @@
 #include "lower/composition.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -67,6 +68,20 @@ class Composer {
     }
     for (const LeafTree& part : design.highlight) {
       add_leaves(design, part, Layer::Kind::kHighlight);
+    }
+  }
+
+  /// The final render is one mesh.
+  void set_leaves(PictureKind picture) {
+    const auto primitives = static_cast<uint32_t>(scene_.primitives.size());
+    if (picture == PictureKind::kRendered) scene_.leaf_of.assign(primitives, 0);
+    if (picture == PictureKind::kRendered || !leaves_.has_compound()) return;
+    scene_.leaf_of.resize(primitives);
+    std::iota(scene_.leaf_of.begin(), scene_.leaf_of.end(), 0u);
+    for (uint32_t leaf = primitives; leaf < leaves_.size(); ++leaf) {
+      for (const csgcore::CsgToken& token : leaves_.solid(leaf).tokens()) {
+        if (token.is_primitive) scene_.leaf_of[token.value] = leaves_.first_primitive(leaf);
+      }
     }
   }
 
@@ -176,6 +191,7 @@ bool Design::is_highlighted(uint32_t leaf) const {
 bool compose(Design design, const Leaves& leaves, std::span<const Box> boxes, PictureKind picture,
              Scene& scene) {
   Composer composer(leaves, boxes, scene);
+  composer.set_leaves(picture);
   if (picture == PictureKind::kThrownTogether) {
     composer.compose_thrown_together(design);
   } else {

@@ -1,5 +1,6 @@
 #include "render/prepared_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -73,43 +74,84 @@ PreparedScene::PreparedScene(std::shared_ptr<const csgcore::Scene> scene,
 }
 
 void PreparedScene::add_layers() {
-  if (scene_->layers.empty()) return;
   scene_box_ = model_.bounds();
   for (const csgcore::Layer& layer : scene_->layers) {
     layers_.push_back(std::make_unique<const PreparedLayer>(*primitives_, layer));
     model_is_layered_ = model_is_layered_ || layers_.back()->is_of_model();
     scene_box_.merge(layers_.back()->solid().bounds());
   }
+  eye_parts_.resize(1 + layers_.size());
 }
 
-csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& settings) const {
+bool PreparedScene::is_within(const csgcore::Solid& solid, const PictureRequest& request) const {
+  // An orthographic eye sees from infinity.
+  return request.view.projection == csgcore::Projection::kPerspective &&
+         request.settings.show == Show::kSurface && !solid.bounds().empty() &&
+         solid.contains(request.view.eye);
+}
+
+bool PreparedScene::is_within(const PictureRequest& request) const {
+  return is_within(model_, request) ||
+         std::any_of(layers_.begin(), layers_.end(),
+                     [&](const auto& layer) { return is_within(layer->solid(), request); });
+}
+
+PreparedScene::Composition PreparedScene::composition(SolidRenderer& renderer,
+                                                      const PictureRequest& request) const {
+  Composition result{{}, model_is_layered_};
+  const auto add_parts = [&](size_t index, const csgcore::Solid& solid, csgcore::Layer::Kind kind,
+                             const csgcore::CsgTree& tree) {
+    if (!is_within(solid, request)) return false;
+    std::optional<EyeParts>& parts = eye_parts_[index];
+    if (!parts) parts.emplace(*scene_, primitives_, kind, tree);
+    const EyeParts::Layers& layers = parts->layers(request.view.eye, [&] { renderer.forget(); });
+    for (const auto& layer : layers) result.layers.push_back(layer.get());
+    return !layers.empty();
+  };
+  if (!model_is_layered_) {
+    result.model_is_layered = add_parts(0, model_, csgcore::Layer::Kind::kModel, scene_->model);
+  }
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    const csgcore::Layer& layer = scene_->layers[i];
+    const bool is_whole = layer.shows_behind || !layer.parts.empty() ||
+                          !add_parts(1 + i, layers_[i]->solid(), layer.kind, layer.solid);
+    if (is_whole) result.layers.push_back(layers_[i].get());
+  }
+  return result;
+}
+
+csgcore::FrameSettings PreparedScene::frame_settings(const RenderSettings& settings,
+                                                     bool has_layers) const {
   csgcore::FrameSettings frame;
   frame.background = color_of(settings.scheme.background);
   frame.front = color_of(settings.scheme.front);
   frame.back = color_of(settings.scheme.back);
   if (settings.from_within) frame.from_within = color_of(*settings.from_within);
   frame.shading = settings.shading;
-  frame.measured_channels = settings.measured_channels || !layers_.empty();
-  frame.scene_box = scene_box_;
+  frame.measured_channels = settings.measured_channels || has_layers;
+  if (has_layers) frame.scene_box = scene_box_;
   return frame;
 }
 
 /// What layers are drawn over. Its measured channels are always the model's.
-Image PreparedScene::draw_base(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+Image PreparedScene::draw_base(SolidRenderer& renderer, bool model_is_layered,
+                               const csgcore::FrameSettings& frame,
                                const PictureRequest& request) const {
-  const bool wants_model = !model_is_layered_ || request.settings.measured_channels ||
+  const bool wants_model = !model_is_layered || request.settings.measured_channels ||
                            request.settings.show == Show::kCells;
   return wants_model ? renderer.draw_model(model_, frame, request) : blank(request.view);
 }
 
 Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request) const {
-  const csgcore::FrameSettings frame = frame_settings(request.settings);
-  Image image = draw_base(renderer, frame, request);
+  const Composition composition = this->composition(renderer, request);
+  const csgcore::FrameSettings frame =
+      frame_settings(request.settings, !composition.layers.empty());
+  Image image = draw_base(renderer, composition.model_is_layered, frame, request);
   request.stats.edit.pixels = request.stats.edit.pixels_traced = image.rgb.size();
-  if (layers_.empty() || request.settings.show == Show::kCells) return image;
-  if (!model_is_layered_) {
+  if (composition.layers.empty() || request.settings.show == Show::kCells) return image;
+  if (!composition.model_is_layered) {
     Compositor compositor(image, image.z, scene_box_.diagonal());
-    draw_layers(renderer, frame, request, compositor);
+    draw_layers(renderer, composition, frame, request, compositor);
     return image;
   }
   // Layers have one ray a pixel. So a smooth picture of them is one of more pixels, made smaller.
@@ -122,15 +164,16 @@ Image PreparedScene::draw(SolidRenderer& renderer, const PictureRequest& request
   fine.rgb.assign(fine.rgb.size(), {background.r, background.g, background.b});
   std::vector<float> depth(fine.rgb.size(), std::numeric_limits<float>::infinity());
   Compositor compositor(fine, std::move(depth), scene_box_.diagonal());
-  draw_layers(renderer, frame, {view, request.settings, request.stats}, compositor);
+  draw_layers(renderer, composition, frame, {view, request.settings, request.stats}, compositor);
   image.rgb = side == 1 ? std::move(fine.rgb) : averaged(fine, side);
   return image;
 }
 
-void PreparedScene::draw_layers(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
-                                const PictureRequest& request, Compositor& compositor) const {
+void PreparedScene::draw_layers(SolidRenderer& renderer, const Composition& composition,
+                                const csgcore::FrameSettings& frame, const PictureRequest& request,
+                                Compositor& compositor) const {
   SolidRenderer::Sides sides;
-  for (const auto& layer : layers_) {
+  for (const PreparedLayer* layer : composition.layers) {
     if (request.settings.stop.stop_requested()) return;
     const csgcore::FrameSettings of_layer = layer->frame(frame);
     using Wanted = SolidRenderer::Wanted;
@@ -150,11 +193,12 @@ void PreparedScene::redraw(SolidRenderer& renderer, const PictureRequest& reques
                            const PreparedScene& earlier, const csgcore::SceneEdit& edit,
                            Image& image) const {
   const bool has_layers = !layers_.empty() || !earlier.layers_.empty();
-  if (has_layers || request.settings.show == Show::kCells || !renderer.draws_areas()) {
+  if (has_layers || is_within(request) || earlier.is_within(request) ||
+      request.settings.show == Show::kCells || !renderer.draws_areas()) {
     image = draw(renderer, request);
     return;
   }
-  const csgcore::FrameSettings frame = frame_settings(request.settings);
+  const csgcore::FrameSettings frame = frame_settings(request.settings, false);
   const std::vector<csgcore::PixelArea> areas =
       changed_areas(earlier.model_, model_, edit, edit.model, request.view, frame);
   renderer.draw_model_areas(model_, frame, request, areas, image);

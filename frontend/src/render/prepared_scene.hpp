@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "csgcore/scene.hpp"
 #include "csgcore/scene_edit.hpp"
 #include "csgcore/solid.hpp"
+#include "render/eye_parts.hpp"
 #include "render/layers.hpp"
 #include "render/solid_renderer.hpp"
 
@@ -30,11 +32,23 @@ class PreparedScene {
   const csgcore::Solid& model() const { return model_; }
 
  private:
+  /// What a picture is composed of.
+  struct Composition {
+    std::vector<const PreparedLayer*> layers;  // from the first that is drawn
+    bool model_is_layered;
+  };
+
   void add_layers();
-  csgcore::FrameSettings frame_settings(const RenderSettings& settings) const;
-  void draw_layers(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
-                   const PictureRequest& request, Compositor& compositor) const;
-  csgcore::Image draw_base(SolidRenderer& renderer, const csgcore::FrameSettings& frame,
+  bool is_within(const csgcore::Solid& solid, const PictureRequest& request) const;
+  /// Whether the eye lies in the model, or in a layer.
+  bool is_within(const PictureRequest& request) const;
+  Composition composition(SolidRenderer& renderer, const PictureRequest& request) const;
+  csgcore::FrameSettings frame_settings(const RenderSettings& settings, bool has_layers) const;
+  void draw_layers(SolidRenderer& renderer, const Composition& composition,
+                   const csgcore::FrameSettings& frame, const PictureRequest& request,
+                   Compositor& compositor) const;
+  csgcore::Image draw_base(SolidRenderer& renderer, bool model_is_layered,
+                           const csgcore::FrameSettings& frame,
                            const PictureRequest& request) const;
 
   std::shared_ptr<const csgcore::Scene> scene_;
@@ -43,7 +57,9 @@ class PreparedScene {
   // From the first that is drawn. Renderers know solids by their addresses.
   std::vector<std::unique_ptr<const PreparedLayer>> layers_;
   bool model_is_layered_ = false;
-  csgcore::Box scene_box_;  // of all; empty without layers
+  csgcore::Box scene_box_;  // of all
+  /// What the last eye saw that lay in the model (the first), or in layers_.
+  mutable std::vector<std::optional<EyeParts>> eye_parts_;
 };
 
 }  // namespace frontend

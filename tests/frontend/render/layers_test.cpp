@@ -216,6 +216,41 @@ TEST_P(Layers, TheThrownTogetherPictureShowsLeavesWhole) {
 
 TEST_P(Layers, FromWithinFacesHaveTheFrontColorInAPreview) { expect_middle(kCube, lit(kFront), 1); }
 
+TEST_P(Layers, FromWithinALeafOthersAreSeen) {
+  constexpr double kWithin = 4;  // kCube, above kSmallCube
+  const std::string blue = colored("[0, 0, 1, 1]", kSmallCube);
+  const std::string aside = moved(4, 4, 0, kSmallCube);
+  expect_middle(kCube + blue, lit(kBlue), kWithin);
+  expect_middle(blue + kCube + aside, lit(kBlue), kWithin);
+  expect_middle("difference() { union() {" + kCube + blue + "}" + aside + "}", lit(kBlue), kWithin);
+  // From within both, the nearer face is seen.
+  expect_middle(colored("[0, 0, 1, 1]", moved(0, 0, 1, kTall)) + kCube, lit(kFront), kWithin);
+  // Of coincident faces the later one is.
+  expect_middle(kCube + colored("[0, 0, 1, 1]", moved(0, 0, -10, kCube)), lit(kBlue), kWithin);
+  // A part that is drawn over them makes no difference.
+  expect_middle(kCube + blue + "#" + moved(4, 4, 0, kSmallCube), lit(kBlue), kWithin);
+  // A leaf that is made of several solids is seen as a whole.
+  settings_.from_within = Rgb{255, 0, 255};
+  expect_middle(kCube + kSmallCube, lit(kFront), kWithin);
+  expect_middle("render() {" + kCube + kSmallCube + "}" + moved(100, 0, 0, kCube),
+                lit({255, 0, 255}), kWithin);
+  import_.picture = PictureKind::kRendered;
+  expect_middle(kCube + kSmallCube, lit({255, 0, 255}), kWithin);
+}
+
+TEST_P(Layers, FromWithinALeafOthersAreSeenThrownTogether) {
+  import_.picture = PictureKind::kThrownTogether;
+  settings_.from_within = Rgb{255, 0, 255};
+  constexpr double kWithin = 4;
+  expect_middle(kCube + kSmallCube, lit(kFront), kWithin);
+  expect_middle("difference() {" + kCube + kSmallCube + "}", lit(kBack), kWithin);
+  expect_middle("difference() {" + kSmallCube + kCube + "}", lit(kFront), kWithin);
+  expect_middle("render() {" + kCube + kSmallCube + "}", lit({255, 0, 255}), kWithin);
+  // What is opaque is drawn at once, between what is translucent.
+  expect_middle(kCube + kSmallCube + colored(kRedGlass, moved(100, 0, 0, kCube)), lit(kFront),
+                kWithin);
+}
+
 TEST_P(Layers, EdgesOfTranslucentPartsAreSmooth) {
   const std::string glass = colored(kRedGlass, moved(6.3, 0, 0, kCube));
   const auto greens = [&](uint32_t samples) {

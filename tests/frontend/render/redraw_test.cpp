@@ -236,6 +236,28 @@ TEST_P(Redrawn, TranslucentPartsAreDrawnAnew) {
   expect_drawn_anew(redraw(view), view);
 }
 
+TEST_P(Redrawn, APictureFromWithinALeafIsDrawnAnew) {
+  if (!can_draw()) GTEST_SKIP() << "no OpenGL";
+  const auto balls = [](double radius, double x) {
+    csgcore::Affine aside;
+    aside.translation = {x, 0, 0};
+    return test_support::scene_of(csgcore::Op::kUnion,
+                                  {csgcore::make_sphere(radius), csgcore::make_sphere(0.5, aside)});
+  };
+  csgcore::View view;
+  view.eye = {0, 0, 2};
+  view.half_height = 0.5;
+  view.width_px = view.height_px = kSide_px;
+  load(balls(3, 0));
+  expect_drawn_anew(redraw(view), view);
+  load(balls(3, 0.5));
+  expect_drawn_anew(redraw(view), view);
+  load(balls(1, 0.5));  // the eye lies outside
+  expect_drawn_anew(redraw(view), view);
+  load(balls(3, 0.5));
+  expect_drawn_anew(redraw(view), view);
+}
+
 TEST_P(Redrawn, ASizeBeyondFloatsIsScaledAndFollowed) {
   if (!can_draw()) GTEST_SKIP() << "no OpenGL";
   const double size = 1e-30;
