@@ -202,6 +202,13 @@ class FrustumKind final : public PrimitiveKind {
     return PrimitiveKind::holds(outer, inner, limit);
   }
 
+  Vec3 outwards(const CanonicalPrimitive& primitive, const Vec3& p) const override {
+    const double lateral = std::sqrt(p.x * p.x + p.y * p.y);
+    const double above_wall = lateral - primitive.radius_mid - primitive.radius_slope * p.z;
+    if (lateral == 0 || std::abs(p.z) - 1 > above_wall) return {0, 0, p.z > 0 ? 1.0 : -1.0};
+    return {p.x / lateral, p.y / lateral, -primitive.radius_slope};
+  }
+
   bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
     // A cylinder is at least 2 thick in every direction of canonical space, and so at least
     // 2/canonical_stretch in world space. This may miss thin cones, which the interface allows.

@@ -94,6 +94,10 @@ class PolyhedronKind final : public PrimitiveKind {
     });
   }
 
+  Vec3 outwards(const CanonicalPrimitive& primitive, const Vec3& point) const override {
+    return point == Vec3(0.0) ? point : primitive.polyhedron->face_towards(point);
+  }
+
   bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
     for (const Polyhedron::Entry& face : primitive.polyhedron->entries()) {
       if (face.skip > 0) continue;

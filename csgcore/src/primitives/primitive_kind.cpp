@@ -107,6 +107,8 @@ bool PrimitiveKind::holds(const CanonicalPrimitive& outer, const CanonicalPrimit
   return csgcore::holds_ball(outer, inner.center, reach(inner) + std::max(-limit, 0.0));
 }
 
+Vec3 PrimitiveKind::outwards(const CanonicalPrimitive&, const Vec3&) const { return Vec3(0.0); }
+
 bool PrimitiveKind::is_thinner(const CanonicalPrimitive&, double) const { return false; }
 
 Box PrimitiveKind::bounds_of(const CanonicalPrimitive& primitive) const {

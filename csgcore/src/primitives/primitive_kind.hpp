@@ -36,6 +36,9 @@ class PrimitiveKind {
   /// world units.
   virtual bool holds(const CanonicalPrimitive& outer, const CanonicalPrimitive& inner,
                      double limit) const;
+  /// Returns a normal of the surface near the point, of any length, or 0 if there is none to tell;
+  /// by default 0. A direction that is off makes the bounds that use it less sharp, never wrong.
+  virtual Vec3 outwards(const CanonicalPrimitive& primitive, const Vec3& point) const;
   /// Implements is_thinner(), with `thickness` in world units; by default it is false.
   virtual bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const;
 

@@ -112,6 +112,8 @@ class SphereKind final : public PrimitiveKind {
     return Classification::kCrosses;
   }
 
+  Vec3 outwards(const CanonicalPrimitive&, const Vec3& point) const override { return point; }
+
   bool is_thinner(const CanonicalPrimitive& primitive, double thickness) const override {
     // In canonical space the ball is 2 thick in every direction.
     if (primitive.canonical_stretch * thickness <= 2) return false;

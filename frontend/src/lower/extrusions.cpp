@@ -29,15 +29,6 @@ Affine scaled_place(const PlaneMap& map, const Layers& layers) {
   return place;
 }
 
-/// A solid of more edges is not looked at to find its box: a ray may meet them all.
-constexpr size_t kMostLookedAtEdges = 2000;
-
-Box positive_box(const LoweredSubtree& solid) {
-  std::vector<Box> boxes;
-  for (const LoweredSubtree::Part& part : solid.parts) boxes.push_back(part.box);
-  return box_of_positive_leaves(solid.solid, boxes);
-}
-
 /// Extrudes a figure tree.
 class Extruding {
  public:
@@ -55,11 +46,7 @@ class Extruding {
   LoweredSubtree lower(const FigureTree& figures) {
     if (layers_.is_twisted() && !is_round(figures)) return lower_slices(figures);
     const Layers layers{layers_.z_min, layers_.z_max, layers_.top_scale.x, lean()};
-    LoweredSubtree solid =
-        extrude(figures, layers, false, frames_[frame_].to_world, frames_, solids_);
-    if (!solid.is_union && edge_count(figures) > kMostLookedAtEdges)
-      solid.box = positive_box(solid);
-    return solid;
+    return extrude(figures, layers, false, frames_[frame_].to_world, frames_, solids_);
   }
 
  private:

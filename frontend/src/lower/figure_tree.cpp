@@ -170,14 +170,4 @@ Rectangle positive_bounds(const FigureTree& figures) {
   return {Vec2(box.min.x, box.min.y), Vec2(box.max.x, box.max.y)};
 }
 
-size_t edge_count(const FigureTree& figures) {
-  size_t count = 0;
-  for (const PlacedFigure& placed : figures.figures) {
-    const Outline* outline = std::get_if<Outline>(placed.figure.get());
-    if (outline == nullptr) continue;
-    for (const csgcore::ProfileLoop& loop : outline->loops) count += loop.size();
-  }
-  return count;
-}
-
 }  // namespace frontend

@@ -50,9 +50,6 @@ Rectangle faceted_bounds(const PlacedFigure& placed);
 /// Returns the bounds of what is not subtracted.
 Rectangle positive_bounds(const FigureTree& figures);
 
-/// Returns how many edges the outlines have.
-size_t edge_count(const FigureTree& figures);
-
 /// Gives each figure its solid, where it has one, and writes the tree over those.
 template <typename Make>
 csgcore::CsgTree tree_of_parts(const FigureTree& figures, std::vector<LoweredSubtree::Part>& parts,

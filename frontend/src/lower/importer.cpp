@@ -18,7 +18,7 @@
 #include "lower/plane_lowering.hpp"
 #include "lower/products.hpp"
 #include "lower/resolved_modifiers.hpp"
-#include "lower/seen_box.hpp"
+#include "lower/tight_box.hpp"
 
 namespace frontend {
 namespace {
@@ -266,14 +266,14 @@ Box union_of(std::span<const Box> boxes) {
   return result;
 }
 
-/// The box that OpenSCAD finds for a solid that it evaluates as a whole: that of what is left of
-/// it. `facets` is the box of its operands as OpenSCAD's facets. What is round may exceed it here;
-/// in a frame that is turned, the corners of the solid's own box may as well.
-Box box_of_result(std::span<const csgcore::Primitive> primitives, const csgcore::CsgTree& solid,
-                  const csgcore::Affine& frame_to_world, uint32_t overview_px, const Box& facets) {
-  const Box seen = seen_box(primitives, solid, frame_to_world, overview_px);
-  if (seen.empty()) return facets;
-  return is_axis_aligned(frame_to_world) ? csgcore::intersection(seen, facets) : seen;
+/// The box that OpenSCAD finds for a solid that it evaluates as a whole. `rest` is the box of what
+/// is left of it, and `facets` that of its operands as OpenSCAD's facets, which what is round may
+/// exceed here. In a frame that is turned, the corners of the solid's own box may exceed it as
+/// well.
+Box box_of_result(const Box& rest, const csgcore::Affine& frame_to_world, const Box& facets) {
+  if (rest.empty() || !is_axis_aligned(frame_to_world)) return rest;
+  const Box both = csgcore::intersection(rest, facets);
+  return both.empty() ? rest : both;
 }
 
 /// Whether boxes decide about products: what is opaque needs none.
@@ -284,28 +284,95 @@ bool needs_layers(const Collector& collected, PictureKind picture) {
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
 }
 
-/// The most compound leaves that are looked at, which takes up to a millisecond each. The others
-/// have the boxes of their operands.
-constexpr uint32_t kMostMeasuredLeaves = 200;
+/// How much is done at most to find a box: ten milliseconds for a leaf, and twenty for the whole of
+/// a final render. Most boxes take ten microseconds.
+constexpr uint64_t kTestsOfLeaf = 1 << 16;
+constexpr uint64_t kTestsOfDesign = 1 << 17;
+constexpr uint64_t kTestsOfOperand = 64;         // more, for each operand
+constexpr uint64_t kTestsOfAllLeaves = 1 << 20;  // each has a share of what others leave
 
-/// Adds the boxes of the compound leaves to those of the primitives.
-void add_boxes_of_compound(const Collector& collected, const Leaves& leaves, bool measures_leaves,
-                           std::vector<Box>& boxes) {
-  const auto first = static_cast<uint32_t>(boxes.size());
-  for (uint32_t leaf = first; leaf < leaves.size(); ++leaf) {
-    const csgcore::CsgTree& solid = leaves.solid(leaf);
-    if (leaves.box(leaf)) {
-      boxes.push_back(*leaves.box(leaf));
-      continue;
-    }
-    Box box = box_of_positive_leaves(solid, boxes);
-    if (measures_leaves && leaf < first + kMostMeasuredLeaves) {
-      const csgcore::Affine& frame_to_world = collected.frames[leaves.frame(leaf)].to_world;
-      box = box_of_result(collected.primitives, solid, frame_to_world, kOverviewOfLeaf_px, box);
-    }
-    boxes.push_back(box);
-  }
+csgcore::BoundsBudget budget_of(const CsgTree& solid, uint64_t tests) {
+  return {tests + kTestsOfOperand * solid.tokens().size()};
 }
+
+/// The boxes of a design's leaves, in the world.
+struct LeafBoxes {
+  /// OpenSCAD's, which --viewall looks at.
+  std::vector<Box> seen;
+  /// Those that decide about products, and therefore hold all of the leaves, or are plates' flat
+  /// boxes. Empty unless they are needed.
+  std::vector<Box> deciding;
+};
+
+/// Finds the boxes of leaves.
+class BoxFinder {
+ public:
+  BoxFinder(const Collector& collected, const Leaves& leaves)
+      : collected_(collected), leaves_(leaves), is_of_plate_(collected.primitives.size()) {
+    for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+      if (!leaf.is_plate) continue;
+      for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
+        if (token.is_primitive) is_of_plate_[token.value] = true;
+      }
+    }
+  }
+
+  /// `seen` has the boxes of the primitives.
+  LeafBoxes find(std::vector<Box> seen, bool measures_leaves, bool decides) {
+    LeafBoxes boxes{std::move(seen), {}};
+    if (decides) {
+      for (uint32_t i = 0; i < collected_.primitives.size(); ++i) {
+        boxes.deciding.push_back(deciding_box(i, boxes.seen[i]));
+      }
+    }
+    const auto first = static_cast<uint32_t>(boxes.seen.size());
+    for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
+      const std::optional<Box>& known = leaves_.box(leaf);
+      const bool is_plate = is_of_plate_[leaves_.first_primitive(leaf)];
+      const bool is_measured = !is_plate && (decides || (measures_leaves && !known));
+      const Box rest = is_measured ? rest_of(leaf) : Box();
+      if (known) {
+        boxes.seen.push_back(*known);
+      } else {
+        const Box facets = box_of_positive_leaves(leaves_.solid(leaf), boxes.seen);
+        boxes.seen.push_back(is_measured ? box_of_result(rest, frame_of(leaf), facets) : facets);
+      }
+      if (decides) boxes.deciding.push_back(is_plate ? boxes.seen.back() : rest);
+    }
+    return boxes;
+  }
+
+ private:
+  const csgcore::Affine& frame_of(uint32_t leaf) const {
+    return collected_.frames[leaves_.frame(leaf)].to_world;
+  }
+
+  Box rest_of(uint32_t leaf) {
+    const CsgTree& solid = leaves_.solid(leaf);
+    csgcore::BoundsBudget budget = budget_of(solid, kTestsOfLeaf);
+    budget.tests = std::min(budget.tests, tests_left_ / (leaves_.size() - leaf));
+    tests_left_ -= budget.tests;
+    const Box box = tight_box(collected_.primitives, solid, frame_of(leaf), budget);
+    tests_left_ += budget.tests;
+    return box;
+  }
+
+  /// OpenSCAD's facets lie within what is round.
+  Box deciding_box(uint32_t primitive, const Box& facets) const {
+    const csgcore::Primitive& solid = collected_.primitives[primitive];
+    const bool has_facets =
+        solid.shape == csgcore::Shape::kPolyhedron || solid.shape == csgcore::Shape::kMesh;
+    if (has_facets || is_of_plate_[primitive]) return facets;
+    Box box = facets;
+    box.merge(csgcore::canonicalize(solid).bounds);
+    return box;
+  }
+
+  const Collector& collected_;
+  const Leaves& leaves_;
+  std::vector<bool> is_of_plate_;  // by primitive
+  uint64_t tests_left_ = kTestsOfAllLeaves;
+};
 
 /// OpenSCAD cuts with thicker plates than it draws.
 void thicken_subtracted_plates(const Design& trees, const Leaves& leaves,
@@ -391,18 +458,23 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
       static_cast<uint32_t>(collected.left_out.size() - collected.lines_to_render.size());
   design.lines_to_render = std::move(collected.lines_to_render);
   design.rendering_ms = collected.rendering_ms;
-  std::vector<Box> boxes = std::move(collected.boxes);
-  const bool measures_leaves = options.measures_leaves || needs_layers(collected, options.picture);
-  add_boxes_of_compound(collected, leaves, measures_leaves, boxes);
-  if (!collected.plane_leaves.empty()) thicken_subtracted_plates(trees, leaves, boxes, collected);
-  design.view_box = view_box(trees, boxes);
+  const bool decides = needs_layers(collected, options.picture);
+  const LeafBoxes boxes = BoxFinder(collected, leaves)
+                              .find(std::move(collected.boxes), options.measures_leaves, decides);
+  if (!collected.plane_leaves.empty()) {
+    thicken_subtracted_plates(trees, leaves, boxes.seen, collected);
+  }
+  design.view_box = view_box(trees, boxes.seen);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    design.view_box = box_of_result(collected.primitives, leaves.expanded(trees.model), {},
-                                    kOverviewOfDesign_px, design.view_box);
+    const CsgTree solid = leaves.expanded(trees.model);
+    csgcore::BoundsBudget budget = budget_of(solid, kTestsOfDesign);
+    design.view_box =
+        box_of_result(tight_box(collected.primitives, solid, {}, budget), {}, design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);
-  if (!compose(std::move(trees), leaves, boxes, options.picture, design.scene)) {
+  if (!compose(std::move(trees), leaves, decides ? boxes.deciding : boxes.seen, options.picture,
+               design.scene)) {
     design.warnings.push_back(make_warning(tree.file_name, {},
                                            "the translucent parts make more than " +
                                                std::to_string(kMostProducts) +

@@ -44,7 +44,7 @@ class Revolving {
     const double radius = is_left_ ? -reach->min.x : reach->max.x;
     sections_ = sections_of(data_.arguments, radius);
     box_ = mapped(root_to_world_, box_of_rings(*reach));
-    result.box = box_;
+    if (is_union(figures.tree)) result.box = box_;
     if (data_.is_faceted && sections_.count <= kMostSections) {
       lower_mesh(figures, result);
     } else {
@@ -101,7 +101,9 @@ class Revolving {
     evaluation_.find_all_figures();
     std::optional<SimplePolygons> outline = united(evaluation_.figures(subtree_.root()));
     if (!outline || outline->empty()) return;
-    Primitive mesh = revolved_mesh(cut_at_axis(std::move(*outline), is_left_), sections_);
+    const SimplePolygons polygons = cut_at_axis(std::move(*outline), is_left_);
+    result.box = mapped(root_to_world_, box_of_rings(bounds_of(polygons)));
+    Primitive mesh = revolved_mesh(polygons, sections_);
     std::vector<csgcore::TriangleMesh::Triangle> sheet =
         sheet_of(mesh.mesh->vertices(), mesh.mesh->triangles());
     if (!sheet.empty()) {
@@ -113,7 +115,7 @@ class Revolving {
     }
     mesh.local_to_world = root_to_world_;
     mesh.id = figures.figures.front().id;
-    result.parts.push_back({std::move(mesh), frame_, box_});
+    result.parts.push_back({std::move(mesh), frame_, *result.box});
     CsgTreeBuilder builder;
     builder.primitive(0);
     result.solid = builder.finish();

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -215,6 +216,78 @@ TEST(LeafBoxes, TheFinalRenderHasTheBoxOfTheResult) {
   expect_box(import_text(text).view_box, Vec3(0), Vec3(10), 0);
   expect_box(import_text(text, for_picture(PictureKind::kRendered)).view_box, Vec3(0),
              Vec3(4, 10, 10), 1e-4);
+}
+
+/// A cube with a thin pin through it, which is cut at both ends so that nothing tells how far it
+/// reaches.
+const std::string kPinned =
+    "render() { difference() { group() { cube(size = 10, center = true);"
+    "cylinder(r1 = 0.7, r2 = 0.7, h = 100, $fn = 8, center = true); }"
+    "multmatrix([[1,0,0,-5],[0,1,0,-5],[0,0,1,45]]) { cube(10); }"
+    "multmatrix([[1,0,0,-5],[0,1,0,-5],[0,0,1,-55]]) { cube(10); } } }";
+const std::string kPlateAtPin =
+    "multmatrix([[1,0,0,-5],[0,1,0,-5],[0,0,1,30]]) { cube([10, 10, 2]); }";
+
+// The boxes of leaves decide about products: none may miss a part of its leaf.
+TEST(LeafBoxes, HoldThinPartsWhateverTheyDecide) {
+  expect_box(import_text(kPinned).view_box, Vec3(-5, -5, -45), Vec3(5, 5, 45), 1e-9);
+  EXPECT_THAT(model_layers("color([1,0,0,0.5]) { difference() {" + kPlateAtPin + kPinned + "} }"),
+              ElementsAre("(0-((1+2)-3-4))"));
+  EXPECT_THAT(model_layers("color([1,0,0,0.5]) { intersection() {" + kPlateAtPin + kPinned + "} }"),
+              ElementsAre("(0*((1+2)-3-4))"));
+  const csgcore::Scene together = import_text("difference() {" + kPlateAtPin + kPinned + "}",
+                                              for_picture(PictureKind::kThrownTogether))
+                                      .scene;
+  EXPECT_EQ(shape_of(together.model, together.primitives), "(0+((1+2)-3-4))");
+}
+
+// OpenSCAD's facets are within the ball, which is what is drawn and cut.
+TEST(LeafBoxes, HoldWhatIsRoundWhateverTheyDecide) {
+  EXPECT_THAT(model_layers("color([1,0,0,0.5]) { difference() {"
+                           "multmatrix([[1,0,0,9.99],[0,1,0,-5],[0,0,1,-5]]) { cube(10); }"
+                           "sphere(r = 10, $fn = 30); } }"),
+              ElementsAre("(0-1)"));
+}
+
+// Their intersection reaches a fiftieth of a pixel of the balls' picture.
+TEST(LeafBoxes, AreTightAboutALens) {
+  const csgcore::Box box =
+      import_text(
+          "intersection() { sphere(r = 10, $fn = 60);"
+          "multmatrix([[1,0,0,19.9],[0,1,0,0],[0,0,1,0]]) { sphere(r = 10, $fn = 60); } }",
+          for_picture(PictureKind::kRendered))
+          .view_box;
+  const double radius = std::sqrt(100 - 9.95 * 9.95);
+  EXPECT_GE(box.size().y, 2 * radius);
+  EXPECT_LT(box.size().y, 2.02 * radius);
+  EXPECT_LT(box.size().x, 0.101);
+}
+
+// An extrusion of operations is one leaf, and OpenSCAD has the box of its outcome.
+TEST(LeafBoxes, AreTightAboutExtrusionsOfManyEdges) {
+  std::string text = "linear_extrude(height = 5) { difference() { square([100, 10]);";
+  for (int i = 0; i < 40; ++i) {  // of more edges than rays should meet
+    text += "multmatrix([[1,0,0," + std::to_string(50 + i) +
+            "],[0,1,0,0],[0,0,1,0]]) { circle(r = 20, $fn = 60); }";
+  }
+  text += "multmatrix([[1,0,0,31],[0,1,0,-1],[0,0,1,0]]) { square([80, 20]); } } }";
+  const csgcore::Box box = import_text(text).view_box;
+  EXPECT_GE(box.max.x, 31);
+  EXPECT_NEAR(box.max.x, 31, 0.02);
+  expect_box(import_text("rotate_extrude($fn = 100) { difference() { square([100, 10]);"
+                         "multmatrix([[1,0,0,31],[0,1,0,-1],[0,0,1,0]]) { square([80, 20]); } } }")
+                 .view_box,
+             Vec3(-31, -31, 0), Vec3(31, 31, 10), 0.02);
+}
+
+// A sheet beside a thick part: rays along it would miss it.
+TEST(LeafBoxes, OfTheFinalRenderHoldSheets) {
+  expect_box(import_text("multmatrix([[1,0,0,-40],[0,1,0,0],[0,0,1e-5,0]]) { cube(10); }"
+                         "difference() { cube(10); multmatrix([[1,0,0,7],[0,1,0,-1],[0,0,1,-1]])"
+                         "{ cube(12); } }",
+                         for_picture(PictureKind::kRendered))
+                 .view_box,
+             Vec3(-40, 0, 0), Vec3(7, 10, 10), 1e-9);
 }
 
 TEST(ThrownTogether, ShowsEveryLeafWhole) {

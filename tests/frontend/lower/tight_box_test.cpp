@@ -1,5 +1,5 @@
 // Tests the tight box of a solid, against solids whose box is known.
-#include "lower/seen_box.hpp"
+#include "lower/tight_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ using csgcore::Vec3;
 
 Box box_of(const std::string& text, const csgcore::Affine& frame = {}) {
   const csgcore::Scene scene = import_design(parse(text, "a.csg")).scene;
-  return seen_box(scene.primitives, scene.model, frame, kOverviewOfDesign_px);
+  csgcore::BoundsBudget budget{1 << 17};
+  return tight_box(scene.primitives, scene.model, frame, budget);
 }
 
 void expect_box(const std::string& text, const Vec3& least, const Vec3& most) {
@@ -28,7 +29,7 @@ void expect_box(const std::string& text, const Vec3& least, const Vec3& most) {
   }
 }
 
-TEST(SeenBox, IsWhatTheOperationsLeave) {
+TEST(TightBox, IsWhatTheOperationsLeave) {
   expect_box("sphere(r = 10, $fn = 1000);", Vec3(-10), Vec3(10));
   expect_box("intersection() { cube(size = 20, center = true); sphere(r = 13); }", Vec3(-10),
              Vec3(10));
@@ -50,7 +51,7 @@ TEST(SeenBox, IsWhatTheOperationsLeave) {
 }
 
 // The box stands in the frame that it was made in; what is given are that box's corners.
-TEST(SeenBox, IsThatOfTheFrame) {
+TEST(TightBox, IsThatOfTheFrame) {
   csgcore::Affine turned;  // by 45 degrees about z, and moved
   const double s = std::sqrt(0.5);
   turned.linear = csgcore::Mat3(Vec3(s, s, 0), Vec3(-s, s, 0), Vec3(0, 0, 1));
@@ -65,7 +66,7 @@ TEST(SeenBox, IsThatOfTheFrame) {
   EXPECT_NEAR(box.max.z, 1, 1e-4);
 }
 
-TEST(SeenBox, OfNothingIsEmpty) {
+TEST(TightBox, OfNothingIsEmpty) {
   EXPECT_TRUE(box_of("").empty());
   EXPECT_TRUE(box_of("difference() { cube(size = 5); cube(size = 5); }").empty());
 }
