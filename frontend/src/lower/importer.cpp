@@ -12,13 +12,12 @@
 #include "heal/healing.hpp"
 #include "lower/collector.hpp"
 #include "lower/composition.hpp"
-#include "lower/faceted_box.hpp"
+#include "lower/leaf_boxes.hpp"
 #include "lower/leaves.hpp"
 #include "lower/node_roles.hpp"
-#include "lower/plane_lowering.hpp"
+#include "lower/plates.hpp"
 #include "lower/products.hpp"
 #include "lower/resolved_modifiers.hpp"
-#include "lower/tight_box.hpp"
 
 namespace frontend {
 namespace {
@@ -266,129 +265,12 @@ Box union_of(std::span<const Box> boxes) {
   return result;
 }
 
-/// The box that OpenSCAD finds for a solid that it evaluates as a whole. `rest` is the box of what
-/// is left of it, and `facets` that of its operands as OpenSCAD's facets, which what is round may
-/// exceed here. In a frame that is turned, the corners of the solid's own box may exceed it as
-/// well.
-Box box_of_result(const Box& rest, const csgcore::Affine& frame_to_world, const Box& facets) {
-  if (rest.empty() || !is_axis_aligned(frame_to_world)) return rest;
-  const Box both = csgcore::intersection(rest, facets);
-  return both.empty() ? rest : both;
-}
-
 /// Whether boxes decide about products: what is opaque needs none.
 bool needs_layers(const Collector& collected, PictureKind picture) {
   const auto& primitives = collected.primitives;
   return picture == PictureKind::kThrownTogether || collected.any_modifiers ||
          std::any_of(primitives.begin(), primitives.end(),
                      [](const csgcore::Primitive& p) { return p.color && p.color->a < 1; });
-}
-
-/// How much is done at most to find a box: ten milliseconds for a leaf, and twenty for the whole of
-/// a final render. Most boxes take ten microseconds.
-constexpr uint64_t kTestsOfLeaf = 1 << 16;
-constexpr uint64_t kTestsOfDesign = 1 << 17;
-constexpr uint64_t kTestsOfOperand = 64;         // more, for each operand
-constexpr uint64_t kTestsOfAllLeaves = 1 << 20;  // each has a share of what others leave
-
-csgcore::BoundsBudget budget_of(const CsgTree& solid, uint64_t tests) {
-  return {tests + kTestsOfOperand * solid.tokens().size()};
-}
-
-/// The boxes of a design's leaves, in the world.
-struct LeafBoxes {
-  /// OpenSCAD's, which --viewall looks at.
-  std::vector<Box> seen;
-  /// Those that decide about products, and therefore hold all of the leaves, or are plates' flat
-  /// boxes. Empty unless they are needed.
-  std::vector<Box> deciding;
-};
-
-/// Finds the boxes of leaves.
-class BoxFinder {
- public:
-  BoxFinder(const Collector& collected, const Leaves& leaves)
-      : collected_(collected), leaves_(leaves), is_of_plate_(collected.primitives.size()) {
-    for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-      if (!leaf.is_plate) continue;
-      for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
-        if (token.is_primitive) is_of_plate_[token.value] = true;
-      }
-    }
-  }
-
-  /// `seen` has the boxes of the primitives.
-  LeafBoxes find(std::vector<Box> seen, bool measures_leaves, bool decides) {
-    LeafBoxes boxes{std::move(seen), {}};
-    if (decides) {
-      for (uint32_t i = 0; i < collected_.primitives.size(); ++i) {
-        boxes.deciding.push_back(deciding_box(i, boxes.seen[i]));
-      }
-    }
-    const auto first = static_cast<uint32_t>(boxes.seen.size());
-    for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
-      const std::optional<Box>& known = leaves_.box(leaf);
-      const bool is_plate = is_of_plate_[leaves_.first_primitive(leaf)];
-      const bool is_measured = !is_plate && (decides || (measures_leaves && !known));
-      const Box rest = is_measured ? rest_of(leaf) : Box();
-      if (known) {
-        boxes.seen.push_back(*known);
-      } else {
-        const Box facets = box_of_positive_leaves(leaves_.solid(leaf), boxes.seen);
-        boxes.seen.push_back(is_measured ? box_of_result(rest, frame_of(leaf), facets) : facets);
-      }
-      if (decides) boxes.deciding.push_back(is_plate ? boxes.seen.back() : rest);
-    }
-    return boxes;
-  }
-
- private:
-  const csgcore::Affine& frame_of(uint32_t leaf) const {
-    return collected_.frames[leaves_.frame(leaf)].to_world;
-  }
-
-  Box rest_of(uint32_t leaf) {
-    const CsgTree& solid = leaves_.solid(leaf);
-    csgcore::BoundsBudget budget = budget_of(solid, kTestsOfLeaf);
-    budget.tests = std::min(budget.tests, tests_left_ / (leaves_.size() - leaf));
-    tests_left_ -= budget.tests;
-    const Box box = tight_box(collected_.primitives, solid, frame_of(leaf), budget);
-    tests_left_ += budget.tests;
-    return box;
-  }
-
-  /// OpenSCAD's facets lie within what is round.
-  Box deciding_box(uint32_t primitive, const Box& facets) const {
-    const csgcore::Primitive& solid = collected_.primitives[primitive];
-    const bool has_facets =
-        solid.shape == csgcore::Shape::kPolyhedron || solid.shape == csgcore::Shape::kMesh;
-    if (has_facets || is_of_plate_[primitive]) return facets;
-    Box box = facets;
-    box.merge(csgcore::canonicalize(solid).bounds);
-    return box;
-  }
-
-  const Collector& collected_;
-  const Leaves& leaves_;
-  std::vector<bool> is_of_plate_;  // by primitive
-  uint64_t tests_left_ = kTestsOfAllLeaves;
-};
-
-/// OpenSCAD cuts with thicker plates than it draws.
-void thicken_subtracted_plates(const Design& trees, const Leaves& leaves,
-                               std::span<const Box> boxes, Collector& collected) {
-  std::vector<bool> is_subtracted(collected.primitives.size());
-  for (const LeafUse& use : uses_of_leaves(trees.model, boxes)) {
-    if (use.is_subtracted) is_subtracted[leaves.first_primitive(use.leaf)] = true;
-  }
-  for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
-    if (!leaf.is_plate || leaf.solid.empty()) continue;
-    if (!is_subtracted[leaf.solid.tokens().front().value]) continue;
-    for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
-      if (!token.is_primitive) continue;
-      thicken_plate(collected.primitives[token.value], collected.frames[leaf.frame].to_world);
-    }
-  }
 }
 
 /// The outlines of a final render of plane figures.
@@ -459,17 +341,13 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   design.lines_to_render = std::move(collected.lines_to_render);
   design.rendering_ms = collected.rendering_ms;
   const bool decides = needs_layers(collected, options.picture);
-  const LeafBoxes boxes = BoxFinder(collected, leaves)
-                              .find(std::move(collected.boxes), options.measures_leaves, decides);
+  LeafBoxes boxes = boxes_of_leaves(collected, leaves, options.measures_leaves, decides);
   if (!collected.plane_leaves.empty()) {
-    thicken_subtracted_plates(trees, leaves, boxes.seen, collected);
+    thicken_cutting_plates(options.picture, trees, collected, leaves, boxes);
   }
   design.view_box = view_box(trees, boxes.seen);
   if (options.picture == PictureKind::kRendered && options.measures_leaves) {
-    const CsgTree solid = leaves.expanded(trees.model);
-    csgcore::BoundsBudget budget = budget_of(solid, kTestsOfDesign);
-    design.view_box =
-        box_of_result(tight_box(collected.primitives, solid, {}, budget), {}, design.view_box);
+    design.view_box = box_of_result(collected, leaves.expanded(trees.model), design.view_box);
   }
   throw_if_stopped(stop);
   design.scene.primitives = std::move(collected.primitives);

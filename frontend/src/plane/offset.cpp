@@ -20,7 +20,7 @@ Vec2 outward_normal(const Vec2& a, const Vec2& b) {
   return {along.y, -along.x};
 }
 
-ProfileEdge line_to(const Vec2& end) {
+ProfileEdge straight_to(const Vec2& end) {
   ProfileEdge edge;
   edge.end = end;
   return edge;
@@ -78,12 +78,12 @@ ProfileLoop outset(const Polygon& polygon, double distance, const AddCorner& add
     const Vec2 n_before = outward_normal(before, at);
     const Vec2 n_after = outward_normal(at, after);
     const double turn = cross(n_before, n_after);
-    loop.push_back(line_to(at + distance * n_before));
+    loop.push_back(straight_to(at + distance * n_before));
     if (turn > 0 || (turn == 0 && glm::dot(n_before, n_after) < 0)) {
       add_corner(Corner{at, n_before, n_after, i}, loop);
     } else if (turn < 0) {
-      loop.push_back(line_to(at));
-      loop.push_back(line_to(at + distance * n_after));
+      loop.push_back(straight_to(at));
+      loop.push_back(straight_to(at + distance * n_after));
     }
   }
   return loop;

@@ -15,6 +15,7 @@ namespace {
 using csgcore::CutFaces;
 using csgcore::Layer;
 using csgcore::Vec3;
+using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -124,6 +125,27 @@ TEST(Layers, HighlightsAreTranslucentWhateverTheirColor) {
   ASSERT_THAT(scene.layers, SizeIs(1));
   EXPECT_EQ(scene.layers[0].kind, Layer::Kind::kHighlight);
   EXPECT_TRUE(scene.layers[0].shows_behind);
+}
+
+// A plate that cuts is thicker. Drawn so thick, a `#` plate would hide others that lie on it.
+TEST(Layers, APlateThatCutsIsDrawnAsThickAsOthers) {
+  const auto heights = [](const std::string& text) {
+    const ImportedDesign design = import_text(text);
+    const auto height = [&](const csgcore::CsgTree& tree) {
+      const uint32_t last = (tree.tokens().end() - 1 - !tree.tokens().back().is_primitive)->value;
+      return csgcore::canonicalize(design.scene.primitives[last]).bounds.size().z;
+    };
+    std::vector<double> result{height(design.scene.model)};
+    for (const Layer& layer : design.scene.layers) result.push_back(height(layer.solid));
+    return result;
+  };
+  EXPECT_THAT(heights("difference() { square(9); #circle(3); }"),
+              ElementsAre(DoubleNear(1.1, 1e-12), DoubleNear(1, 1e-12)));
+  EXPECT_THAT(heights("difference() { square(9); #group() { circle(3); square(2); } }"),
+              ElementsAre(DoubleNear(1.1, 1e-12), DoubleNear(1, 1e-12), DoubleNear(1, 1e-12)));
+  // Where it cuts what is drawn over the picture it is thick there, too.
+  EXPECT_THAT(heights("#difference() { square(9); circle(3); }"),
+              ElementsAre(DoubleNear(1.1, 1e-12), DoubleNear(1.1, 1e-12)));
 }
 
 TEST(Leaves, ColorsInsideOfACompoundLeafDoNotCount) {

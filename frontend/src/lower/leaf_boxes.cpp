@@ -1,0 +1,119 @@
+#include "lower/leaf_boxes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "csgcore/canonical_primitive.hpp"
+#include "lower/faceted_box.hpp"
+#include "lower/tight_box.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::Box;
+using csgcore::CsgTree;
+
+/// How much is done at most to find a box: ten milliseconds for a leaf, and twenty for the whole of
+/// a final render. Most boxes take ten microseconds.
+constexpr uint64_t kTestsOfLeaf = 1 << 16;
+constexpr uint64_t kTestsOfDesign = 1 << 17;
+constexpr uint64_t kTestsOfOperand = 64;         // more, for each operand
+constexpr uint64_t kTestsOfAllLeaves = 1 << 20;  // each has a share of what others leave
+
+csgcore::BoundsBudget budget_of(const CsgTree& solid, uint64_t tests) {
+  return {tests + kTestsOfOperand * solid.tokens().size()};
+}
+
+/// The box that OpenSCAD finds for a solid that it evaluates as a whole. `rest` is the box of what
+/// is left of it, and `facets` that of its operands as OpenSCAD's facets, which what is round may
+/// exceed here. In a frame that is turned, the corners of the solid's own box may exceed it as
+/// well.
+Box combined_box(const Box& rest, const csgcore::Affine& frame_to_world, const Box& facets) {
+  if (rest.empty() || !is_axis_aligned(frame_to_world)) return rest;
+  const Box both = csgcore::intersection(rest, facets);
+  return both.empty() ? rest : both;
+}
+
+/// Finds the boxes of leaves.
+class BoxFinder {
+ public:
+  BoxFinder(const Collector& collected, const Leaves& leaves)
+      : collected_(collected), leaves_(leaves), is_of_plate_(collected.primitives.size()) {
+    for (const Collector::PlaneLeaf& leaf : collected.plane_leaves) {
+      if (!leaf.is_plate) continue;
+      for (const csgcore::CsgToken& token : leaf.solid.tokens()) {
+        if (token.is_primitive) is_of_plate_[token.value] = true;
+      }
+    }
+  }
+
+  /// `seen` has the boxes of the primitives.
+  LeafBoxes find(std::vector<Box> seen, bool measures_leaves, bool decides) {
+    LeafBoxes boxes{std::move(seen), {}};
+    if (decides) {
+      for (uint32_t i = 0; i < collected_.primitives.size(); ++i) {
+        boxes.deciding.push_back(deciding_box(i, boxes.seen[i]));
+      }
+    }
+    const auto first = static_cast<uint32_t>(boxes.seen.size());
+    for (uint32_t leaf = first; leaf < leaves_.size(); ++leaf) {
+      const std::optional<Box>& known = leaves_.box(leaf);
+      const bool is_plate = is_of_plate_[leaves_.first_primitive(leaf)];
+      const bool is_measured = !is_plate && (decides || (measures_leaves && !known));
+      const Box rest = is_measured ? rest_of(leaf) : Box();
+      if (known) {
+        boxes.seen.push_back(*known);
+      } else {
+        const Box facets = box_of_positive_leaves(leaves_.solid(leaf), boxes.seen);
+        boxes.seen.push_back(is_measured ? combined_box(rest, frame_of(leaf), facets) : facets);
+      }
+      if (decides) boxes.deciding.push_back(is_plate ? boxes.seen.back() : rest);
+    }
+    return boxes;
+  }
+
+ private:
+  const csgcore::Affine& frame_of(uint32_t leaf) const {
+    return collected_.frames[leaves_.frame(leaf)].to_world;
+  }
+
+  Box rest_of(uint32_t leaf) {
+    const CsgTree& solid = leaves_.solid(leaf);
+    csgcore::BoundsBudget budget = budget_of(solid, kTestsOfLeaf);
+    budget.tests = std::min(budget.tests, tests_left_ / (leaves_.size() - leaf));
+    tests_left_ -= budget.tests;
+    const Box box = tight_box(collected_.primitives, solid, frame_of(leaf), budget);
+    tests_left_ += budget.tests;
+    return box;
+  }
+
+  /// OpenSCAD's facets lie within what is round.
+  Box deciding_box(uint32_t primitive, const Box& facets) const {
+    const csgcore::Primitive& solid = collected_.primitives[primitive];
+    const bool has_facets =
+        solid.shape == csgcore::Shape::kPolyhedron || solid.shape == csgcore::Shape::kMesh;
+    if (has_facets || is_of_plate_[primitive]) return facets;
+    Box box = facets;
+    box.merge(csgcore::canonicalize(solid).bounds);
+    return box;
+  }
+
+  const Collector& collected_;
+  const Leaves& leaves_;
+  std::vector<bool> is_of_plate_;  // by primitive
+  uint64_t tests_left_ = kTestsOfAllLeaves;
+};
+
+}  // namespace
+
+LeafBoxes boxes_of_leaves(Collector& collected, const Leaves& leaves, bool measures_leaves,
+                          bool decides) {
+  return BoxFinder(collected, leaves).find(std::move(collected.boxes), measures_leaves, decides);
+}
+
+Box box_of_result(const Collector& collected, const CsgTree& solid, const Box& facets) {
+  csgcore::BoundsBudget budget = budget_of(solid, kTestsOfDesign);
+  return combined_box(tight_box(collected.primitives, solid, {}, budget), {}, facets);
+}
+
+}  // namespace frontend

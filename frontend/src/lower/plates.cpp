@@ -1,0 +1,94 @@
+#include "lower/plates.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "lower/plane_lowering.hpp"
+
+namespace frontend {
+namespace {
+
+using csgcore::CsgTree;
+
+class PlateThickener {
+ public:
+  PlateThickener(Collector& collected, Leaves& leaves, LeafBoxes& boxes)
+      : collected_(collected), leaves_(leaves), boxes_(boxes) {}
+
+  void thicken(Design& trees, bool makes_copies) {
+    std::vector<LeafTree*> all{&trees.model};
+    for (LeafTree& part : trees.background) all.push_back(&part);
+    for (LeafTree& part : trees.highlight) all.push_back(&part);
+    std::vector<bool> cuts(collected_.primitives.size());  // by the first primitive of a leaf
+    for (const LeafTree* tree : all) {
+      for (const LeafUse& use : uses_of_leaves(*tree, boxes_.seen)) {
+        if (use.is_subtracted) cuts[leaves_.first_primitive(use.leaf)] = true;
+      }
+    }
+    std::vector<const Collector::PlaneLeaf*> plates;
+    for (const Collector::PlaneLeaf& leaf : collected_.plane_leaves) {
+      if (!leaf.is_plate || leaf.solid.empty()) continue;
+      const uint32_t first = leaf.solid.tokens().front().value;
+      if (!cuts[first]) continue;
+      plates.push_back(&leaf);
+      plate_of_[first] = &leaf;
+    }
+    if (plates.empty()) return;
+    if (makes_copies) {
+      for (LeafTree* tree : all) *tree = with_thin_copies(*tree, trees.highlighted_leaves);
+    }
+    for (const Collector::PlaneLeaf* leaf : plates) {
+      for (const csgcore::CsgToken& token : leaf->solid.tokens()) {
+        if (!token.is_primitive) continue;
+        thicken_plate(collected_.primitives[token.value], collected_.frames[leaf->frame].to_world);
+      }
+    }
+  }
+
+ private:
+  LeafTree with_thin_copies(const LeafTree& tree, std::vector<uint32_t>& highlighted) {
+    const std::vector<LeafUse> uses = uses_of_leaves(tree, boxes_.seen);
+    auto use = uses.begin();
+    return csgcore::renamed(tree, [&](uint32_t leaf) {
+      const auto plate = plate_of_.find(leaves_.first_primitive(leaf));
+      const bool is_thick = (use++)->is_subtracted;
+      return is_thick || plate == plate_of_.end() ? leaf
+                                                  : thin_copy(leaf, *plate->second, highlighted);
+    });
+  }
+
+  uint32_t thin_copy(uint32_t leaf, const Collector::PlaneLeaf& plate,
+                     std::vector<uint32_t>& highlighted) {
+    const auto [copy, is_new] = copies_.try_emplace(leaf, 0);
+    if (!is_new) return copy->second;
+    CsgTree solid = csgcore::renamed(plate.solid, [&](uint32_t primitive) {
+      collected_.primitives.push_back(collected_.primitives[primitive]);
+      return static_cast<uint32_t>(collected_.primitives.size()) - 1;
+    });
+    copy->second = leaves_.add(std::move(solid), plate.frame);
+    boxes_.seen.push_back(boxes_.seen[leaf]);
+    if (!boxes_.deciding.empty()) boxes_.deciding.push_back(boxes_.deciding[leaf]);
+    // A copy is the last leaf: they stay ascending.
+    if (std::binary_search(highlighted.begin(), highlighted.end(), leaf)) {
+      highlighted.push_back(copy->second);
+    }
+    return copy->second;
+  }
+
+  Collector& collected_;
+  Leaves& leaves_;
+  LeafBoxes& boxes_;
+  std::unordered_map<uint32_t, const Collector::PlaneLeaf*> plate_of_;  // by first primitive
+  std::unordered_map<uint32_t, uint32_t> copies_;                       // by leaf
+};
+
+}  // namespace
+
+void thicken_cutting_plates(PictureKind picture, Design& trees, Collector& collected,
+                            Leaves& leaves, LeafBoxes& boxes) {
+  PlateThickener(collected, leaves, boxes).thicken(trees, picture != PictureKind::kThrownTogether);
+}
+
+}  // namespace frontend

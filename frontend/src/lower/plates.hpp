@@ -1,0 +1,19 @@
+// The plates that stand for plane figures, where they cut.
+#pragma once
+
+#include "frontend/import_options.hpp"
+#include "lower/collector.hpp"
+#include "lower/composition.hpp"
+#include "lower/leaf_boxes.hpp"
+#include "lower/leaves.hpp"
+
+namespace frontend {
+
+/// OpenSCAD cuts with thicker plates than it draws. A plate that cuts in one tree and is drawn in
+/// another one, as a `#` part is over its own cut, becomes two leaves; but not in the
+/// thrown-together picture, where the plate that cuts hides the other one. Adds primitives, leaves
+/// and boxes.
+void thicken_cutting_plates(PictureKind picture, Design& trees, Collector& collected,
+                            Leaves& leaves, LeafBoxes& boxes);
+
+}  // namespace frontend
