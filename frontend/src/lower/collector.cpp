@@ -774,6 +774,8 @@ Presence Collector::take_rendering(const PendingSolid& pending, const Rendering&
 Presence Collector::take_lowered(LoweredSubtree lowered, const Context& context, PlaneLeaf& leaf) {
   leaf.is_plate = lowered.is_plate;
   leaf.is_faceted = lowered.is_faceted;
+  // OpenSCAD's final render resizes a solid with the marks of its cut faces.
+  leaf.keeps_operations = options_.picture == PictureKind::kRendered && lowered.has_operations;
   csgcore::CsgTreeBuilder builder;
   rebuild(lowered.solid.tokens(), builder, [&](csgcore::CsgTreeBuilder& to, uint32_t index) {
     LoweredSubtree::Part& part = lowered.parts[index];

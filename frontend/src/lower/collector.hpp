@@ -82,6 +82,8 @@ class Collector final : public NodeSink {
     bool is_faceted = false;                  // facets stand for something round
     uint8_t inner_modifiers = 0;              // of a part inside of another one (InnerPart)
     bool is_rendered = false;                 // by openscad
+    /// Its operations count as those of the tree around it, which tells cut faces from others.
+    bool keeps_operations = false;
   };
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.

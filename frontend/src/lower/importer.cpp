@@ -152,8 +152,8 @@ class Emitter {
       builder().empty();
       return;
     }
-    if (in_leaf_) {
-      rebuild(plane.solid.tokens(), leaf_builder_,
+    if (in_leaf_ || plane.keeps_operations) {
+      rebuild(plane.solid.tokens(), builder(),
               [](CsgTreeBuilder& to, uint32_t primitive) { to.primitive(primitive); });
       return;
     }

@@ -20,6 +20,7 @@ struct LoweredSubtree {
   std::vector<Part> parts;
   csgcore::CsgTree solid;  // over the parts
   bool is_plate = false;
+  bool has_operations = false;      // they are those of nodes of solids
   bool is_faceted = false;          // facets, finer than a pixel, stand for something round
   std::optional<csgcore::Box> box;  // of what the operations leave, where that is known
   /// It is a union, of which OpenSCAD takes the corners of the box in the root's coordinates: `box`

@@ -47,6 +47,7 @@ LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_wo
   CsgTreeBuilder builder;
   rebuild(value.tree.tokens(), builder, add_part);
   result.solid = builder.finish();
+  result.has_operations = !value.is_union();
   if (value.is_union()) result.box = mapped(to_world, value.box());
   return result;
 }

@@ -202,6 +202,23 @@ TEST(Leaves, TheFinalRenderHasNone) {
               ElementsAre(CutFaces::kByTree, CutFaces::kByTree));
 }
 
+// OpenSCAD resizes the solid that the operations have made, with the marks of its cut faces.
+TEST(Leaves, TheFinalRenderKeepsTheCutFacesOfWhatIsResized) {
+  const std::string hollow =
+      "resize(newsize = [50, 50, 15], auto = [0,0,0]) { difference() { cube(10, center = true);"
+      "cylinder(h = 20, r1 = 1, r2 = 1, center = true); } }";
+  const ImportOptions rendered = for_picture(PictureKind::kRendered);
+  EXPECT_EQ(trees_of(hollow, rendered), "(0-0) | - | -");
+  EXPECT_EQ(trees_of("difference() { cube(100, center = true);" + hollow + "}", rendered),
+            "(0-(1-1)) | - | -");
+  for (const csgcore::Primitive& primitive : import_text(hollow, rendered).scene.primitives) {
+    EXPECT_EQ(primitive.cut_faces, CutFaces::kByTree);
+  }
+  for (const csgcore::Primitive& primitive : import_text(hollow).scene.primitives) {
+    EXPECT_EQ(primitive.cut_faces, CutFaces::kNever);
+  }
+}
+
 TEST(Leaves, AHighlightedLeafIsTakenOnce) {
   EXPECT_EQ(trees_of("difference() { sphere(); #render() { cube(); sphere(); } }"),
             "(0-1-2) | - | (1+2)");
