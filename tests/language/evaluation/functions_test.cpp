@@ -42,6 +42,25 @@ echo(f([1, 2], 1), f([[3, 4]], 0), f([5 : 6], 2), f("ab", 1), f(undef, 0), f([1,
 )");
 }
 
+// OpenSCAD 2021.01 cannot parse these; the texts are those of OpenSCAD 2025.07.18.
+TEST(Functions, OperatorsOfBits) {
+  const Evaluated result = evaluated(R"(echo(12&5, 12|5, 2<<3, 16>>2, ~5);
+echo(1|2&4, 1|2<<3, 1+1<<2, 4>3&1, 1&1==1, ~1+2, ~2^2, 2^~1, !~0, ~~5, -~5);
+echo([for (i = [0:3]) 1<<i]);
+echo(1<<64, ~true);
+assert(1 & ~1);
+)");
+  EXPECT_EQ(result.messages, R"(ECHO: 4, 13, 16, 4, -6
+ECHO: 1, 17, 8, true, true, 0, -5, 0.25, false, 5, 6
+ECHO: [1, 2, 4, 8]
+WARNING: shift too large in file design.scad, line 4
+WARNING: undefined operation (~bool) in file design.scad, line 4
+ECHO: undef, undef
+ERROR: Assertion '(1 & ~1)' failed in file design.scad, line 5
+TRACE: called by 'assert' in file design.scad, line 5
+)");
+}
+
 TEST(Functions, LoopsInAVectorAppendBehindWhatIsThere) {
   const Evaluated result = evaluated(R"(echo([0, for (i = [1 : 2]) i, for (i = "ab") let (j = i) j,
   for (i = [0 : 1], j = [0 : 2]) i * 3 + j, for (i = []) i, 7]);

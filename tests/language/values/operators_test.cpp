@@ -52,6 +52,42 @@ TEST(Operators, SayWhichTypesTheyRefuse) {
   EXPECT_EQ(problem.text, "undefined operation (-range)");
 }
 
+// The results and the warnings are those of OpenSCAD 2025.07.18.
+TEST(Operators, WorkOnBits) {
+  const auto complement = [](const Value& operand) {
+    OperatorProblem problem;
+    std::string shown = echo_text(operators::complement(operand, problem));
+    return problem.text.empty() ? shown : shown + " | " + problem.text;
+  };
+  using namespace operators;
+  const double infinity = 1.0 / 0.0, too_large = 1e30;
+  EXPECT_EQ(result(bit_and, 12, 5), "4");
+  EXPECT_EQ(result(bit_or, 12, 5), "13");
+  EXPECT_EQ(result(shift_left, 2, 3), "16");
+  EXPECT_EQ(result(shift_right, 16, 2), "4");
+  EXPECT_EQ(complement(5), "-6");
+  EXPECT_EQ(result(bit_and, 5.7, 3.9), "1") << "without the fractions";
+  EXPECT_EQ(result(bit_or, -5.7, 0), "-5");
+  EXPECT_EQ(complement(-5.7), "4");
+  EXPECT_EQ(result(shift_right, -8, 2), "-2");
+  EXPECT_EQ(result(shift_left, 1, 63.9), "-9.22337e+18");
+  EXPECT_EQ(result(shift_left, 1, -0.5), "1");
+  EXPECT_EQ(result(bit_and, too_large, 255), "255") << "the nearest integer there is";
+  EXPECT_EQ(result(bit_or, -too_large, 0), "-9.22337e+18");
+  EXPECT_EQ(result(bit_or, infinity, 0), "9.22337e+18");
+  EXPECT_EQ(result(bit_or, kNan, 0), "0");
+  EXPECT_EQ(complement(kNan), "-1");
+  EXPECT_EQ(result(shift_left, 1, 64), "undef | shift too large");
+  EXPECT_EQ(result(shift_right, 1, infinity), "undef | shift too large");
+  EXPECT_EQ(result(shift_left, 1, -1), "undef | negative shift");
+  EXPECT_EQ(result(shift_right, 1, -too_large), "undef | negative shift");
+  EXPECT_EQ(result(bit_and, list({1, 2}), 3), "undef | undefined operation (vector & number)");
+  EXPECT_EQ(result(bit_or, Value::boolean(true), 1), "undef | undefined operation (bool | number)");
+  EXPECT_EQ(result(shift_left, text("a"), -1), "undef | undefined operation (string << number)");
+  EXPECT_EQ(result(shift_right, 1, Value()), "undef | undefined operation (number >> undefined)");
+  EXPECT_EQ(complement(list({1})), "undef | undefined operation (~vector)");
+}
+
 TEST(Operators, MultiplyVectorsAndMatrices) {
   const Value matrix = list({list({1, 2}), list({3, 4})});
   EXPECT_EQ(result(multiply, list({1, 2}), list({3, 4})), "11");

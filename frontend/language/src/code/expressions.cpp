@@ -1,10 +1,25 @@
 // Expressions: each pushes its value.
+#include <stdexcept>
+
 #include "code/code_compiler.hpp"
 #include "code/constants.hpp"
 
 namespace language {
 namespace {
 
+Op op_of(UnaryOperator op) {
+  switch (op) {
+    case UnaryOperator::kNegate:
+      return Op::kNegate;
+    case UnaryOperator::kNot:
+      return Op::kNot;
+    case UnaryOperator::kComplement:
+      return Op::kComplement;
+  }
+  throw std::logic_error("an operator that is none");
+}
+
+// Returns the instruction of an operator that evaluates both operands.
 Op op_of(BinaryOperator op) {
   switch (op) {
     case BinaryOperator::kPower:
@@ -29,9 +44,21 @@ Op op_of(BinaryOperator op) {
       return Op::kGreaterEqual;
     case BinaryOperator::kEqual:
       return Op::kEqual;
-    default:
+    case BinaryOperator::kNotEqual:
       return Op::kNotEqual;
+    case BinaryOperator::kBitAnd:
+      return Op::kBitAnd;
+    case BinaryOperator::kBitOr:
+      return Op::kBitOr;
+    case BinaryOperator::kShiftLeft:
+      return Op::kShiftLeft;
+    case BinaryOperator::kShiftRight:
+      return Op::kShiftRight;
+    case BinaryOperator::kAnd:
+    case BinaryOperator::kOr:
+      break;  // logical() makes jumps of them
   }
+  throw std::logic_error("an operator that has no instruction");
 }
 
 bool is_logical(const Expression& expression) {
@@ -85,7 +112,10 @@ void CodeCompiler::expression(const Expression& expression) {
     case ExpressionKind::kAssert:
     case ExpressionKind::kEcho:
       return body_expression(as<BodyExpression>(expression));
-    default:  // a comprehension stands within vectors only
+    case ExpressionKind::kFor:
+    case ExpressionKind::kForC:
+    case ExpressionKind::kIf:
+    case ExpressionKind::kEach:  // comprehensions stand within vectors only
       out_.emit(Op::kUndef, expression.place, 1);
   }
 }
@@ -94,7 +124,7 @@ void CodeCompiler::unary(const UnaryExpression& unary) {
   const Value constant = constant_value(unary);
   if (constant.is_set()) return out_.constant(constant, unary.place);
   expression(*unary.operand);
-  out_.emit(unary.op == UnaryOperator::kNot ? Op::kNot : Op::kNegate, unary.place, 0);
+  out_.emit(op_of(unary.op), unary.place, 0);
 }
 
 // a + b + c is nested to the left, as deeply as it is long, so the left operands are followed by a

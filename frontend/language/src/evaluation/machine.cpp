@@ -152,7 +152,10 @@ bool Machine::execute(const Instruction& step) {
       pop_scope();
       break;
     case Op::kNegate:
-      negate_top();
+      unary(operators::negate);
+      break;
+    case Op::kComplement:
+      unary(operators::complement);
       break;
     case Op::kPower:
       binary(operators::power);
@@ -171,6 +174,18 @@ bool Machine::execute(const Instruction& step) {
       break;
     case Op::kSubtract:
       binary(operators::subtract);
+      break;
+    case Op::kShiftLeft:
+      binary(operators::shift_left);
+      break;
+    case Op::kShiftRight:
+      binary(operators::shift_right);
+      break;
+    case Op::kBitAnd:
+      binary(operators::bit_and);
+      break;
+    case Op::kBitOr:
+      binary(operators::bit_or);
       break;
     case Op::kLess:
       binary(operators::less);
@@ -372,8 +387,22 @@ bool Machine::execute(const Instruction& step) {
       return end_child(step.flag) && frames_.empty();
     case Op::kEndUnit:
       return end_unit();
-    default:
-      break;  // run() does the others
+    case Op::kConstant:
+    case Op::kUndef:
+    case Op::kFalse:
+    case Op::kPop:
+    case Op::kToBool:
+    case Op::kLocal:
+    case Op::kTryLocal:
+    case Op::kScoped:
+    case Op::kTryScoped:
+    case Op::kStoreLocal:
+    case Op::kNot:
+    case Op::kUnlessNumber:
+    case Op::kIsUndef:
+    case Op::kJump:
+    case Op::kJumpIfFalse:
+      break;  // run() does these itself
   }
   return false;
 }

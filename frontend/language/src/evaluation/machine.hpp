@@ -95,8 +95,8 @@ class Machine {
   // operators.cpp
   using Operator = Value (*)(const Value&, const Value&, OperatorProblem&);
   void binary(Operator op);
+  void unary(Value (*op)(const Value&, OperatorProblem&));
   void say_problem(const OperatorProblem& problem);
-  void negate_top();
   void make_range(uint16_t flags);
   void make_vector(uint32_t count);
   void make_closure(uint32_t index);

@@ -22,13 +22,9 @@ void Machine::binary(Operator op) {
   if (!problem.text.empty()) say_problem(problem);
 }
 
-void Machine::negate_top() {
-  if (stack_.top().is_number()) {
-    stack_.top() = -stack_.top().number();
-    return;
-  }
+void Machine::unary(Value (*op)(const Value&, OperatorProblem&)) {
   OperatorProblem problem;
-  stack_.top() = negate(stack_.top(), problem);
+  stack_.top() = op(stack_.top(), problem);
   if (!problem.text.empty()) say_problem(problem);
 }
 

@@ -1,6 +1,9 @@
 #include "values/operators.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "values/comparison.hpp"
@@ -13,6 +16,38 @@ namespace {
 Value undefined(const Value& left, std::string_view sign, const Value& right,
                 OperatorProblem& problem) {
   problem.text = undefined_operation(left, sign, right);
+  return Value::undef();
+}
+
+Value undefined(char sign, const Value& operand, OperatorProblem& problem) {
+  problem.text = "undefined operation (";
+  problem.text += sign;
+  problem.text += type_name(operand.type());
+  problem.text += ')';
+  return Value::undef();
+}
+
+// Returns the integer that an operator of bits takes a number for: without its fraction, the
+// nearest there is where it is beyond 64 bits, 0 for NaN.
+int64_t bits_of(const Value& value) {
+  constexpr double kEnd = 9223372036854775808.0;  // 2^63
+  const double number = value.number();
+  if (std::isnan(number)) return 0;
+  if (number >= kEnd) return std::numeric_limits<int64_t>::max();
+  if (number < -kEnd) return std::numeric_limits<int64_t>::min();
+  return static_cast<int64_t>(number);
+}
+
+Value number_of(int64_t bits) { return static_cast<double>(bits); }
+
+template <typename Shift>
+Value shifted(const Value& left, std::string_view sign, const Value& right,
+              OperatorProblem& problem, Shift shift) {
+  if (!are_numbers(left, right)) return undefined(left, sign, right, problem);
+  constexpr int64_t kBits = 64;
+  const int64_t by = bits_of(right);
+  if (by >= 0 && by < kBits) return number_of(shift(bits_of(left), by));
+  problem.text = by < 0 ? "negative shift" : "shift too large";
   return Value::undef();
 }
 
@@ -101,10 +136,32 @@ Value power(const Value& left, const Value& right, OperatorProblem& problem) {
 
 Value negate(const Value& operand, OperatorProblem& problem) {
   if (operand.is_vector()) return map_numbers(operand, [](double number) { return -number; });
-  problem.text = "undefined operation (-";
-  problem.text += type_name(operand.type());
-  problem.text += ')';
-  return Value::undef();
+  return undefined('-', operand, problem);
+}
+
+Value shift_left(const Value& left, const Value& right, OperatorProblem& problem) {
+  return shifted(left, "<<", right, problem, [](int64_t bits, int64_t by) {
+    return static_cast<int64_t>(static_cast<uint64_t>(bits) << by);
+  });
+}
+
+Value shift_right(const Value& left, const Value& right, OperatorProblem& problem) {
+  return shifted(left, ">>", right, problem, [](int64_t bits, int64_t by) { return bits >> by; });
+}
+
+Value bit_and(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (!are_numbers(left, right)) return undefined(left, "&", right, problem);
+  return number_of(bits_of(left) & bits_of(right));
+}
+
+Value bit_or(const Value& left, const Value& right, OperatorProblem& problem) {
+  if (!are_numbers(left, right)) return undefined(left, "|", right, problem);
+  return number_of(bits_of(left) | bits_of(right));
+}
+
+Value complement(const Value& operand, OperatorProblem& problem) {
+  if (!operand.is_number()) return undefined('~', operand, problem);
+  return number_of(~bits_of(operand));
 }
 
 Value less(const Value& left, const Value& right, OperatorProblem& problem) {
