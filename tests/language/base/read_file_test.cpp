@@ -24,6 +24,16 @@ TEST(ReadFile, ReadsWhatHasNoSize) {
   EXPECT_EQ(read_file(path), bytes.str());
 }
 
+TEST(ReadFile, ReadsRegularFilesAlone) {
+  const std::string path = testing::TempDir() + "regular_file_test.scad";
+  std::ofstream(path) << "x";
+  EXPECT_EQ(read_regular_file(path), "x");
+  std::filesystem::remove(path);
+  for (const std::string& other :
+       {path, std::string("/dev/zero"), std::string("/dev/null"), testing::TempDir()})
+    EXPECT_EQ(read_regular_file(other), std::nullopt) << other;
+}
+
 TEST(ReadFile, ReadsNoFolderAndNothingThatIsMissing) {
   EXPECT_EQ(read_file(testing::TempDir()), std::nullopt);
   EXPECT_EQ(read_file(testing::TempDir() + "no such file"), std::nullopt);

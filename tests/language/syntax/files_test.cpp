@@ -1,4 +1,6 @@
 // include, use, -D and the warnings about files and assignments.
+#include <sys/stat.h>
+
 #include "parsed_design.hpp"
 #include "temporary_folder.hpp"
 
@@ -40,6 +42,25 @@ TEST(Include, TakesThePathApart) {
                    "WARNING: Can't open library 'y.scad'.", "WARNING: Can't open include file ''.",
                    "WARNING: Can't open include file 'lib'."}));
   EXPECT_EQ(design.assignments(), Lines{"x = 1"});
+}
+
+// A pipe is waited for, and some devices never end.
+TEST(Include, ReadsRegularFilesOnly) {
+  const DesignFolder folder;
+  ASSERT_EQ(mkfifo("pipe", 0600), 0);
+  folder.write("main.scad",
+               "include <pipe>\n\ninclude </dev/zero> use <pipe>\nuse </dev/zero>\ny=1;");
+  const ParsedDesign design;
+  EXPECT_EQ(design.lines,
+            (Lines{"WARNING: Can't open include file 'pipe': it is no regular file in file "
+                   "main.scad, line 1",
+                   "WARNING: Can't open include file '/dev/zero': it is no regular file in file "
+                   "main.scad, line 3",
+                   "WARNING: Can't open library 'pipe': it is no regular file in file main.scad, "
+                   "line 3",
+                   "WARNING: Can't open library '/dev/zero': it is no regular file in file "
+                   "main.scad, line 4"}));
+  EXPECT_EQ(design.assignments(), Lines{"y = 1"});
 }
 
 TEST(Include, FollowsOpenScadPath) {

@@ -13,4 +13,10 @@ constexpr size_t kMostFileBytes = size_t{1} << 30;
 /// Returns the bytes of a file; nothing if it cannot be read, is a folder, or is too large.
 std::optional<std::string> read_file(const std::string& path);
 
+/// Returns whether a path, with its links followed, leads to a file that is no pipe, device or
+/// folder: to one that ends, and is there at once.
+bool is_regular_file(const std::string& path);
+/// The same as read_file(); nothing if the file is not regular.
+std::optional<std::string> read_regular_file(const std::string& path);
+
 }  // namespace language

@@ -104,7 +104,7 @@ DxfContents contents_of(const FunctionCall& call, const NamedFile& file, const R
     settings.tell({DxfProblem::Kind::kIllegalCode, ""});
     return {};
   }
-  const std::optional<std::string> text = read_file(file.opened);
+  const std::optional<std::string> text = read_regular_file(file.opened);
   if (text) return read_dxf(*text, settings);
   call.environment.messages.warn("Can't open DXF file '" + file.opened + "'.");
   return {};

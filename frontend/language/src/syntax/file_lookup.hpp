@@ -12,6 +12,7 @@ namespace language {
 /// A path as a design writes it.
 struct FileReference {
   std::string_view name;
+  Place place;                                  // of the `include` or `use`
   const std::string& folder;                    // absolute; of the file where it is written
   std::span<const std::string> being_included;  // their paths are not found again
 };

@@ -26,7 +26,7 @@ std::shared_ptr<KeptFile> KeptSources::open(
   const FileSignature signature(path);
   const bool is_same = entry.file && entry.signature.is_settled() && signature == entry.signature;
   if (!is_same) {
-    auto bytes = read_file(path);
+    auto bytes = read_regular_file(path);
     if (!bytes) return nullptr;
     std::string text = text_of(std::move(*bytes));
     if (!entry.file || entry.file->source()->text != text) {

@@ -27,7 +27,8 @@ class KeptSources {
   /// To be called before the first file of an evaluation is opened. Forgets all files if the main
   /// file is another one, or is parsed with other definitions, as they bear on how others are read.
   void begin(const std::string& main_path, const std::vector<std::string>& definitions);
-  /// Returns a file as it is now; null if it cannot be read. `text_of` makes the text of its bytes.
+  /// Returns a file as it is now; null if it cannot be read, or is not regular. `text_of` makes the
+  /// text of its bytes.
   std::shared_ptr<KeptFile> open(Role role, const std::string& path,
                                  const std::function<std::string(std::string bytes)>& text_of);
   /// To be called when all is parsed. Forgets the files that were not opened.

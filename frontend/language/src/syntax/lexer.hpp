@@ -75,7 +75,9 @@ class Lexer {
     ErrorLines error_lines;
   };
 
-  FileReference named_file(std::string_view name) const { return {name, folder_, being_included_}; }
+  FileReference named_file(std::string_view name, Place place) const {
+    return {name, place, folder_, being_included_};
+  }
   uint32_t offset_of(const char* at) const { return static_cast<uint32_t>(at - begin_); }
   void enter(FileId file, const char* cursor);
   bool leave();

@@ -96,6 +96,15 @@ void ProgramReader::look_whether_to_stop() const {
   if (options_.stop.stop_requested()) throw Stopped();
 }
 
+/// Says why there is no text; `path` is empty where nothing was found. The words and the lack of a
+/// place are OpenSCAD's but for what it would read: pipes and devices, which may never end.
+void ProgramReader::cannot_open(std::string_view what, const FileReference& file,
+                                const std::string& path) {
+  const std::string text = "Can't open " + std::string(what) + " '" + std::string(file.name) + "'";
+  if (path.empty() || is_regular_file(path)) return messages_.warn(text + ".");
+  messages_.warn(text + ": it is no regular file", file.place);
+}
+
 FileId ProgramReader::include(const FileReference& file) {
   look_whether_to_stop();
   const std::string path = search_.find(file.name, file.folder, file.being_included);
@@ -106,7 +115,7 @@ FileId ProgramReader::include(const FileReference& file) {
   }
   const FileId id = path.empty() ? kNoFile : open(KeptSources::Role::kIncluded, path);
   if (id == kNoFile) {
-    messages_.warn("Can't open include file '" + std::string(file.name) + "'.");
+    cannot_open("include file", file, path);
     return kNoFile;
   }
   included_.emplace(path, id);
@@ -130,7 +139,7 @@ FileId ProgramReader::open(KeptSources::Role role, const std::string& path) {
 void ProgramReader::use(const FileReference& file) {
   look_whether_to_stop();
   std::string path = search_.find(file.name, file.folder, file.being_included);
-  if (path.empty()) messages_.warn("Can't open library '" + std::string(file.name) + "'.");
+  if (path.empty()) cannot_open("library", file, path);
   if (const std::string name(file.name); is_font(name)) return use_font(name, path);
   // What an included file does not find, the file that is parsed may: OpenSCAD tries again there,
   // without a word.
@@ -139,8 +148,7 @@ void ProgramReader::use(const FileReference& file) {
   auto known = used_.find(path);
   if (known == used_.end()) {
     const FileId id = open(KeptSources::Role::kUsed, path);
-    if (id == kNoFile)
-      return messages_.warn("Can't open library '" + std::string(file.name) + "'.");
+    if (id == kNoFile) return cannot_open("library", file, path);
     const std::string folder = fs::path(path).parent_path().string();
     const uint64_t version = program_.kept_file(id)->version();
     known = used_.emplace(path, add_unit(id, folder, version)).first;
