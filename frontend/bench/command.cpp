@@ -9,6 +9,7 @@
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/progress.hpp"
+#include "frontend/terminal.hpp"
 #include "options.hpp"
 #include "report.hpp"
 
@@ -59,7 +60,7 @@ class Run {
       if (options_.json) {
         files.push_back(json_of(design.name, result));
       } else {
-        std::fputs(table_of(design.name, result).c_str(), stdout);
+        frontend::print_text(stdout, table_of(design.name, result));
         std::fflush(stdout);
       }
     }
@@ -70,7 +71,7 @@ class Run {
  private:
   void say(const std::string& text) {
     progress_.clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    frontend::print_text(stderr, text + "\n");
   }
 
   /// Imports the model alone: `%` parts do not belong to it, and `#` parts overlay it.
@@ -116,7 +117,7 @@ class Run {
                       {"files", files}};
     // The name of a file need not be UTF-8.
     const std::string text = all.dump(1, ' ', false, Json::error_handler_t::replace);
-    std::printf("%s\n", text.c_str());
+    frontend::print_text(stdout, text + "\n");
   }
 
   const Options& options_;

@@ -10,6 +10,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/progress.hpp"
+#include "frontend/terminal.hpp"
 #include "options.hpp"
 #include "render/scene_scale.hpp"
 #include "report.hpp"
@@ -44,14 +45,14 @@ class Run {
     }
     result.notes.insert(result.notes.end(), not_judged_.begin(), not_judged_.end());
     if (!options_.report.empty()) write_report(result, exponent);
-    if (!options_.quiet && options_.report != "-") std::fputs(table_of(result).c_str(), stdout);
+    if (!options_.quiet && options_.report != "-") frontend::print_text(stdout, table_of(result));
     return result.agrees() ? ExitCode::kDone : ExitCode::kDisagreement;
   }
 
  private:
   void say(const std::string& text) {
     progress_.clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    frontend::print_text(stderr, text + "\n");
   }
 
   /// Imports the model alone: `%` parts do not belong to it, and `#` parts overlay it.

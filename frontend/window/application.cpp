@@ -11,6 +11,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
+#include "frontend/terminal.hpp"
 
 namespace window {
 namespace {
@@ -63,7 +64,7 @@ Size window_size(const frontend::Options& options) {
 
 void print_echoes(const frontend::DesignVersion& version) {
   for (const std::string& line : version.messages) {
-    if (frontend::is_echo(line)) std::printf("%s\n", line.c_str());
+    if (frontend::is_echo(line)) frontend::print_text(stdout, line + "\n");
   }
   std::fflush(stdout);
 }

@@ -16,6 +16,7 @@
 
 #include "commands.hpp"
 #include "frontend/error.hpp"
+#include "frontend/terminal.hpp"
 
 namespace window {
 namespace {
@@ -122,7 +123,7 @@ void GlfwWindow::Impl::open(const std::string& title, Size size) {
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "scadray");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "scadray");
   window = glfwCreateWindow(static_cast<int>(size.width_px), static_cast<int>(size.height_px),
-                            title.c_str(), nullptr, nullptr);
+                            frontend::visible(title).c_str(), nullptr, nullptr);
   if (!window) {
     fail("no window with OpenGL 3.3 can be opened",
          "install a driver, with: apt-get install libgl1-mesa-dri; or draw without a window: "
@@ -301,7 +302,7 @@ double GlfwWindow::frames_per_second() const {
 }
 
 void GlfwWindow::set_title(const std::string& title) {
-  glfwSetWindowTitle(impl_->window, title.c_str());
+  glfwSetWindowTitle(impl_->window, frontend::visible(title).c_str());
 }
 
 void GlfwWindow::wait() { glfwWaitEvents(); }

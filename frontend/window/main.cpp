@@ -6,6 +6,7 @@
 #include "frontend/error.hpp"
 #include "frontend/interrupt.hpp"
 #include "frontend/run_program.hpp"
+#include "frontend/terminal.hpp"
 
 namespace {
 
@@ -21,7 +22,7 @@ void run(const std::vector<std::string>& arguments) {
   }
   if (!options.quiet) {
     for (const std::string& warning : options.warnings) {
-      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+      frontend::print_text(stderr, "warning: " + warning + "\n");
     }
   }
   window::Application(options).run();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frontend/design_version.hpp"
+#include "frontend/terminal.hpp"
 
 namespace window {
 namespace {
@@ -87,9 +88,9 @@ std::vector<Message> traced_lines(const std::vector<std::string>& lines) {
   std::vector<Message> messages;
   for (const std::string& line : lines) {
     if (line.starts_with(kTrace) && !messages.empty()) {
-      messages.back().traces.push_back(line);
+      messages.back().traces.push_back(frontend::visible(line));
     } else {
-      messages.push_back({kind_of(line), line, place_of_message(line), 1, {}});
+      messages.push_back({kind_of(line), frontend::visible(line), place_of_message(line), 1, {}});
     }
   }
   return messages;

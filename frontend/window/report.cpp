@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frontend/error.hpp"
+#include "frontend/terminal.hpp"
 
 namespace window {
 namespace {
@@ -108,7 +109,7 @@ void Report::write(const State& state, double save_to_screen_ms) {
   }
   if (save_to_screen_ms >= 0) line["save_to_screen_ms"] = save_to_screen_ms;
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
-  std::fputs(text.c_str(), file_.get());
+  frontend::print_text(file_.get(), text);
   std::fflush(file_.get());
 }
 

@@ -45,6 +45,15 @@ TEST(MessageList, TellsKindsApart) {
   EXPECT_EQ(kind("Saved"), MessageKind::kOther);
 }
 
+// What is copied from the panel may be pasted into a terminal.
+TEST(MessageList, ShowsControlCharacters) {
+  const Message message = messages_of({"WARNING: \x1b[2J in file a\x07.scad, line 2",
+                                       "TRACE: called by '\x1b', in file x, line 2"})[0];
+  EXPECT_EQ(message.text, "WARNING: \\x1b[2J in file a\\x07.scad, line 2");
+  EXPECT_THAT(message.traces, ElementsAre("TRACE: called by '\\x1b', in file x, line 2"));
+  EXPECT_EQ(message.place.file, "a\x07.scad") << "which the editor opens";
+}
+
 TEST(MessageList, FoldsWhatRepeatsWithItsTraces) {
   const std::vector<Message> messages = messages_of({
       "WARNING: a, in file x, line 1",

@@ -18,6 +18,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/interrupt.hpp"
+#include "frontend/terminal.hpp"
 
 namespace frontend {
 namespace {
@@ -192,14 +193,20 @@ bool is_special(const std::string& path) {
   return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
 }
 
+/// Writes what a device or a pipe gets: a terminal gets nothing that steers it.
+void write_to_special(int descriptor, const PendingOutput& output, const std::string& name) {
+  if (isatty(descriptor) != 1) return write_all(descriptor, output.bytes, name);
+  const auto* text = reinterpret_cast<const char*>(output.bytes.data());
+  const std::string shown = visible({text, output.bytes.size()});
+  write_all(descriptor, std::as_bytes(std::span(shown)), name);
+}
+
 void write_directly(const PendingOutput& output) {
-  if (is_standard_output(output.path)) {
-    write_all(STDOUT_FILENO, output.bytes, "standard output");
-    return;
-  }
+  if (is_standard_output(output.path))
+    return write_to_special(STDOUT_FILENO, output, "standard output");
   const Descriptor file(open(output.path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) throw cannot_write(output.path, errno);
-  write_all(file.number(), output.bytes, output.path);
+  write_to_special(file.number(), output, output.path);
 }
 
 /// A file's device and inode, with an empty name; or, if it does not exist, those of its folder,

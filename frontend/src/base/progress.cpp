@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "frontend/terminal.hpp"
+
 namespace frontend {
 
 void ProgressLine::update(const char* stage, double fraction) {
@@ -12,10 +14,11 @@ void ProgressLine::update(const char* stage, double fraction) {
   if (now - start_ < kSilence || now - last_ < kInterval) return;
   last_ = now;
   shown_ = true;
+  const std::string shown = visible(stage);
   if (fraction < 0) {
-    std::fprintf(stderr, "\r\033[K%s ...", stage);
+    std::fprintf(stderr, "\r\033[K%s ...", shown.c_str());
   } else {
-    std::fprintf(stderr, "\r\033[K%s %3.0f%%", stage, 100 * std::min(fraction, 1.0));
+    std::fprintf(stderr, "\r\033[K%s %3.0f%%", shown.c_str(), 100 * std::min(fraction, 1.0));
   }
   std::fflush(stderr);
 }

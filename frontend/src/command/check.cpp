@@ -14,6 +14,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
+#include "frontend/terminal.hpp"
 #include "language/csg_writer.hpp"
 #include "process/child_process.hpp"
 #include "process/openscad_program.hpp"
@@ -117,8 +118,9 @@ bool show_difference(const std::string& file, const char* what, const std::strin
     ours = take_line(our_rest);
     theirs = take_line(their_rest);
   } while (ours == theirs);
-  std::printf("%s: the %s differ in line %zu:\n  scadray:  %s\n  openscad: %s\n", file.c_str(),
-              what, number, shown_line(ours).c_str(), shown_line(theirs).c_str());
+  print_text(stdout, file + ": the " + what + " differ in line " + std::to_string(number) +
+                         ":\n  scadray:  " + shown_line(ours) +
+                         "\n  openscad: " + shown_line(theirs) + "\n");
   return true;
 }
 
@@ -128,7 +130,7 @@ bool check_design(const std::string& file, const std::vector<std::string>& optio
   const Result openscad = by_openscad(file, options);
   const bool trees = show_difference(file, "trees", own.tree, openscad.tree);
   const bool messages = show_difference(file, "messages", own.messages, openscad.messages);
-  if (!trees && !messages) std::printf("%s: the same\n", file.c_str());
+  if (!trees && !messages) print_text(stdout, file + ": the same\n");
   return !trees && !messages;
 }
 

@@ -23,6 +23,7 @@
 #include "frontend/progress.hpp"
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
+#include "frontend/terminal.hpp"
 #include "frontend/wireframe.hpp"
 #include "picture/flat_figure.hpp"
 
@@ -139,7 +140,7 @@ class Run {
   void say(const std::string& text) {
     if (options_.quiet) return;
     progress_.clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    print_text(stderr, text + "\n");
   }
 
   DesignFile read() {
@@ -160,10 +161,10 @@ class Run {
     reading.wants_files = !options_.rule_path.empty();
     reading.message = [this](const std::string& line) {
       if (options_.prints_echoes && is_echo(line)) {
-        std::printf("%s\n", line.c_str());
+        print_text(stdout, line + "\n");
       } else if (!options_.quiet || line.starts_with("ERROR")) {
         progress_.clear();
-        std::fprintf(stderr, "%s\n", line.c_str());
+        print_text(stderr, line + "\n");
       }
     };
     reading.progress = [this](const char* stage) { show_progress(stage, -1); };

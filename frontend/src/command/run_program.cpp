@@ -5,6 +5,7 @@
 #include <new>
 
 #include "frontend/error.hpp"
+#include "frontend/terminal.hpp"
 
 namespace frontend {
 
@@ -14,11 +15,11 @@ ExitCode run_program(const std::function<ExitCode()>& program, const std::string
     if (std::fflush(stdout) != 0) throw Error("", {}, "standard output cannot be written", "");
     return code;
   } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    print_text(stderr, error.what() + std::string("\n"));
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "error: out of memory (try %s)\n", smaller.c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    print_text(stderr, "error: " + std::string(error.what()) + "\n");
   }
   return ExitCode::kFailure;
 }

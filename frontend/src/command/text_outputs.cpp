@@ -14,6 +14,7 @@
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
 #include "frontend/openscad_export.hpp"
+#include "frontend/terminal.hpp"
 #include "language/csg_writer.hpp"
 #include "language/evaluation.hpp"
 #include "lower/import_files.hpp"
@@ -46,11 +47,18 @@ ExitCode write_by_openscad(const Options& options, const TextOutput& output,
   std::fflush(stdout);
   std::optional<MemoryFile> input;
   if (text && is_read_once(options.input)) input.emplace(text->view());
+  const MemoryFile for_terminal;  // which must get nothing that steers it
+  const bool is_out_shown = isatty(STDOUT_FILENO) == 1, is_err_shown = isatty(STDERR_FILENO) == 1;
   ChildProcess openscad({.command = openscad_command(options, output, input ? "-" : options.input),
-                         .output = STDOUT_FILENO,
-                         .errors = STDERR_FILENO,
+                         .output = is_out_shown ? for_terminal.descriptor() : STDOUT_FILENO,
+                         .errors = is_err_shown ? for_terminal.descriptor() : STDERR_FILENO,
                          .input = input ? input->descriptor() : -1});
-  return openscad.wait() == 0 ? ExitCode::kDone : ExitCode::kFailure;
+  const int exit_code = openscad.wait();
+  if (lseek(for_terminal.descriptor(), 0, SEEK_SET) == 0) {
+    const FileText said = read_descriptor(for_terminal.descriptor(), "a file in memory");
+    print_text(is_err_shown ? stderr : stdout, said.view());
+  }
+  return exit_code == 0 ? ExitCode::kDone : ExitCode::kFailure;
 }
 
 /// The evaluations for one output, and where their messages go.
@@ -86,7 +94,7 @@ class TextRun {
     if (options_.quiet && !line.starts_with("ERROR")) return;
     messages_.append(line) += '\n';
     if (output_.kind != TextKind::kCsg) return;
-    std::fwrite(messages_.data(), 1, messages_.size(), stderr);
+    print_text(stderr, messages_);
     messages_.clear();
   }
 

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,7 +21,9 @@
 namespace frontend {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class EvaluatedDesign : public testing::Test {
@@ -93,6 +97,84 @@ TEST_F(EvaluatedDesign, WritesItsMessages) {
 TEST_F(EvaluatedDesign, GoesToStandardOutput) {
   EXPECT_EQ(run({"-o", "-", "--export-format=csg", design(";")}).out, "\n");
   EXPECT_EQ(run({"-o", "-", "--export-format", "echo", design("echo(1);")}).out, "ECHO: 1\n");
+}
+
+/// A terminal in place of the standard output and the standard error, as long as it lives.
+class Terminal {
+ public:
+  Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
+      throw std::runtime_error("no terminal");
+    const int slave = open(ptsname(master_), O_RDWR | O_NOCTTY);
+    flush_all();
+    for (std::size_t i = 0; i < saved_.size(); ++i) {
+      saved_[i] = dup(kStreams[i]);
+      dup2(slave, kStreams[i]);
+    }
+    close(slave);
+  }
+  ~Terminal() {
+    flush_all();
+    for (std::size_t i = 0; i < saved_.size(); ++i) {
+      dup2(saved_[i], kStreams[i]);
+      close(saved_[i]);
+    }
+    close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  /// Returns what it has got, with carriage returns at the ends of lines.
+  std::string text() const {
+    flush_all();
+    std::string text;
+    std::array<char, 4096> bytes;
+    for (ssize_t count; (count = read(master_, bytes.data(), bytes.size())) > 0;)
+      text.append(bytes.data(), static_cast<std::size_t>(count));
+    return text;
+  }
+
+ private:
+  static constexpr std::array<int, 2> kStreams = {STDOUT_FILENO, STDERR_FILENO};
+  static void flush_all() { std::fflush(nullptr); }
+  int master_;
+  std::array<int, 2> saved_{};
+};
+
+TEST_F(EvaluatedDesign, DoesNotSteerATerminal) {
+  const std::string file =
+      design("echo(\"\\x1b[2J\x07\"); import(\"\x1b]0;x.stl\"); text(\"\x1b\");");
+  const auto shown = [&](const std::vector<std::string>& arguments) {
+    const Terminal terminal;
+    run_command(arguments, [](const csgcore::Scene&, const csgcore::View& view,
+                              const RenderSettings&, RenderStats&) {
+      csgcore::Image image;
+      image.width_px = view.width_px;
+      image.height_px = view.height_px;
+      image.rgb.assign(std::size_t{view.width_px} * view.height_px, {});
+      return image;
+    });
+    return terminal.text();
+  };
+  const std::string echo = "ECHO: \"\\x1b[2J\\x07\"\r\n";
+  EXPECT_EQ(shown({"-o", "-", "--export-format=echo", file}), echo);
+  EXPECT_THAT(shown({"-o", "-", "--export-format=csg", file}),
+              AllOf(StartsWith(echo), HasSubstr("text(text = \"\\x1b\""), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(shown({"-o", folder_ / "x.png", "--imgsize=2,2", file}),
+              AllOf(StartsWith(echo), HasSubstr("\\x1b]0;x.stl"), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(shown({"-o", folder_ / "x.png", folder_ / "\x1b[2J.scad"}),
+              AllOf(HasSubstr("\\x1b[2J.scad: error: "), Not(HasSubstr("\x1b"))));
+  EXPECT_EQ(run({"-o", "-", "--export-format=echo", file}).out, "ECHO: \"\x1b[2J\x07\"\n");
+}
+
+TEST_F(EvaluatedDesign, DoesNotSteerATerminalByOpenScad) {
+  const Environment program(
+      "OPENSCAD", folder_.script("openscad", "printf 'a\\033c\\n' >&2; printf 'b\\033c\\n'"));
+  const std::vector<std::string> arguments = {"--evaluator=openscad", "-o", folder_ / "x.csg",
+                                              design(";")};
+  const Terminal terminal;
+  run_command(arguments, {});
+  EXPECT_EQ(terminal.text(), "a\\x1bc\r\nb\\x1bc\r\n");
 }
 
 TEST_F(EvaluatedDesign, WithASyntaxErrorHasNoTree) {
