@@ -61,6 +61,10 @@ bool may_be_scad(const std::string& path);
 /// Stopped (stop.hpp) once `stop` is requested.
 std::optional<FileText> text_in_memory(const std::string& path, const std::stop_token& stop = {});
 
+/// Returns whether a design is evaluated whatever its text is: a .scad, and what may be one if
+/// there are options, such as -D, that only an evaluation obeys.
+bool is_evaluated(const std::string& path, const DesignFileOptions& options);
+
 /// Returns the options with the folder of the files that the design names: its own; and with the
 /// fonts that it uses, if it is a .scad, which was exported.
 ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options);

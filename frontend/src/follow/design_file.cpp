@@ -166,6 +166,14 @@ std::optional<FileText> text_in_memory(const std::string& path, const std::stop_
   return read_text(path, stop);
 }
 
+bool is_evaluated(const std::string& path, const DesignFileOptions& options) {
+  // --hardwarnings means something to the reader of a .csg, too.
+  const bool has_options =
+      std::any_of(options.openscad_arguments.begin(), options.openscad_arguments.end(),
+                  [](const std::string& word) { return word != "--hardwarnings"; });
+  return is_scad(path) || (has_options && may_be_scad(path));
+}
+
 ImportOptions beside(const std::string& path, const DesignText& text, ImportOptions options) {
   options.folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
   if (text.evaluation) {
@@ -246,7 +254,7 @@ DesignText read_design_text(const std::string& path, const DesignFileOptions& op
   const Clock::time_point start = Clock::now();
   text.name = input_name(path);
   text.scad = options.text ? options.text : text_in_memory(path, stop);
-  if (is_scad(path) || is_importable(path)) {
+  if (is_evaluated(path, options) || is_importable(path)) {
     if (!text.scad) check_input(path);
     text.read_ms = ms_since(start);
     export_design_text(path, options, text, stop);

@@ -89,6 +89,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     if (!reading.good.stream) reading.good.stream = text_in_memory(path, stop);
     file_options.text = reading.good.stream;
   }
+  reading.is_scad = is_evaluated(path, file_options) && !is_importable(path);
   DesignText text = read_design_text(path, file_options, stop);
   std::optional<TextImport> import;
   try {
@@ -97,7 +98,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
     if (text.is_exported || !may_be_scad(path)) throw;
     reading.is_scad = true;
   }
-  if (reading.is_scad) {
+  if (reading.is_scad && !text.is_exported) {
     export_design_text(path, file_options, text, stop);
     import = parse_text(text, beside(path, text, file_options.import), reading, stop);
   }

@@ -177,6 +177,21 @@ TEST_F(EvaluatedDesign, DoesNotSteerATerminalByOpenScad) {
   EXPECT_EQ(terminal.text(), "a\\x1bc\r\nb\\x1bc\r\n");
 }
 
+TEST_F(EvaluatedDesign, TakesVariablesWhateverItsName) {
+  const std::string set = folder_.write("sets.json", R"({"parameterSets": {"s": {"a": "7"}}})");
+  const auto size = [&](const std::string& file, std::vector<std::string> arguments) {
+    scene_ = {};
+    arguments.insert(arguments.end(), {"-o", folder_ / "x.png", file});
+    EXPECT_EQ(run(arguments).code, ExitCode::kDone) << file;
+    return scene_.primitives.empty() ? 0 : scene_.primitives.back().r_bottom;
+  };
+  const std::string plain = folder_.write("design", "cube(10); sphere(3);");
+  EXPECT_EQ(size(plain, {}), 3);
+  EXPECT_EQ(size(plain, {"-D", "sphere(20);"}), 20);
+  EXPECT_EQ(size(folder_.write("blank", ""), {"-D", "sphere(10);"}), 10);
+  EXPECT_EQ(size(folder_.write("set.txt", "a = 1; sphere(a);"), {"-p", set, "-P", "s"}), 7);
+}
+
 TEST_F(EvaluatedDesign, WithASyntaxErrorHasNoTree) {
   const Said said = run({"-o", folder_ / "x.csg", design("cube(1)")});
   EXPECT_EQ(said.code, ExitCode::kFailure);

@@ -66,6 +66,15 @@ TEST_F(Inputs, ReplaceTheSetOfTheCommandLine) {
   design.next_of(1);
 }
 
+TEST_F(Inputs, OfTheCommandLineMakeAnyFileAScad) {
+  FollowOptions options = by_own_evaluator();
+  options.openscad_arguments = {"-D", "sphere();"};
+  Followed design(folder_.write("design", "n = 1; // [1:9]\n"), options);
+  EXPECT_NE(design.next_of(1).parameters, nullptr);
+  folder_.write("design", "sphere(r = 1);");  // which is a .csg, too
+  design.next_of(2);
+}
+
 TEST_F(Inputs, AreGivenToOpenScad) {
   if (std::system("command -v openscad > /dev/null") != 0) GTEST_SKIP() << "no openscad";
   FollowOptions options = by_inotify();
