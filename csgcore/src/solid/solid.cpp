@@ -22,7 +22,7 @@ Box bounds_of(const CanonicalPrimitives& primitives, const CsgTree& tree) {
 }
 
 /// If a larger share of the primitives has changed, the solid is made anew.
-constexpr double kMostMoved = 0.1;
+constexpr double kMostChanged = 0.1;
 
 /// Calls work(i) for each i < count, in parallel if there are many.
 template <typename Work>
@@ -103,7 +103,7 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
              const Solid& earlier, const SceneEdit& edit, TreeEdit tree_edit) {
   const bool has_same_list = tree_edit == TreeEdit::kSame && !tree.empty();
   const bool may_be_wrong = earlier.lean_ && have_common(edit.added, earlier.lean_->grounds);
-  if (!has_same_list || may_be_wrong || edit.added.size() > kMostMoved * edit.primitives_after) {
+  if (!has_same_list || may_be_wrong || edit.added.size() > kMostChanged * edit.primitives_after) {
     *this = Solid(std::move(primitives), tree);
     return;
   }

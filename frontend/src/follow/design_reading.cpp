@@ -15,6 +15,7 @@
 #include "frontend/stop.hpp"
 #include "language/customizer.hpp"
 #include "language/evaluation.hpp"
+#include "lower/import_files.hpp"
 
 namespace frontend {
 namespace {
