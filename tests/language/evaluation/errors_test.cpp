@@ -77,6 +77,57 @@ TRACE: called by 'if' in file design.scad, line 2
 )");
 }
 
+// Returns the error that ends a program.
+std::string error_of(const std::string& program) {
+  const Evaluated result = evaluated(program);
+  EXPECT_EQ(result.evaluation.outcome, Outcome::kAborted) << program;
+  const size_t at = result.messages.find("ERROR: ");
+  if (at == std::string::npos) return "";
+  return result.messages.substr(at, result.messages.find('\n', at) - at);
+}
+
+// OpenSCAD ends in these without a word, where its stack or the memory does.
+TEST(Errors, EndlessTextsEnd) {
+  const std::string nested = std::string(144, '[') + "a" + std::string(144, ']');
+  EXPECT_EQ(error_of("module rec(a = 1) {\n  echo(a);\n  rec(" + nested + ");\n}\nrec();"),
+            "ERROR: Stack exhausted while trying to convert a vector to EchoString in file "
+            "design.scad, line 2");
+  EXPECT_EQ(error_of("function f(a, n) = f(" + nested + ", len(str(a)));\necho(f(1));"),
+            "ERROR: Stack exhausted while trying to convert a vector to EchoString in file "
+            "design.scad, line 1");
+  EXPECT_EQ(error_of("function f(n) = n == 0 ? 1 : let (a = f(n - 1)) [a, a];\necho(f(60));"),
+            "ERROR: A text takes too much memory: more than 32 MiB in file design.scad, line 2");
+  EXPECT_EQ(error_of("function f(n) = n == 0 ? \"0123456789abcdef\" : str(f(n - 1), f(n - 1));\n"
+                     "s = f(20);\nfor (i = [0:9])\n  echo(s);"),
+            "ERROR: The design's messages take too much memory: more than 64 MiB in file "
+            "design.scad, line 4");
+}
+
+TEST(Errors, EndlessValuesEnd) {
+  EXPECT_EQ(error_of("function f(v) = f(concat(v, [v]));\necho(f([1]));"),
+            "ERROR: Recursion detected calling function 'f' in file design.scad, line 1");
+  EXPECT_EQ(error_of("function f(v) = 1 +\nf(concat(v, [v]));\necho(f([1]));"),
+            "ERROR: Recursion detected calling function 'f' in file design.scad, line 2");
+  EXPECT_EQ(error_of("function f(a) = f(" + std::string(144, '[') + "a" + std::string(144, ']') +
+                     " * 1);\necho(f(1));"),
+            "ERROR: Vectors nest too deeply: more than 30000 in one another in file design.scad, "
+            "line 1");
+  EXPECT_EQ(error_of("function f(v) = let (w = v * 2) 1 + f([w, w]);\necho(f([1]));"),
+            "ERROR: The design's values take too much memory in file design.scad, line 1");
+}
+
+// A design may take more than a recursion that has no end: what counts is what the inner calls
+// make.
+TEST(Errors, LargeValuesAndDeepCallsDoNotMakeARecursionEndless) {
+  EXPECT_EQ(
+      evaluated("large = [for (i = [0:899999]) [i, i, i, i, i, i, i, i]];\n"
+                "function f(n) = n == 0 ? len(large) : 0 + f(n - 1);\n"
+                "function g(n, list = []) = n == 0 ? len(list) : g(n - 1, concat([n], [n]));\n"
+                "echo(f(20000), g(20000));")
+          .messages,
+      "ECHO: 900000, 2\n");
+}
+
 TEST(Errors, HardWarningsEnd) {
   const Evaluated result = evaluated(R"(function f(x) = x + zz;
 module m(x = 1) { cube(size = f(x)); }

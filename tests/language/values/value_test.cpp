@@ -17,9 +17,9 @@ namespace {
 constexpr int kDeep = 1'000'000;
 constexpr int kQuiteDeep = 100'000;
 
-Value nested(int levels, Value innermost = 1.0) {
+Value nested(size_t levels, Value innermost = 1.0) {
   Value value = std::move(innermost);
-  for (int i = 0; i < levels; ++i) {
+  for (size_t i = 0; i < levels; ++i) {
     Value outer = make_vector(1);
     append_element(outer, std::move(value));
     value = std::move(outer);
@@ -138,11 +138,24 @@ TEST(Value, NestedDeeplyIsComparedAndComputedWithoutRecursion) {
   EXPECT_TRUE(equal(value, value));
   EXPECT_FALSE(equal(value, other));
   EXPECT_TRUE(less(value, other, problem).is_true());
+  std::string text;
+  append_value_text(text, value);
+  EXPECT_EQ(text.size(), size_t{2 * kQuiteDeep + 1});
+  EXPECT_EQ(problem.text, "");
+}
+
+// A recursion can nest vectors without end, at a cost that grows with each call.
+TEST(Value, NestsOnlySoDeeplyWhereItIsComputedOrShown) {
+  const Value value = nested(kMostNesting), other = nested(kMostNesting, 2.0);
+  OperatorProblem problem;
   EXPECT_TRUE(equal(add(value, value, problem), other));
   EXPECT_TRUE(equal(multiply(2.0, value, problem), other));
   EXPECT_TRUE(equal(negate(negate(value, problem), problem), value));
-  EXPECT_EQ(echo_text(value).size(), size_t{2 * kQuiteDeep + 1});
-  EXPECT_EQ(problem.text, "");
+  EXPECT_EQ(echo_text(value).size(), 2 * kMostNesting + 1);
+  const Value deeper = nested(kMostNesting + 1);
+  EXPECT_THROW(add(deeper, deeper, problem), TooLarge);
+  EXPECT_THROW(multiply(2.0, deeper, problem), TooLarge);
+  EXPECT_THROW(echo_text(deeper), TooLarge);
 }
 
 TEST(Range, CountsAsOpenScadDoes) {

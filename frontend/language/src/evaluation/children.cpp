@@ -40,7 +40,7 @@ void Machine::say_child_is_deprecated() {
 // Children run where they are written: in the scope and among the children of their call.
 void Machine::run_block(FrameKind kind, uint32_t child) {
   const Activation& module = *activation();
-  if (frames_.size() >= kDepthLimit) {
+  if (nests_too_deeply()) {
     fail("Recursion detected calling module 'children'", place());
   }
   const Code& code = compiler_.code_of(*module.block);

@@ -115,7 +115,7 @@ void Machine::call_dynamic(const DynamicCall& site) {
 
 void Machine::call_dynamic_function(const DynamicCall& site, FunctionEntry& function) {
   const uint32_t base = base_ + site.slot;
-  if (frames_.size() >= kDepthLimit) recursion_in_callee(site);
+  if (nests_too_deeply()) recursion_in_callee(site);
   HeapScope* const scope = HeapScopes::acquire(scope_of(site));
   const bool is_closure = stack_[base].is_function();
   if (!is_closure && site.is_in_unit) {

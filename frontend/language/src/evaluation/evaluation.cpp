@@ -18,6 +18,10 @@
 namespace language {
 namespace {
 
+// Bytes of the messages that an evaluation may say: they are kept until the output is written, and
+// a recursion can say more than any memory holds.
+constexpr size_t kMostMessageBytes = size_t{64} << 20;
+
 // One evaluation, from text to nodes.
 class Session {
  public:
@@ -59,11 +63,17 @@ class Session {
   std::unique_ptr<Program> program_;
   Messages messages_;
   Machine* machine_ = nullptr;  // while it runs
+  size_t said_bytes_ = 0;
   bool has_camera_ = false;
   Evaluation result_;
 };
 
 void Session::take(const Message& message) {
+  said_bytes_ += message.line.size();
+  const bool ends_run =
+      message.group == MessageGroup::kError || message.group == MessageGroup::kTrace;
+  if (machine_ && !ends_run && said_bytes_ > kMostMessageBytes)
+    throw TooLarge("The design's messages take too much memory: more than 64 MiB");
   sink_(message.line);
   if (!machine_) return;
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();

@@ -29,6 +29,7 @@ struct Frame {
   HeapScope* scope;     // the innermost one; counted
   uint32_t trail;       // its length when the frame was made
   uint32_t activation;  // of the user module that the code stands in, or kNoActivation
+  int64_t memory;       // that values took when the frame was made, in bytes
   uint32_t rounds = 0;  // of tail calls
   const FunctionEntry* function = nullptr;
   Name called_as = kNoName;  // of a function value: the name in its call

@@ -1,5 +1,6 @@
 // Function calls by name, and the frames of all calls.
 #include "evaluation/machine.hpp"
+#include "evaluation/operation_limit.hpp"
 #include "syntax/expression_text.hpp"
 #include "values/object_memory.hpp"
 
@@ -7,6 +8,11 @@ namespace language {
 namespace {
 
 constexpr uint32_t kTailLimit = 1000000;
+// A recursion that goes on for longer than these calls, and makes more than these bytes of values
+// that last, is endless: it would only end when it has taken all memory. OpenSCAD allows some 8,600
+// nested calls, so that each of them would have to keep some thousand numbers.
+constexpr size_t kFewCalls = 3000;
+constexpr int64_t kMostNestedBytes = int64_t{96} << 20, kMostRoundsBytes = int64_t{256} << 20;
 
 }  // namespace
 
@@ -19,7 +25,7 @@ void Machine::push_frame(const Code& code, uint32_t base, HeapScope* scope, Fram
     frames_.back().next = next_;
     frames_.back().scope = scope_;
   }
-  frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation});
+  frames_.push_back({&code, 0, base, scope, dynamic_.trail(), activation, object_memory.used});
   frames_.back().kind = kind;
   if (code.noted_by != record_ && record_ != 0) note_code(code);
   code_ = code.instructions.data();
@@ -68,14 +74,21 @@ void Machine::return_defaults() {
   if (kind == FrameKind::kDynamicDefaults) keep_defaults(base);
 }
 
+// Returns whether the calls nest too deeply for another one. What the inner half of them has made
+// is the recursion's, not that of the design around it.
+bool Machine::nests_too_deeply() const {
+  const size_t depth = frames_.size();
+  if (depth >= kDepthLimit) return true;
+  return depth > kFewCalls && object_memory.used - frames_[depth / 2].memory > kMostNestedBytes;
+}
+
 void Machine::recursion_in_function(std::string_view name, Place place) {
   fail("Recursion detected calling function '" + std::string(name) + "'", place);
 }
 
 void Machine::call_function(const CallSite& site) {
   FunctionEntry& function = *site.function;
-  if (frames_.size() >= kDepthLimit)
-    recursion_in_function(compiler_.names().text(function.name), place());
+  if (nests_too_deeply()) recursion_in_function(compiler_.names().text(function.name), place());
   HeapScope* const scope = take_scope(site);
   const Code& code = compiler_.code_of(function);
   const uint32_t base = stack_.size() - site.slots;
@@ -95,7 +108,9 @@ void Machine::return_value() {
 void Machine::tail_jump(uint32_t slots, uint32_t target) {
   count_step();
   Frame& frame = frames_.back();
-  if (++frame.rounds > kTailLimit) {
+  const bool grows =
+      ++frame.rounds > kFewCalls && object_memory.used - frame.memory > kMostRoundsBytes;
+  if (frame.rounds > kTailLimit || grows) {
     const bool is_named = frame.called_as == kNoName;
     const Name name = is_named ? frame.function->name : frame.called_as;
     recursion_in_function(compiler_.names().text(name),
@@ -110,6 +125,7 @@ void Machine::call_builtin(uint32_t index, uint32_t count) {
   functions_.module_names = module_names_;
   const std::span<Value> arguments(stack_.end() - count, count);
   if (!records_.empty()) note_builtin(function, arguments);
+  const OperationLimit limit;
   Value value = function.call({function.name, count, arguments, place(), functions_});
   stack_.drop_to(stack_.size() - count);
   stack_.push(std::move(value));
@@ -129,6 +145,7 @@ void Machine::next_lazy(const LazyCall& site) {
     return;
   }
   functions_.module_names = module_names_;
+  const OperationLimit limit;
   Value value = function.call(call);
   stack_.drop_to(base);
   stack_.push(std::move(value));

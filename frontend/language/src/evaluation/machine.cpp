@@ -7,6 +7,7 @@
 #include "code/constants.hpp"
 #include "values/make.hpp"
 #include "values/object_memory.hpp"
+#include "values/value_text.hpp"
 
 namespace language {
 namespace {
@@ -102,6 +103,8 @@ void Machine::run_guarded() {
   } catch (const HardWarning&) {
     say_traces();
     throw Aborted();
+  } catch (const TooLarge& problem) {
+    fail(problem.what(), place());
   } catch (const OutOfValueMemory&) {
     fail("The design's values take too much memory", place());
   } catch (const std::bad_alloc&) {

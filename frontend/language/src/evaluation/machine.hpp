@@ -131,6 +131,7 @@ class Machine {
   void say_argument_warnings(uint32_t plan, bool once);
   void warn_count(Name name);
   void unknown_function(Name name);
+  bool nests_too_deeply() const;
   [[noreturn]] void recursion_in_function(std::string_view name, Place place);
 
   // dynamic_calls.cpp

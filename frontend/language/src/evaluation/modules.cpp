@@ -73,7 +73,7 @@ void Machine::name_module(Name name) {
 
 void Machine::call_module(const CallSite& site) {
   ModuleEntry& module = *site.module;
-  if (frames_.size() >= kDepthLimit) {
+  if (nests_too_deeply()) {
     fail("Recursion detected calling module '" + std::string(compiler_.names().text(module.name)) +
              "'",
          module.place);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "evaluation/machine.hpp"
+#include "evaluation/operation_limit.hpp"
 #include "syntax/expression_text.hpp"
 #include "values/make.hpp"
 #include "values/object_memory.hpp"
@@ -16,6 +17,7 @@ void Machine::say_problem(const OperatorProblem& problem) {
 }
 
 void Machine::binary(Operator op) {
+  const OperationLimit limit;
   const Value left = stack_.pop();
   OperatorProblem problem;
   stack_.top() = op(left, stack_.top(), problem);
@@ -23,6 +25,7 @@ void Machine::binary(Operator op) {
 }
 
 void Machine::unary(Value (*op)(const Value&, OperatorProblem&)) {
+  const OperationLimit limit;
   OperatorProblem problem;
   stack_.top() = op(stack_.top(), problem);
   if (!problem.text.empty()) say_problem(problem);

@@ -71,10 +71,7 @@ void warn_of_long_ranges(const Value& value, Messages& messages) {
 
 Value string(const FunctionCall& call) {
   std::string text;
-  for (const Value& argument : call.arguments) {
-    append_str_text(text, argument);
-    check_text_size(text.size());
-  }
+  for (const Value& argument : call.arguments) append_str_text(text, argument);
   return make_string(text);
 }
 

@@ -17,7 +17,7 @@ void append_general(std::string& out, const Value& value) {
   if (value.is_number()) {
     append_general_number(out, value.number());
   } else {
-    append_echo_text(out, value);
+    append_value_text(out, value);
   }
 }
 
@@ -70,7 +70,7 @@ void append_value(std::string& out, const NodeTree& tree, const NodeArgument& ar
     case ArgumentStyle::kGeneralTight:
       return append_list(out, numbers, ",");
     case ArgumentStyle::kEcho:
-      return append_echo_text(out, argument.value);
+      return append_value_text(out, argument.value);
     case ArgumentStyle::kMatrix:
       return append_matrix(out, numbers);
     case ArgumentStyle::kInteger:

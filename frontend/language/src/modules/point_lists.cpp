@@ -40,7 +40,11 @@ bool holds_function(const Value& value) {
 
 void add_list(NodeTree& tree, std::string_view name, const Value& list) {
   Value kept = list.is_set() ? list : Value::undef();
-  if (holds_function(kept)) kept = Value::adopt(new SpelledValue(echo_text(kept)));
+  if (holds_function(kept)) {
+    std::string text;
+    append_value_text(text, kept);
+    kept = Value::adopt(new SpelledValue(std::move(text)));
+  }
   add(tree, name, std::move(kept), ArgumentStyle::kEcho);
 }
 

@@ -8,12 +8,14 @@
 #include "base/work_meter.hpp"
 #include "values/level_stack.hpp"
 #include "values/make.hpp"
+#include "values/too_large.hpp"
 
 namespace language {
 
 /// Lets levels of nested vectors be filled, each of which has
 ///   bool fill(): appends leaves to its `result`, which has room for all elements; false: the level
 ///     that next() returns comes first.
+/// Throws TooLarge.
 template <typename Level>
 Value fill_levels(Level first) {
   if (first.fill()) return std::move(first.result);
@@ -21,6 +23,8 @@ Value fill_levels(Level first) {
   levels.push(std::move(first));
   while (true) {
     if (!levels.top().fill()) {
+      if (levels.levels().size() >= kMostNesting)
+        throw TooLarge("Vectors nest too deeply: more than 30000 in one another");
       levels.push(levels.top().next());
       continue;
     }

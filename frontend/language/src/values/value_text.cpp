@@ -53,12 +53,21 @@ void append_leaf(std::string& out, const Value& value) {
 
 constexpr size_t kWorkOfElement = 16;  // a number's text takes some 100 ns
 
+// Checks a text that is for messages or strings, and how many brackets are open.
+void check_shown(size_t bytes, size_t depth) {
+  if (bytes > kMostTextBytes) throw TooLarge("A text takes too much memory: more than 32 MiB");
+  if (depth > kMostNesting)
+    throw TooLarge("Stack exhausted while trying to convert a vector to EchoString");
+}
+
 // Appends a vector. What is being written lies on a stack of its own, since vectors nest deeply.
-void append_vector(std::string& out, std::span<const Value> elements) {
+// `check` is called for each element.
+template <typename Check>
+void append_vector(std::string& out, std::span<const Value> elements, Check check) {
   std::vector<std::span<const Value>> rests{elements};  // of each open bracket, what is not written
   out += '[';
   while (true) {
-    check_text_size(out.size());
+    check(out.size(), rests.size());
     count_work(kWorkOfElement);
     std::span<const Value>& rest = rests.back();
     if (rest.empty()) {
@@ -82,18 +91,26 @@ void append_vector(std::string& out, std::span<const Value> elements) {
 
 }  // namespace
 
-void append_echo_text(std::string& out, const Value& value) {
+void append_value_text(std::string& out, const Value& value) {
+  const auto check = [](size_t bytes, size_t) { check_text_size(bytes); };
   if (value.is_vector())
-    append_vector(out, value.elements());
+    append_vector(out, value.elements(), check);
   else
     append_leaf(out, value);
 }
 
-void append_str_text(std::string& out, const Value& value) {
-  if (value.is_string())
-    out += value.text();
+void append_echo_text(std::string& out, const Value& value) {
+  if (value.is_vector())
+    append_vector(out, value.elements(), check_shown);
   else
-    append_echo_text(out, value);
+    append_leaf(out, value);
+  check_shown(out.size(), 0);
+}
+
+void append_str_text(std::string& out, const Value& value) {
+  if (!value.is_string()) return append_echo_text(out, value);
+  out += value.text();
+  check_shown(out.size(), 0);
 }
 
 std::string echo_text(const Value& value) {
