@@ -1,10 +1,12 @@
 #include "lower/solid_evaluation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <utility>
 
 #include "base/primitive_traits.hpp"
+#include "hulls/point_hull.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
 #include "lower/revolutions.hpp"
@@ -46,6 +48,23 @@ SolidPart faceted_part(Primitive mesh, bool is_smooth) {
 /// Bodies of fewer generators are copied, so that generators are in the order of the design:
 /// rounding may follow it.
 constexpr size_t kManyGenerators = 4096;
+
+/// So few points need not be looked at: to move them takes less.
+constexpr size_t kFewPoints = 512;
+
+/// Leaves out points that are no corners of the hull, in the order of the others.
+void keep_corners(Generators& generators) {
+  std::vector<csgcore::Vec3> points;
+  for (const Generator& generator : generators) {
+    if (generator.has_disc() || generator.has_ball() || !is_finite(generator)) return;
+    points.push_back(generator.center);
+  }
+  const PointHull hull = point_hull(on_grid(points));
+  if (hull.dimension < 3) return;
+  Generators corners;
+  for (const uint32_t corner : hull.corners) corners.push_back(generators[corner]);
+  generators = std::move(corners);
+}
 
 /// Returns the operand that is one body of many generators, the largest of several; null: none is.
 SolidPart* largest_body(std::vector<SolidValue>& operands) {
@@ -269,7 +288,9 @@ SolidValue SolidEvaluation::revolved_in(const TurnSections& sections,
 SolidValue SolidEvaluation::hull(uint32_t node) {
   SupportSet support;
   Box box;
+  size_t most_before = 0;  // generators of a hull within
   const auto add = [&](const SolidPart& part) {
+    most_before = std::max(most_before, part.body.generators.size());
     part.add_support(support);
     box.merge(part.box);
   };
@@ -277,8 +298,8 @@ SolidValue SolidEvaluation::hull(uint32_t node) {
   // The largest body is added to: a chain of hulls within hulls copies none at each of them.
   SolidPart* const largest = largest_body(all);
   if (largest != nullptr) {
-    support = std::move(largest->body);
-    largest->body = {};
+    most_before = largest->body.generators.size();
+    support = std::exchange(largest->body, {});
     box.merge(largest->box);
   }
   for (const SolidValue& operand : all) {
@@ -286,6 +307,9 @@ SolidValue SolidEvaluation::hull(uint32_t node) {
     for (const SolidPart& part : united(operand)) add(part);
   }
   if (support.generators.empty()) return {};
+  // Now and then, so that a chain of hulls has no more points than the last of them.
+  const bool has_doubled = std::bit_width(support.generators.size()) > std::bit_width(most_before);
+  if (most_before > kFewPoints && has_doubled) keep_corners(support.generators);
   return value_of(part_of(std::move(support), box));
 }
 

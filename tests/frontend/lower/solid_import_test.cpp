@@ -38,18 +38,27 @@ size_t count_of(const ImportedDesign& design, Shape shape) {
 
 // --- hull -----------------------------------------------------------------------------------
 
-/// Each hull took a copy of all that the one within it has: 10,000 took 9 s.
+/// Each hull took a copy of all that the one within it has: 10,000 took 9 s and more.
 TEST(SolidHull, OfHullsTakesAsLongAsTheyAre) {
-  constexpr int kHulls = 10'000;
-  std::string text;
-  for (int i = 0; i < kHulls; ++i) text += "hull(){" + at(i % 100, i / 100, 0, "cube(1);");
-  text += std::string(kHulls, '}');
+  constexpr int kHulls = 4000;
+  std::string chain, moved;
+  const std::string matrix = "multmatrix([[1,0,0,0.01],[0,1,0,0],[0,0,1,0],[0,0,0,1]]){";
+  for (int i = 0; i < kHulls; ++i) {
+    chain += "hull(){" + at(i % 100, i / 100, 0, "cube(1);");
+    moved += "hull(){" + matrix + "cube(1);";
+  }
+  chain += std::string(kHulls, '}');
+  moved += std::string(2 * kHulls, '}');
   const std::clock_t start = std::clock();
-  const Inside inside(text);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 4);
-  EXPECT_TRUE(inside(99.9, 99.9, 0.5));
-  EXPECT_TRUE(inside(0.1, 0.1, 0.5));
-  EXPECT_FALSE(inside(50, 50, 1.1));
+  const Inside inside(chain), inside_moved(moved);
+  // A multiple of what it takes; it took some five seconds.
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 3);
+  for (const double place : {0.1, 20.0, 39.9}) {
+    EXPECT_TRUE(inside(place, place, 0.5)) << place;
+    EXPECT_FALSE(inside(place, place, 1.1)) << place;
+    EXPECT_TRUE(inside_moved(place + 0.1, 0.5, 0.5)) << place;
+  }
+  EXPECT_FALSE(inside_moved(41.1, 0.5, 0.5));
 }
 
 TEST(SolidHull, OfTwoBallsIsAFrustumBetweenThem) {
