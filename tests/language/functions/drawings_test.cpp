@@ -117,6 +117,14 @@ TEST_F(Drawings, SayWhatIsWrongWithACall) {
             "ECHO: undef, undef\n");
 }
 
+// OpenSCAD shows the first line of any file.
+TEST_F(Drawings, ShowNoWordsOfAFileThatIsNone) {
+  write("lib/passwords", "root:x:0:0\nfoo\n");
+  const std::string messages = said("x = dxf_dim(file = \"lib/passwords\", name = \"x\");\n");
+  EXPECT_EQ(messages.find("WARNING: Illegal ID '' in `" + path("lib/passwords") + "'\n"), 0u)
+      << messages;
+}
+
 // What was found is kept, so the file's problems are said once.
 TEST_F(Drawings, SayWhatIsWrongWithAFile) {
   write_entities("lib/a.dxf", dimension("1", "x", groups({{13, "1,5"}})) +
