@@ -439,6 +439,9 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
       leave_out(node, kBecauseTooSmall);
       return kNoPrimitive;
     case Fit::kFlat:
+      if (primitive.local_to_world.linear != csgcore::Mat3(0.0)) {
+        problems.add(tree_.nodes[node], {" has no volume", "a matrix flattens it to nothing"});
+      }
       return kNoPrimitive;
   }
   primitive.color = context.in_leaf ? context.leaf_color : context.color;
