@@ -127,14 +127,17 @@ class BoundsSearch {
   /// Returns how far the solid certainly reaches by points of the operands that bound the box: most
   /// solids keep a corner of these, or the middle between corners.
   double reach_of_operands(const Side& side, const CellList& list, const Box& box) const {
-    constexpr int kMostAsked = 64;
+    constexpr uint32_t kMostAsked = 64;
+    constexpr uint32_t kMostTests = 1 << 14;  // of all points: to ask for one may take them all
     constexpr double kTilt = 1e-3;     // finds the corners of a face that lies in the box's side
     constexpr double kInwards = 1e-6;  // so that rounding does not decide: a share of the way in
-    int asked = 0;
+    const uint32_t most = std::clamp(kMostTests / (5 * list.count() + 1), 1u, kMostAsked);
+    uint32_t asked = 0;
     for (const uint32_t entry : list.primitives()) {
+      if ((entry & CellList::kComplementBit) != 0) continue;
       const CanonicalPrimitive& operand = primitives_[entry & kPrimitiveBits];
       if (std::abs(side.reach(operand.bounds) - side.reach(box)) > accuracy_) continue;
-      if (++asked > kMostAsked) break;
+      if (++asked > most) break;
       Vec3 sum(0.0);
       for (int corner = 0; corner <= 4; ++corner) {
         Vec3 direction(0.0);
