@@ -70,13 +70,16 @@ class Extruding {
     LoweredSubtree result;
     if (!solid) return result;
     const Affine to_world = compose(frames_[frame_].to_world, leaning(data_.arguments));
-    Primitive& mesh = solid->mesh;
-    mesh.local_to_world = to_world;
-    mesh.id = figures.figures.front().id;
     result.box = mapped(to_world, solid->box);
-    result.parts.push_back({std::move(mesh), frame_, *result.box});
+    std::vector<Primitive> parts = std::move(solid->sheets);
+    parts.push_back(std::move(solid->mesh));
     CsgTreeBuilder builder;
-    builder.primitive(0);
+    for (Primitive& part : parts) {
+      builder.primitive(static_cast<uint32_t>(result.parts.size()));
+      part.local_to_world = to_world;
+      part.id = figures.figures.front().id;
+      result.parts.push_back({std::move(part), frame_, *result.box});
+    }
     result.solid = builder.finish();
     return result;
   }

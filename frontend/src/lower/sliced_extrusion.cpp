@@ -70,7 +70,12 @@ std::optional<SlicedExtrusion> sliced_extrusion(const LinearExtrudeNode& data,
   }
   const csgcore::Box box = sliced_box(layers, slicing.slices, *outline);
   if (!data.is_faceted) slicing = smooth_slicing(layers, slices, std::move(*outline));
-  return SlicedExtrusion{sliced_mesh(layers, slicing), box};
+  SlicedExtrusion result{sliced_mesh(layers, slicing), folded_sides(layers, slicing), box};
+  if (!result.sheets.empty()) {
+    problems.add(node, {" turns by half a turn in a slice, where its sides cross themselves",
+                        "give it more slices"});
+  }
+  return result;
 }
 
 }  // namespace frontend

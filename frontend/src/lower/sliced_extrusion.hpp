@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "csgcore/primitive.hpp"
 #include "lower/node_problems.hpp"
@@ -18,7 +19,8 @@ csgcore::Affine leaning(const LinearExtrudeArguments& arguments);
 
 struct SlicedExtrusion {
   csgcore::Primitive mesh;
-  csgcore::Box box;  // of OpenSCAD's corners
+  std::vector<csgcore::Primitive> sheets;  // folded_sides()
+  csgcore::Box box;                        // of OpenSCAD's corners
 };
 
 /// Returns the solid of the figures, whose layers turn or are scaled differently in x and y, before

@@ -39,7 +39,7 @@ class SlicedMesh {
   }
 
   csgcore::Primitive make() {
-    const bool has_top = layers_.top_scale.x > 0 && layers_.top_scale.y > 0;
+    const bool has_top = this->has_top();
     add_layers(has_top);
     for (const Loop& loop : loops_) add_sides(loop, has_top);
     add_cap(0);
@@ -48,8 +48,32 @@ class SlicedMesh {
         std::make_shared<csgcore::TriangleMesh>(std::move(vertices_), std::move(triangles_)));
   }
 
+  std::vector<csgcore::Primitive> folded_sides() {
+    std::vector<csgcore::Primitive> result;
+    add_layers(has_top());
+    for (const Loop& loop : loops_) {
+      for (uint32_t layer = 0; layer < slices_; ++layer) {
+        for (size_t i = 0; i < loop.points.size(); ++i) {
+          const Side side = side_of(loop, layer, i);
+          std::vector<Vec3> corners;
+          for (const size_t place : {side.p1, side.q1, side.p2, side.q2}) {
+            corners.push_back(vertices_[vertex_[place]]);
+          }
+          // Both triangles face the same way, or they would cancel out.
+          const bool takes_p1_q2 = is_p1_q2(side, loop.is_hole);
+          std::vector<csgcore::TriangleMesh::Triangle> triangles{{0, 1, takes_p1_q2 ? 3u : 2u}};
+          triangles.push_back({takes_p1_q2 ? 0u : 1u, 2, 3});
+          result.push_back(csgcore::make_mesh(
+              std::make_shared<csgcore::TriangleMesh>(std::move(corners), std::move(triangles))));
+        }
+      }
+    }
+    return result;
+  }
+
  private:
   double height() const { return layers_.z_max - layers_.z_min; }
+  bool has_top() const { return layers_.top_scale.x > 0 && layers_.top_scale.y > 0; }
 
   void add_loop(const Polygon& polygon, size_t offset) {
     Loop& loop = loops_.emplace_back();
@@ -95,15 +119,20 @@ class SlicedMesh {
     }
   }
 
+  Side side_of(const Loop& loop, uint32_t layer, size_t edge) const {
+    const size_t below = layer * points_.size();
+    const size_t above = below + points_.size();
+    const size_t count = loop.points.size();
+    return {below + loop.points[edge], below + loop.points[(edge + 1) % count],
+            above + loop.points[(edge + loop.offset) % count],
+            above + loop.points[(edge + loop.offset + 1) % count]};
+  }
+
   void add_sides(const Loop& loop, bool has_top) {
     const size_t count = loop.points.size();
     for (uint32_t layer = 0; layer < slices_; ++layer) {
-      const size_t below = layer * points_.size();
-      const size_t above = below + points_.size();
       for (size_t i = 0; i < count; ++i) {
-        const Side side{below + loop.points[i], below + loop.points[(i + 1) % count],
-                        above + loop.points[(i + loop.offset) % count],
-                        above + loop.points[(i + loop.offset + 1) % count]};
+        const Side side = side_of(loop, layer, i);
         bool takes_p1_q2 = is_p1_q2(side, loop.is_hole);
         // OpenSCAD chooses the other one where the extrusion ends in a line or a point.
         if (!has_top && layer + 1 == slices_) takes_p1_q2 = !takes_p1_q2;
@@ -157,6 +186,12 @@ class SlicedMesh {
 
 csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing) {
   return SlicedMesh(layers, slicing).make();
+}
+
+std::vector<csgcore::Primitive> folded_sides(const TwistedLayers& layers, const Slicing& slicing) {
+  const bool is_half_turn = std::abs(std::remainder(layers.twist / slicing.slices, 360)) == 180;
+  if (!is_half_turn || layers.top_scale.x != layers.top_scale.y) return {};
+  return SlicedMesh(layers, slicing).folded_sides();
 }
 
 csgcore::Box sliced_box(const TwistedLayers& layers, int slices, const SimplePolygons& outline) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -142,6 +143,24 @@ TEST(LinearExtrude, HasNoCornersOfRoundingWhereItsSidesTurn) {
     ASSERT_TRUE(solid.mesh);
     EXPECT_EQ(solid.mesh->triangles().size(), 8 * 2 + 2 * 6u);  // sides, and both ends
   }
+}
+
+TEST(LinearExtrude, ShowsTheSidesThatAHalfTurnFolds) {
+  const std::string bar = "polygon([[1, 0], [5, 0], [5, 3], [1, 3]]);";
+  const auto sheets = [&](const std::string& arguments) {
+    const ImportedDesign design = import_text(extruded(bar, arguments));
+    return std::ranges::count_if(design.scene.primitives, [](const Primitive& primitive) {
+      return primitive.mesh && !primitive.mesh->is_closed();
+    });
+  };
+  EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1"), 4);
+  EXPECT_EQ(sheets("height = 6, twist = -360, slices = 2"), 8);
+  EXPECT_EQ(sheets("height = 6, twist = 540, slices = 1, scale = 2"), 4);
+  EXPECT_EQ(sheets("height = 6, twist = 179, slices = 1"), 0);
+  EXPECT_EQ(sheets("height = 6, twist = 360, slices = 1"), 0);
+  EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1, scale = [1, 2]"), 0);
+  EXPECT_THAT(warning_of(extruded(bar, "height = 6, twist = 180, slices = 1")),
+              HasSubstr("turns by half a turn in a slice"));
 }
 
 TEST(LinearExtrude, TellsOfFewerSlicesThanAskedFor) {
