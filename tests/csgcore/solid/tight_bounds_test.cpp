@@ -28,11 +28,10 @@ Affine turned_about_z(double angle) {
   return {Mat3(Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1)), Vec3(0.0)};
 }
 
-/// Makes the difference of the first primitive and the others.
-Box bounds_of_difference(const std::vector<Primitive>& primitives, uint64_t tests = kPlenty) {
+Box bounds_of(Op op, const std::vector<Primitive>& primitives, uint64_t tests = kPlenty) {
   std::vector<CanonicalPrimitive> canonical;
   CsgTreeBuilder builder;
-  builder.open(Op::kDifference);
+  builder.open(op);
   for (const Primitive& primitive : primitives) {
     builder.primitive(static_cast<uint32_t>(canonical.size()));
     canonical.push_back(canonicalize(primitive));
@@ -40,6 +39,11 @@ Box bounds_of_difference(const std::vector<Primitive>& primitives, uint64_t test
   builder.close();
   BoundsBudget budget{tests};
   return tight_bounds(canonical, builder.finish(), budget);
+}
+
+/// Takes the difference of the first primitive and the others.
+Box bounds_of_difference(const std::vector<Primitive>& primitives, uint64_t tests = kPlenty) {
+  return bounds_of(Op::kDifference, primitives, tests);
 }
 
 void expect_box(const Box& box, const Vec3& min, const Vec3& max, double accuracy) {
@@ -123,6 +127,16 @@ TEST(TightBounds, PassJointsOfOperandsThatAreTurned) {
                                         box_of(Vec3(-9, -9, 1), Vec3(0.5, 9, 9), turned),
                                         box_of(Vec3(0.5, -9, 1), Vec3(9, 9, 9), turned)});
   expect_box(box, Vec3(-5), Vec3(5, 5, 1), 1e-7);
+}
+
+// The edges where turned sides meet are found by half-spaces, without dividing down to them.
+TEST(TightBounds, EndAtEdgesOfWhatIsTurned) {
+  const double angle = 0.3;
+  const std::vector<Primitive> bars{
+      box_of(Vec3(-9, -1, -1), Vec3(9, 1, 1), turned_about_z(angle)),
+      box_of(Vec3(-9, -1, -1), Vec3(9, 1, 1), turned_about_z(-angle))};
+  const Vec3 rhombus(1 / std::sin(angle), 1 / std::cos(angle), 1);
+  expect_box(bounds_of(Op::kIntersection, bars), -rhombus, rhombus, 1e-7);
 }
 
 // What is left is a thousandth of the operands, and the accuracy is a share of it.

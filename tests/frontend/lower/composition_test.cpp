@@ -283,7 +283,7 @@ TEST(LeafBoxes, HoldThinPartsWhateverTheyDecide) {
 // OpenSCAD's facets are within the ball, which is what is drawn and cut.
 TEST(LeafBoxes, HoldWhatIsRoundWhateverTheyDecide) {
   EXPECT_THAT(model_layers("color([1,0,0,0.5]) { difference() {"
-                           "multmatrix([[1,0,0,9.99],[0,1,0,-5],[0,0,1,-5]]) { cube(10); }"
+                           "multmatrix([[1,0,0,-5],[0,1,0,9.97],[0,0,1,-5]]) { cube(10); }"
                            "sphere(r = 10, $fn = 30); } }"),
               ElementsAre("(0-1)"));
 }
