@@ -18,7 +18,7 @@ struct WideVector {
   Wide x, y, z;
 };
 
-WideVector cross(const GridPoint& u, const GridPoint& v) {
+WideVector wide_cross(const GridPoint& u, const GridPoint& v) {
   const auto minor = [](int64_t a, int64_t b, int64_t c, int64_t d) {
     return static_cast<Wide>(a) * d - static_cast<Wide>(b) * c;
   };
@@ -30,7 +30,7 @@ GridPoint difference(const GridPoint& a, const GridPoint& b) {
 }
 
 WideVector wide_normal(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
-  return cross(difference(b, a), difference(c, a));
+  return wide_cross(difference(b, a), difference(c, a));
 }
 
 /// The sign of a sum of products, each of a number of 107 bits and one of 53.
