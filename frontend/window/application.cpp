@@ -1,6 +1,7 @@
 #include "application.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -383,12 +384,13 @@ std::vector<frontend::NamedPath> Application::inputs() const {
   return inputs;
 }
 
-/// Returns the path of the file that a message names, from the design's folder, or else from the
-/// working one; empty: there is no such file.
+/// Returns the path of the file that a message names, from the folder that it is most likely to
+/// begin in; empty: there is no such file.
 std::string Application::path_of(const MessagePlace& place) const {
-  const std::filesystem::path folder = std::filesystem::path(options_.input).parent_path();
-  for (const std::filesystem::path& path :
-       {folder / place.file, std::filesystem::path(place.file)}) {
+  std::array<std::filesystem::path, 2> paths{
+      std::filesystem::path(options_.input).parent_path() / place.file, place.file};
+  if (place.is_from_here) std::swap(paths[0], paths[1]);
+  for (const std::filesystem::path& path : paths) {
     std::error_code failed;
     if (std::filesystem::is_regular_file(path, failed)) {
       return std::filesystem::absolute(path, failed).string();

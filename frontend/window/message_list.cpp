@@ -12,7 +12,7 @@
 namespace window {
 namespace {
 
-constexpr std::string_view kTrace = "TRACE: ";
+bool is_trace(std::string_view line) { return line.starts_with("TRACE: "); }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -48,15 +48,18 @@ std::optional<MessagePlace> openscad_place(std::string_view line) {
   return place;
 }
 
-/// Returns the place of "NAME:line:column: error: …", or of a warning.
+/// Returns the place of "NAME:line:column: error: …", or of a warning; the column may be missing.
 std::optional<MessagePlace> scadray_place(std::string_view line) {
   for (std::size_t colon = line.find(':'); colon != std::string_view::npos;
        colon = line.find(':', colon + 1)) {
     std::string_view rest = line.substr(colon + 1);
-    MessagePlace place{std::string(line.substr(0, colon)), take_number(rest), 0};
-    if (place.line == 0 || place.file.empty() || !rest.starts_with(':')) continue;
-    rest.remove_prefix(1);
-    place.column = take_number(rest);
+    MessagePlace place{std::string(line.substr(0, colon)), take_number(rest), 0, true};
+    if (place.line == 0 || place.file.empty()) continue;
+    if (std::string_view behind = rest; behind.starts_with(':')) {
+      behind.remove_prefix(1);
+      place.column = take_number(behind);
+      if (place.column > 0) rest = behind;
+    }
     if (rest.starts_with(": error: ") || rest.starts_with(": warning: ")) return place;
   }
   return std::nullopt;
@@ -77,20 +80,35 @@ MessageKind kind_of(std::string_view line) {
   return MessageKind::kOther;
 }
 
+void add_line(const MessageLine& line, std::string& key) {
+  key += line.text + '\0' + line.place.file + '\n';
+}
+
 std::string key_of(const Message& message) {
-  std::string key = message.text;
-  for (const std::string& trace : message.traces) key += '\n' + trace;
+  std::string key;
+  add_line(message, key);
+  for (const MessageLine& trace : message.traces) add_line(trace, key);
   return key;
 }
 
+/// Returns a line with the place that is known, or else the one that it tells itself.
+MessageLine placed(const std::string& line, const frontend::SourcePlace& known) {
+  const std::string text = frontend::visible(line);
+  if (known.path.empty() || frontend::is_echo(line)) return {text, place_of_message(line)};
+  return {text, {known.path, known.line, known.column}};
+}
+
 /// Returns each line with the traces that follow it.
-std::vector<Message> traced_lines(const std::vector<std::string>& lines) {
+std::vector<Message> traced_lines(const std::vector<std::string>& lines,
+                                  const std::vector<frontend::SourcePlace>& places) {
   std::vector<Message> messages;
-  for (const std::string& line : lines) {
-    if (line.starts_with(kTrace) && !messages.empty()) {
-      messages.back().traces.push_back(frontend::visible(line));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    MessageLine line = placed(lines[i], i < places.size() ? places[i] : frontend::SourcePlace{});
+    if (is_trace(line.text) && !messages.empty()) {
+      messages.back().traces.push_back(std::move(line));
     } else {
-      messages.push_back({kind_of(line), frontend::visible(line), place_of_message(line), 1, {}});
+      const MessageKind kind = kind_of(line.text);
+      messages.push_back({std::move(line), kind, 1, {}});
     }
   }
   return messages;
@@ -104,11 +122,12 @@ MessagePlace place_of_message(std::string_view line) {
   return scadray_place(line).value_or(MessagePlace{});
 }
 
-std::vector<Message> messages_of(const std::vector<std::string>& lines) {
+std::vector<Message> messages_of(const std::vector<std::string>& lines,
+                                 const std::vector<frontend::SourcePlace>& places) {
   std::vector<Message> folded;
   std::unordered_map<std::string, std::size_t> known;
   std::optional<std::size_t> last_echo;
-  for (Message& message : traced_lines(lines)) {
+  for (Message& message : traced_lines(lines, places)) {
     if (message.kind == MessageKind::kEcho) {
       if (last_echo && folded[*last_echo].text == message.text) {
         ++folded[*last_echo].count;
@@ -123,6 +142,27 @@ std::vector<Message> messages_of(const std::vector<std::string>& lines) {
     folded.push_back(std::move(message));
   }
   return folded;
+}
+
+std::vector<Message> messages_of(const frontend::DesignVersion& version) {
+  std::vector<std::string> lines = version.messages;
+  std::vector<frontend::SourcePlace> places = version.places;
+  if (!version.error.empty()) {
+    places.resize(lines.size());
+    // The error comes before its traces, and both before all else.
+    const auto at = static_cast<std::ptrdiff_t>(std::min(version.before_error, lines.size()));
+    const auto end = std::find_if_not(lines.begin() + at, lines.end(), is_trace) - lines.begin();
+    std::rotate(lines.begin(), lines.begin() + at, lines.begin() + end);
+    std::rotate(places.begin(), places.begin() + at, places.begin() + end);
+    lines.insert(lines.begin(), version.error);
+    places.insert(places.begin(), frontend::SourcePlace{});
+  }
+  return messages_of(lines, places);
+}
+
+bool has_error(const std::vector<Message>& messages) {
+  return std::any_of(messages.begin(), messages.end(),
+                     [](const Message& message) { return message.kind == MessageKind::kError; });
 }
 
 MessageCounts count_messages(const std::vector<Message>& messages) {
@@ -149,7 +189,7 @@ MessageCounts count_messages(const std::vector<Message>& messages) {
 bool contains(const Message& message, std::string_view text) {
   return contains_text(message.text, text) ||
          std::any_of(message.traces.begin(), message.traces.end(),
-                     [&](const std::string& trace) { return contains_text(trace, text); });
+                     [&](const MessageLine& trace) { return contains_text(trace.text, text); });
 }
 
 }  // namespace window

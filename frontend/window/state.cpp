@@ -122,10 +122,7 @@ void State::take(frontend::DesignVersion newest) {
     if (design != newest.design) points.clear();
     design = newest.design;
   }
-  std::vector<std::string> lines;
-  if (!newest.error.empty()) lines.push_back(newest.error);
-  lines.insert(lines.end(), newest.messages.begin(), newest.messages.end());
-  messages = messages_of(lines);
+  messages = messages_of(newest);
   notice.clear();
   is_stopped = false;
   customizer.take(newest.parameters);

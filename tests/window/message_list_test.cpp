@@ -9,6 +9,12 @@ namespace {
 using testing::ElementsAre;
 using testing::SizeIs;
 
+std::vector<std::string> texts_of(const std::vector<MessageLine>& lines) {
+  std::vector<std::string> texts;
+  for (const MessageLine& line : lines) texts.push_back(line.text);
+  return texts;
+}
+
 TEST(MessageList, FindsThePlaceOfOpenScadsMessages) {
   const MessagePlace place =
       place_of_message("WARNING: Ignoring unknown variable 'x', in file a, line 1.scad, line 12");
@@ -25,6 +31,47 @@ TEST(MessageList, FindsThePlaceOfScadraysMessages) {
   EXPECT_EQ(place.file, "c:d.scad");
   EXPECT_EQ(place.line, 4u);
   EXPECT_EQ(place.column, 9u);
+  EXPECT_TRUE(place.is_from_here);
+}
+
+/// An error that ends the evaluation has a line alone.
+TEST(MessageList, FindsThePlaceOfAnErrorWithoutAColumn) {
+  const MessagePlace place = place_of_message("lib/bad.scad:2: error: Assertion 'a:3: b' failed");
+  EXPECT_EQ(place.file, "lib/bad.scad");
+  EXPECT_EQ(place.line, 2u);
+  EXPECT_EQ(place.column, 0u);
+}
+
+TEST(MessageList, TakesThePlacesThatAreKnown) {
+  const std::vector<Message> messages = messages_of(
+      {"WARNING: w in file x.scad, line 1", "TRACE: called by 'f' in file x.scad, line 2",
+       "WARNING: w in file x.scad, line 1", "ECHO: \"in file x.scad, line 3\""},
+      {{"/a/lib/x.scad", "x.scad", 1, 7}, {"/a/x.scad", "x.scad", 2, 3}, {}, {"/a", "a", 1, 1}});
+  ASSERT_THAT(messages, SizeIs(3)) << "equal texts of two files are two messages";
+  EXPECT_EQ(messages[0].place, (MessagePlace{"/a/lib/x.scad", 1, 7}));
+  EXPECT_EQ(messages[0].traces.front().place, (MessagePlace{"/a/x.scad", 2, 3}));
+  EXPECT_EQ(messages[1].place, (MessagePlace{"x.scad", 1, 0}));
+  EXPECT_EQ(messages[2].place, MessagePlace{});
+}
+
+TEST(MessageList, PutsTheErrorFirstWithItsTraces) {
+  frontend::DesignVersion version;
+  version.error = "d.scad:1: error: boom";
+  version.messages = {"WARNING: foo",         "TRACE: called by 'a'", "WARNING: x",
+                      "TRACE: called by 'b'", "TRACE: called by 'c'", "WARNING: y"};
+  version.places.resize(5);
+  version.places[3] = {"/d.scad", "d.scad", 4, 5};
+  version.before_error = 3;
+  const std::vector<Message> messages = messages_of(version);
+  ASSERT_THAT(messages, SizeIs(4));
+  EXPECT_EQ(messages[0].text, version.error);
+  EXPECT_THAT(texts_of(messages[0].traces),
+              ElementsAre("TRACE: called by 'b'", "TRACE: called by 'c'"));
+  EXPECT_EQ(messages[0].traces[0].place.line, 4u);
+  EXPECT_THAT(texts_of(messages[1].traces), ElementsAre("TRACE: called by 'a'"));
+  EXPECT_EQ(messages[2].text, "WARNING: x");
+  EXPECT_THAT(messages[2].traces, testing::IsEmpty());
+  EXPECT_EQ(messages[3].text, "WARNING: y");
 }
 
 TEST(MessageList, NamesNoPlaceWhereThereIsNone) {
@@ -66,9 +113,9 @@ TEST(MessageList, FoldsWhatRepeatsWithItsTraces) {
   });
   ASSERT_THAT(messages, SizeIs(3));
   EXPECT_EQ(messages[0].count, 2u);
-  EXPECT_THAT(messages[0].traces, ElementsAre("TRACE: called by 'f', in file x, line 2"));
+  EXPECT_THAT(texts_of(messages[0].traces), ElementsAre("TRACE: called by 'f', in file x, line 2"));
   EXPECT_EQ(messages[1].count, 1u);
-  EXPECT_THAT(messages[2].traces, ElementsAre("TRACE: called by 'g', in file x, line 3"));
+  EXPECT_THAT(texts_of(messages[2].traces), ElementsAre("TRACE: called by 'g', in file x, line 3"));
 }
 
 TEST(MessageList, KeepsTheOrderOfEchoes) {

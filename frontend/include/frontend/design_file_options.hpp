@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frontend/design_inputs.hpp"
+#include "frontend/design_message.hpp"
 #include "frontend/evaluator.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/import_options.hpp"
@@ -27,7 +28,7 @@ struct DesignFileOptions {
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;
   /// Called with each message of the evaluation; an echoed string can give it several lines.
-  std::function<void(const std::string& message)> message;
+  DesignMessageSink message;
   /// Called with the name of the current stage; during a .scad's export, many times.
   std::function<void(const char* stage)> progress;
 };

@@ -13,6 +13,7 @@
 #include "frontend/design_inputs.hpp"
 #include "frontend/file_text.hpp"
 #include "frontend/imported_design.hpp"
+#include "frontend/source_place.hpp"
 #include "language/customizer_parameter.hpp"
 
 namespace language {
@@ -47,6 +48,11 @@ struct DesignVersion {
   std::string error;
   /// The evaluation's messages, then the importer's warnings, without the error.
   std::vector<std::string> messages;
+  /// Where the causes of the messages stand, by index, as far as the evaluation tells; else without
+  /// a line. There may be fewer than messages.
+  std::vector<SourcePlace> places;
+  /// How many of the messages were said before the error. Its traces are the next ones.
+  std::size_t before_error = 0;
   /// The files that the design is known to be read from, the design first. Files that it asks for
   /// and that are missing are included.
   std::vector<std::string> files;

@@ -8,18 +8,9 @@
 
 #include "frontend/design_version.hpp"
 #include "frontend/imported_design.hpp"
+#include "frontend/source_place.hpp"
 
 namespace frontend {
-
-struct SourcePlace {
-  std::string path;     // absolute; empty: no file that could be opened has it
-  std::string file;     // its name, without folders
-  uint32_t line = 0;    // from 1
-  uint32_t column = 0;  // in characters, from 1
-};
-
-/// Returns "name:line:column"; empty if there is no place.
-std::string text_of(const SourcePlace& place);
 
 struct TrailStep {
   std::string what;  // the node in few words, or the call as the design spells it

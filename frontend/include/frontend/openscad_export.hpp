@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/design_message.hpp"
 #include "frontend/file_text.hpp"
 
 namespace frontend {
@@ -29,7 +30,7 @@ struct OpenScadExport {
 /// they also end if this program is killed.
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
-                                    const std::function<void(const std::string&)>& message,
+                                    const DesignMessageSink& message,
                                     const std::function<void()>& waiting,
                                     const std::stop_token& stop = {},
                                     const std::optional<FileText>& text = {});

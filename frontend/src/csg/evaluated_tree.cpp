@@ -16,16 +16,6 @@ namespace {
 
 constexpr NameTable kNodeTable(kNodeNames);
 
-/// Returns the name of a file that is read beside the main one: seen from the working folder, if it
-/// is within.
-std::string shown_name(const std::string& path) {
-  std::error_code failed;
-  const std::filesystem::path from_here =
-      std::filesystem::path(path).lexically_relative(std::filesystem::current_path(failed));
-  if (failed || from_here.empty() || *from_here.begin() == "..") return path;
-  return from_here.string();
-}
-
 uint8_t modifiers_of(uint8_t call_modifiers) {
   uint8_t modifiers = 0;
   if ((call_modifiers & language::kBackgroundModifier) != 0) modifiers |= kBackground;
@@ -164,6 +154,14 @@ class TreeBuilder {
 };
 
 }  // namespace
+
+std::string shown_name(const std::string& path) {
+  std::error_code failed;
+  const std::filesystem::path from_here =
+      std::filesystem::path(path).lexically_relative(std::filesystem::current_path(failed));
+  if (failed || from_here.empty() || *from_here.begin() == "..") return path;
+  return from_here.string();
+}
 
 SyntaxTree tree_of(const language::NodeTree& from, const language::SourceFiles& files,
                    std::string name) {

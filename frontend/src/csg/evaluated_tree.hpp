@@ -9,6 +9,10 @@
 
 namespace frontend {
 
+/// Returns what messages call a file that is read beside the main one: its path, seen from the
+/// working folder if it is within.
+std::string shown_name(const std::string& path);
+
 /// Returns the tree that a .csg of the same design would have, with all digits of its numbers, and
 /// with places in the design's own files. `name` is what messages call the main file, the first of
 /// `files`. Values that no node takes, ranges and functions, become undef. Needs no recursion.

@@ -1,5 +1,6 @@
 #include "follow/design_reading.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -24,11 +25,14 @@ namespace {
 constexpr std::size_t kMostMessageBytes = std::size_t{1} << 20;
 
 /// Returns a function that adds lines to the version's messages.
-std::function<void(const std::string&)> keeping_messages(DesignVersion& version) {
-  return [&version, bytes = std::size_t{0}](const std::string& line) mutable {
+DesignMessageSink keeping_messages(DesignVersion& version) {
+  return [&version, bytes = std::size_t{0}](const DesignMessage& message) mutable {
     if (bytes > kMostMessageBytes) return;
-    bytes += line.size();
-    version.messages.push_back(bytes > kMostMessageBytes ? "(the evaluation says more)" : line);
+    bytes += message.text.size();
+    const bool is_last = bytes > kMostMessageBytes;
+    version.messages.push_back(is_last ? "(the evaluation says more)" : message.text);
+    version.places.push_back(is_last ? SourcePlace{} : message.place);
+    if (!message.follows_error) version.before_error = version.messages.size();
   };
 }
 
@@ -159,6 +163,7 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   DesignText text;
   text.is_exported = reading.good.is_exported;
   text.evaluation = reading.good.texts.evaluation;
+  version.places.resize(std::min(version.places.size(), version.messages.size()));
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
   const GoodVersion& good = reading.good;

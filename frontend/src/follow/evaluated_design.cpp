@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "follow/included_files.hpp"
@@ -38,6 +39,22 @@ bool read_word(std::string_view word, language::EvaluationOptions& options) {
   }
   return true;
 }
+
+/// Finds the places of lines. There may be many lines, and looking for the path of their file takes
+/// longer than all else.
+class PlacesOfLines {
+ public:
+  SourcePlace of(const language::SaidLine& line) {
+    if (line.place.file == language::kNoFile) return {};
+    const language::SourceFile& file = line.files[line.place.file];
+    const auto [path, is_new] = paths_.try_emplace(line.place.file);
+    if (is_new) path->second = file.canonical_path();
+    return source_place(path->second, line.files.line(line.place), file.text, line.place.offset);
+  }
+
+ private:
+  std::unordered_map<language::FileId, std::string> paths_;
+};
 
 }  // namespace
 
@@ -82,8 +99,12 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
   OpenScadMessages messages(options.message, OpenScadMessages::AfterError::kHolds);
   language::Evaluation evaluation;
   try {
+    PlacesOfLines places;
     evaluation = language::evaluate(
-        path, *known, [&](std::string_view message) { messages.take(std::string(message)); },
+        path, *known,
+        [&](const language::SaidLine& line) {
+          messages.take({std::string(line.text), places.of(line)});
+        },
         view_of(text));
   } catch (const language::Stopped&) {
     throw Stopped{};

@@ -1,7 +1,6 @@
 #include "frontend/leaf_place.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -21,23 +20,6 @@ using language::NodeTree;
 constexpr std::size_t kLongestCall = 40;
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
-/// Returns the column of a byte of the text, in characters.
-uint32_t column_of(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const std::string_view line = before.substr(before.rfind('\n') + 1);  // npos + 1 = 0
-  const auto others = std::count_if(line.begin(), line.end(), continues_character);
-  return static_cast<uint32_t>(line.size() - static_cast<std::size_t>(others)) + 1;
-}
-
-/// Returns the place of a byte in a file.
-SourcePlace source_place(const std::string& path, uint32_t line, std::string_view text,
-                         std::size_t offset) {
-  const bool is_file = path.starts_with('/');
-  std::string name = is_file ? std::filesystem::path(path).filename().string() : path;
-  if (name.empty()) name = ".csg";
-  return {is_file ? path : "", std::move(name), line, column_of(text, offset)};
-}
 
 /// Returns the call at the start of the text, up to its closing parenthesis or the line's end.
 std::string call_text(std::string_view text) {
@@ -77,22 +59,18 @@ class TrailBuilder {
       if (*step == leaf) result.leaf = result.trail.size();
       if (*step == leaf || !has_children(tree_, *step)) {
         const SyntaxTree alone = tree_without_children(tree_, *step, files_);
-        result.trail.push_back({label_of(alone, alone.nodes.front()), place_of(node)});
+        result.trail.push_back(
+            {label_of(alone, alone.nodes.front()), source_place(files_, node.place)});
       } else if (node.is_module_call) {
         const std::string_view text = files_[node.place.file].text;
-        result.trail.push_back({call_text(text.substr(node.place.offset)), place_of(node)});
+        result.trail.push_back(
+            {call_text(text.substr(node.place.offset)), source_place(files_, node.place)});
       }
     }
     return result;
   }
 
  private:
-  SourcePlace place_of(const language::Node& node) const {
-    const language::SourceFile& file = files_[node.place.file];
-    return source_place(file.canonical_path(), files_.line(node.place), file.text,
-                        node.place.offset);
-  }
-
   const NodeTree& tree_;
   const language::SourceFiles& files_;
 };
@@ -109,11 +87,6 @@ std::optional<uint32_t> only_child(const NodeTree& tree, uint32_t node) {
 }
 
 }  // namespace
-
-std::string text_of(const SourcePlace& place) {
-  if (place.line == 0) return {};
-  return place.file + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
-}
 
 LeafPlace leaf_place(const DesignTexts& texts, const PrimitivePlace& place) {
   if (!texts.evaluation) {

@@ -155,7 +155,7 @@ ChildProcess start(const ChildSetup& setup) {
 
 OpenScadExport export_with_openscad(const std::string& scad_path,
                                     const std::vector<std::string>& arguments, bool wants_files,
-                                    const std::function<void(const std::string&)>& message,
+                                    const DesignMessageSink& message,
                                     const std::function<void()>& waiting,
                                     const std::stop_token& stop,
                                     const std::optional<FileText>& text) {

@@ -4,7 +4,10 @@
 
 #include <charconv>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
+#include "csg/evaluated_tree.hpp"
 #include "frontend/files.hpp"
 
 namespace frontend {
@@ -27,36 +30,40 @@ bool is_same_file(const std::string& name, const std::string& scad_path) {
 
 }  // namespace
 
-void OpenScadMessages::take(const std::string& message) {
-  if (message.empty()) return;
-  const bool is_error = message.starts_with(kError) && !message.starts_with(kMissingFont);
+void OpenScadMessages::take(Kept message) {
+  if (message.text.empty()) return;
+  const bool is_error = message.text.starts_with(kError) && !message.text.starts_with(kMissingFont);
   if (is_error && !passes_errors_ && !first_error_) {
-    first_error_ = message.substr(kError.size());
+    message.text.erase(0, kError.size());
+    first_error_ = std::move(message);
   } else if (first_error_ && after_error_ == AfterError::kHolds) {
-    held_.push_back(message);
-    held_bytes_ += message.size();
+    held_bytes_ += message.text.size();
+    held_.push_back(std::move(message));
     if (held_bytes_ > kMostHeld) {
       release();
       after_error_ = AfterError::kPasses;
     }
   } else {
-    message_(message);
+    pass(message);
   }
 }
 
 void OpenScadMessages::release() {
-  for (const std::string& text : held_) message_(text);
+  for (const Kept& message : held_) pass(message);
   held_.clear();
 }
 
 void OpenScadMessages::pass_errors() {
   passes_errors_ = true;
-  if (first_error_) message_(std::string(kError) + *first_error_);
-  first_error_.reset();
+  if (std::optional<Kept> error = std::exchange(first_error_, std::nullopt)) {
+    error->text.insert(0, kError);
+    pass(*error);
+  }
   release();
 }
 
-Error openscad_error(const std::string& scad_path, const std::string& text) {
+Error openscad_error(const std::string& scad_path, const OpenScadMessages::Kept& message) {
+  const std::string& text = message.text;
   constexpr std::string_view kFile = " in file ", kLine = ", line ";
   const std::size_t file_at = text.rfind(kFile);
   const std::size_t line_at = text.rfind(kLine);
@@ -64,6 +71,7 @@ Error openscad_error(const std::string& scad_path, const std::string& text) {
     return Error(input_name(scad_path), {}, text, "");
   }
   std::string file = text.substr(file_at + kFile.size(), line_at - file_at - kFile.size());
+  if (!message.place.path.empty()) file = shown_name(message.place.path);
   if (is_same_file(file, scad_path)) file = input_name(scad_path);
   Location location;
   const char* digits = text.data() + line_at + kLine.size();

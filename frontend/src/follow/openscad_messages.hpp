@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "frontend/design_message.hpp"
 #include "frontend/error.hpp"
 
 namespace frontend {
@@ -21,7 +21,13 @@ class OpenScadMessages {
   /// still put the ERROR before them.
   enum class AfterError : uint8_t { kPasses, kHolds };
 
-  explicit OpenScadMessages(const std::function<void(const std::string&)>& message,
+  /// A message whose text is kept.
+  struct Kept {
+    std::string text;
+    SourcePlace place;
+  };
+
+  explicit OpenScadMessages(const DesignMessageSink& message,
                             AfterError after_error = AfterError::kPasses)
       : message_(message), after_error_(after_error) {}
   /// Takes a part of what openscad prints, each of whose lines counts as a message.
@@ -30,21 +36,22 @@ class OpenScadMessages {
     std::size_t start = 0;
     for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos;
          start = end + 1) {
-      take(pending_.substr(start, end - start));
+      take({pending_.substr(start, end - start), {}});
     }
     pending_.erase(0, start);
     if (pending_.size() > kLongestLine) finish();
   }
   /// Takes a whole message, which may have several lines.
-  void take(const std::string& message);
+  void take(Kept message);
   void finish() {
-    if (!pending_.empty()) take(pending_);
+    if (!pending_.empty()) take({pending_, {}});
     pending_.clear();
     release();
   }
   /// Shows the ERROR that is kept and all later ones like other messages.
   void pass_errors();
-  const std::optional<std::string>& first_error() const { return first_error_; }
+  /// The first ERROR, without that word.
+  const std::optional<Kept>& first_error() const { return first_error_; }
 
  private:
   /// A longer line is shown in pieces, so that it is shown even if it never ends.
@@ -53,18 +60,22 @@ class OpenScadMessages {
   /// More than these bytes are not held: endless recursion is traced at length.
   static constexpr std::size_t kMostHeld = std::size_t{1} << 20;
 
+  void pass(const Kept& message) const {
+    message_({message.text, message.place, first_error_.has_value()});
+  }
   void release();  // what is held
 
-  const std::function<void(const std::string&)>& message_;
+  const DesignMessageSink& message_;
   std::string pending_;
   AfterError after_error_;
-  std::optional<std::string> first_error_;
-  std::vector<std::string> held_;
+  std::optional<Kept> first_error_;
+  std::vector<Kept> held_;
   std::size_t held_bytes_ = 0;
   bool passes_errors_ = false;
 };
 
-/// Turns "what in file NAME, line N" into an Error with that place.
-Error openscad_error(const std::string& scad_path, const std::string& text);
+/// Turns "what in file NAME, line N" into an Error with that place. OpenSCAD's name may leave out
+/// folders; the file is that of the message's place if it has one.
+Error openscad_error(const std::string& scad_path, const OpenScadMessages::Kept& message);
 
 }  // namespace frontend

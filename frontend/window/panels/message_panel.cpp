@@ -45,8 +45,8 @@ void message_line(const Message& message, const OpenPlace& open) {
   const std::size_t calls = message.traces.size();
   ImGui::PushID(&message);
   if (ImGui::TreeNode("##traces", calls == 1 ? "1 call led to it" : "%zu calls led to it", calls)) {
-    for (const std::string& trace : message.traces) {
-      line(kTextColor, trace, place_of_message(trace), open);
+    for (const MessageLine& trace : message.traces) {
+      line(kTextColor, trace.text, trace.place, open);
     }
     ImGui::TreePop();
   }
@@ -134,15 +134,11 @@ void errors_alone(const State& state, const OpenPlace& open) {
   }
 }
 
-bool has_error(const State& state) {
-  return std::any_of(state.messages.begin(), state.messages.end(),
-                     [](const Message& message) { return message.kind == MessageKind::kError; });
-}
-
 }  // namespace
 
 float draw_messages(State& state, float bottom, const OpenPlace& open) {
-  const bool has_something = state.shows_messages ? !state.messages.empty() : has_error(state);
+  const bool has_something =
+      state.shows_messages ? !state.messages.empty() : has_error(state.messages);
   const std::string no_picture = state.painting ? state.painting->error : "";
   if (!has_something && no_picture.empty()) return bottom;
   const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -65,8 +65,16 @@ struct Evaluation {
   DesignCamera camera;
 };
 
-/// Takes the lines that OpenSCAD would print, in order, without the line feed.
-using MessageSink = std::function<void(std::string_view line)>;
+/// A line that OpenSCAD would print, without the line feed.
+struct SaidLine {
+  std::string_view text;
+  Place place{};             // that the text names, kNoFile: none
+  const SourceFiles& files;  // what the place refers to
+  operator std::string_view() const { return text; }
+};
+
+/// Takes the lines, in order.
+using MessageSink = std::function<void(const SaidLine& line)>;
 
 /// Evaluates the design in the file `path`, or `text` in its place: that of the standard input,
 /// where the path is "-", or of any file that is not to be read here. All messages go to `sink`,

@@ -74,7 +74,7 @@ void Session::take(const Message& message) {
       message.group == MessageGroup::kError || message.group == MessageGroup::kTrace;
   if (machine_ && !ends_run && said_bytes_ > kMostMessageBytes)
     throw TooLarge("The design's messages take too much memory: more than 64 MiB");
-  sink_(message.line);
+  sink_({message.line, message.place, program_->files});
   if (!machine_) return;
   if (options_.hard_warnings && message.group == MessageGroup::kWarning) throw HardWarning();
 }
