@@ -292,7 +292,7 @@ void Application::update_inputs() {
 }
 
 void Application::show_title() {
-  const bool is_broken = state_.version && !state_.version->error.empty();
+  const bool is_broken = has_error(state_.messages);
   window_.set_title(file_name(options_.input) + (is_broken ? " - error" : "") + " - scadray");
 }
 

@@ -27,6 +27,8 @@ struct DesignFileOptions {
   /// What the own evaluator keeps between readings of the design; null: nothing.
   std::shared_ptr<language::EvaluationCache> cache{};
   bool wants_files = false;
+  /// A syntax error in a used file ends the own evaluator's reading, too.
+  bool needs_all_files = false;
   /// Called with each message of the evaluation; an echoed string can give it several lines.
   DesignMessageSink message;
   /// Called with the name of the current stage; during a .scad's export, many times.

@@ -89,6 +89,8 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   file_options.wants_files = true;
   file_options.import.rendering.waits = false;
   file_options.message = keeping_messages(version);
+  // A picture without what a used file has is shown only where there is none with it.
+  file_options.needs_all_files = reading.good.design && !reading.good.lacks_files;
   if (!file_options.progress) file_options.progress = [](const char*) {};
   if (is_read_once(path)) {
     if (!reading.good.stream) reading.good.stream = text_in_memory(path, stop);
@@ -109,6 +111,7 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   }
   file_options.progress("importing");
   if (import) finish_import(*import, path, text, reading, stop);
+  reading.good.lacks_files = text.evaluation && text.evaluation->has_unparsed_files;
   if (text.evaluation) version.camera = camera_of(*text.evaluation);
   version.export_ms = text.export_ms;
   version.read_ms = text.read_ms;
@@ -160,10 +163,10 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
                  const std::stop_token& stop) {
   DesignVersion& version = reading.version;
   version.messages.resize(version.messages.size() - version.design->warnings.size());
+  version.places.resize(std::min(version.places.size(), version.messages.size()));
   DesignText text;
   text.is_exported = reading.good.is_exported;
   text.evaluation = reading.good.texts.evaluation;
-  version.places.resize(std::min(version.places.size(), version.messages.size()));
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
   const GoodVersion& good = reading.good;

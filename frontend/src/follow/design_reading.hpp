@@ -18,6 +18,7 @@ struct GoodVersion {
   std::size_t nodes = 0;
   std::string text_name;     // of the text, for messages
   bool is_exported = false;  // openscad made the text
+  bool lacks_files = false;  // a used file has a syntax error
   std::shared_ptr<const DesignParameters> parameters;
   /// What text_in_memory() has given of a design that can be read only once, also of one that could
   /// not be parsed.

@@ -110,7 +110,8 @@ std::shared_ptr<const language::Evaluation> evaluate_design(const std::string& p
     throw Stopped{};
   }
   // A syntax error in a used file, or a parameter file that cannot be read, ends nothing.
-  if (evaluation.outcome == language::Outcome::kDone) messages.pass_errors();
+  const bool lacks_files = options.needs_all_files && evaluation.has_unparsed_files;
+  if (evaluation.outcome == language::Outcome::kDone && !lacks_files) messages.pass_errors();
   messages.finish();
   if (messages.first_error()) throw openscad_error(path, *messages.first_error());
   if (evaluation.outcome != language::Outcome::kDone) {

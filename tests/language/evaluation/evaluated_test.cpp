@@ -78,6 +78,30 @@ TEST(Evaluation, TellsOutcomeAndFiles) {
   EXPECT_EQ(evaluated("assert(false);").evaluation.outcome, Outcome::kAborted);
 }
 
+TEST(Evaluation, TellsWhereLinesComeFrom) {
+  const Folder folder;
+  folder.write("folder/deep.scad", "module deep() {\n  x = nothing;\n}\n");
+  folder.write("folder/broken.scad", "cube(;\n");
+  std::vector<std::string> places;
+  const Evaluation evaluation =
+      evaluate(folder.write("design.scad",
+                            "use <folder/deep.scad>\nuse <folder/broken.scad>\ndeep();\n echo(y);"),
+               {}, [&](const SaidLine& line) {
+                 if (line.place.file == kNoFile) return places.push_back("none");
+                 const std::string& path = line.files[line.place.file].path;
+                 places.push_back(path.substr(path.rfind('/', path.rfind('/') - 1) + 1) + ":" +
+                                  std::to_string(line.files.line(line.place)));
+               });
+  const std::string root = std::filesystem::path(evaluation.files_read[0]).parent_path().filename();
+  ASSERT_EQ(places.size(), 4u);
+  EXPECT_EQ(places[0], "folder/broken.scad:1");
+  EXPECT_EQ(places[1], "folder/deep.scad:2");
+  EXPECT_EQ(places[2], root + "/design.scad:4");
+  EXPECT_EQ(places[3], "none");
+  EXPECT_TRUE(evaluation.has_unparsed_files);
+  EXPECT_FALSE(evaluated("use <quiet.scad>\n").evaluation.has_unparsed_files);
+}
+
 TEST(Evaluation, ReadsTheCamera) {
   const Evaluated result = evaluated("$vpt = [1, 2, 3];\n$vpr = [1, 2, 3, 4];\n$vpd = 70;\n");
   const DesignCamera& camera = result.evaluation.camera;

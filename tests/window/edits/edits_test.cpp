@@ -76,6 +76,7 @@ class Follower {
   }
   DesignVersion read(const frontend::DesignInputs& inputs) {
     options_.inputs = inputs;
+    good_.lacks_files = true;  // so that a broken used file ends nothing, as in a fresh process
     frontend::DesignReading reading = frontend::read_anew(path_, options_, good_, {});
     good_ = std::move(reading.good);
     return std::move(reading.version);

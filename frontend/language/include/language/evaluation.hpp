@@ -63,6 +63,7 @@ struct Evaluation {
   std::vector<std::string> files_read;
   std::vector<std::string> lookups;  // absolute paths that were tried and did not exist, once each
   DesignCamera camera;
+  bool has_unparsed_files = false;  // a used file has a syntax error, which ends nothing
 };
 
 /// A line that OpenSCAD would print, without the line feed.

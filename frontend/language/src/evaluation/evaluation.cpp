@@ -235,6 +235,8 @@ void Session::parse_and_evaluate() {
   options.text = text_;
   const ParseOutcome parsed = parse_program(*program_, messages_, path_, options);
   if (parsed == ParseOutcome::kParsed) {
+    result_.has_unparsed_files = std::any_of(program_->units.begin(), program_->units.end(),
+                                             [](const Unit& unit) { return !unit.scope; });
     const WorkWatch watch(options_.stop);
     evaluate_program();
   } else {
