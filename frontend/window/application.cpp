@@ -36,7 +36,7 @@ constexpr std::chrono::milliseconds kProgressInterval{250};
 
 constexpr const char* kNoFile = "no file has that place";
 
-/// A reading that takes less is not shown.
+/// A reading that takes less is not shown, and work that takes less is not worth stopping.
 constexpr std::chrono::milliseconds kShortReading{150};
 
 std::string file_name(const std::string& path) {
@@ -103,6 +103,7 @@ void Application::run() {
     probe_hover();
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
     frames_due_ = std::max(frames_due_, watch_long_work());
+    watch_work();
     order_picture();
     if (window_.size().width_px == 0) frames_due_ = 0;
     if (frames_due_ == 0 || Clock::now() < awaited_until_) continue;
@@ -146,12 +147,11 @@ std::optional<double> Application::seconds_to_next_look() const {
 
 /// Returns whether the display of the reading has to change.
 bool Application::watch_reading() {
-  const bool was_reading =
-      std::exchange(is_reading_, follower_.state() == frontend::DesignFollower::State::kReading);
-  if (is_reading_ && !was_reading) {
-    reading_since_ = Clock::now();
-    state_.is_stopped = false;
-  }
+  using State = frontend::DesignFollower::State;
+  const State now = follower_.state();
+  const bool was_reading = std::exchange(is_reading_, now == State::kReading);
+  if (is_reading_ && !was_reading) reading_since_ = Clock::now();
+  state_.is_stopped = now == State::kStopped || is_picture_stopped_;
   const bool is_long = is_reading_ && Clock::now() - reading_since_ >= kShortReading;
   return std::exchange(state_.is_reading, is_long) != is_long;
 }
@@ -170,20 +170,45 @@ int Application::watch_long_work() {
   return is_due ? 1 : 0;
 }
 
-void Application::stop_long_work() {
-  const bool is_reading = is_reading_ || follower_.activity();
-  const auto drawing = painter_.activity();
-  const bool draws_long = drawing && Clock::now() - drawing->since >= kLongWork;
-  if (is_reading) follower_.stop();
-  if (draws_long) {
+/// Returns whether the picture that was ordered last is still to come.
+bool Application::is_drawing() const {
+  const bool is_there = state_.painting && state_.painting->order.number == ordered_.number &&
+                        (state_.painting->is_final || !state_.painting->error.empty());
+  return ordered_.design && !is_there && !is_picture_stopped_;
+}
+
+/// Returns since when something has been under way, without a pause.
+std::optional<Application::Clock::time_point> Application::watch_work() {
+  if (!is_reading_ && !follower_.activity() && !is_drawing()) {
+    working_since_.reset();
+  } else if (!working_since_) {
+    working_since_ = Clock::now();
+  }
+  return working_since_;
+}
+
+/// Returns whether Esc is to stop something: what takes a moment only is not worth it, unless there
+/// is nothing else to do.
+bool Application::is_worth_stopping() {
+  const auto since = watch_work();
+  return since && (Clock::now() - *since >= kShortReading || !state_.has_anything_to_forget());
+}
+
+/// Ends reading, rendering and drawing; what they have made last stays.
+void Application::stop_work() {
+  if (!watch_work()) return;
+  if (is_reading_ || follower_.activity()) follower_.stop();
+  if (is_drawing()) {
     painter_.stop();
     is_picture_stopped_ = true;
     save_path_.clear();
     saving_ = 0;
   }
-  if (!is_reading && !draws_long) return;
+  is_reading_ = state_.is_reading = false;
+  state_.long_activity.reset();
   state_.is_stopped = true;
   state_.animation.pause();
+  working_since_.reset();
 }
 
 /// Waits for the display if the driver does not, as a software renderer does not.
@@ -232,8 +257,9 @@ bool Application::take_news() {
 }
 
 void Application::take_version(frontend::DesignVersion version) {
-  const bool leaves_picture = !version.design || version.unchanged;
-  if (version.design) texts_ = version.texts;
+  const bool is_shown = state_.is_to_be_shown(version);
+  const bool leaves_picture = !is_shown || version.unchanged;
+  if (is_shown) texts_ = version.texts;
   // What openscad renders comes as another version of the same reading.
   const bool is_read_anew = !state_.version || state_.version->noticed != version.noticed;
   if (options_.prints_echoes && is_read_anew) print_echoes(version);
@@ -269,9 +295,10 @@ void Application::take_camera(const frontend::DesignCamera& asked) {
   state_.navigation = Navigation(camera, state_.navigation.projection());
 }
 
-/// Returns whether the newest version was read with the newest parameters and time.
+/// Returns whether the newest version was read with the newest parameters and time, and openscad
+/// renders no more of it.
 bool Application::shows_inputs() const {
-  return state_.version && state_.version->inputs == inputs_;
+  return state_.version && state_.version->inputs == inputs_ && !follower_.activity();
 }
 
 /// Goes on with the animation, once its last frame was read or given up. Returns whether it did.
@@ -314,6 +341,7 @@ void Application::take_painting(Painting painting) {
   has_new_picture_ |= painting.is_final;
   state_.painting = std::move(painting);
 }
+  if (painting.is_final && painting.order.number == ordered_.number) is_picture_stopped_ = false;
 
 /// Reports the picture that is on the screen.
 void Application::report_picture() {
@@ -349,7 +377,7 @@ void Application::order_picture() {
   if (!save_path_.empty()) saving_ = order.number;
   ordered_ = order;
   painter_.order(std::move(order));
-  if (std::exchange(is_picture_stopped_, false)) state_.is_stopped = false;
+  is_picture_stopped_ = false;
   awaited_until_ = Clock::now() + kShortPainting;
 }
 
@@ -418,10 +446,9 @@ void Application::open_chosen_place() {
 
 void Application::run_command(Command command) {
   state_.notice.clear();
-  const bool is_busy = state_.long_activity || state_.is_reading;
-  if (command == Command::kForgetPoints && is_busy) command = Command::kStop;
+  if (command == Command::kForgetPoints && is_worth_stopping()) command = Command::kStop;
   if (state_.apply(command)) return;
-  if (command == Command::kStop) stop_long_work();
+  if (command == Command::kStop) stop_work();
   if (command == Command::kReload) follower_.reload();
   if (command == Command::kOpenEditor) open_chosen_place();
   if (command == Command::kQuit) window_.close();

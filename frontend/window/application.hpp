@@ -53,7 +53,10 @@ class Application final : private WindowEvents {
   std::optional<double> seconds_to_next_look() const;
   bool watch_reading();
   int watch_long_work();
-  void stop_long_work();
+  bool is_drawing() const;
+  std::optional<Clock::time_point> watch_work();
+  bool is_worth_stopping();
+  void stop_work();
   bool take_news();
   void take_version(frontend::DesignVersion version);
   void take_painting(Painting painting);
@@ -107,6 +110,7 @@ class Application final : private WindowEvents {
   Clock::time_point awaited_until_{};  // until when to wait for the picture that was ordered
   bool is_reading_ = false;            // the design is being read, since reading_since_
   Clock::time_point reading_since_{};
+  std::optional<Clock::time_point> working_since_;  // reading, rendering or drawing, one by one
 };
 
 }  // namespace window

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/elapsed.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "frontend/channel_picture.hpp"
 #include "primitive_around.hpp"
 
@@ -69,6 +70,7 @@ void Painter::stop() {
     outdated_.request_stop();
     given_up_.request_stop();
   }
+  activity_.end();
   wake_.notify_all();
 }
 
@@ -106,23 +108,29 @@ bool Painter::waits_for_refinement(std::unique_lock<std::mutex>& lock) {
   return !wake_.wait_for(lock, kRest, has_work);
 }
 
+/// Returns what stops the painting of an order, which begins now.
+Painter::Stops Painter::stops_of(const PaintOrder& order) {
+  outdated_ = {};
+  given_up_ = {};
+  // While the view moves, every picture is shown, even if others have been ordered.
+  return {order.is_moving ? given_up_.get_token() : outdated_.get_token(), given_up_.get_token()};
+}
+
 void Painter::run() {
   std::unique_lock lock(mutex_);
   while (!is_stopping_) {
     if (waits_for_refinement(lock)) {
       PaintOrder order = *std::exchange(coarse_, std::nullopt);
       order.is_moving = false;
-      const std::stop_token stop = (outdated_ = {}).get_token();
+      const Stops stops = stops_of(order);
       lock.unlock();
-      paint(std::move(order), stop);
+      paint(std::move(order), stops);
     } else if (ordered_ && !is_stopping_) {
       PaintOrder order = *std::exchange(ordered_, std::nullopt);
       coarse_.reset();
-      // While the view moves, every picture is shown, even if others have been ordered.
-      std::stop_source& stops = order.is_moving ? given_up_ : outdated_;
-      const std::stop_token stop = (stops = {}).get_token();
+      const Stops stops = stops_of(order);
       lock.unlock();
-      paint(std::move(order), stop);
+      paint(std::move(order), stops);
     } else if (!probes_.empty() && !is_stopping_) {
       const Probe probe = std::move(probes_.front());
       probes_.erase(probes_.begin());
@@ -171,7 +179,7 @@ double Painter::affordable_share(const PaintOrder& order) const {
   return share >= kWholeShare ? 1 : std::max(share, kLeastShare);
 }
 
-void Painter::paint(PaintOrder order, const std::stop_token& stop) {
+void Painter::paint(PaintOrder order, const Stops& stops) {
   const double share = affordable_share(order);
   const auto side = [share](uint32_t px) {
     return std::max(1u, static_cast<uint32_t>(std::lround(share * px)));
@@ -179,12 +187,17 @@ void Painter::paint(PaintOrder order, const std::stop_token& stop) {
   const Size size{side(order.size.width_px), side(order.size.height_px)};
   const uint32_t samples = order.is_moving ? 1 : order.settings.samples;
   activity_.begin("drawing");
-  Painting painting = paint_at(order, size, samples, stop);
+  std::optional<Painting> painting;
+  try {
+    const csgcore::StopScope scope(&stops.all);
+    painting = paint_at(order, size, samples, stops.drawing);
+  } catch (const csgcore::Stopped&) {
+  }
   activity_.end();
-  if (stop.stop_requested()) return;
-  painting.is_final = size == order.size && samples == order.settings.samples;
-  if (!painting.is_final && painting.error.empty()) coarse_ = std::move(order);
-  publish(std::move(painting));
+  if (!painting || stops.drawing.stop_requested()) return;
+  painting->is_final = size == order.size && samples == order.settings.samples;
+  if (!painting->is_final && painting->error.empty()) coarse_ = std::move(order);
+  publish(std::move(*painting));
 }
 
 void Painter::load(const PaintOrder& order) {
@@ -208,7 +221,8 @@ Painting Painter::paint_at(const PaintOrder& order, Size size, uint32_t samples,
   frontend::RenderSettings settings = order.settings;
   settings.samples = samples;
   settings.stop = stop;
-  settings.progress = [this, &order](const char* stage, double fraction) {
+  settings.progress = [this, &order, &stop](const char* stage, double fraction) {
+    if (stop.stop_requested()) throw csgcore::Stopped();
     activity_.update(stage, fraction);
     if (order.settings.progress) order.settings.progress(stage, fraction);
   };

@@ -96,8 +96,14 @@ class Painter {
  private:
   using ScenePointer = std::shared_ptr<const csgcore::Scene>;
 
+  struct Stops {
+    std::stop_token drawing;
+    std::stop_token all;  // what comes before it, too, which other orders may need
+  };
+
   void run();
-  void paint(PaintOrder order, const std::stop_token& stop);
+  Stops stops_of(const PaintOrder& order);
+  void paint(PaintOrder order, const Stops& stops);
   Painting paint_at(const PaintOrder& order, Size size, uint32_t samples,
                     const std::stop_token& stop);
   void load(const PaintOrder& order);
@@ -122,8 +128,8 @@ class Painter {
   std::vector<Finding> findings_;
   frontend::ActivityMeter activity_;
   bool drops_coarse_ = false;  // what is coarse_ is not to be refined
-  std::stop_source given_up_;  // stops what is painted while the view moves
-  std::stop_source outdated_;  // stops what is being painted, unless it is to be finished
+  std::stop_source given_up_;  // stops what is being painted, at the user's wish
+  std::stop_source outdated_;  // stops it if another picture is to be painted
 
   // Used by the painter's thread alone.
   frontend::SceneRenderer renderer_;

@@ -117,8 +117,16 @@ State::State(const frontend::Options& options)
       customizer(options.input, options.openscad_arguments),
       name(options.input) {}
 
+bool State::is_to_be_shown(const frontend::DesignVersion& newest) const {
+  if (!newest.design) return false;
+  const bool is_whole = newest.design->lines_to_render.empty();
+  const bool shows_whole =
+      design && design->lines_to_render.empty() && !design->scene.primitives.empty();
+  return is_whole || !shows_whole;
+}
+
 void State::take(frontend::DesignVersion newest) {
-  if (newest.design) {
+  if (is_to_be_shown(newest)) {
     if (design != newest.design) points.clear();
     design = newest.design;
   }
@@ -298,8 +306,8 @@ std::vector<StatusPart> status_parts(const State& state) {
   if (state.is_reading) parts.push_back({"reading", 0});
   if (state.is_stopped) {
     parts.push_back({kStopped, 0});
-  } else if (state.design && !state.design->lines_to_render.empty()) {
-    parts.push_back({rendering_words(state.design->lines_to_render), 0});
+  } else if (version.design && !version.design->lines_to_render.empty()) {
+    parts.push_back({rendering_words(version.design->lines_to_render), 0});
   }
   return parts;
 }

@@ -264,6 +264,7 @@ TEST_F(PainterTest, AStoppedPictureIsNeitherFinishedNorRefined) {
     EXPECT_FALSE(painter.take_painting());
   }
   order.design = design_of(kDesign);
+  order.navigation.turn(10, 5, false);  // the first edit in a view is drawn whole
   ++order.number;
   painter.order(order);
   EXPECT_FALSE(next_painting().is_final);

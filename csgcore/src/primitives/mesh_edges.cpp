@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/stop_scope.hpp"
+
 namespace csgcore {
 namespace {
 
@@ -39,9 +41,11 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
       sides.push_back({key_of(a, b), i, a < b});
     }
   }
+  stop_point();
   tbb::parallel_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
   });
+  stop_point();
   return sides;
 }
 
@@ -105,6 +109,7 @@ void face_alike(std::span<Triangle> triangles) {
   std::vector<uint32_t> part;
   for (uint32_t first = 0; first < triangles.size(); ++first) {
     if (is_seen[first]) continue;
+    stop_point();
     part.assign(1, first);
     is_seen[first] = 1;
     size_t turned = 0;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/constants.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "primitives/mesh_edges.hpp"
 #include "primitives/planar_turn.hpp"
 
@@ -27,9 +28,12 @@ constexpr size_t kAtOnce = 4096;
 
 template <typename Visit>
 void for_each_index(size_t count, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce), [&](const auto& range) {
-    for (size_t i = range.begin(); i < range.end(); ++i) visit(i);
-  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce),
+                    [&, stop = stop_of_work](const auto& range) {
+                      const StopScope scope(stop);
+                      stop_point();
+                      for (size_t i = range.begin(); i < range.end(); ++i) visit(i);
+                    });
 }
 
 /// A box in float, which holds what it is merged with.
@@ -134,7 +138,14 @@ class MeshBvhBuilder {
     const auto below = [&] { build(children, begin, split); };
     const auto above = [&] { build(children + 1, split, end); };
     if (end - begin > kAtOnce) {
-      tbb::parallel_invoke(below, above);
+      const auto stoppable = [stop = stop_of_work](const auto& half) {
+        return [&half, stop] {
+          const StopScope scope(stop);
+          stop_point();
+          half();
+        };
+      };
+      tbb::parallel_invoke(stoppable(below), stoppable(above));
     } else {
       below();
       above();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "csgcore/stop_scope.hpp"
 #include "csgcore/tolerance.hpp"
 #include "solid/operand_groups.hpp"
 #include "solid/redundant_operands.hpp"
@@ -32,9 +33,14 @@ void for_each_part(size_t count, Work&& work) {
     for (size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce), [&](const auto& range) {
-    for (size_t i = range.begin(); i < range.end(); ++i) work(i);
-  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kAtOnce),
+                    [&, stop = stop_of_work](const auto& range) {
+                      const StopScope scope(stop);
+                      for (size_t i = range.begin(); i < range.end(); ++i) {
+                        stop_point();
+                        work(i);
+                      }
+                    });
 }
 
 Extents extents_of(const CanonicalPrimitives& primitives) {

@@ -37,10 +37,10 @@ struct FollowOptions {
 /// ends the program (interrupt.hpp).
 class DesignFollower {
  public:
-  enum class State : uint8_t { kIdle, kReading };
+  enum class State : uint8_t { kIdle, kReading, kStopped };
 
-  /// Starts reading at once. `on_news` is called from this object's own thread whenever the result
-  /// of take() or state() has changed; it must neither block nor throw.
+  /// Starts reading at once. `on_news` is called from any thread whenever the result of take() or
+  /// state() has changed; it must neither block nor throw.
   DesignFollower(std::string path, FollowOptions options, std::function<void()> on_news);
   /// Returns promptly: it stops what is being read. `on_news` is not called afterwards.
   ~DesignFollower();
@@ -52,13 +52,15 @@ class DesignFollower {
   /// Returns the newest version, each at most once: nothing if there is none newer than the one
   /// taken last. Versions that were not taken in time are skipped.
   std::optional<DesignVersion> take();
-  /// kReading lasts from the notice of a save until its version can be taken.
+  /// kReading lasts from the notice of a save until its version can be taken, kStopped from a
+  /// stop() until the next reading.
   State state() const;
   /// Returns what is being done: reading, or what openscad renders after a version was published.
   std::optional<Activity> activity() const;
   /// Reads the design again, as after a save.
   void reload();
-  /// Ends what is being done. The last version stays, and the next save is followed.
+  /// Ends what is being done: from now on there is no activity, and no version of it can be taken.
+  /// The last version that was taken stays, and the next save is followed.
   void stop();
   /// Reads the design with other inputs; the newest ones come next. A reading that is under way is
   /// shown first, unless it has taken long. What can be read only once is not read again.

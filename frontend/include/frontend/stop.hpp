@@ -3,10 +3,11 @@
 
 #include <stop_token>
 
+#include "csgcore/stop_scope.hpp"
+
 namespace frontend {
 
-/// Thrown by work that was asked to stop. It is not an error.
-struct Stopped {};
+using csgcore::Stopped;
 
 inline void throw_if_stopped(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Stopped{};

@@ -76,7 +76,14 @@ class DesignFollower::Follower {
   void stop() {
     has_new_inputs_ = false;  // those that come later count
     wants_reload_ = false;
-    wants_stop_ = true;
+    {
+      const std::lock_guard lock(mutex_);
+      wants_stop_ = true;
+      reading_stop_.request_stop();
+      news_.reset();
+    }
+    activity_.end();
+    set_state(State::kStopped);
     wake_.raise();
   }
 
@@ -146,7 +153,7 @@ class DesignFollower::Follower {
     stop_reading();
     noticed_.reset();
     turn_.give_up();
-    set_state(State::kIdle);
+    set_state(State::kStopped);
   }
 
   void notice_inputs() {
@@ -154,18 +161,15 @@ class DesignFollower::Follower {
     set_state(State::kReading);
   }
 
-  /// What openscad still renders for a version that is shown does not count as a reading.
-  bool is_reading() const { return reading_.joinable() && !is_rendering_; }
-
   /// Returns when to read with new inputs; nothing if there are none, or a save is read with them.
   std::optional<Clock::time_point> inputs_due() const {
     if (noticed_) return std::nullopt;
-    return turn_.due(is_reading() ? std::optional(reading_since_) : std::nullopt);
+    return turn_.due(reading_.joinable() ? std::optional(reading_since_) : std::nullopt);
   }
 
   void read_with_new_inputs() {
     noticed_ = turn_.noticed();
-    turn_.start(is_reading());
+    turn_.start(reading_.joinable());
     stop_reading();
   }
 
@@ -180,12 +184,13 @@ class DesignFollower::Follower {
       } catch (const Stopped&) {
       }
     });
+    const std::lock_guard lock(mutex_);
+    reading_stop_ = reading_.get_stop_source();
   }
 
   void start_reading() {
     const Clock::time_point noticed = *std::exchange(noticed_, std::nullopt);
     turn_.start(false);
-    is_rendering_ = false;
     reading_since_ = Clock::now();
     watch_.forget_changes();
     if (is_followed_) watch_.set_files(paths_to_watch());
@@ -203,7 +208,6 @@ class DesignFollower::Follower {
   /// After a reading that lacks what openscad still has to render.
   void start_rendering(DesignReading before) {
     activity_.begin("openscad renders");
-    is_rendering_ = true;
     start([this, before = std::move(before)](const std::stop_token& stop) {
       return render_missing(path_, file_options(), before, stop);
     });
@@ -241,8 +245,10 @@ class DesignFollower::Follower {
   void finish_reading() {
     reading_.join();
     activity_.end();
-    turn_.finish();
     DesignReading reading = result_;
+    const ImportedDesign* const design = reading.version.design.get();
+    const bool lacks_parts = design && !design->lines_to_render.empty();
+    if (!lacks_parts) turn_.finish();
     good_ = std::move(result_.good);
     is_scad_ = is_scad(path_) || result_.is_scad;
     DesignVersion version = std::move(result_.version);
@@ -252,13 +258,12 @@ class DesignFollower::Follower {
     version.number = ++number_;
     {
       const std::lock_guard lock(mutex_);
+      if (wants_stop_) return;
       news_ = std::move(version);
     }
-    const bool goes_on = turn_.noticed().has_value();
-    state_ = goes_on ? State::kReading : State::kIdle;
+    if (lacks_parts) start_rendering(std::move(reading));
+    state_ = turn_.noticed() ? State::kReading : State::kIdle;
     on_news_();
-    const ImportedDesign* const design = reading.version.design.get();
-    if (design && !design->lines_to_render.empty() && !goes_on) start_rendering(std::move(reading));
   }
 
   void set_state(State state) {
@@ -300,6 +305,7 @@ class DesignFollower::Follower {
   std::mutex mutex_;  // of the following
   std::optional<DesignVersion> news_;
   DesignInputs inputs_;
+  std::stop_source reading_stop_;  // of the reading thread
 
   // Used by the watching thread alone.
   FileWatch watch_;
@@ -318,7 +324,6 @@ class DesignFollower::Follower {
   InputTurn turn_;
   int64_t reading_since_ns_ = 0;
   Clock::time_point reading_since_{};  // the same by the other clock
-  bool is_rendering_ = false;          // what is under way renders for a version that is shown
 
   // Written by the reading thread, and read after its end.
   DesignReading result_;

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/angles.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "hulls/orthonormal.hpp"
 #include "hulls/point_hull.hpp"
 
@@ -296,6 +297,7 @@ std::optional<GeneratorSum> minkowski_sum(const Generators& a, const Generators&
   if (first.generators.size() * second.generators.size() > kMostSums) return std::nullopt;
   std::vector<RoundGenerator> sums;
   for (const RoundGenerator& g : first.generators) {
+    csgcore::stop_point();
     for (const RoundGenerator& h : second.generators) {
       if (add_sum(g, h, sums)) result.is_faceted = true;
       if (sums.size() > kMostSums) return std::nullopt;

@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
+#include "csgcore/stop_scope.hpp"
+
 namespace frontend {
 namespace {
 
@@ -40,6 +42,7 @@ class Quickhull {
   void run(const Simplex& simplex) {
     start(simplex);
     for (uint32_t i = 0; i < faces_.size(); ++i) {
+      csgcore::stop_point();
       // New faces come last; a face that was replaced has no points.
       if (faces_[i].first_beyond != kNone) add_corner(i);
     }

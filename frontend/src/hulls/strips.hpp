@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "csgcore/stop_scope.hpp"
 #include "hulls/circle_arcs.hpp"
 #include "hulls/round_bodies.hpp"
 
@@ -62,6 +63,7 @@ class StripSearch {
 
   void look_between(uint32_t i, uint32_t j) {
     if (!bodies_.is_round(i) && !bodies_.is_round(j)) return;
+    csgcore::stop_point();
     ++steps_;
     const auto circle = bodies_.circle(i, j);
     if (!circle) return;

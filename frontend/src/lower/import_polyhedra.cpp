@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/hashes.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "meshes/sheet_faces.hpp"
 
 namespace frontend {
@@ -63,6 +64,7 @@ std::vector<Triangle> without_twins(std::span<const Triangle> triangles) {
   std::set<Triangle> seen;
   std::vector<Triangle> result;
   for (const Triangle& triangle : triangles) {
+    csgcore::stop_point();
     Triangle corners = triangle;
     std::sort(corners.begin(), corners.end());
     if (seen.insert(corners).second) result.push_back(triangle);
@@ -114,11 +116,13 @@ void find_inner_faces(const FaceSet& faces, SolidOfFaces& solid) {
   std::set<Triangle> outward;  // counterclockwise, seen from outside
   const bool is_inverted = volume_of(turned) < 0;
   for (Triangle triangle : turned.triangles()) {
+    csgcore::stop_point();
     if (is_inverted) std::swap(triangle[1], triangle[2]);
     outward.insert(rotated(triangle));
   }
   std::vector<Triangle> outer, inner;
   for (const Triangle& triangle : triangles) {
+    csgcore::stop_point();
     (outward.contains(rotated(triangle)) ? outer : inner).push_back(triangle);
   }
   if (outer.empty() || inner.empty()) return;

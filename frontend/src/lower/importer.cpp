@@ -307,6 +307,7 @@ void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& des
 /// large design each part of it has hundreds of MB.
 ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
+  const csgcore::StopScope scope(&stop);
   collected.finish(stop);
   ImportedDesign design;
   design.warnings = collected.problems.warnings(tree);
@@ -364,6 +365,7 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
 
 /// Takes all nodes of a finished tree.
 void collect(const SyntaxTree& tree, Collector& collected, const std::stop_token& stop) {
+  const csgcore::StopScope scope(&stop);
   size_t solids = 0;
   size_t matrices = 0;
   for (const SyntaxNode& node : tree.nodes) {
@@ -405,6 +407,7 @@ struct TextImport::Impl {
 TextImport::TextImport(std::string_view text, std::string file_name, const ImportOptions& options,
                        const std::stop_token& stop)
     : impl_(std::make_unique<Impl>(text, std::move(file_name), options)) {
+  const csgcore::StopScope scope(&stop);
   // About what OpenSCAD's files have, as the parser's own: growing copies.
   constexpr size_t kBytesPerNode = 48, kBytesPerLeaf = 128;
   const size_t leaves = text.size() / kBytesPerLeaf;

@@ -3,7 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "frontend/stop.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "lower/solid_lowering.hpp"
 
 namespace frontend {
@@ -12,7 +12,8 @@ std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, 
                                       const std::stop_token& stop) {
   std::vector<LoweredSubtree> result(pending.size());
   const auto lower = [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
+    const csgcore::StopScope scope(&stop);
+    for (size_t i = begin; i < end; ++i) {
       const PendingSolid& solid = pending[i];
       if (solid.rendering) continue;
       result[i] = lower_solid(solid.value, solid.to_world, solid.frame, solid.id, hulls);
@@ -26,7 +27,6 @@ std::vector<LoweredSubtree> lower_all(const std::vector<PendingSolid>& pending, 
     tbb::parallel_for(tbb::blocked_range<size_t>(0, pending.size(), kAtOnce),
                       [&](const auto& range) { lower(range.begin(), range.end()); });
   }
-  throw_if_stopped(stop);
   return result;
 }
 

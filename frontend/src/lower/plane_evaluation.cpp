@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "csgcore/stop_scope.hpp"
 #include "lower/node_roles.hpp"
 #include "plane/hull.hpp"
 
@@ -47,6 +48,7 @@ PlaneEvaluation::PlaneEvaluation(const PlaneSubtree& subtree, NodeProblems& prob
   }
   // Children come after their parents: from the last node on, all that a node holds is known.
   for (uint32_t i = subtree_.end(); i-- > subtree_.root();) {
+    csgcore::stop_point();
     find_presence(i);
     find_figures(i);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/stop_scope.hpp"
 #include "csgcore/triangle_mesh.hpp"
 #include "meshes/triangulation.hpp"
 
@@ -91,6 +92,7 @@ class SlicedMesh {
     const size_t count = points_.size();
     plan_.reserve(count * (slices_ + 1));
     for (uint32_t layer = 0; layer <= slices_; ++layer) {
+      csgcore::stop_point();
       const double share = static_cast<double>(layer) / slices_;
       for (const Vec2& point : points_) plan_.push_back(layers_.point_at(share, point));
     }
@@ -131,6 +133,7 @@ class SlicedMesh {
   void add_sides(const Loop& loop, bool has_top) {
     const size_t count = loop.points.size();
     for (uint32_t layer = 0; layer < slices_; ++layer) {
+      csgcore::stop_point();
       for (size_t i = 0; i < count; ++i) {
         const Side side = side_of(loop, layer, i);
         bool takes_p1_q2 = is_p1_q2(side, loop.is_hole);

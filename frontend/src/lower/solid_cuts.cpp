@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "csgcore/stop_scope.hpp"
 #include "hulls/convex_cuts.hpp"
 #include "hulls/point_solid.hpp"
 
@@ -108,6 +109,7 @@ SolidCuts::Parts SolidCuts::difference(Parts parts, const SolidPart& cutter) {
   std::vector<csgcore::HalfSpace> faces;
   bool is_faceted = false;
   for (SolidPart& part : parts) {
+    csgcore::stop_point();
     if (!have_common_volume(part.box, cutter.box)) {
       result.push_back(std::move(part));
       continue;
@@ -143,6 +145,7 @@ SolidCuts::Parts SolidCuts::intersection(const Parts& parts, const Parts& others
     std::vector<csgcore::HalfSpace> faces;
     bool is_faceted = false;
     for (const SolidPart& part : parts) {
+      csgcore::stop_point();
       if (!have_common_volume(part.box, other.box)) continue;
       if (!are_convex(part, other)) return {};
       if (faces.empty()) {

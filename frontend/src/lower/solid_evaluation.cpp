@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/primitive_traits.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "hulls/point_hull.hpp"
 #include "lower/file_matrix.hpp"
 #include "lower/node_roles.hpp"
@@ -88,6 +89,7 @@ std::optional<SolidValue> SolidEvaluation::run(uint32_t root) {
   // Children come after their parents: from the last node on, all that a node holds is known.
   const std::vector<uint32_t> nodes = solid_nodes(root);
   for (auto node = nodes.rbegin(); node != nodes.rend() && failure_.empty(); ++node) {
+    csgcore::stop_point();
     values_[*node - root] = evaluate(*node);
   }
   if (!failure_.empty()) return std::nullopt;

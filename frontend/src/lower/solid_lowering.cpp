@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/stop_scope.hpp"
 #include "lower/faceted_box.hpp"
 #include "lower/leaves.hpp"
 
@@ -33,6 +34,7 @@ LoweredSubtree lower_solid(const SolidValue& value, const csgcore::Affine& to_wo
                            uint32_t id, HullPool& hulls) {
   LoweredSubtree result;
   const auto add_part = [&](CsgTreeBuilder& builder, uint32_t index) {
+    csgcore::stop_point();
     const SolidPart& part = value.parts[index];
     const csgcore::Box box = mapped(to_world, part.box);
     builder.open(Op::kUnion);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "csgcore/profile.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "csgcore/triangle_mesh.hpp"
 
 namespace frontend {
@@ -125,6 +126,7 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
 }
 
 void SolidSums::add_convex(const SupportSet& a, const SupportSet& b, const Box& box) {
+  csgcore::stop_point();
   work_ += a.generators.size() * b.generators.size();
   if (sums_.size() >= kMostSums) fail(kBecauseManyFaces);
   if (work_ > kMostWork) fail(kBecauseManyCorners);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "csgcore/stop_scope.hpp"
 #include "meshes/planar_predicates.hpp"
 
 namespace frontend {
@@ -73,6 +74,7 @@ void DelaunayTriangulation::sweep() {
     }
   }
   for (uint32_t point = apex + 1; point < count; ++point) {
+    csgcore::stop_point();
     // The point before is on the hull, and is seen from here.
     uint32_t first = point - 1, end = point - 1;
     while (turn(before[first], first, point) < 0) first = before[first];
@@ -147,6 +149,7 @@ void DelaunayTriangulation::flip_to_delaunay() {
   std::vector<uint32_t> open(sides());
   for (uint32_t side = 0; side < sides(); ++side) open[side] = side;
   while (!open.empty()) {
+    csgcore::stop_point();
     const uint32_t side = open.back();
     open.pop_back();
     const uint32_t twin = twin_[side];

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "csgcore/stop_scope.hpp"
 #include "meshes/triangulation.hpp"
 
 namespace frontend {
@@ -169,6 +170,7 @@ uint64_t tidy(FaceSet& faces) {
   const size_t count = faces.face_count();
   const bool are_triangles = faces.ends.empty();
   for (size_t i = 0; i < count; ++i) {
+    csgcore::stop_point();
     // faces.face(i) would begin where the face before ends by now.
     const uint32_t end = are_triangles ? old_begin + 3 : faces.ends[i];
     const std::span<const uint32_t> face(faces.corners.data() + old_begin, end - old_begin);
@@ -225,6 +227,7 @@ std::vector<Triangle> triangles_of(const FaceSet& faces) {
   triangles.reserve(faces.corners.size() - 2 * faces.face_count());
   std::vector<glm::dvec2> places;
   for (size_t i = 0; i < faces.face_count(); ++i) {
+    csgcore::stop_point();
     const std::span<const uint32_t> face = faces.face(i);
     if (face.size() == 3) {
       triangles.push_back({face[0], face[1], face[2]});

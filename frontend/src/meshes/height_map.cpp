@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "csgcore/stop_scope.hpp"
 #include "meshes/gray_png.hpp"
 #include "meshes/number_text.hpp"
 
@@ -98,6 +99,7 @@ class SolidBuilder {
     }
     faces_.points.reserve(2 * map.heights.size());
     for (size_t row = 0; row < map.rows; ++row) {
+      csgcore::stop_point();
       for (size_t column = 0; column < map.columns; ++column) {
         add_point(static_cast<double>(column), static_cast<double>(row), map.at(column, row));
       }
@@ -106,6 +108,7 @@ class SolidBuilder {
 
   FaceSet build() {
     for (size_t row = 0; row + 1 < map_.rows; ++row) {
+      csgcore::stop_point();
       for (size_t column = 0; column + 1 < map_.columns; ++column) add_cell(column, row);
     }
     std::vector<uint32_t> bottom;

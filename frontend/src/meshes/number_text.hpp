@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "csg/lexer.hpp"
+#include "csgcore/stop_scope.hpp"
 
 namespace frontend {
 
@@ -53,6 +54,7 @@ inline std::string_view take_word(std::string_view& text) {
 
 /// Takes the next line, without its end, from the front of the text.
 inline std::string_view take_line(std::string_view& text) {
+  csgcore::stop_point();
   const size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "csg/lexer.hpp"
+#include "csgcore/stop_scope.hpp"
 #include "meshes/number_text.hpp"
 #include "meshes/read_solid_file.hpp"
 
@@ -68,6 +69,7 @@ SolidFile read_binary(std::string_view bytes) {
   bytes.remove_prefix(kHeaderBytes + kCountBytes);
   file.faces.points.reserve(bytes.size() / kFacetBytes * 3);
   for (; !bytes.empty(); bytes.remove_prefix(kFacetBytes)) {
+    csgcore::stop_point();
     std::array<float, 9> numbers;
     std::memcpy(numbers.data(), bytes.data() + kNormalBytes, sizeof numbers);
     for (size_t i = 0; i < 9; i += 3) {

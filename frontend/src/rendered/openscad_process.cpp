@@ -118,6 +118,7 @@ std::string cannot_run(const std::string& program, int error_number) {
 
 OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_background,
                                     Clock::time_point deadline, const std::stop_token& stop) {
+  throw_if_stopped(stop);  // before another one is started
   const MemoryFile input(design);
   Pipe out, err;
   std::optional<ChildProcess> openscad;

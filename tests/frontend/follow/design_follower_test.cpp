@@ -286,11 +286,68 @@ TEST(DesignFollower, StopsAtTheUsersWish) {
     std::this_thread::yield();
   }
   design->stop();
-  design.wait_until_idle();
+  EXPECT_EQ(design->state(), DesignFollower::State::kStopped) << "at once";
   EXPECT_FALSE(design->activity());
   EXPECT_FALSE(design->take());
   folder.write("a.scad", "cube(1);");
   design.next_of(1);
+}
+
+/// The error of a file that is used names that file, where OpenSCAD leaves its folder out.
+TEST(DesignFollower, AnErrorTellsTheFileThatItIsIn) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "lib");
+  folder.write("lib/bad.scad", "module bad() {\n  foo();\n  assert(false);\n}\n");
+  FollowOptions options = by_inotify();
+  options.evaluator = Evaluator::kOwn;
+  Followed design(folder.write("a.scad", "use <lib/bad.scad>\n\n bad();\n"), options);
+  const DesignVersion version = design.next_error();
+  EXPECT_THAT(version.error, StartsWith(folder / "lib/bad.scad:3: error: Assertion"));
+  EXPECT_THAT(version.messages,
+              ElementsAre(StartsWith("WARNING: "), StartsWith("TRACE: "), StartsWith("TRACE: ")));
+  EXPECT_EQ(version.before_error, 1u);
+  ASSERT_EQ(version.places.size(), 3u);
+  EXPECT_EQ(text_of(version.places[0]), "bad.scad:2:3");
+  EXPECT_EQ(version.places[1].path, fs::canonical(folder / "lib/bad.scad").string());
+  EXPECT_EQ(text_of(version.places[2]), "a.scad:3:2");
+}
+
+/// Without what a broken file has, a design is not the one that was shown before.
+TEST(DesignFollower, ABrokenUsedFileBreaksAGoodDesign) {
+  const TemporaryFolder folder;
+  folder.write("part.scad", "module part() { cube(1;");
+  FollowOptions options = by_inotify();
+  options.evaluator = Evaluator::kOwn;
+  Followed design(folder.write("a.scad", "use <part.scad>\npart(); sphere(1);"), options);
+  EXPECT_THAT(design.next_of(1).messages, Contains(StartsWith("ERROR: Parser error")));
+  folder.write("part.scad", "module part() { cube(1); }");
+  const DesignVersion good = design.next_of(2);
+  folder.write("part.scad", "module part() { cube(1;");
+  EXPECT_THAT(design.next_error().error, StartsWith(folder / "part.scad:1: error: Parser error"));
+  folder.write("part.scad", "module part() { cube(1); }");
+  EXPECT_EQ(design.next().design, good.design) << "it is that of before";
+}
+
+/// Whatever it does when it is stopped, nothing comes of it.
+TEST(DesignFollower, NothingComesOfWhatWasStopped) {
+  const TemporaryFolder folder;
+  const std::string slow =
+      "minkowski() { for (i = [0 : 60]) rotate(7 * i) cube([i + 9, 1, 1]); "
+      "for (i = [0 : 60]) rotate([i, i, 0]) cube([1, 2, i + 1]); }";
+  FollowOptions options = by_inotify();
+  options.evaluator = Evaluator::kOwn;
+  for (const int delay_ms : {0, 1, 3, 10, 40, 160}) {
+    SCOPED_TRACE(delay_ms);
+    Followed design(folder.write("a.scad", slow), options);
+    while (!design->activity()) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    design->stop();
+    EXPECT_FALSE(design->activity());
+    EXPECT_FALSE(design->take());
+    folder.write("a.scad", "cube(1);");
+    design.next_of(1);
+    EXPECT_TRUE(design.passed().empty()) << "nothing comes of the slow one";
+  }
 }
 
 TEST(DesignFollower, ListsWhatIsLeftOut) {
