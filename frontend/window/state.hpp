@@ -65,6 +65,7 @@ struct State {
   std::string message_filter;  // the messages that are shown contain it
   bool asks_for_path = false;  // shows the dialogue for the path of a picture
   std::string picture_path;
+  std::string path_to_overwrite;  // that exists: the dialogue asks whether to overwrite it
 
   // The design.
   std::string name;                                        // the file's name

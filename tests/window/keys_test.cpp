@@ -113,12 +113,35 @@ TEST_F(Saving, WritesThePictureOfTheCommand) {
   EXPECT_EQ(read_png(folder_ / "a.png"), drawn(design_, first_["camera"]));
 }
 
+TEST_F(Saving, AsksBeforeItOverwrites) {
+  folder_.write("a.png", "mine");
+  start();
+  const Picture closed = shown();
+  save();
+  const Picture dialogue = shown();
+  key("Return");
+  wait_until_settled(dialogue);  // it asks
+  key("Return");                 // which may have been pressed twice
+  key("Escape");
+  expect_shown(closed);
+  EXPECT_EQ(folder_.read("a.png"), "mine");
+  save();
+  key("Return");
+  wait_until_settled(dialogue);
+  key("ctrl+Return");
+  EXPECT_TRUE(wait_until([&] { return folder_.read("a.png") != "mine"; }));
+  EXPECT_EQ(read_png(folder_ / "a.png"), drawn(design_, first_["camera"]));
+}
+
 TEST_F(Saving, DoesNotOverwriteTheDesign) {
   const std::string design = folder_.write("a.png", kBlock);  // the path that it proposes
   open(design);
   next();
   save();
+  const Picture before = shown();
   key("Return");
+  wait_until_settled(before);
+  key("ctrl+Return");
   next();  // it would have been written by then
   EXPECT_EQ(folder_.read("a.png"), kBlock);
 }
