@@ -13,6 +13,7 @@
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/terminal.hpp"
+#include "state_texts.hpp"
 
 namespace window {
 namespace {
@@ -102,8 +103,8 @@ void Application::run() {
     wait_for_news();
     probe_hover();
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
-    frames_due_ = std::max(frames_due_, watch_long_work());
     watch_work();
+    frames_due_ = std::max(frames_due_, watch_long_work());
     order_picture();
     if (window_.size().width_px == 0) frames_due_ = 0;
     if (frames_due_ == 0 || Clock::now() < awaited_until_) continue;
@@ -207,8 +208,8 @@ void Application::stop_work() {
   is_reading_ = state_.is_reading = false;
   state_.long_activity.reset();
   state_.is_stopped = true;
-  state_.animation.pause();
   working_since_.reset();
+  state_.animation.pause();
 }
 
 /// Waits for the display if the driver does not, as a software renderer does not.
@@ -222,6 +223,7 @@ void Application::wait_for_display() {
 void Application::draw_frame() {
   const Size size = window_.size();
   screen_.draw(size);
+  visit_texts(state_, [this](std::string_view text) { window_.need_letters(text); });
   window_.begin_frame();
   const double scale = window_.pixels_per_unit();
   csgcore::View view = state_.navigation.view(size);
@@ -339,9 +341,9 @@ void Application::take_painting(Painting painting) {
   }
   painting.image = {};
   has_new_picture_ |= painting.is_final;
+  if (painting.is_final && painting.order.number == ordered_.number) is_picture_stopped_ = false;
   state_.painting = std::move(painting);
 }
-  if (painting.is_final && painting.order.number == ordered_.number) is_picture_stopped_ = false;
 
 /// Reports the picture that is on the screen.
 void Application::report_picture() {

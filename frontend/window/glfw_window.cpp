@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +18,7 @@
 #include "frontend/error.hpp"
 #include "frontend/terminal.hpp"
 
+#include "letters.hpp"
 namespace window {
 namespace {
 
@@ -26,16 +27,7 @@ constexpr double kClickReach = 3;
 /// Two clicks within this time are a double click.
 constexpr double kDoubleClick_s = 0.4;
 constexpr double kUnknownRate = 60;  // frames/s, if the display does not tell
-constexpr float kFontSize = 15;      // units
 constexpr Size kLeastSize{160, 120};
-
-/// A font with letters beyond ASCII, which file names may have. Without it ImGui's own font is
-/// used.
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-/// Its letters: Latin, Greek, Cyrillic, and the signs of texts and measures. Pairs of first and
-/// last.
-constexpr ImWchar kLetters[] = {0x0020, 0x024F, 0x0370, 0x052F, 0x2010, 0x2044, 0x20AC,
-                                0x20AC, 0x2190, 0x2195, 0x2200, 0x2265, 0};
 
 std::string last_error;  // GLFW's
 
@@ -96,6 +88,7 @@ struct GlfwWindow::Impl {
   Library library;
   GLFWwindow* window = nullptr;
   bool is_active = true;
+  std::optional<Letters> letters;
   std::vector<int> new_keys;  // keys that went down since the last frame
   std::vector<Key> released;  // those of them that went up again
 
@@ -165,14 +158,7 @@ void GlfwWindow::Impl::set_up_imgui() {
   io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   float scale = 1, scale_y = 1;
   glfwGetWindowContentScale(window, &scale, &scale_y);
-  std::error_code missing;
-  if (std::filesystem::exists(kFont, missing)) {
-    io.Fonts->AddFontFromFileTTF(kFont, std::round(kFontSize * scale), nullptr, kLetters);
-  } else {
-    ImFontConfig own;
-    own.SizePixels = std::round(13 * scale);
-    io.Fonts->AddFontDefault(&own);
-  }
+  letters.emplace(scale);
   ImGui::StyleColorsDark();
   ImGui::GetStyle().ScaleAllSizes(scale);
   ImGui::GetStyle().WindowRounding = 4;
@@ -328,3 +314,9 @@ void GlfwWindow::end_frame() {
 }
 
 }  // namespace window
+void GlfwWindow::need_letters(std::string_view text) { impl_->letters->need(text); }
+
+  if (impl_->letters->load()) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }

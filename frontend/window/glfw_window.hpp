@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "navigation.hpp"
 
@@ -58,6 +59,8 @@ class GlfwWindow {
   /// Returns whether the mouse is over a panel.
   bool is_over_panel() const;
 
+  /// Notes the letters of a text that the next frame may show.
+  void need_letters(std::string_view text);
   void begin_frame();
   /// Draws ImGui's frame over the contents of the framebuffer, and shows both.
   void end_frame();

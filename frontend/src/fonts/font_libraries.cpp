@@ -75,6 +75,12 @@ bool load(FontLibraries::Fontconfig& fontconfig) {
   library.find("FcPatternGetString", fontconfig.pattern_get_string);
   library.find("FcPatternGetInteger", fontconfig.pattern_get_integer);
   library.find("FcPatternDestroy", fontconfig.pattern_destroy);
+  library.find("FcPatternAddCharSet", fontconfig.pattern_add_charset);
+  library.find("FcPatternGetCharSet", fontconfig.pattern_get_charset);
+  library.find("FcCharSetCreate", fontconfig.charset_create);
+  library.find("FcCharSetAddChar", fontconfig.charset_add_char);
+  library.find("FcCharSetHasChar", fontconfig.charset_has_char);
+  library.find("FcCharSetDestroy", fontconfig.charset_destroy);
   return library.is_complete();
 }
 

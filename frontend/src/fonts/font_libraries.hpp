@@ -59,6 +59,12 @@ struct FontLibraries {
     decltype(&FcPatternGetString) pattern_get_string;
     decltype(&FcPatternGetInteger) pattern_get_integer;
     decltype(&FcPatternDestroy) pattern_destroy;
+    decltype(&FcPatternAddCharSet) pattern_add_charset;
+    decltype(&FcPatternGetCharSet) pattern_get_charset;
+    decltype(&FcCharSetCreate) charset_create;
+    decltype(&FcCharSetAddChar) charset_add_char;
+    decltype(&FcCharSetHasChar) charset_has_char;
+    decltype(&FcCharSetDestroy) charset_destroy;
   } fontconfig;
 };
 
