@@ -142,6 +142,15 @@ TEST_P(Panels, AreWhole) {
   expect_whole();
 }
 
+TEST_P(Panels, TheHelpIsShownWithoutScrolling) {
+  if (GetParam().width / GetParam().scale < 1000) GTEST_SKIP() << "too small";
+  state_.shows_help = true;
+  draw();
+  const ImGuiWindow* const help = ImGui::FindWindowByName("Mouse and keys");
+  ASSERT_NE(help, nullptr);
+  EXPECT_EQ(help->ScrollMax.y, 0);
+}
+
 TEST_P(Panels, DoNotOverlap) {
   if (GetParam().height / GetParam().scale < 400) GTEST_SKIP() << "too low for all of them";
   state_.set_section_axis(0);
@@ -161,10 +170,11 @@ TEST_P(Panels, AChangedParameterCanBeReset) {
 
 INSTANTIATE_TEST_SUITE_P(, Panels,
                          testing::Values(Screen{1, 480, 400}, Screen{1, 640, 480},
-                                         Screen{1, 1280, 800}, Screen{1.5, 480, 400},
-                                         Screen{1.5, 640, 600}, Screen{2, 480, 480},
-                                         Screen{2, 480, 900}, Screen{2, 640, 480},
-                                         Screen{2, 640, 900}, Screen{2, 1280, 800}));
+                                         Screen{1, 1024, 768}, Screen{1, 1280, 800},
+                                         Screen{1.5, 480, 400}, Screen{1.5, 640, 600},
+                                         Screen{2, 480, 480}, Screen{2, 480, 900},
+                                         Screen{2, 640, 480}, Screen{2, 640, 900},
+                                         Screen{2, 1280, 800}));
 
 }  // namespace
 }  // namespace window
