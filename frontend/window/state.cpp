@@ -273,14 +273,19 @@ std::string rendering_words(const std::vector<uint32_t>& lines) {
   return words;
 }
 
+std::string size_words(const frontend::ImportedDesign& design) {
+  const std::size_t primitives = design.scene.primitives.size();
+  const bool is_whole = design.left_out == 0 && design.lines_to_render.empty();
+  if (primitives == 0 && is_whole) return "the design is empty";
+  return std::to_string(primitives) + (primitives == 1 ? " primitive" : " primitives");
+}
+
 std::vector<StatusPart> status_parts(const State& state) {
   constexpr const char* kStopped = "stopped; a save, or F5, starts again";
   if (!state.version) return {{state.is_stopped ? kStopped : "reading " + state.name, 0}};
   std::vector<StatusPart> parts;
   const frontend::DesignVersion& version = *state.version;
-  if (state.design) {
-    parts.push_back({std::to_string(state.design->scene.primitives.size()) + " primitives", 0});
-  }
+  if (state.design) parts.push_back({size_words(*state.design), 0});
   const auto time = [&parts](const char* format, double ms, int rank) {
     parts.push_back({text(format, ms), rank, true});
   };

@@ -84,14 +84,14 @@ struct State {
   /// Does a command that needs nothing but this state. Returns whether it was one.
   bool apply(Command command);
   bool is_checked(Command command) const;
-  /// Takes the newest version of the design.
   /// Returns whether a version's design takes the place of the one that is shown. While openscad
   /// renders a part of it, the last whole one stays.
   bool is_to_be_shown(const frontend::DesignVersion& newest) const;
+  /// Takes the newest version of the design.
   void take(frontend::DesignVersion newest);
-  /// The design's bounds; empty without a design.
   /// Returns whether Command::kForgetPoints does anything.
   bool has_anything_to_forget() const { return !points.empty() || shows_help; }
+  /// The design's bounds; empty without a design.
   csgcore::Box bounds() const;
   /// Forgets a pair of points before.
   void measure(MeasuredPoint point);

@@ -15,10 +15,14 @@ using frontend::Shading;
 using frontend::Show;
 using testing::HasSubstr;
 
+std::shared_ptr<const frontend::ImportedDesign> imported(const std::string& text) {
+  return std::make_shared<frontend::ImportedDesign>(
+      frontend::import_design(frontend::parse(text, "")));
+}
+
 /// A box from (0, 0, 0) to (10, 20, 40).
 std::shared_ptr<const frontend::ImportedDesign> block() {
-  return std::make_shared<frontend::ImportedDesign>(
-      frontend::import_design(frontend::parse("cube(size = [10, 20, 40]);", "")));
+  return imported("cube(size = [10, 20, 40]);");
 }
 
 class StateTest : public testing::Test {
@@ -210,7 +214,7 @@ TEST_F(StateTest, StatusLine) {
   version.parse_ms = 1.25;
   version.import_ms = 2;
   state_.version = version;
-  EXPECT_EQ(status_line(state_), "1 primitives  |  evaluate 80, parse 1.2, import 2.0");
+  EXPECT_EQ(status_line(state_), "1 primitive  |  evaluate 80, parse 1.2, import 2.0");
   Painting painting;
   painting.order.size = {640, 480};
   painting.stats.renderer = "cpu";
@@ -219,7 +223,7 @@ TEST_F(StateTest, StatusLine) {
   state_.frames_per_second = 59.6;
   state_.is_reading = true;
   EXPECT_EQ(status_line(state_),
-            "1 primitives  |  evaluate 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
+            "1 primitive  |  evaluate 80, parse 1.2, import 2.0, draw 7.5 ms  |  60 frames/s  |  "
             "cpu  |  640 x 480  |  reading");
 }
 
@@ -247,11 +251,11 @@ TEST_F(StateTest, StatusLineIsShortenedByWhatMattersLeast) {
   EXPECT_EQ(shortened(1000), status_line(state_));
   EXPECT_EQ(shortened(status_line(state_).size()), status_line(state_));
   const std::string shorter =
-      "1 primitives  |  evaluate 80, subdivide 3.0, draw 7.5 ms  |  60 frames/s  |  cpu  |  "
+      "1 primitive  |  evaluate 80, subdivide 3.0, draw 7.5 ms  |  60 frames/s  |  cpu  |  "
       "640 x 480  |  reading";
   EXPECT_EQ(shortened(shorter.size()), shorter);
-  EXPECT_EQ(shortened(70), "1 primitives  |  evaluate 80, draw 7.5 ms  |  60 frames/s  |  reading");
-  EXPECT_EQ(shortened(1), "1 primitives  |  reading");
+  EXPECT_EQ(shortened(70), "1 primitive  |  evaluate 80, draw 7.5 ms  |  60 frames/s  |  reading");
+  EXPECT_EQ(shortened(1), "1 primitive  |  reading");
   for (size_t letters = 24; letters < 120; ++letters) EXPECT_LE(shortened(letters).size(), letters);
   state_.painting->stats.renderer = "gl: a driver's name";
   EXPECT_EQ(shortened(status_line(state_).size() - 1).find("gl: "), std::string::npos);
@@ -269,6 +273,36 @@ TEST_F(StateTest, AVersionsErrorIsItsFirstMessage) {
   EXPECT_EQ(state_.messages[1].kind, MessageKind::kEcho);
   EXPECT_NE(state_.design, nullptr);  // the last good one stays
   EXPECT_FALSE(state_.is_stopped);
+}
+
+TEST_F(StateTest, AnEmptyDesignIsCalledEmpty) {
+  frontend::DesignVersion version;
+  version.design = imported("");
+  state_.take(version);
+  EXPECT_THAT(status_line(state_), testing::StartsWith("the design is empty"));
+  version.design = imported("roof() { square(1); }");  // left out
+  state_.take(version);
+  EXPECT_THAT(status_line(state_), testing::StartsWith("0 primitives"));
+}
+
+/// What openscad still renders of a design is not what the user wants to look at.
+TEST_F(StateTest, AWholePictureStaysWhileOpenscadRenders) {
+  const auto take = [&](const std::string& text, std::vector<uint32_t> lines_to_render) {
+    frontend::ImportedDesign design = frontend::import_design(frontend::parse(text, ""));
+    design.lines_to_render = std::move(lines_to_render);
+    frontend::DesignVersion version;
+    version.design = std::make_shared<const frontend::ImportedDesign>(std::move(design));
+    state_.take(version);
+    return state_.design == version.design;
+  };
+  const std::string rest = "sphere(r = 1);";
+  EXPECT_FALSE(take(rest, {7}));
+  EXPECT_THAT(status_line(state_), HasSubstr("openscad renders line 7"));
+  EXPECT_TRUE(take(rest + rest, {}));
+  EXPECT_FALSE(take("", {3}));
+  EXPECT_TRUE(take("", {}));
+  EXPECT_TRUE(take(rest, {7})) << "there is nothing better";
+  EXPECT_TRUE(take(rest + rest, {7})) << "neither is one whole";
 }
 
 TEST_F(StateTest, TheStatusLineSaysThatWorkWasStopped) {
