@@ -7,6 +7,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,8 @@
 #include "commands.hpp"
 #include "frontend/error.hpp"
 #include "frontend/terminal.hpp"
-
 #include "letters.hpp"
+
 namespace window {
 namespace {
 
@@ -76,9 +77,9 @@ struct GlfwWindow::Impl {
   };
   void on_key(const Key& key, int action);
   void release_keys();
-  void place_cursor() const;
+  void place_cursor();
   double pixels_per_unit() const;
-  bool is_over_panel() const { return ImGui::GetIO().WantCaptureMouse; }
+  bool is_over_panel() const;
 
   static Impl& of(GLFWwindow* window) {
     return *static_cast<Impl*>(glfwGetWindowUserPointer(window));
@@ -87,8 +88,8 @@ struct GlfwWindow::Impl {
   WindowEvents& events;
   Library library;
   GLFWwindow* window = nullptr;
-  bool is_active = true;
   std::optional<Letters> letters;
+  bool is_active = true;
   std::vector<int> new_keys;  // keys that went down since the last frame
   std::vector<Key> released;  // those of them that went up again
 
@@ -101,6 +102,7 @@ struct GlfwWindow::Impl {
   double last_x = 0, last_y = 0;  // up to where it was dragged
   bool has_moved = false;
   double last_click_s = -1e9;
+  std::optional<ImVec2> panel_press;  // where a panel was pressed that has not seen it yet
 };
 
 GlfwWindow::Impl::Impl(const std::string& title, Size size, WindowEvents& window_events)
@@ -182,6 +184,20 @@ GlfwWindow::Impl::~Impl() {
   if (window) glfwDestroyWindow(window);
 }
 
+/// Returns whether the mouse is over a panel, or a panel holds it. ImGui itself knows of the
+/// cursor's place from the last frame only, and the cursor may have jumped since.
+bool GlfwWindow::Impl::is_over_panel() const {
+  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  if (imgui.OpenPopupStack.Size > 0 || (imgui.ActiveId != 0 && ImGui::IsAnyMouseDown()))
+    return true;
+  const ImVec2 place(static_cast<float>(cursor_x), static_cast<float>(cursor_y));
+  return std::any_of(imgui.Windows.begin(), imgui.Windows.end(), [&](const ImGuiWindow* panel) {
+    const bool takes_mouse = (panel->Flags & ImGuiWindowFlags_NoMouseInputs) == 0;
+    return panel->Active && !panel->Hidden && takes_mouse &&
+           panel->OuterRectClipped.Contains(place);
+  });
+}
+
 double GlfwWindow::Impl::pixels_per_unit() const {
   int width = 0, height = 0, pixels_x = 0, pixels_y = 0;
   glfwGetWindowSize(window, &width, &height);
@@ -192,7 +208,11 @@ double GlfwWindow::Impl::pixels_per_unit() const {
 void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   is_active = true;
   if (action == GLFW_PRESS) {
-    if (pressed >= 0 || is_over_panel() || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    if (pressed >= 0 || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    if (is_over_panel()) {
+      panel_press = ImVec2(static_cast<float>(cursor_x), static_cast<float>(cursor_y));
+      return;
+    }
     pressed = button;
     modifiers = modifiers_of(glfw_modifiers);
     has_moved = false;
@@ -257,11 +277,16 @@ void GlfwWindow::Impl::on_cursor(double x, double y) {
 }
 
 /// ImGui's backend asks where the cursor is now, which may have left what its button still holds:
-/// the button's release is an event that has not come yet.
-void GlfwWindow::Impl::place_cursor() const {
+/// the button's release is an event that has not come yet. A frame that sees a panel pressed for
+/// the first time has the cursor where that was.
+void GlfwWindow::Impl::place_cursor() {
   ImVec2& place = ImGui::GetIO().MousePos;
   if (has_cursor && ImGui::IsMousePosValid(&place)) {
     place = {static_cast<float>(cursor_x), static_cast<float>(cursor_y)};
+  }
+  if (const auto press = std::exchange(panel_press, std::nullopt)) {
+    place = *press;
+    is_active = true;  // the next frame has the cursor where it is
   }
 }
 
@@ -299,7 +324,13 @@ bool GlfwWindow::take_activity() { return std::exchange(impl_->is_active, false)
 
 bool GlfwWindow::is_over_panel() const { return impl_->is_over_panel(); }
 
+void GlfwWindow::need_letters(std::string_view text) { impl_->letters->need(text); }
+
 void GlfwWindow::begin_frame() {
+  if (impl_->letters->load()) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   impl_->place_cursor();
@@ -314,9 +345,3 @@ void GlfwWindow::end_frame() {
 }
 
 }  // namespace window
-void GlfwWindow::need_letters(std::string_view text) { impl_->letters->need(text); }
-
-  if (impl_->letters->load()) {
-    ImGui_ImplOpenGL3_DestroyFontsTexture();
-    ImGui_ImplOpenGL3_CreateFontsTexture();
-  }

@@ -137,6 +137,23 @@ TEST_F(MouseOnABall, RestNamesTheLeaf) {
   expect_shown(before);
 }
 
+/// The panel is drawn before it knows of the mouse, which jumps there and clicks at once.
+TEST_F(MouseOnABall, AClickOnAPanelIsThePanels) {
+  start(kBall, {"--camera=0,0,0,0,0,0,10"});  // the ball is behind all
+  const Picture before = shown();
+  key("x");
+  next();
+  wait_until_settled(before);
+  click(kWidth - 20, 40);  // in the title of the section plane's panel
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // no double click
+  click(kWidth - 20, 42);
+  key("4");
+  EXPECT_EQ(next([](const json& line) { return line["section_on"].get<bool>(); })["points"].size(),
+            0u);
+  click(40, 150);
+  next_points(1);
+}
+
 TEST_F(MouseOnABall, EscapeForgets) {
   open_ball();
   const Picture before = shown();
