@@ -13,6 +13,7 @@
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/terminal.hpp"
+#include "panels/clipboard.hpp"
 #include "state_texts.hpp"
 
 namespace window {
@@ -453,6 +454,7 @@ void Application::run_command(Command command) {
   if (command == Command::kStop) stop_work();
   if (command == Command::kReload) follower_.reload();
   if (command == Command::kOpenEditor) open_chosen_place();
+  if (command == Command::kCopy) copy_measured_or_said(state_);
   if (command == Command::kQuit) window_.close();
 }
 

@@ -35,8 +35,9 @@ class Application final : private WindowEvents {
 
   // WindowEvents
   void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) override;
-  void click(double x_px, double y_px) override;
+  void click(uint8_t modifiers, double x_px, double y_px) override;
   void double_click(double x_px, double y_px) override;
+  void right_click() override;
   void move(double x_px, double y_px) override;
   void leave() override;
   void wheel(double notches, double x_px, double y_px) override;
@@ -66,7 +67,7 @@ class Application final : private WindowEvents {
 
   void order_picture();
   PaintOrder wanted_picture() const;
-  void probe(const PicturePoint& place, Probe::Purpose purpose);
+  void probe(const PicturePoint& place, Probe::Purpose purpose, double snap_px = 0);
   void probe_hover();
   void end_hover();
   void draw_frame();

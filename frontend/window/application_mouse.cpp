@@ -16,6 +16,10 @@ constexpr double kSectionStep = 0.01;
 /// An axis along which that step is shorter than this is seen end-on.
 constexpr double kLeastAxis_px = 0.25;
 
+/// A click measures a vertex, an edge or a circle's centre that is no further away, in units of the
+/// screen.
+constexpr double kSnapReach = 7;
+
 }  // namespace
 
 void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy_px) {
@@ -62,10 +66,13 @@ void Application::wheel(double notches, double x_px, double y_px) {
   state_.navigation.zoom(notches, x_px, y_px, window_.size());
 }
 
-void Application::click(double x_px, double y_px) {
+void Application::click(uint8_t modifiers, double x_px, double y_px) {
   end_hover();
-  probe({x_px, y_px}, Probe::Purpose::kMeasure);
+  const double snap_px = (modifiers & kAlt) ? 0 : kSnapReach * window_.pixels_per_unit();
+  probe({x_px, y_px}, Probe::Purpose::kMeasure, snap_px);
 }
+
+void Application::right_click() { run_command(Command::kCopy); }
 
 void Application::double_click(double x_px, double y_px) {
   end_hover();
@@ -94,14 +101,14 @@ void Application::probe_hover() {
   hovering_ = probes_;
 }
 
-void Application::probe(const PicturePoint& place, Probe::Purpose purpose) {
+void Application::probe(const PicturePoint& place, Probe::Purpose purpose, double snap_px) {
   if (!state_.design) return;
   Probe probe;
   probe.number = ++probes_;
   probe.purpose = purpose;
   probe.order = wanted_picture();
-  probe.x_px = place.x_px;
-  probe.y_px = place.y_px;
+  probe.place = place;
+  probe.snap_px = snap_px;
   probe.texts = texts_;
   painter_.probe(std::move(probe));
 }
@@ -117,7 +124,7 @@ void Application::take_finding(const Finding& finding) {
       return;
     case Probe::Purpose::kHover:
       if (!finding.is_hit || probe.number != hovering_) return;
-      state_.hovered = {{probe.x_px, probe.y_px}, finding.place, finding.is_cut};
+      state_.hovered = {probe.place, finding.place, finding.is_cut};
       break;
     case Probe::Purpose::kMeasure:
       if (finding.is_hit) {

@@ -12,6 +12,7 @@ enum class Command : uint8_t {
   kStop,
   kOpenEditor,
   kSavePicture,
+  kCopy,
   kQuit,
   kViewAll,
   kCenter,
@@ -52,8 +53,8 @@ enum class Command : uint8_t {
   kHelp,
 };
 
-/// Modifiers of a key.
-enum Modifiers : uint8_t { kNone = 0, kControl = 1, kShift = 2 };
+/// Modifiers of a key or a mouse button.
+enum Modifiers : uint8_t { kNone = 0, kControl = 1, kShift = 2, kAlt = 4 };
 
 enum class Menu : uint8_t { kFile, kView, kShow, kSection, kHelp };
 

@@ -39,7 +39,8 @@ bool repeats(const CommandRow* row) {
 
 uint8_t modifiers_of(int glfw_modifiers) {
   return static_cast<uint8_t>(((glfw_modifiers & GLFW_MOD_CONTROL) ? kControl : 0) |
-                              ((glfw_modifiers & GLFW_MOD_SHIFT) ? kShift : 0));
+                              ((glfw_modifiers & GLFW_MOD_SHIFT) ? kShift : 0) |
+                              ((glfw_modifiers & GLFW_MOD_ALT) ? kAlt : 0));
 }
 
 [[noreturn]] void fail(const std::string& what, const std::string& todo) {
@@ -224,7 +225,9 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   }
   if (button != pressed) return;
   pressed = -1;
-  if (has_moved || button != GLFW_MOUSE_BUTTON_LEFT) return;
+  if (has_moved) return;
+  if (button == GLFW_MOUSE_BUTTON_RIGHT) events.right_click();
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
   const double now = glfwGetTime();
   const double scale = pixels_per_unit();
   const bool is_second = now - last_click_s < kDoubleClick_s;
@@ -232,7 +235,7 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
   if (is_second) {
     events.double_click(press_x * scale, press_y * scale);
   } else {
-    events.click(press_x * scale, press_y * scale);
+    events.click(modifiers, press_x * scale, press_y * scale);
   }
 }
 

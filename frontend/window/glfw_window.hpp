@@ -19,8 +19,9 @@ class WindowEvents {
   /// The mouse has moved with the button held.
   virtual void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) = 0;
   /// The left button was pressed and released at the same place.
-  virtual void click(double x_px, double y_px) = 0;
+  virtual void click(uint8_t modifiers, double x_px, double y_px) = 0;
   virtual void double_click(double x_px, double y_px) = 0;
+  virtual void right_click() = 0;
   /// The mouse has moved without a button.
   virtual void move(double x_px, double y_px) = 0;
   virtual void leave() = 0;

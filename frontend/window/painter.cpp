@@ -10,6 +10,7 @@
 #include "csgcore/stop_scope.hpp"
 #include "frontend/channel_picture.hpp"
 #include "primitive_around.hpp"
+#include "snap.hpp"
 
 namespace window {
 namespace {
@@ -255,12 +256,14 @@ Finding Painter::find(const Probe& probe) {
   finding.probe = probe;
   try {
     load(probe.order);
-    const csgcore::Hits hits =
-        renderer_.pick(probe.order.navigation.view(probe.order.size), probe.x_px, probe.y_px);
-    if (hits.primitive[0] == csgcore::Hits::kMiss) return finding;
-    finding.position = hits.position[0];
-    finding.normal = hits.normal[0];
-    describe(hits.primitive[0], finding);
+    const csgcore::View view = probe.order.navigation.view(probe.order.size);
+    const ModelRays rays([this](const csgcore::View& look) { return renderer_.look(look); },
+                         scene_->primitives);
+    const auto feature =
+        probe.snap_px > 0 ? snap(rays, view, probe.place, probe.snap_px) : std::nullopt;
+    const auto hit = feature ? feature : rays.seen_at(view, probe.place);
+    if (!hit) return finding;
+    describe(*hit, finding);
     finding.is_hit = true;
   } catch (const std::exception&) {
     // There is no picture either in this case, and its error is shown.
@@ -270,20 +273,20 @@ Finding Painter::find(const Probe& probe) {
 
 /// Says which leaf a hit primitive of the scene belongs to. On the section plane it is the one
 /// whose inside is seen there.
-void Painter::describe(uint32_t primitive, Finding& finding) const {
+void Painter::describe(const RayHit& hit, Finding& finding) const {
   const frontend::ImportedDesign& design = *finding.probe.order.design;
+  uint32_t primitive = hit.primitive;
+  finding.position = hit.position;
+  finding.normal = hit.normal;
+  finding.surface = hit.surface;
   finding.is_cut = scene_->primitives[primitive].id == kSectionId;
   if (finding.is_cut) {
     const std::optional<uint32_t> around = primitive_around(
         design.scene.model,
         [&](uint32_t operand) { return renderer_.contains(operand, finding.position); });
-    finding.surface = {Surface::Kind::kPlane, finding.position, finding.normal, 0};
     finding.place.trail.push_back({"section plane", {}});
     if (!around) return;
     primitive = *around;
-  } else {
-    finding.surface =
-        surface_at(design.scene.primitives[primitive], finding.position, finding.normal);
   }
   finding.place = frontend::leaf_place(finding.probe.texts,
                                        design.places.at(design.scene.primitives[primitive].id));

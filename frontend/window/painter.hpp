@@ -19,7 +19,9 @@
 #include "frontend/leaf_place.hpp"
 #include "frontend/overlays.hpp"
 #include "frontend/scene_renderer.hpp"
+#include "model_rays.hpp"
 #include "navigation.hpp"
+#include "projection.hpp"
 #include "section_plane.hpp"
 #include "surface.hpp"
 
@@ -54,8 +56,8 @@ struct Probe {
   uint64_t number = 0;
   Purpose purpose = Purpose::kMeasure;
   PaintOrder order;
-  double x_px = 0;
-  double y_px = 0;
+  PicturePoint place{};
+  double snap_px = 0;  // kMeasure: how far a feature may be that it snaps to; 0: it doesn't
   frontend::DesignTexts texts;  // for the places in the design
 };
 
@@ -112,7 +114,7 @@ class Painter {
   double affordable_share(const PaintOrder& order) const;
   void note_drawn(const PaintOrder& order, double ms);
   Finding find(const Probe& probe);
-  void describe(uint32_t primitive, Finding& finding) const;
+  void describe(const RayHit& hit, Finding& finding) const;
   void publish(Painting painting);
   bool waits_for_refinement(std::unique_lock<std::mutex>& lock);
 

@@ -161,33 +161,107 @@ double distance_to_plane(const Vec3& point, const Surface& plane) {
   return std::abs(glm::dot(point - plane.origin, plane.direction));
 }
 
-std::string relation_of_axes(const Surface& a, const Surface& b) {
+/// What two surfaces are compared by.
+enum class Form : uint8_t { kNone, kPlane, kLine, kPoint };
+
+/// How a kind of surface is compared, and how that is called.
+struct Term {
+  Form form;
+  std::string one, many;
+};
+Term term_of(Surface::Kind kind) {
+  switch (kind) {
+    case Surface::Kind::kOther:
+      break;
+    case Surface::Kind::kPlane:
+      return {Form::kPlane, "face", "faces"};
+    case Surface::Kind::kAxis:
+    case Surface::Kind::kCircle:
+      return {Form::kLine, "axis", "axes"};
+    case Surface::Kind::kEdge:
+      return {Form::kLine, "edge", "edges"};
+    case Surface::Kind::kCenter:
+      return {Form::kPoint, "centre", "centres"};
+    case Surface::Kind::kVertex:
+      return {Form::kPoint, "vertex", "vertices"};
+  }
+  return {Form::kNone, "", ""};
+}
+
+/// Returns "axes", or "axis and edge".
+std::string both(const Term& a, const Term& b) {
+  return a.one == b.one ? a.many : a.one + " and " + b.one;
+}
+
+std::string relation_of_lines(const Surface& a, const Surface& b, const std::string& lines) {
   if (are_parallel(a.direction, b.direction)) {
     const double distance = distance_to_line(a.origin, b);
     const double size = std::max({a.radius, b.radius, glm::length(a.origin - b.origin)});
-    if (distance <= kRounding * size) return "the same axis";
-    return "axes " + number(distance) + " apart";
+    if (distance <= kRounding * size) return lines == "axes" ? "the same axis" : "the same line";
+    return lines + " " + number(distance) + " apart";
   }
   const Vec3 across = glm::normalize(glm::cross(a.direction, b.direction));
-  return "axes at " + number(angle_deg(a.direction, b.direction)) + "°, " +
+  return lines + " at " + number(angle_deg(a.direction, b.direction)) + "°, " +
          number(std::abs(glm::dot(across, cleaned(b.origin - a.origin)))) + " apart";
 }
 
 std::string relation_of_planes(const Surface& a, const Surface& b) {
+  if (are_same_plane(a, b)) return "the same plane";
   if (are_parallel(a.direction, b.direction)) {
-    const double distance = distance_to_plane(b.origin, a);
-    const double size = std::max(glm::length(a.origin), glm::length(b.origin));
-    if (distance <= kRounding * size) return "the same plane";
-    return "parallel faces, " + number(distance) + " apart";
+    return "parallel faces, " + number(distance_to_plane(b.origin, a)) + " apart";
   }
   return "faces at " + number(angle_deg(a.direction, b.direction)) + "°";
 }
 
-std::string relation_of_plane_and_axis(const Surface& plane, const Surface& axis) {
-  if (are_perpendicular(plane.direction, axis.direction)) {
-    return "axis " + number(distance_to_plane(axis.origin, plane)) + " from the face";
+std::string relation_of_plane_and_line(const Surface& plane, const Surface& line,
+                                       const std::string& name) {
+  if (are_perpendicular(plane.direction, line.direction)) {
+    return name + " " + number(distance_to_plane(line.origin, plane)) + " from the face";
   }
-  return "axis at " + number(90 - angle_deg(plane.direction, axis.direction)) + "° to the face";
+  return name + " at " + number(90 - angle_deg(plane.direction, line.direction)) + "° to the face";
+}
+
+/// Adds a wall between two ends, each of a height, a radius and a distance of its centre from the
+/// local axis.
+struct WallEnd {
+  Vec3 center_local;
+  double radius_local;
+};
+void add_wall(const Affine& map, const WallEnd& a, const WallEnd& b,
+              std::vector<RoundWall>& walls) {
+  const std::optional<double> scale = scale_about_axis(map);
+  if (!scale || a.center_local == b.center_local) return;
+  walls.push_back({{map.point(a.center_local), map.point(b.center_local)},
+                   {*scale * a.radius_local, *scale * b.radius_local}});
+}
+
+void add_walls_of_extrusion(const Primitive& extrusion, std::vector<RoundWall>& walls) {
+  const bool is_straight = extrusion.r_bottom == extrusion.r_top;
+  for (const csgcore::ProfileLoop& loop : extrusion.profile->loops()) {
+    for (const ProfileEdge& edge : loop) {
+      if (edge.kind != ProfileEdge::Kind::kArc) continue;
+      if (!is_straight && edge.control != Vec2(0.0)) continue;  // an oblique cone
+      const double radius = glm::length(edge.end - edge.control);
+      const auto end = [&](double z, double scale) {
+        return WallEnd{{scale * edge.control, z}, scale * radius};
+      };
+      add_wall(extrusion.local_to_world, end(extrusion.z_min, extrusion.r_bottom),
+               end(extrusion.z_max, extrusion.r_top), walls);
+    }
+  }
+}
+
+void add_walls_of_revolution(const Primitive& revolution, std::vector<RoundWall>& walls) {
+  for (const csgcore::ProfileLoop& loop : revolution.profile->loops()) {
+    Vec2 start = loop.empty() ? Vec2(0.0) : loop.back().end;
+    for (const ProfileEdge& edge : loop) {
+      if (edge.kind == ProfileEdge::Kind::kLine) {
+        add_wall(revolution.local_to_world, {{0, 0, start.y}, start.x},
+                 {{0, 0, edge.end.y}, edge.end.x}, walls);
+      }
+      start = edge.end;
+    }
+  }
 }
 
 }  // namespace
@@ -212,6 +286,33 @@ Surface surface_at(const Primitive& primitive, const Vec3& position, const Vec3&
   return {};
 }
 
+std::vector<RoundWall> round_walls(const Primitive& primitive) {
+  std::vector<RoundWall> walls;
+  switch (primitive.shape) {
+    case Shape::kFrustum:
+      add_wall(primitive.local_to_world, {{0, 0, primitive.z_min}, primitive.r_bottom},
+               {{0, 0, primitive.z_max}, primitive.r_top}, walls);
+      break;
+    case Shape::kExtrusion:
+      add_walls_of_extrusion(primitive, walls);
+      break;
+    case Shape::kRevolution:
+      add_walls_of_revolution(primitive, walls);
+      break;
+    case Shape::kSphere:
+    case Shape::kPolyhedron:
+    case Shape::kMesh:
+      break;
+  }
+  return walls;
+}
+
+bool are_same_plane(const Surface& a, const Surface& b) {
+  const double size = std::max(glm::length(a.origin), glm::length(b.origin));
+  return are_parallel(a.direction, b.direction) &&
+         distance_to_plane(b.origin, a) <= kRounding * size;
+}
+
 std::string coordinates(const Vec3& v) {
   const Vec3 c = cleaned(v);
   return "[" + number(c.x) + ", " + number(c.y) + ", " + number(c.z) + "]";
@@ -231,23 +332,33 @@ std::vector<std::string> words_of(const Surface& surface) {
               "centre " + at};
     case Surface::Kind::kCenter:
       return {"radius " + number(surface.radius), "centre " + at};
+    case Surface::Kind::kVertex:
+      return {"vertex"};
+    case Surface::Kind::kEdge:
+      return {"edge, length " + number(surface.length),
+              "direction " + coordinates(surface.direction)};
+    case Surface::Kind::kCircle:
+      return {"circle, radius " + number(surface.radius), "axis " + coordinates(surface.direction),
+              "centre " + at};
   }
   return {};
 }
 
 std::optional<std::string> relation_of(const Surface& a, const Surface& b) {
-  using Kind = Surface::Kind;
-  if (a.kind > b.kind) return relation_of(b, a);
-  if (a.kind == Kind::kOther) return std::nullopt;
-  if (b.kind == Kind::kPlane) return relation_of_planes(a, b);
-  if (b.kind == Kind::kAxis && a.kind == Kind::kAxis) return relation_of_axes(a, b);
-  if (b.kind == Kind::kAxis) return relation_of_plane_and_axis(a, b);
-  if (a.kind == Kind::kPlane) {
-    return "centre " + number(distance_to_plane(b.origin, a)) + " from the face";
+  const Term first = term_of(a.kind), second = term_of(b.kind);
+  if (first.form > second.form) return relation_of(b, a);
+  if (first.form == Form::kNone) return std::nullopt;
+  if (second.form == Form::kPlane) return relation_of_planes(a, b);
+  if (second.form == Form::kLine) {
+    return first.form == Form::kLine ? relation_of_lines(a, b, both(first, second))
+                                     : relation_of_plane_and_line(a, b, second.one);
   }
-  if (a.kind == Kind::kAxis)
-    return "centre " + number(distance_to_line(b.origin, a)) + " from the axis";
-  return "centres " + number(glm::length(a.origin - b.origin)) + " apart";
+  if (first.form == Form::kPoint) {
+    return both(first, second) + " " + number(glm::length(a.origin - b.origin)) + " apart";
+  }
+  const double distance =
+      first.form == Form::kPlane ? distance_to_plane(b.origin, a) : distance_to_line(b.origin, a);
+  return second.one + " " + number(distance) + " from the " + first.one;
 }
 
 }  // namespace window

@@ -8,6 +8,7 @@
 #include "designs.hpp"
 #include "live_window.hpp"
 #include "navigation.hpp"
+#include "projection.hpp"
 
 namespace window_test {
 namespace {
@@ -170,6 +171,32 @@ TEST_F(MouseOnABall, DoubleClickCentres) {
   frontend::Camera camera = camera_;
   camera.target = surface_at(230, 120);
   expect_camera(camera, true);
+}
+
+/// A click beside a vertex measures just that, and with Alt what is under the mouse.
+TEST_F(Mouse, AClickSnapsUnlessAltIsHeld) {
+  const frontend::Camera camera = start("cube(size = [10, 20, 30], center = true);\n");
+  const Vec3 vertex(5, -10, 15);
+  const auto place = window::project(view(camera), vertex);
+  const int x = static_cast<int>(place->x_px) - 4, y = static_cast<int>(place->y_px) + 3;
+  const auto point = [this](std::size_t count) {
+    return next([count](const json& line) { return line["points"].size() == count; })["points"]
+        .back();
+  };
+  click(x, y);
+  const json snapped = point(1);
+  EXPECT_EQ(snapped["surface"], json({"vertex"}));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(snapped["position"][static_cast<std::size_t>(axis)].get<double>(), vertex[axis],
+                1e-12);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // so that it is not a double click
+  display().drive({"keydown", "alt", "click", "1", "keyup", "alt"});
+  EXPECT_EQ(point(2)["surface"], json({"flat, normal [0, -1, 0]"}));
+  const Picture before = shown();
+  click(20, 60, 0);
+  display().drive({"click", "3"});  // which copies, and says so
+  wait_until_other(before);
 }
 
 /// A click finds the place in the design, and E opens it.

@@ -368,8 +368,7 @@ class ProbeTest : public PainterTest {
     probe.number = 7;
     probe.order = order_of(design_of(text));
     probe.order.navigation = {{Vec3(0), Vec3(0), 100}, Projection::kOrthographic};
-    probe.x_px = x_px;
-    probe.y_px = y_px;
+    probe.place = {x_px, y_px};
     probe.texts.csg = std::make_shared<frontend::FileText>(
         frontend::read_file(folder_.write("probed.csg", text)));
     return probe;

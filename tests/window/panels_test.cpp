@@ -6,8 +6,11 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <set>
+
 #include "frontend/parser.hpp"
 #include "language/customizer.hpp"
+#include "measured_text.hpp"
 
 namespace window {
 namespace {
@@ -166,6 +169,30 @@ TEST_P(Panels, AChangedParameterCanBeReset) {
   state_.customizer.set(0, 2.0);
   draw();
   expect_whole();
+}
+
+/// A right click on a message copies that one, a right click on the place all that is measured.
+TEST_P(Panels, ARightClickCopiesWhatItIsOn) {
+  say();
+  measure();
+  draw();
+  const auto copied_within = [this](const std::string& name) {
+    std::set<std::string> copied;
+    const ImGuiWindow* const window = ImGui::FindWindowByName(name.c_str());
+    for (float y = window->Pos.y; y < window->Pos.y + window->Size.y; y += 5) {
+      ImGui::GetIO().MousePos = {window->Pos.x + window->Size.x / 8, y};
+      for (const bool is_down : {true, false}) {
+        ImGui::GetIO().MouseDown[ImGuiMouseButton_Right] = is_down;
+        draw();
+      }
+      if (const char* text = ImGui::GetClipboardText()) copied.insert(text);
+    }
+    return copied;
+  };
+  EXPECT_THAT(copied_within("##messages"), testing::Contains(kWarning + std::string("0")));
+  ImGui::SetClipboardText("");
+  EXPECT_THAT(copied_within("##place"), testing::ElementsAre(text_to_copy(state_)));
+  EXPECT_THAT(state_.notice, testing::StartsWith("copied: [0, 0, 0]"));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Panels,

@@ -121,6 +121,46 @@ Surface axis(const Vec3& origin, const Vec3& direction) {
 }
 Surface center(const Vec3& origin) { return {Surface::Kind::kCenter, origin, Vec3(0), 1}; }
 
+Surface edge(const Vec3& origin, const Vec3& direction) {
+  return {Surface::Kind::kEdge, origin, glm::normalize(direction), 0, 7};
+}
+Surface vertex(const Vec3& origin) { return {Surface::Kind::kVertex, origin}; }
+Surface circle(const Vec3& origin, const Vec3& direction) {
+  return {Surface::Kind::kCircle, origin, glm::normalize(direction), 1};
+}
+
+TEST(Surface, RelationsOfEdgesAndVertices) {
+  const Vec3 x(1, 0, 0), z(0, 0, 1);
+  EXPECT_EQ(relation_of(edge({0, 0, 1}, z), edge({3, 4, 7}, z)), "edges 5 apart");
+  EXPECT_EQ(relation_of(edge({0, 0, 1}, z), edge({0, 0, 7}, -z)), "the same line");
+  EXPECT_EQ(relation_of(edge({0, 0, 1}, x), axis({3, 4, 7}, z)), "edge and axis at 90°, 4 apart");
+  EXPECT_EQ(relation_of(circle({0, 0, 1}, z), axis({3, 4, 7}, z)), "axes 5 apart");
+  EXPECT_EQ(relation_of(edge({3, 4, 7}, x), plane({0, 0, 1}, z)), "edge 6 from the face");
+  EXPECT_EQ(relation_of(vertex({3, 4, 7}), plane({0, 0, 1}, z)), "vertex 6 from the face");
+  EXPECT_EQ(relation_of(vertex({3, 4, 7}), edge({0, 0, 1}, z)), "vertex 5 from the edge");
+  EXPECT_EQ(relation_of(vertex({3, 4, 7}), vertex({3, 4, 8})), "vertices 1 apart");
+  EXPECT_EQ(relation_of(center({3, 4, 7}), vertex({3, 4, 8})), "centre and vertex 1 apart");
+}
+
+/// The walls of a cone, of the hole of an extrusion, and of a drum; in world space.
+TEST(Surface, RoundWallsAreThoseOfCylindersAndCones) {
+  const std::vector<RoundWall> cone = round_walls(csgcore::make_frustum(0, 4, 3, 1, kMap));
+  ASSERT_EQ(cone.size(), 1u);
+  expect_near(cone[0].centers[0], {10, 20, 30});
+  expect_near(cone[0].centers[1], {10, 12, 30});
+  EXPECT_EQ(cone[0].radii, (std::array{6.0, 2.0}));
+  const std::vector<RoundWall> hole = round_walls(csgcore::make_extrusion(plate(), 0, 5));
+  ASSERT_EQ(hole.size(), 2u);  // two half circles
+  expect_near(hole[0].centers[1], {1, 1, 5});
+  EXPECT_EQ(hole[0].radii, (std::array{0.5, 0.5}));
+  const std::vector<RoundWall> drum = round_walls(csgcore::make_revolution(plate()));
+  ASSERT_EQ(drum.size(), 2u);  // the inner one is the axis itself
+  EXPECT_EQ(drum[0].radii, (std::array{2.0, 2.0}));
+  const Affine stretched{Mat3{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}, Vec3(0)};
+  EXPECT_THAT(round_walls(csgcore::make_frustum(0, 1, 1, 1, stretched)), IsEmpty());
+  EXPECT_THAT(round_walls(csgcore::make_sphere(3)), IsEmpty());
+}
+
 TEST(Surface, RelationsAreThoseThatOneMeasures) {
   const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   EXPECT_EQ(relation_of(plane({0, 0, 1}, -z), plane({5, 5, 13}, z)), "parallel faces, 12 apart");

@@ -43,9 +43,8 @@ class SceneRenderer {
   csgcore::Image redraw(const csgcore::View& view, const RenderSettings& settings,
                         RenderStats& stats);
 
-  /// Returns what the ray through a point of the picture meets of the model, by the CPU. `x_px` and
-  /// `y_px` count from the upper left corner; a pixel's centre is at ½.
-  csgcore::Hits pick(const csgcore::View& view, double x_px, double y_px) const;
+  /// Returns what the pixels of a view see of the model, by the CPU and by one thread.
+  csgcore::Hits look(const csgcore::View& view) const;
 
   /// Returns whether a point lies in a primitive of the scene, named by its index.
   bool contains(uint32_t primitive, const csgcore::Vec3& point) const;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
@@ -19,22 +18,6 @@ namespace {
 
 using csgcore::Image;
 using ScenePointer = std::shared_ptr<const csgcore::Scene>;
-
-/// A picture of one pixel.
-csgcore::View pixel_view(const csgcore::View& view, double x_px, double y_px) {
-  const csgcore::Ray ray = csgcore::pixel_ray(view, x_px - 0.5, y_px - 0.5);
-  csgcore::View result = view;
-  result.width_px = result.height_px = 1;
-  result.half_height = view.half_height / view.height_px;
-  if (view.projection == csgcore::Projection::kOrthographic) {
-    result.eye = ray.origin;
-  } else {
-    result.forward = glm::normalize(ray.direction);
-    result.right = glm::normalize(glm::cross(result.forward, view.up));
-    result.up = glm::cross(result.right, result.forward);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -76,14 +59,18 @@ class SceneRenderer::Impl {
     return image;
   }
 
-  csgcore::Hits pick(const csgcore::View& view, double x_px, double y_px) const {
+  csgcore::Hits look(const csgcore::View& view) const {
     csgcore::Hits hits;
     csgcore::TraceStats stats;
-    csgcore::trace(scene_->model(), scaled_view(pixel_view(view, x_px, y_px)),
-                   csgcore::TraceOptions{}, hits, stats);
-    hits.s[0] = std::ldexp(hits.s[0], -exponent_);
-    for (int axis = 0; axis < 3; ++axis) {
-      hits.position[0][axis] = std::ldexp(hits.position[0][axis], -exponent_);
+    csgcore::TraceOptions options;
+    options.threads = 1;  // few pixels take less time than to start threads
+    csgcore::trace(scene_->model(), scaled_view(view), options, hits, stats);
+    if (exponent_ == 0) return hits;
+    for (std::size_t pixel = 0; pixel < hits.s.size(); ++pixel) {
+      hits.s[pixel] = std::ldexp(hits.s[pixel], -exponent_);
+      for (int axis = 0; axis < 3; ++axis) {
+        hits.position[pixel][axis] = std::ldexp(hits.position[pixel][axis], -exponent_);
+      }
     }
     return hits;
   }
@@ -240,9 +227,7 @@ Image SceneRenderer::redraw(const csgcore::View& view, const RenderSettings& set
   return impl_->redraw(view, settings, stats);
 }
 
-csgcore::Hits SceneRenderer::pick(const csgcore::View& view, double x_px, double y_px) const {
-  return impl_->pick(view, x_px, y_px);
-}
+csgcore::Hits SceneRenderer::look(const csgcore::View& view) const { return impl_->look(view); }
 
 bool SceneRenderer::contains(uint32_t primitive, const csgcore::Vec3& point) const {
   return impl_->contains(primitive, point);

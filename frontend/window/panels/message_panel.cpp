@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "measured_text.hpp"
+#include "panels/clipboard.hpp"
 #include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
 
@@ -37,10 +39,11 @@ void line(ImU32 color, const std::string& text, const MessagePlace& place, const
   if (ImGui::IsItemClicked()) open(place);
 }
 
-void message_line(const Message& message, const OpenPlace& open) {
+void message_line(State& state, const Message& message, const OpenPlace& open) {
   std::string text = message.text;
   if (message.count > 1) text = std::to_string(message.count) + " × " + text;
   line(color_of(message.kind), text, message.place, open);
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) copy(state, text_of(message));
   if (message.traces.empty()) return;
   const std::size_t calls = message.traces.size();
   ImGui::PushID(&message);
@@ -53,7 +56,7 @@ void message_line(const Message& message, const OpenPlace& open) {
   ImGui::PopID();
 }
 
-void message_lines(const State& state, bool echoes, const OpenPlace& open) {
+void message_lines(State& state, bool echoes, const OpenPlace& open) {
   std::size_t shown = 0, hidden = 0;
   for (const Message& message : state.messages) {
     if ((message.kind == MessageKind::kEcho) != echoes) continue;
@@ -63,7 +66,7 @@ void message_lines(const State& state, bool echoes, const OpenPlace& open) {
       continue;
     }
     ++shown;
-    message_line(message, open);
+    message_line(state, message, open);
   }
   if (hidden > 0) {
     ImGui::Text("… and %zu more; the filter finds them, scadray -o x.echo writes all", hidden);
@@ -128,9 +131,9 @@ void all_messages(State& state, const OpenPlace& open) {
   ImGui::EndTabBar();
 }
 
-void errors_alone(const State& state, const OpenPlace& open) {
+void errors_alone(State& state, const OpenPlace& open) {
   for (const Message& message : state.messages) {
-    if (message.kind == MessageKind::kError) message_line(message, open);
+    if (message.kind == MessageKind::kError) message_line(state, message, open);
   }
 }
 

@@ -14,7 +14,6 @@ namespace window {
 
 void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
                  const PanelActions& actions) {
-  draw_points(state, view);
   draw_menu_bar(state, actions.run);
   const float status_top = draw_status_line(state);
   const float messages_top = draw_messages(state, status_top, actions.open);
@@ -22,7 +21,8 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   const SectionCorner section = draw_section(state);
   const FreeRoom room{customizer_right(state, section), animation_top, section};
   draw_customizer(state, animation_top - height_below_parameters(state, room), section);
-  draw_place(state, view, room, actions.run);
+  const LabelBox place = draw_place(state, view, room, actions.run);
+  draw_points(state, view, {room.bottom, place});
   draw_hover_tip(state, pixels_per_unit);
   draw_progress(state, actions.run);
   draw_help(state, status_top);

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "measured_text.hpp"
+#include "panels/clipboard.hpp"
 #include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
 #include "projection.hpp"
@@ -57,23 +58,6 @@ void draw_trail(State& state, const frontend::LeafPlace& place, const Columns& c
   }
 }
 
-/// Returns what is measured, a line for the last point, and one for its relation to the one before.
-std::vector<std::string> measured_lines(const State& state) {
-  std::vector<std::string> lines;
-  for (const std::string& words : words_of(state.points.back().surface)) {
-    if (lines.empty()) {
-      lines.push_back(words);
-    } else {
-      lines.back() += ", " + words;
-    }
-  }
-  if (state.points.size() < 2) return lines;
-  if (auto relation = relation_of(state.points[0].surface, state.points[1].surface)) {
-    lines.push_back(std::move(*relation));
-  }
-  return lines;
-}
-
 struct Layout {
   std::vector<std::string> measured;
   float most_text = 0;  // the width that texts may take
@@ -91,7 +75,7 @@ Layout layout_of(const State& state, const FreeRoom& room) {
   layout.is_below =
       room.left > 0 && display - room.left - around < kLeastBeside * ImGui::GetFontSize();
   layout.most_text = std::max(display - (layout.is_below ? 0 : room.left) - around, 50.0f);
-  layout.measured = measured_lines(state);
+  layout.measured = measured_lines(state.points);
   layout.columns = columns_of(point.place, layout.most_text);
   const auto rows =
       static_cast<float>(point.place.trail.size() + layout.measured.size() + point.is_cut);
@@ -126,9 +110,9 @@ float height_below_parameters(const State& state, const FreeRoom& room) {
   return layout.is_below ? layout.size.y + kMargin : 0;
 }
 
-void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
-                const RunCommand& run) {
-  if (!state.shows_place || state.points.empty()) return;
+LabelBox draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
+                    const RunCommand& run) {
+  if (!state.shows_place || state.points.empty()) return {};
   const MeasuredPoint& point = state.points.back();
   const Layout layout = layout_of(state, room);
   const frontend::SourcePlace* const place = state.place_to_open();
@@ -145,8 +129,13 @@ void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
     for (const std::string& line : layout.measured) ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
     if (has_file && ImGui::SmallButton("Open in the editor (E)")) run(Command::kOpenEditor);
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+      copy_measured_or_said(state);
+    }
   }
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   ImGui::End();
+  return {at.x, at.y, size.x, size.y};
 }
 
 }  // namespace window

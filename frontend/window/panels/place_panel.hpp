@@ -2,6 +2,7 @@
 #pragma once
 
 #include "csgcore/view.hpp"
+#include "panels/label_layout.hpp"
 #include "panels/menu_bar.hpp"
 #include "panels/section_panel.hpp"
 #include "state.hpp"
@@ -20,8 +21,8 @@ struct FreeRoom {
 float height_below_parameters(const State& state, const FreeRoom& room);
 
 /// `view` is that of the picture, in ImGui's units. `run` is called with the command that opens the
-/// editor.
-void draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
-                const RunCommand& run);
+/// editor. Returns the panel's place; it is empty if there is none.
+LabelBox draw_place(State& state, const csgcore::View& view, const FreeRoom& room,
+                    const RunCommand& run);
 
 }  // namespace window
