@@ -15,6 +15,7 @@
 #include "hover_timer.hpp"
 #include "motion_meter.hpp"
 #include "painter.hpp"
+#include "pan.hpp"
 #include "panels/panels.hpp"
 #include "report.hpp"
 #include "screen.hpp"
@@ -34,6 +35,7 @@ class Application final : private WindowEvents {
   using Clock = std::chrono::steady_clock;
 
   // WindowEvents
+  void press(Button button, double x_px, double y_px) override;
   void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) override;
   void click(uint8_t modifiers, double x_px, double y_px) override;
   void double_click(double x_px, double y_px) override;
@@ -98,6 +100,7 @@ class Application final : private WindowEvents {
   PaintOrder ordered_;                   // the last order
   uint64_t probes_ = 0;
   HoverTimer hover_;
+  Pan pan_;
   uint64_t hovering_ = 0;            // number of the probe at the mouse's place; 0: none
   bool is_moving_ = false;           // the mouse has moved the camera since the last order
   bool has_camera_ = false;          // the command line or the first design has chosen the camera

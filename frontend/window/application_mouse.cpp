@@ -1,6 +1,7 @@
 // What the mouse does: it moves the camera and the section plane, measures, and names leaves.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,12 @@ constexpr double kSnapReach = 7;
 
 }  // namespace
 
+void Application::press(Button button, double x_px, double y_px) {
+  if (button != Button::kRight || options_.pans_far) return;
+  probe({x_px, y_px}, Probe::Purpose::kPan);
+  pan_ = {probes_, state_.navigation, state_.navigation, 0, 0, state_.navigation.camera().distance};
+}
+
 void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy_px) {
   const Size size = window_.size();
   const bool with_shift = (modifiers & kShift) != 0;
@@ -33,8 +40,10 @@ void Application::drag(Button button, uint8_t modifiers, double dx_px, double dy
     state_.navigation.turn(dx_px, dy_px, with_shift);
   } else if (button == Button::kMiddle || with_shift) {
     state_.navigation.move_along(dy_px, size);
+  } else if (options_.pans_far) {
+    state_.navigation.pan_far(dx_px, dy_px, size);
   } else {
-    state_.navigation.pan(dx_px, dy_px, size);
+    state_.navigation = pan_.move(state_.navigation, dx_px, dy_px, size);
   }
 }
 
@@ -118,6 +127,13 @@ void Application::take_finding(const Finding& finding) {
   // The finding belongs to a design that is gone.
   if (probe.order.design != state_.design) return;
   switch (probe.purpose) {
+    case Probe::Purpose::kPan:
+      if (!finding.is_hit || probe.number != pan_.probe) return;
+      pan_.depth = glm::dot(finding.position - probe.order.navigation.view({1, 1}).eye,
+                            probe.order.navigation.view({1, 1}).forward);
+      if (state_.navigation == pan_.now)
+        state_.navigation = pan_.move(pan_.now, 0, 0, window_.size());
+      return;
     case Probe::Purpose::kCenter:
       if (finding.is_hit) state_.navigation.look_at(finding.position);
       state_.points.clear();  // the first of the two clicks has measured a point

@@ -37,6 +37,10 @@ bool repeats(const CommandRow* row) {
   return row && (row->command == Command::kZoomIn || row->command == Command::kZoomOut);
 }
 
+/// By GLFW's numbers.
+constexpr WindowEvents::Button kButtons[] = {
+    WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
+
 uint8_t modifiers_of(int glfw_modifiers) {
   return static_cast<uint8_t>(((glfw_modifiers & GLFW_MOD_CONTROL) ? kControl : 0) |
                               ((glfw_modifiers & GLFW_MOD_SHIFT) ? kShift : 0) |
@@ -221,6 +225,7 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
     // late.
     press_x = last_x = cursor_x;
     press_y = last_y = cursor_y;
+    events.press(kButtons[pressed], press_x * pixels_per_unit(), press_y * pixels_per_unit());
     return;
   }
   if (button != pressed) return;
@@ -274,8 +279,6 @@ void GlfwWindow::Impl::on_cursor(double x, double y) {
   if (!has_moved && std::hypot(x - press_x, y - press_y) < kClickReach) return;
   has_moved = true;
   const double dx = x - std::exchange(last_x, x), dy = y - std::exchange(last_y, y);
-  constexpr WindowEvents::Button kButtons[] = {
-      WindowEvents::Button::kLeft, WindowEvents::Button::kRight, WindowEvents::Button::kMiddle};
   events.drag(kButtons[pressed], modifiers, dx * scale, dy * scale);
 }
 

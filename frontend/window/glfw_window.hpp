@@ -16,6 +16,7 @@ class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
   enum class Button : uint8_t { kLeft, kMiddle, kRight };
+  virtual void press(Button button, double x_px, double y_px) = 0;
   /// The mouse has moved with the button held.
   virtual void drag(Button button, uint8_t modifiers, double dx_px, double dy_px) = 0;
   /// The left button was pressed and released at the same place.

@@ -105,12 +105,6 @@ csgcore::Ray ray_through(const View& view, const PicturePoint& place) {
   return ray;
 }
 
-double pixel_size(const View& view, const Vec3& point) {
-  const bool is_perspective = view.projection == Projection::kPerspective;
-  const double depth = is_perspective ? glm::dot(point - view.eye, view.forward) : 1;
-  return 2 * view.half_height * depth / view.height_px;
-}
-
 Vec3 direction_across(const Vec3& axis, double angle_rad) {
   const Vec3 helper = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 u = glm::normalize(glm::cross(axis, helper));

@@ -58,9 +58,6 @@ class ModelRays {
 /// Returns the ray through a place of a view; its direction has unit length.
 csgcore::Ray ray_through(const csgcore::View& view, const PicturePoint& place);
 
-/// Returns the size of a pixel at a point, in world units.
-double pixel_size(const csgcore::View& view, const csgcore::Vec3& point);
-
 /// Returns a unit vector across a unit axis, at an angle about it.
 csgcore::Vec3 direction_across(const csgcore::Vec3& axis, double angle_rad);
 

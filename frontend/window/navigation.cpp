@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "projection.hpp"
+
 namespace window {
 namespace {
 
@@ -67,7 +69,13 @@ void Navigation::turn(double dx_px, double dy_px, bool about_y) {
   turned = full_turn(turned - kTurn_degPerPixel * dx_px);
 }
 
-void Navigation::pan(double dx_px, double dy_px, Size size) {
+void Navigation::pan(double dx_px, double dy_px, Size size, double depth) {
+  const csgcore::View now = view(size);
+  const double unit = pixel_size(now, now.eye + depth * now.forward);
+  camera_.target += unit * (dy_px * now.up - dx_px * now.right);
+}
+
+void Navigation::pan_far(double dx_px, double dy_px, Size size) {
   const csgcore::View now = view(size);
   const double reach = kPan * camera_.distance;
   camera_.target -= now.right * (reach * dx_px / size.width_px);
@@ -87,9 +95,7 @@ double Navigation::scale_distance(double notches) {
 
 void Navigation::zoom(double notches, double x_px, double y_px, Size size) {
   const csgcore::View now = view(size);
-  // The size of a pixel in the plane through the target.
-  const double depth = projection_ == csgcore::Projection::kOrthographic ? 1 : camera_.distance;
-  const double unit = 2 * now.half_height * depth / size.height_px;
+  const double unit = pixel_size(now, camera_.target);
   const Vec3 offset = now.right * (unit * (x_px - 0.5 * size.width_px)) +
                       now.up * (unit * (0.5 * size.height_px - y_px));
   camera_.target += offset * (1 - scale_distance(notches));

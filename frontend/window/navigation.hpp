@@ -31,8 +31,12 @@ class Navigation {
 
   /// Left drag; `about_y` with shift.
   void turn(double dx_px, double dy_px, bool about_y);
-  /// Right drag.
-  void pan(double dx_px, double dy_px, Size size);
+  /// Right drag: what is that far before the eye, along the view's axis, moves with the mouse.
+  void pan(double dx_px, double dy_px, Size size, double depth);
+  /// Does the same with what the camera looks at.
+  void pan(double dx_px, double dy_px, Size size) { pan(dx_px, dy_px, size, camera_.distance); }
+  /// Pans some four times as far, as OpenSCAD does.
+  void pan_far(double dx_px, double dy_px, Size size);
   /// Middle drag, and right drag with shift: moves forward and back.
   void move_along(double dy_px, Size size);
   /// The wheel: what is under the cursor, at the target's depth, stays there. notches > 0: nearer.

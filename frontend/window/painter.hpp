@@ -52,7 +52,7 @@ struct Painting {
 
 /// A place in a picture, to be examined.
 struct Probe {
-  enum class Purpose : uint8_t { kMeasure, kCenter, kHover };
+  enum class Purpose : uint8_t { kMeasure, kCenter, kHover, kPan };
   uint64_t number = 0;
   Purpose purpose = Purpose::kMeasure;
   PaintOrder order;

@@ -17,4 +17,10 @@ std::optional<PicturePoint> project(const csgcore::View& view, const csgcore::Ve
                       0.5 * view.height_px - unit * glm::dot(offset, view.up)};
 }
 
+double pixel_size(const csgcore::View& view, const csgcore::Vec3& point) {
+  const bool is_perspective = view.projection == csgcore::Projection::kPerspective;
+  const double depth = is_perspective ? glm::dot(point - view.eye, view.forward) : 1;
+  return 2 * view.half_height * depth / view.height_px;
+}
+
 }  // namespace window

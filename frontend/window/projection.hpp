@@ -17,4 +17,7 @@ struct PicturePoint {
 /// plane.
 std::optional<PicturePoint> project(const csgcore::View& view, const csgcore::Vec3& point);
 
+/// Returns the size of a pixel at a point, in world units.
+double pixel_size(const csgcore::View& view, const csgcore::Vec3& point);
+
 }  // namespace window

@@ -47,8 +47,22 @@ TEST_F(Mouse, LeftDragTurns) {
   expect_camera(camera);
 }
 
-TEST_F(Mouse, RightDragPans) {
-  frontend::Camera camera = start();
+/// What is near moves as far on the screen as what the camera looks at: with the mouse.
+TEST_F(Mouse, RightDragMovesThePointUnderIt) {
+  const frontend::Camera camera = start("cube(size = [30, 30, 30], center = true);\n");
+  const Vec3 point(0, -15, 4);  // nearer than the target
+  const auto from = *window::project(view(camera), point);
+  const int x = static_cast<int>(from.x_px), y = static_cast<int>(from.y_px);
+  drag(3, x, y, x + 60, y - 30);
+  json line = next([&](const json& any) {
+    const auto to = *window::project(view(camera_of(any)), point);
+    return std::abs(to.x_px - from.x_px - 60) < 0.1 && std::abs(to.y_px - from.y_px + 30) < 0.1;
+  });
+  expect_drawn(design_, line);
+}
+
+TEST_F(Mouse, RightDragPansAsFarAsOpenScad) {
+  frontend::Camera camera = start(kBlock, {"--pan=openscad"});
   drag(3, 200, 150, 240, 135);
   const csgcore::View before = view(camera);
   const double reach = 3 * 0.7 * camera.distance;

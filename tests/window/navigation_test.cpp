@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "pan.hpp"
 #include "projection.hpp"
 
 namespace window {
@@ -61,12 +62,33 @@ TEST(Navigation, AnglesStayWithinAFullTurn) {
               {40 - 70 + 360, 10 + 1400 - 3 * 360, 70 - 700 + 2 * 360}, 1e-11);
 }
 
-/// A drag across the whole picture pans by 3·0.7 of the distance.
-TEST(Navigation, ThePictureFollowsAPan) {
+TEST(Navigation, WhatIsPannedStaysUnderTheMouse) {
+  for (const Projection projection : kProjections) {
+    for (const double depth : {20.0, 90.0, 300.0}) {
+      Navigation navigation = tilted(projection);
+      const csgcore::Ray ray = csgcore::pixel_ray(navigation.view(kSize), 200.5, 100.5);
+      const Vec3 point = ray.origin + depth * ray.direction;
+      navigation.pan(64, -24, kSize, depth);
+      const auto place = project(navigation.view(kSize), point);
+      ASSERT_TRUE(place);
+      EXPECT_NEAR(place->x_px, 201 + 64, 1e-9);
+      EXPECT_NEAR(place->y_px, 101 - 24, 1e-9);
+    }
+    Navigation target = tilted(projection);
+    target.pan(64, -24, kSize);
+    const auto place = project(target.view(kSize), tilted().camera().target);
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->x_px, 320 + 64, 1e-9);
+    EXPECT_NEAR(place->y_px, 240 - 24, 1e-9);
+  }
+}
+
+/// In OpenSCAD a drag across the whole picture pans by 3·0.7 of the distance.
+TEST(Navigation, PansAsFarAsOpenScad) {
   for (const Projection projection : kProjections) {
     Navigation navigation = tilted(projection);
     const csgcore::View view = navigation.view(kSize);
-    navigation.pan(64, -24, kSize);
+    navigation.pan_far(64, -24, kSize);
     const Vec3 moved = navigation.camera().target - tilted().camera().target;
     expect_near(moved, 2.1 * 90 * (-0.1 * view.right - 0.05 * view.up));
     // The point that was in the middle is now to the right of it, and above.
@@ -75,6 +97,22 @@ TEST(Navigation, ThePictureFollowsAPan) {
     EXPECT_GT(place->x_px, 320);
     EXPECT_LT(place->y_px, 240);
   }
+}
+
+/// The depth becomes known in the middle of the drag; and the wheel may turn meanwhile.
+TEST(Pan, IsCorrectedOnceTheDepthIsKnown) {
+  const Navigation start = tilted();
+  Pan pan{1, start, start, 0, 0, start.camera().distance};
+  Navigation now = pan.move(pan.move(start, 10, 5, kSize), 20, -8, kSize);
+  pan.depth = 50;
+  now = pan.move(now, 0, 0, kSize);
+  Navigation wanted = start;
+  wanted.pan(30, -3, kSize, 50);
+  EXPECT_EQ(now, wanted);
+  now.zoom(1);
+  wanted = now;
+  wanted.pan(7, 7, kSize, 50);
+  EXPECT_EQ(pan.move(now, 7, 7, kSize), wanted);
 }
 
 TEST(Navigation, ForwardAndBack) {

@@ -39,6 +39,7 @@ struct Options {
   Evaluator evaluator = kDefaultEvaluator;
   std::string stats_path;  // empty: none; "-": standard output
   std::string editor;      // --editor; empty: the environment tells it
+  bool pans_far = false;   // --pan: in the window, as far as OpenSCAD
   std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given

@@ -101,6 +101,10 @@ constexpr OptionRow kOwnOptions[] = {
      "the window's editor, a command line with {file}, {line} and {column}, or one whose form is "
      "known (code, subl, emacsclient, gvim, kate …); default: $SCADRAY_EDITOR, $VISUAL, $EDITOR",
      kAnyCommand},
+    {"pan", Takes::kText, "HOW",
+     "how far a drag pans in the window: with the mouse, or as openscad, some four times as far; "
+     "default mouse",
+     kOneOf<kPans>},
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"echo", Takes::kNothing, "",
      "write what the design echoes to standard output; the window does after each save"},

@@ -50,6 +50,8 @@ constexpr Word<RendererKind> kRenderers[] = {
     {"auto", RendererKind::kAuto}, {"gl", RendererKind::kGl}, {"cpu", RendererKind::kCpu}};
 constexpr Word<Technique> kTechniques[] = {{"cells", Technique::kCells},
                                            {"tiles", Technique::kTiles}};
+/// Whether panning moves the view as far as OpenSCAD's.
+constexpr Word<bool> kPans[] = {{"mouse", false}, {"openscad", true}};
 /// OpenSCAD's, which reads them itself.
 constexpr Word<bool> kTruthValues[] = {{"true", true}, {"false", false}};
 

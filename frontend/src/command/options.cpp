@@ -308,6 +308,7 @@ Options parse_options(const std::vector<std::string>& words) {
   if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
   options.input = files[0];
   options.editor = arguments.text_or_empty("editor");
+  options.pans_far = choice(arguments, "pan", kPans, options.pans_far);
   options.quiet = arguments.has("quiet");
   options.prints_echoes = arguments.has("echo");
   options.info = arguments.has("info");

@@ -276,6 +276,12 @@ TEST(Options, RenderAndPreview) {
   EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("--render has no effect with --preview")));
 }
 
+TEST(Options, Panning) {
+  EXPECT_FALSE(parse_options({"a.scad"}).pans_far);
+  EXPECT_TRUE(parse_options({"--pan=openscad", "a.scad"}).pans_far);
+  EXPECT_THAT(drawing_error({"--pan=x"}), HasSubstr("--pan"));
+}
+
 TEST(Options, ShadingAndShow) {
   EXPECT_THAT(help_text(), HasSubstr("openscad (default) or phong"));
   EXPECT_EQ(parse_drawing({"--shading=phong"}).render.shading, Shading::kPhong);
