@@ -221,16 +221,34 @@ void Application::wait_for_display() {
   last_frame_ = Clock::now();
 }
 
-void Application::draw_frame() {
-  const Size size = window_.size();
-  screen_.draw(size);
+/// Draws the panels as they are to be in the next frame, without showing them: they find their
+/// sizes in several frames.
+void Application::lay_out_panels() {
+  for (int frame = 0; frame < kFramesAfterEvent; ++frame) {
+    begin_frame();
+    draw_panels();
+    window_.drop_frame();
+  }
+}
+
+void Application::begin_frame() {
   visit_texts(state_, [this](std::string_view text) { window_.need_letters(text); });
   window_.begin_frame();
+}
+
+void Application::draw_panels() {
+  const Size size = window_.size();
   const double scale = window_.pixels_per_unit();
   csgcore::View view = state_.navigation.view(size);
   view.width_px = static_cast<uint32_t>(std::lround(size.width_px / scale));
   view.height_px = static_cast<uint32_t>(std::lround(size.height_px / scale));
-  draw_panels(state_, view, static_cast<float>(scale), actions_);
+  window::draw_panels(state_, view, static_cast<float>(scale), actions_);
+}
+
+void Application::draw_frame() {
+  screen_.draw(window_.size());
+  begin_frame();
+  draw_panels();
   window_.end_frame();
   update_inputs();
   if (std::exchange(has_new_picture_, false)) report_picture();
@@ -276,6 +294,10 @@ void Application::take_version(frontend::DesignVersion version) {
     const frontend::CameraOptions options = frontend::with_camera_of(camera, options_.camera);
     state_.navigation = Navigation(frontend::choose_camera(options, state_.bounds()),
                                    state_.navigation.projection());
+    if (frontend::sees_all(options) && (options.auto_center || !options.camera)) {
+      lay_out_panels();
+      state_.view_all();
+    }
     has_camera_ = true;
     asked_camera_ = camera;
   } else if (state_.version->error.empty()) {

@@ -72,6 +72,9 @@ class Application final : private WindowEvents {
   void probe(const PicturePoint& place, Probe::Purpose purpose, double snap_px = 0);
   void probe_hover();
   void end_hover();
+  void lay_out_panels();
+  void begin_frame();
+  void draw_panels();
   void draw_frame();
   void report_picture();
   void wait_for_display();

@@ -343,6 +343,11 @@ void GlfwWindow::begin_frame() {
   ImGui::NewFrame();
 }
 
+void GlfwWindow::drop_frame() {
+  ImGui::EndFrame();
+  impl_->release_keys();
+}
+
 void GlfwWindow::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -66,6 +66,8 @@ class GlfwWindow {
   void begin_frame();
   /// Draws ImGui's frame over the contents of the framebuffer, and shows both.
   void end_frame();
+  /// Ends ImGui's frame, and shows nothing of it.
+  void drop_frame();
 
  private:
   struct Impl;

@@ -105,11 +105,4 @@ void Navigation::look_from(StandardView standard_view) {
   camera_.rotation_deg = rotation_of(standard_view);
 }
 
-void Navigation::view_all(const csgcore::Box& box) {
-  frontend::CameraOptions options;
-  options.camera = camera_;
-  options.view_all = options.auto_center = true;
-  camera_ = frontend::choose_camera(options, box);
-}
-
 }  // namespace window

@@ -45,8 +45,6 @@ class Navigation {
   void zoom(double notches) { scale_distance(notches); }
   void look_from(StandardView standard_view);
   void look_at(const csgcore::Vec3& target) { camera_.target = target; }
-  /// Shows the whole box from the present direction. An empty box changes nothing.
-  void view_all(const csgcore::Box& box);
   void set_projection(csgcore::Projection projection) { projection_ = projection; }
 
  private:

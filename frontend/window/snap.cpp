@@ -24,7 +24,7 @@ constexpr double kFar = 3;
 /// A ray along a face runs beside it by this share of a pixel: nothing thinner can be clicked.
 constexpr double kBeside_px = 1.0 / 64;
 /// It runs beside it at least by this share of its coordinates, which is far above their rounding.
-constexpr double kLeastBeside = 1e-7;
+constexpr double kLeastOffset = 1e-7;
 /// How far rays run beside an edge that ends in something curved, as a share of that distance.
 constexpr double kNear = 1.0 / 64;
 /// Faces that meet at a smaller angle, in radians, are pieces of one smooth surface.
@@ -104,7 +104,7 @@ class FeatureSearch {
  private:
   Face face_of(const RayHit& hit) const {
     const double reach = glm::length(hit.position) + glm::distance(hit.position, view_.eye);
-    return {hit, std::max(kBeside_px * pixel_size(view_, hit.position), kLeastBeside * reach)};
+    return {hit, std::max(kBeside_px * pixel_size(view_, hit.position), kLeastOffset * reach)};
   }
 
   /// Finds the nearest of the faces that are seen around the click.

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "seen_box.hpp"
+
 namespace window {
 namespace {
 
@@ -150,7 +152,26 @@ const frontend::SourcePlace* State::place_to_open() const {
   return hovered ? &hovered->place.step().place : nullptr;
 }
 
-csgcore::Box State::bounds() const { return design ? design->view_box : csgcore::Box{}; }
+csgcore::Box State::bounds() const {
+  if (!design) return {};
+  if (bounds_.first != design) bounds_ = {design, seen_box(design->scene)};
+  return bounds_.second;
+}
+
+void State::view_all() {
+  if (!design) return;
+  csgcore::Box box = bounds();
+  const csgcore::Scene* scene = &design->scene;
+  csgcore::Scene cut;
+  if (section.is_on) {
+    cut = cut_open(*scene, section, design->view_box);
+    scene = &cut;
+    box = seen_box(cut);
+  }
+  navigation = framed(
+      navigation, box,
+      [&](const csgcore::Mat3& to_frame) { return seen_box(*scene, box, to_frame); }, free_part);
+}
 
 void State::set_section_axis(uint8_t axis) {
   const csgcore::Box box = bounds();
@@ -175,7 +196,7 @@ bool State::apply(Command command) {
   } else {
     switch (command) {
       case Command::kViewAll:
-        navigation.view_all(bounds());
+        view_all();
         break;
       case Command::kCenter:
         navigation.look_at(csgcore::Vec3(0.0));

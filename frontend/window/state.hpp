@@ -4,11 +4,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "animation.hpp"
 #include "commands.hpp"
 #include "customizer.hpp"
+#include "framing.hpp"
 #include "frontend/activity.hpp"
 #include "frontend/design_follower.hpp"
 #include "frontend/options.hpp"
@@ -79,6 +81,7 @@ struct State {
   // The picture.
   std::optional<Painting> painting;  // the one shown, without its image
   double frames_per_second = 0;      // during the last motion of the camera
+  PicturePart free_part;             // which the panels leave free
   std::string notice;                // tells the outcome of the last action
 
   /// Does a command that needs nothing but this state. Returns whether it was one.
@@ -91,8 +94,10 @@ struct State {
   void take(frontend::DesignVersion newest);
   /// Returns whether Command::kForgetPoints does anything.
   bool has_anything_to_forget() const { return !points.empty() || shows_help; }
-  /// The design's bounds; empty without a design.
+  /// The box of what is seen of the design; empty without a design.
   csgcore::Box bounds() const;
+  /// Shows all that is seen of it, from the present direction and clear of the panels.
+  void view_all();
   /// Forgets a pair of points before.
   void measure(MeasuredPoint point);
   /// Returns the place that the editor is to show: the chosen one of the last measured point, or
@@ -100,6 +105,10 @@ struct State {
   const frontend::SourcePlace* place_to_open() const;
   /// Turns the section on, across the middle of the design. The side towards the eye is cut off.
   void set_section_axis(uint8_t axis);
+
+ private:
+  /// bounds() and of what design, since that takes some milliseconds.
+  mutable std::pair<std::shared_ptr<const frontend::ImportedDesign>, csgcore::Box> bounds_;
 };
 
 /// Returns the status line: what is drawn, how long each stage took, and by what.

@@ -8,6 +8,9 @@
 #include <iostream>
 #include <sstream>
 
+#include "navigation.hpp"
+#include "projection.hpp"
+
 namespace window_test {
 namespace {
 
@@ -46,6 +49,24 @@ frontend::Camera camera_of(const json& line) {
   const json& camera = line["camera"];
   return {vector_of(camera["target"]), vector_of(camera["rotation_deg"]),
           camera["distance"].get<double>()};
+}
+
+Taken taken_by(const csgcore::Box& box, const json& line) {
+  const window::Size size{line["width_px"], line["height_px"]};
+  const csgcore::View view =
+      window::Navigation(camera_of(line), csgcore::Projection::kPerspective).view(size);
+  Taken taken{1e9, -1e9, 1e9, -1e9};
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto place = window::project(
+        view, {(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+               (corner & 4 ? box.max : box.min).z});
+    if (!place) throw std::runtime_error("a part of the box is behind the eye");
+    taken.left = std::min(taken.left, place->x_px);
+    taken.right = std::max(taken.right, place->x_px);
+    taken.top = std::min(taken.top, place->y_px);
+    taken.bottom = std::max(taken.bottom, place->y_px);
+  }
+  return taken;
 }
 
 void LiveWindow::SetUp() {

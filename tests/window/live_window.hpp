@@ -96,6 +96,13 @@ class LiveWindow : public testing::Test {
   std::vector<json> lines_;
 };
 
+/// A rectangle of the picture, in pixels.
+struct Taken {
+  double left, right, top, bottom;
+};
+/// Returns where a box is seen in a perspective picture with the camera of a line of --stats.
+Taken taken_by(const csgcore::Box& box, const json& line);
+
 /// Writes all of a number's digits.
 std::string number_text(double number);
 /// Writes the camera as --camera takes it.

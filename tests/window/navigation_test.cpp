@@ -190,27 +190,6 @@ TEST(Navigation, StandardViews) {
   EXPECT_EQ(navigation.camera().rotation_deg, Vec3(55, 0, 25));
 }
 
-TEST(Navigation, ViewAllHoldsTheBoxAndKeepsTheDirection) {
-  const csgcore::Box box{{-10, 5, 20}, {10, 25, 21}};
-  for (const Projection projection : kProjections) {
-    Navigation navigation = tilted(projection);
-    navigation.view_all(box);
-    EXPECT_EQ(navigation.camera().target, box.center());
-    EXPECT_EQ(navigation.camera().rotation_deg, tilted().camera().rotation_deg);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 point{(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
-                       (corner & 4 ? box.max : box.min).z};
-      const auto place = project(navigation.view(kSize), point);
-      ASSERT_TRUE(place);
-      EXPECT_TRUE(0 < place->x_px && place->x_px < 640 && 0 < place->y_px && place->y_px < 480);
-    }
-    const Camera before = navigation.camera();
-    navigation.view_all(csgcore::Box{});
-    EXPECT_EQ(navigation.camera().target, before.target);
-    EXPECT_EQ(navigation.camera().distance, before.distance);
-  }
-}
-
 TEST(Projection, IsTheInverseOfAPixelsRay) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);

@@ -28,12 +28,23 @@ TEST_F(Opening, ShowsThePictureOfTheCommandInItsSize) {
                     HasSubstr("  |  400 x 300")));
   EXPECT_EQ(title(), "a.csg - scadray");
   expect_drawn(design, line);
-  // The whole design is shown, as without --camera.
-  const std::string path = folder_ / "whole.png";
-  ProcessSetup setup;
-  setup.words = {SCADRAY_PROGRAM, "-o", path, "--imgsize=400,300", design};
-  run(setup);
-  expect_shown(read_png(path));
+}
+
+/// Neither what is cut away nor the panels hide what is left.
+TEST_F(Opening, FramesWhatIsLeft) {
+  const std::string cut =
+      "difference() { cube(size = [10, 20, 90]); cube(size = [30, 30, 80]); }\n";
+  const csgcore::Box left{{0, 0, 80}, {10, 20, 90}};
+  open(folder_.write("a.csg", cut));
+  const Taken alone = taken_by(left, next());
+  EXPECT_TRUE(0 <= alone.left && alone.right <= kWidth);
+  EXPECT_TRUE(20 <= alone.top && alone.bottom <= kHeight - 25);
+  EXPECT_GT(alone.bottom - alone.top, 0.75 * kHeight);
+  // The panel of the messages takes the lower end.
+  open(folder_.write("b.scad", "echo(1);\n" + cut));
+  const Taken above = taken_by(left, next());
+  EXPECT_TRUE(20 <= above.top && above.bottom <= kHeight - 85);
+  EXPECT_GT(above.bottom - above.top, 0.5 * kHeight);
 }
 
 TEST_F(Opening, TakesTheOptionsOfPictures) {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "framing.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "navigation.hpp"
+#include "seen_box.hpp"
 
 namespace window {
 namespace {
@@ -35,8 +37,10 @@ class SnapTest : public testing::TestWithParam<Projection> {
     design_ = frontend::import_design(frontend::parse(text, ""));
     renderer_.load(std::make_shared<csgcore::Scene>(design_.scene));
     Navigation navigation({}, GetParam());
-    navigation.view_all(design_.view_box);
-    view_ = navigation.view(kSize);
+    const auto box = [this](const csgcore::Mat3& to_frame) {
+      return seen_box(design_.scene, seen_box(design_.scene), to_frame);
+    };
+    view_ = framed(navigation, box(csgcore::Mat3(1.0)), box, {0, 0, 1, 1, 640.0 / 480}).view(kSize);
   }
   /// Returns what a click snaps to that many pixels beside the place where a point is seen.
   std::optional<RayHit> snap_beside(const Vec3& point, double x_px, double y_px) const {

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <glm/geometric.hpp>
+
 #include "frontend/parser.hpp"
 #include "hover_timer.hpp"
+#include "projection.hpp"
 
 namespace window {
 namespace {
@@ -171,9 +174,26 @@ TEST_F(StateTest, TheCamera) {
   state_.apply(Command::kZoomOut);
   EXPECT_DOUBLE_EQ(state_.navigation.camera().distance, distance);
   state_.apply(Command::kViewAll);
-  EXPECT_EQ(state_.navigation.camera().target, Vec3(5, 10, 20));
+  // The middle of the block is near the middle of the picture, and all of it is seen.
+  EXPECT_LE(glm::distance(state_.navigation.camera().target, Vec3(5, 10, 20)), 2);
+  for (const Vec3& corner : {Vec3(0), Vec3(10, 20, 40), Vec3(10, 0, 0), Vec3(0, 20, 40)}) {
+    const auto place = project(state_.navigation.view({100, 100}), corner);
+    ASSERT_TRUE(place);
+    EXPECT_LE(std::max(std::abs(place->x_px - 50), std::abs(place->y_px - 50)), 50 + 1e-9);
+  }
   state_.apply(Command::kCenter);
   EXPECT_EQ(state_.navigation.camera().target, Vec3(0));
+}
+
+/// What is cut away does not count.
+TEST_F(StateTest, APlaneStartsAcrossTheMiddleOfWhatIsLeft) {
+  state_.design =
+      std::make_shared<frontend::ImportedDesign>(frontend::import_design(frontend::parse(
+          "difference() { cube(size = [10, 20, 40]); cube(size = [30, 30, 35]); }", "")));
+  state_.apply(Command::kSectionZ);
+  EXPECT_EQ(state_.section.position, 37.5);
+  state_.apply(Command::kViewAll);
+  EXPECT_NEAR(state_.navigation.camera().target.z, 36.25, 2);  // the upper half is cut off
 }
 
 TEST_F(StateTest, APlaneStartsAcrossTheMiddle) {

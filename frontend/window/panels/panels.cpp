@@ -1,7 +1,10 @@
 #include "panels/panels.hpp"
 
+#include <imgui.h>
+
 #include "panels/animation_panel.hpp"
 #include "panels/customizer_panel.hpp"
+#include "panels/free_part.hpp"
 #include "panels/help_sheet.hpp"
 #include "panels/hover_tip.hpp"
 #include "panels/place_panel.hpp"
@@ -23,6 +26,12 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   draw_customizer(state, animation_top - height_below_parameters(state, room), section);
   const LabelBox place = draw_place(state, view, room, actions.run);
   draw_points(state, view, {room.bottom, place});
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float top = ImGui::GetFrameHeight(), height = animation_top - top;
+  const LabelBox panels[] = {{0, top, room.left, height},
+                             {section.left, top, display.x - section.left, section.bottom - top},
+                             place};
+  state.free_part = free_part({0, 0, display.x, display.y}, {0, top, display.x, height}, panels);
   draw_hover_tip(state, pixels_per_unit);
   draw_progress(state, actions.run);
   draw_help(state, status_top);

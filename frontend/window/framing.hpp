@@ -1,0 +1,26 @@
+// The camera that shows all of something, in a part of the picture.
+#pragma once
+
+#include <functional>
+
+#include "csgcore/geometry.hpp"
+#include "navigation.hpp"
+
+namespace window {
+
+/// A part of the picture, in shares of its width and height from its upper left corner.
+struct PicturePart {
+  double left = 0, top = 0, right = 1, bottom = 1;
+  double aspect = 1;  // the picture's width by its height
+};
+
+/// Returns the box of all points to_frame · p of what is to be seen.
+using BoxInFrame = std::function<csgcore::Box(const csgcore::Mat3& to_frame)>;
+
+/// Returns the nearest camera that sees all of it in the part, from the same direction. It looks at
+/// a point as far away as the middle of `bounds`, which is the box in the world's frame. Where that
+/// is empty, it is the camera before.
+Navigation framed(const Navigation& before, const csgcore::Box& bounds, const BoxInFrame& box,
+                  const PicturePart& part);
+
+}  // namespace window
