@@ -17,8 +17,9 @@ using csgcore::Vec3;
 using csgcore::View;
 using Kind = Surface::Kind;
 
-/// The faces next to a click whose edges are looked for. More of them are a finely faceted surface.
-constexpr std::size_t kMostFaces = 6;
+/// More faces than these next to a click are a finely faceted surface, of which the click would
+/// always meet some vertex.
+constexpr std::size_t kMostFaces = 8;
 /// An edge may be met so many times further away than it counts, where it runs towards the click.
 constexpr double kFar = 3;
 /// A ray along a face runs beside it by this share of a pixel: nothing thinner can be clicked.
@@ -107,7 +108,7 @@ class FeatureSearch {
     return {hit, std::max(kBeside_px * pixel_size(view_, hit.position), kLeastOffset * reach)};
   }
 
-  /// Finds the nearest of the faces that are seen around the click.
+  /// Finds the faces that are seen around the click.
   void find_faces() {
     const auto side_px = static_cast<uint32_t>(2 * std::ceil(reach_px_) + 1);
     std::vector<RayHit> hits = rays_.seen_around(view_, click_, side_px);
@@ -123,7 +124,7 @@ class FeatureSearch {
         return are_same_plane(face.hit.surface, hit.surface);
       };
       if (std::none_of(faces_.begin(), faces_.end(), is_known)) faces_.push_back(face_of(hit));
-      if (faces_.size() == kMostFaces) return;
+      if (faces_.size() > kMostFaces) return faces_.clear();
     }
   }
 
@@ -256,14 +257,14 @@ class FeatureSearch {
     const double length = length_to(*nearest);
     const double facing = glm::dot(nearest->normal, direction);
     if (nearest->surface.kind == Kind::kPlane && std::abs(facing) > kLeastAngle) {
-      return glm::dot(nearest->position - edge.point, nearest->normal) / facing;
+      return std::max(0.0, glm::dot(nearest->position - edge.point, nearest->normal) / facing);
     }
     // What is curved there is looked at twice more, nearer: the error is nearly in proportion to
     // the distance of the rays from the edge.
     const auto near = rays_.along(edge.point + beside(*nearest_side, kNear), direction, kEndless);
     const auto nearer =
         rays_.along(edge.point + beside(*nearest_side, kNear / 2), direction, kEndless);
-    return near && nearer ? 2 * length_to(*nearer) - length_to(*near) : length;
+    return std::max(0.0, near && nearer ? 2 * length_to(*nearer) - length_to(*near) : length);
   }
 
   void offer_straight(Edge& edge) {

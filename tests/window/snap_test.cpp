@@ -173,6 +173,19 @@ TEST_P(SnapTest, BallsHaveNoEdges) {
   EXPECT_FALSE(snap_beside({0, 0, 0}, 90, 10));
 }
 
+/// Where many small faces are next to a click, it would always meet some vertex.
+TEST_P(SnapTest, FinelyFacetedSurfacesHaveNone) {
+  std::string text = "cube(size = [100, 100, 1]);\n";
+  for (int i = 0; i < 100; ++i) {
+    text += "multmatrix([[1, 0, 0, " + std::to_string(50 + 0.4 * (i % 10)) + "], [0, 1, 0, " +
+            std::to_string(50 + 0.4 * (i / 10)) + "], [0, 0, 1, 0], [0, 0, 0, 1]]) " +
+            "cube(size = [0.2, 0.2, " + std::to_string(2 + i * 7 % 10 * 0.1) + "]);\n";
+  }
+  load(text);
+  EXPECT_FALSE(snap_beside({52, 52, 2}, 0, 0));
+  EXPECT_TRUE(snap_beside({100, 0, 1}, 3, 0));
+}
+
 INSTANTIATE_TEST_SUITE_P(, SnapTest,
                          testing::Values(Projection::kPerspective, Projection::kOrthographic));
 
