@@ -22,7 +22,7 @@ using csgcore::Vec3;
 
 constexpr std::string_view kBecauseManyFaces =
     "its operands have more than 20000 faces or parts to be added one by one";
-constexpr std::string_view kBecauseNotConvex = "two of its operands are not convex";
+constexpr std::string_view kBecauseTwoAreNotConvex = "two of its operands are not convex";
 constexpr std::string_view kBecauseManyCorners = "its operands have too many corners";
 /// More parts take seconds to make and to draw.
 constexpr size_t kMostSums = 20000;
@@ -115,7 +115,7 @@ void SolidSums::add(const SolidPart& a, const SolidPart& b) {
   const SolidPart& convex = a.is_convex() ? a : b;
   const SolidPart& other = a.is_convex() ? b : a;
   if (!convex.is_convex()) {
-    fail(kBecauseNotConvex);
+    fail(kBecauseTwoAreNotConvex);
   } else if (other.primitive->shape == Shape::kMesh) {
     add_mesh(other, convex, box);
   } else if (other.primitive->shape == Shape::kExtrusion) {
