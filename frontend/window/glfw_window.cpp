@@ -95,8 +95,8 @@ struct GlfwWindow::Impl {
   GLFWwindow* window = nullptr;
   std::optional<Letters> letters;
   bool is_active = true;
-  std::vector<int> new_keys;  // keys that went down since the last frame
-  std::vector<Key> released;  // those of them that went up again
+  bool has_new_keys = false;  // some went down since the last frame
+  std::vector<Key> released;  // those that went up after that
 
   // The state of the mouse, in units of the screen.
   int pressed = -1;  // the button that is held; -1: none
@@ -245,15 +245,16 @@ void GlfwWindow::Impl::on_button(int button, int action, int glfw_modifiers) {
 }
 
 /// This ImGui sees the keys that are down in a frame. So a key that goes up before its frame is
-/// drawn goes up for ImGui after that frame.
+/// drawn goes up for ImGui after that frame; and so does any other, since Ctrl may go up after the
+/// key that it belongs to.
 void GlfwWindow::Impl::on_key(const Key& key, int action) {
   is_active = true;
   if (action != GLFW_RELEASE) {
     const uint8_t held = modifiers_of(key.modifiers);
     const bool counts = action == GLFW_PRESS || repeats(find_command(key.key, held));
     if (counts && !ImGui::GetIO().WantTextInput) events.key(key.key, held);
-    new_keys.push_back(key.key);
-  } else if (std::find(new_keys.begin(), new_keys.end(), key.key) != new_keys.end()) {
+    has_new_keys = true;
+  } else if (has_new_keys) {
     released.push_back(key);
     return;
   }
@@ -266,7 +267,7 @@ void GlfwWindow::Impl::release_keys() {
   }
   if (!released.empty()) is_active = true;
   released.clear();
-  new_keys.clear();
+  has_new_keys = false;
 }
 
 void GlfwWindow::Impl::on_cursor(double x, double y) {
