@@ -13,13 +13,12 @@
 #include "frontend/files.hpp"
 #include "frontend/picture_file.hpp"
 #include "frontend/terminal.hpp"
+#include "habits.hpp"
 #include "panels/clipboard.hpp"
 #include "state_texts.hpp"
 
 namespace window {
 namespace {
-
-constexpr Size kDefaultSize{1024, 768};
 
 /// The share of the display's time for a frame that drawing a picture may take; the rest is the
 /// window's.
@@ -45,6 +44,21 @@ std::string file_name(const std::string& path) {
   return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
+/// Returns the arguments without the values of variables, which are meant for one design.
+std::vector<std::string> without_values(const std::vector<std::string>& arguments) {
+  std::vector<std::string> rest;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word == "-D" || word == "-p" || word == "-P") {
+      ++i;
+    } else {
+      rest.push_back(word);
+      if (word == "-m" && i + 1 < arguments.size()) rest.push_back(arguments[++i]);
+    }
+  }
+  return rest;
+}
+
 std::string default_picture(const std::string& input) {
   if (input == "-") return "picture.png";
   return std::filesystem::path(input).replace_extension(".png").string();
@@ -60,9 +74,9 @@ frontend::FollowOptions follow_options(const frontend::Options& options) {
   return result;
 }
 
-Size window_size(const frontend::Options& options) {
-  if (!options.has_image_size) return kDefaultSize;
-  return {options.camera.width_px, options.camera.height_px};
+std::optional<Size> given_size(const frontend::Options& options) {
+  if (!options.has_image_size) return std::nullopt;
+  return Size{options.camera.width_px, options.camera.height_px};
 }
 
 void print_echoes(const frontend::DesignVersion& version) {
@@ -82,20 +96,67 @@ bool shows_the_same(const PaintOrder& a, const PaintOrder& b) {
 
 Application::Application(const frontend::Options& options)
     : options_(options),
+      memory_(memory_path()),
       state_(options),
-      window_(file_name(options.input) + " - scadray", window_size(options), *this),
+      window_(file_name(options.input) + " - scadray",
+              remembered_placement(memory_, given_size(options)), *this),
       actions_{.run = [this](Command command) { run_command(command); },
                .save = [this](const std::string& path) { save_picture(path); },
-               .open = [this](const MessagePlace& place) { open_place(place); }},
+               .open = [this](const MessagePlace& place) { open_place(place); },
+               .open_design = [this](const std::string& path) { opening_ = path; }},
       report_(options.stats_path),
       frame_s_(1 / window_.frames_per_second()),
       editor_(options.editor, GlfwWindow::wake),
       painter_(kDrawingShare * 1000 * frame_s_, GlfwWindow::wake),
       follower_(options.input, follow_options(options), GlfwWindow::wake),
       has_camera_(!frontend::sees_all(options.camera)) {
-  state_.picture_path = default_picture(options.input);
-  const frontend::Rgb background = options.render.scheme.background;
+  restore_habits(memory_, options_.given, state_);
+  options_.camera.projection = state_.navigation.projection();
+  memory_.note(habits_of(state_), Clock::now());
+  memory_.note(values_of(window_.placement(), memory_.is_only_window()), Clock::now());
+  begin_design();
+}
+
+/// Shows nothing yet of the design of the options.
+void Application::begin_design() {
+  state_.picture_path = default_picture(options_.input);
+  const frontend::Rgb background = state_.look.scheme.background;
   screen_.load({1, 1, {{background.r, background.g, background.b}}, {}, {}, {}, {}});
+  std::error_code failed;
+  const std::filesystem::path path = std::filesystem::absolute(options_.input, failed);
+  if (!failed && std::filesystem::is_regular_file(path, failed)) {
+    memory_.note_design(path.lexically_normal().string(), Clock::now());
+  }
+  state_.recent_designs = memory_.recent();
+}
+
+/// Shows another design, as if the window were opened with it.
+void Application::open_design(const std::string& path) {
+  try {
+    frontend::check_input(path);
+  } catch (const frontend::Error& error) {
+    state_.notice = error.what();
+    return;
+  }
+  options_.input = path;
+  options_.openscad_arguments = without_values(options_.openscad_arguments);
+  follower_ = frontend::DesignFollower(path, follow_options(options_), GlfwWindow::wake);
+  painter_.stop();
+  end_hover();
+  state_.begin(options_);
+  options_.camera.projection = state_.navigation.projection();
+  texts_ = {};
+  inputs_ = {};
+  asked_camera_ = {};
+  has_camera_ = !frontend::sees_all(options_.camera);
+  ordered_.design.reset();
+  oldest_order_ = ordered_.number + 1;
+  reported_version_ = 0;
+  is_picture_stopped_ = is_reading_ = false;
+  save_path_.clear();
+  saving_ = 0;
+  begin_design();
+  show_title();
 }
 
 void Application::run() {
@@ -103,16 +164,19 @@ void Application::run() {
   while (!window_.is_closing()) {
     wait_for_news();
     probe_hover();
+    if (!opening_.empty()) open_design(std::exchange(opening_, {}));
     if (take_news() || window_.take_activity()) frames_due_ = kFramesAfterEvent;
     watch_work();
     frames_due_ = std::max(frames_due_, watch_long_work());
     order_picture();
+    remember();
     if (window_.size().width_px == 0) frames_due_ = 0;
     if (frames_due_ == 0 || Clock::now() < awaited_until_) continue;
     wait_for_display();
     draw_frame();
     --frames_due_;
   }
+  write_memory();
 }
 
 void Application::wait_for_news() {
@@ -137,6 +201,7 @@ std::optional<double> Application::seconds_to_next_look() const {
   };
   if (is_reading_ && !state_.is_reading) look_at(reading_since_ + kShortReading);
   if (const auto due = hover_.due()) look_at(*due);
+  if (const auto due = memory_.due()) look_at(*due);
   for (const auto& activity : {follower_.activity(), painter_.activity()}) {
     if (activity && window_.size().width_px > 0)
       look_at(std::max(activity->since + kLongWork, last_frame_ + kProgressInterval));
@@ -349,6 +414,7 @@ void Application::show_title() {
 }
 
 void Application::take_painting(Painting painting) {
+  if (painting.order.number < oldest_order_) return;  // of a design that is gone
   if (!painting.error.empty()) {
     state_.painting = std::move(painting);
     has_new_picture_ = true;
@@ -478,11 +544,6 @@ void Application::run_command(Command command) {
   if (command == Command::kOpenEditor) open_chosen_place();
   if (command == Command::kCopy) copy_measured_or_said(state_);
   if (command == Command::kQuit) window_.close();
-}
-
-void Application::key(int key, uint8_t modifiers) {
-  hover_.stop();
-  if (const CommandRow* row = find_command(key, modifiers)) run_command(row->command);
 }
 
 }  // namespace window

@@ -13,10 +13,12 @@
 #include "frontend/options.hpp"
 #include "glfw_window.hpp"
 #include "hover_timer.hpp"
+#include "memory.hpp"
 #include "motion_meter.hpp"
 #include "painter.hpp"
 #include "pan.hpp"
 #include "panels/panels.hpp"
+#include "picture_keys.hpp"
 #include "report.hpp"
 #include "screen.hpp"
 #include "state.hpp"
@@ -44,9 +46,17 @@ class Application final : private WindowEvents {
   void leave() override;
   void wheel(double notches, double x_px, double y_px) override;
   void key(int key, uint8_t modifiers) override;
+  void character(unsigned character) override;
+  void open_menu() override;
+  void drop(const std::vector<std::string>& paths) override;
 
   void run_command(Command command);
+  void press(const PictureKey& key);
   void save_picture(const std::string& path);
+  void open_design(const std::string& path);
+  void begin_design();
+  void remember();
+  void write_memory();
   std::string path_of(const MessagePlace& place) const;
   void open_place(const MessagePlace& place);
   void open_chosen_place();
@@ -84,7 +94,8 @@ class Application final : private WindowEvents {
   bool play();
   void update_inputs();
 
-  const frontend::Options& options_;
+  frontend::Options options_;  // its input is the design that is shown
+  Memory memory_;
   State state_;
   GlfwWindow window_;
   Screen screen_;
@@ -112,6 +123,8 @@ class Application final : private WindowEvents {
   bool is_picture_stopped_ = false;  // the last order was given up at the user's wish
   uint64_t reported_version_ = 0;
   bool has_new_picture_ = false;
+  std::string opening_;        // the path of the design that was chosen, until it is opened
+  uint64_t oldest_order_ = 0;  // number of the first order for the design that is shown
   int frames_due_ = 0;  // frames still to draw: ImGui's answer to an event takes more than one
   Clock::time_point last_frame_{};
   Clock::time_point awaited_until_{};  // until when to wait for the picture that was ordered

@@ -10,6 +10,7 @@ namespace {
 
 // The keys are OpenSCAD's (frontend/OPENSCAD.md, "Window") where it has them.
 constexpr CommandRow kRows[] = {
+    {Command::kOpenDesign, Menu::kFile, "Open…", "Ctrl+O", GLFW_KEY_O, kControl, false},
     {Command::kReload, Menu::kFile, "Reload", "F5", GLFW_KEY_F5, kNone, false},
     {Command::kStop, Menu::kFile, "Stop what takes long (Esc)", "", 0, kNone, false},
     {Command::kSavePicture, Menu::kFile, "Save picture…", "Ctrl+S", GLFW_KEY_S, kControl, false},

@@ -8,6 +8,7 @@
 namespace window {
 
 enum class Command : uint8_t {
+  kOpenDesign,
   kReload,
   kStop,
   kOpenEditor,

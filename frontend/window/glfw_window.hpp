@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "navigation.hpp"
 
@@ -27,13 +30,30 @@ class WindowEvents {
   virtual void move(double x_px, double y_px) = 0;
   virtual void leave() = 0;
   virtual void wheel(double notches, double x_px, double y_px) = 0;
+  /// A key has gone down, or repeats, while the picture has the keys.
   virtual void key(int key, uint8_t modifiers) = 0;
+  /// It has typed this character of Unicode.
+  virtual void character(unsigned character) = 0;
+  /// F10 was pressed, or Alt alone was pressed and released.
+  virtual void open_menu() = 0;
+  /// Files were dropped on the window.
+  virtual void drop(const std::vector<std::string>& paths) = 0;
+};
+
+/// Where a window is on the screen, in the display's units.
+struct Placement {
+  Size size;
+  /// That of the upper left corner of its contents; none: the window manager chooses it, as it does
+  /// if this is not on the screen.
+  std::optional<std::pair<int, int>> position;
+  bool is_maximized = false;
+  bool fits_screen = false;  // a size beyond the screen's is made smaller
 };
 
 /// There is one at a time. Throws frontend::Error if no window can be opened.
 class GlfwWindow {
  public:
-  GlfwWindow(const std::string& title, Size size, WindowEvents& events);
+  GlfwWindow(const std::string& title, const Placement& placement, WindowEvents& events);
   ~GlfwWindow();
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
@@ -47,6 +67,9 @@ class GlfwWindow {
   /// The display's refresh rate.
   double frames_per_second() const;
   void set_title(const std::string& title);
+  Placement placement() const;
+  /// Returns whether that may have changed since the last call.
+  bool take_placement_change();
 
   /// Sleeps until something happens, or wake() is called.
   void wait();

@@ -36,7 +36,7 @@ std::vector<std::string> measured_lines(const std::vector<MeasuredPoint>& points
 
 std::string text_of(const Message& message) {
   std::string text = message.text;
-  for (const std::string& trace : message.traces) text += '\n' + trace;
+  for (const MessageLine& trace : message.traces) text += '\n' + trace.text;
   return text;
 }
 

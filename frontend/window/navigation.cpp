@@ -69,6 +69,12 @@ void Navigation::turn(double dx_px, double dy_px, bool about_y) {
   turned = full_turn(turned - kTurn_degPerPixel * dx_px);
 }
 
+void Navigation::turn_by(double about_x_deg, double about_z_deg) {
+  Vec3& angles = camera_.rotation_deg;
+  angles.x = full_turn(angles.x + about_x_deg);
+  angles.z = full_turn(angles.z + about_z_deg);
+}
+
 void Navigation::pan(double dx_px, double dy_px, Size size, double depth) {
   const csgcore::View now = view(size);
   const double unit = pixel_size(now, now.eye + depth * now.forward);

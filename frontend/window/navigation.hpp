@@ -31,6 +31,8 @@ class Navigation {
 
   /// Left drag; `about_y` with shift.
   void turn(double dx_px, double dy_px, bool about_y);
+  /// Turns about the picture's x axis and the world's z axis, as a drag does.
+  void turn_by(double about_x_deg, double about_z_deg);
   /// Right drag: what is that far before the eye, along the view's axis, moves with the mouse.
   void pan(double dx_px, double dy_px, Size size, double depth);
   /// Does the same with what the camera looks at.

@@ -119,6 +119,20 @@ State::State(const frontend::Options& options)
       customizer(options.input, options.openscad_arguments),
       name(options.input) {}
 
+void State::begin(const frontend::Options& options) {
+  State fresh(options);
+  fresh.navigation.set_projection(navigation.projection());
+  fresh.look = look;
+  fresh.overlays = overlays;
+  fresh.shows_place = shows_place;
+  fresh.shows_messages = shows_messages;
+  fresh.shows_status = shows_status;
+  fresh.shows_help = shows_help;
+  fresh.shows_parameters = shows_parameters;
+  fresh.recent_designs = std::move(recent_designs);
+  *this = std::move(fresh);
+}
+
 bool State::is_to_be_shown(const frontend::DesignVersion& newest) const {
   if (!newest.design) return false;
   const bool is_whole = newest.design->lines_to_render.empty();
@@ -181,6 +195,13 @@ void State::set_section_axis(uint8_t axis) {
   section.is_flipped = navigation.view({1, 1}).forward[axis] > 0;
 }
 
+void State::move_section(double share) {
+  const csgcore::Box box = bounds();
+  if (!section.is_on || box.empty()) return;
+  const double low = box.min[section.axis], high = box.max[section.axis];
+  section.position = std::clamp(section.position + share * (high - low), low, high);
+}
+
 bool State::apply(Command command) {
   if (const auto view = standard_view(command)) {
     navigation.look_from(*view);
@@ -240,6 +261,9 @@ bool State::apply(Command command) {
         } else {
           animation.play(Animation::Clock::now());
         }
+        break;
+      case Command::kOpenDesign:
+        asks_for_design = true;
         break;
       case Command::kSavePicture:
         asks_for_path = true;

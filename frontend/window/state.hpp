@@ -10,6 +10,7 @@
 #include "animation.hpp"
 #include "commands.hpp"
 #include "customizer.hpp"
+#include "file_browser.hpp"
 #include "framing.hpp"
 #include "frontend/activity.hpp"
 #include "frontend/design_follower.hpp"
@@ -58,14 +59,19 @@ struct State {
   bool shows_messages = true;
   bool shows_status = true;
   bool shows_help = false;
+  bool enters_menus = false;  // a key has asked for the menu
+  bool shows_menus = false;   // a menu is open, or keys walk along the menu bar
   Customizer customizer;
   bool shows_parameters = false;
   ParameterEdit parameter_edit;
   std::string new_set;  // the name of a set that is to be saved
   Animation animation;
   bool shows_animation = false;
-  std::string message_filter;  // the messages that are shown contain it
-  bool asks_for_path = false;  // shows the dialogue for the path of a picture
+  std::string message_filter;               // the messages that are shown contain it
+  bool asks_for_design = false;             // shows the dialogue for another design
+  std::optional<FileBrowser> browser;       // of that dialogue
+  std::vector<std::string> recent_designs;  // absolute paths, the newest first
+  bool asks_for_path = false;               // shows the dialogue for the path of a picture
   std::string picture_path;
   std::string path_to_overwrite;  // that exists: the dialogue asks whether to overwrite it
 
@@ -84,6 +90,9 @@ struct State {
   PicturePart free_part;             // which the panels leave free
   std::string notice;                // tells the outcome of the last action
 
+  /// Begins with another design, that of these options. What the user has chosen for all designs
+  /// stays.
+  void begin(const frontend::Options& options);
   /// Does a command that needs nothing but this state. Returns whether it was one.
   bool apply(Command command);
   bool is_checked(Command command) const;
@@ -105,6 +114,9 @@ struct State {
   const frontend::SourcePlace* place_to_open() const;
   /// Turns the section on, across the middle of the design. The side towards the eye is cut off.
   void set_section_axis(uint8_t axis);
+  /// Moves the section plane along its axis, by a share of the design's size, if it is on; within
+  /// the design's box.
+  void move_section(double share);
 
  private:
   /// bounds() and of what design, since that takes some milliseconds.

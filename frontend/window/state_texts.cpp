@@ -50,6 +50,11 @@ void visit_texts(const State& state, const Visit& visit) {
   if (state.hovered) visit_place(state.hovered->place, visit);
   if (state.painting) visit(state.painting->error);
   visit_parameters(state.customizer, visit);
+  for (const std::string& path : state.recent_designs) visit(path);
+  if (!state.browser) return;
+  visit(state.browser->folder());
+  visit(state.browser->text());
+  for (const FileBrowser::Entry& entry : state.browser->entries()) visit(entry.name);
 }
 
 }  // namespace window

@@ -91,13 +91,15 @@ void LiveWindow::open(const std::string& design, const std::vector<std::string>&
   const bool has_size = std::any_of(options.begin(), options.end(), [](const std::string& option) {
     return option.starts_with("--imgsize=");
   });
-  if (!has_size) {
+  if (!has_size && gives_size_) {
     setup.words.push_back("--imgsize=" + std::to_string(kWidth) + "," + std::to_string(kHeight));
   }
   setup.words.insert(setup.words.end(), options.begin(), options.end());
   setup.words.push_back(design);
   setup.environment["DISPLAY"] = display_->name();
   setup.environment["WAYLAND_DISPLAY"] = std::nullopt;
+  std::filesystem::remove_all(folder_ / "fresh state");
+  setup.environment.try_emplace("XDG_STATE_HOME", folder_ / "fresh state");
   setup.errors = folder_ / "errors";
   program_ = std::make_unique<Process>(setup);
 }

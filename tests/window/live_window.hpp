@@ -30,7 +30,8 @@ class LiveWindow : public testing::Test {
   /// Prints the program's standard error if the test failed.
   void TearDown() override;
 
-  /// `design` is a path, or "-"; `options` go before it.
+  /// `design` is a path, or "-"; `options` go before it. Nothing is remembered of other windows,
+  /// unless `setup` gives a folder for that.
   void open(const std::string& design, const std::vector<std::string>& options = {},
             ProcessSetup setup = {});
   /// Opens it with a window manager.
@@ -83,6 +84,7 @@ class LiveWindow : public testing::Test {
   std::string errors() const { return folder_.read("errors"); }
 
   frontend::TemporaryFolder folder_;
+  bool gives_size_ = true;  // open() gives the program --imgsize
 
  private:
   std::vector<std::string> placed(int x, int y) const;

@@ -59,7 +59,9 @@ class Panels : public testing::TestWithParam<Screen> {
     for (int frame = 0; frame < 4; ++frame) {
       ImGui::GetIO().DeltaTime = 0.02f;
       ImGui::NewFrame();
-      draw_panels(state_, view, 1, {[](Command) {}, [](const std::string&) {}, [](const auto&) {}});
+      draw_panels(state_, view, 1,
+                  {[](Command) {}, [](const std::string&) {}, [](const auto&) {},
+                   [](const std::string&) {}});
       ImGui::EndFrame();
     }
   }
@@ -145,6 +147,12 @@ TEST_P(Panels, AreWhole) {
   expect_whole();
 }
 
+TEST_P(Panels, TheDialogueForDesignsIsWhole) {
+  state_.asks_for_design = true;
+  draw();
+  expect_whole();
+}
+
 TEST_P(Panels, TheHelpIsShownWithoutScrolling) {
   if (GetParam().width / GetParam().scale < 1000) GTEST_SKIP() << "too small";
   state_.shows_help = true;
@@ -180,7 +188,7 @@ TEST_P(Panels, ARightClickCopiesWhatItIsOn) {
     std::set<std::string> copied;
     const ImGuiWindow* const window = ImGui::FindWindowByName(name.c_str());
     for (float y = window->Pos.y; y < window->Pos.y + window->Size.y; y += 5) {
-      ImGui::GetIO().MousePos = {window->Pos.x + window->Size.x / 8, y};
+      ImGui::GetIO().MousePos = {window->Pos.x + 20, y};  // over the first tab, not the next
       for (const bool is_down : {true, false}) {
         ImGui::GetIO().MouseDown[ImGuiMouseButton_Right] = is_down;
         draw();

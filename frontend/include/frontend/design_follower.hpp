@@ -46,6 +46,8 @@ class DesignFollower {
   ~DesignFollower();
   DesignFollower(const DesignFollower&) = delete;
   DesignFollower& operator=(const DesignFollower&) = delete;
+  /// Follows another design in place of this one, as if made anew.
+  DesignFollower& operator=(DesignFollower&&) noexcept;
 
   // These may be called from any thread, and do not wait.
 

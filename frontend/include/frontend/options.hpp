@@ -30,10 +30,20 @@ struct TextOutput {
 /// The action that a command line asks for.
 enum class Action : uint8_t { kDraw, kOpenWindow, kHelp, kVersion, kInfo };
 
+/// The options that are given of those whose values a window remembers from run to run.
+struct GivenLook {
+  bool scheme = false;
+  bool view = false;
+  bool projection = false;
+  bool shading = false;
+  bool samples = false;
+};
+
 /// The whole command line, checked: every value is in its documented range.
 struct Options {
   Action action = Action::kDraw;
-  std::string input;              // "-": standard input
+  std::string input;                        // "-": standard input
+  std::vector<std::string> further_inputs;  // kOpenWindow: each of them gets a window of its own
   std::vector<Output> outputs;    // kDraw: these or `texts` are at least one; one of all may be "-"
   std::vector<TextOutput> texts;  // written before the pictures
   Evaluator evaluator = kDefaultEvaluator;
@@ -43,6 +53,7 @@ struct Options {
   std::string rule_path;   // the rule for make that lists the outputs' sources; empty: none
   CameraOptions camera;
   bool has_image_size = false;  // --imgsize is given
+  GivenLook given;
   Overlays overlays;
   ImportOptions import;
   RenderSettings render;

@@ -215,6 +215,18 @@ void read_outputs(const Arguments& arguments, Options& options) {
   }
 }
 
+/// Throws Error if there are several designs, unless each can have a window of its own.
+void check_inputs(const Options& options) {
+  if (options.further_inputs.empty()) return;
+  if (options.action != Action::kOpenWindow) {
+    fail("more than one file to draw: " + options.further_inputs[0],
+         "give one; or leave out -o, for windows");
+  }
+  if (!options.stats_path.empty()) {
+    fail("--stats is for one file, and there is another: " + options.further_inputs[0], "give one");
+  }
+}
+
 /// OpenSCAD's pictures show crosshairs with --render alone, its window always does.
 void leave_out_crosshairs(Options& options) {
   const bool is_shown = options.outputs.empty() || options.import.picture == PictureKind::kRendered;
@@ -305,14 +317,16 @@ Options parse_options(const std::vector<std::string>& words) {
         "give a .csg or .scad file, a mesh or a drawing, or - for standard input; an option before "
         "it may have taken its name as a value");
   }
-  if (files.size() > 1) fail("more than one file to draw: " + files[1], "give one");
   options.input = files[0];
+  options.further_inputs.assign(files.begin() + 1, files.end());
   options.editor = arguments.text_or_empty("editor");
   options.pans_far = choice(arguments, "pan", kPans, options.pans_far);
   options.quiet = arguments.has("quiet");
   options.prints_echoes = arguments.has("echo");
   options.info = arguments.has("info");
   options.has_image_size = arguments.has("imgsize");
+  options.given = {arguments.has("colorscheme"), arguments.has("view"), arguments.has("projection"),
+                   arguments.has("shading"), arguments.has("samples")};
   read_picture_kind(arguments, options);
   read_image_size(arguments, options.camera);
   const std::string camera_warning = read_camera(arguments, options.camera);
@@ -323,6 +337,7 @@ Options parse_options(const std::vector<std::string>& words) {
   read_view(arguments, options);
   read_outputs(arguments, options);
   if (options.outputs.empty() && options.texts.empty()) options.action = Action::kOpenWindow;
+  check_inputs(options);
   leave_out_crosshairs(options);
   settle_edges(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
@@ -334,7 +349,7 @@ Options parse_options(const std::vector<std::string>& words) {
 
 std::string help_text() {
   po::options_description all(
-      "Usage: scadray [options] FILE              (a window that follows every save)\n"
+      "Usage: scadray [options] FILE...           (a window that follows every save)\n"
       "       scadray -o OUT [options] FILE\n"
       "       scadray bench [options] FILE...    (scadray bench --help)\n"
       "       scadray validate [options] FILE    (scadray validate --help)\n"

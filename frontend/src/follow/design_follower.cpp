@@ -339,6 +339,7 @@ DesignFollower::DesignFollower(std::string path, FollowOptions options,
           std::make_unique<Follower>(std::move(path), std::move(options), std::move(on_news))) {}
 
 DesignFollower::~DesignFollower() = default;
+DesignFollower& DesignFollower::operator=(DesignFollower&&) noexcept = default;
 
 std::optional<DesignVersion> DesignFollower::take() { return follower_->take(); }
 

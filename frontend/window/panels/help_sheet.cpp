@@ -13,7 +13,8 @@
 namespace window {
 namespace {
 
-/// The gestures of OpenSCAD (frontend/OPENSCAD.md, "Window"), and our own.
+/// The gestures of OpenSCAD (frontend/OPENSCAD.md, "Window"), our own, and the keys that are no
+/// commands.
 constexpr const char* kMouse[][2] = {
     {"Left drag", "turn; with shift: about y"},
     {"Right drag", "pan"},
@@ -26,6 +27,12 @@ constexpr const char* kMouse[][2] = {
     {"Rest", "name the leaf under the mouse"},
     {"Double click", "centre on the point"},
     {"Ctrl + left drag", "drag the section plane"},
+    {"Arrows", "turn; with shift: pan"},
+    {"+, -", "zoom"},
+    {"Page up, page down", "move the section plane"},
+    {"Enter", "measure the point in the middle"},
+    {"Alt, F10", "open the menu"},
+    {"Tab", "enter the next panel; Esc leaves it"},
 };
 
 struct HelpRow {

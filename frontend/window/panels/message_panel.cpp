@@ -10,6 +10,7 @@
 #include "panels/clipboard.hpp"
 #include "panels/fitted_text.hpp"
 #include "panels/style.hpp"
+#include "panels/text_line.hpp"
 
 namespace window {
 namespace {
@@ -26,30 +27,24 @@ ImU32 color_of(MessageKind kind) {
   return kTextColor;
 }
 
-/// Writes a line, wrapped. A click on it opens its place.
+/// Writes a line, wrapped. A click on it, or Enter, opens its place.
 void line(ImU32 color, const std::string& text, const MessagePlace& place, const OpenPlace& open) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  if (place.file.empty() || !ImGui::IsItemHovered()) return;
-  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  ImGui::GetWindowDrawList()->AddLine({from.x, to.y}, to, color);
-  if (ImGui::IsItemClicked()) open(place);
+  if (text_line(color, text, !place.file.empty())) open(place);
 }
 
 void message_line(State& state, const Message& message, const OpenPlace& open) {
   std::string text = message.text;
   if (message.count > 1) text = std::to_string(message.count) + " × " + text;
-  line(color_of(message.kind), text, message.place, open);
-  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) copy(state, text_of(message));
-  if (message.traces.empty()) return;
   const std::size_t calls = message.traces.size();
   ImGui::PushID(&message);
-  if (ImGui::TreeNode("##traces", calls == 1 ? "1 call led to it" : "%zu calls led to it", calls)) {
+  line(color_of(message.kind), text, message.place, open);
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) copy(state, text_of(message));
+  if (calls > 0 &&
+      ImGui::TreeNode("##traces", calls == 1 ? "1 call led to it" : "%zu calls led to it", calls)) {
     for (const MessageLine& trace : message.traces) {
+      ImGui::PushID(&trace);
       line(kTextColor, trace.text, trace.place, open);
+      ImGui::PopID();
     }
     ImGui::TreePop();
   }

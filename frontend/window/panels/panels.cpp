@@ -7,6 +7,7 @@
 #include "panels/free_part.hpp"
 #include "panels/help_sheet.hpp"
 #include "panels/hover_tip.hpp"
+#include "panels/keyboard.hpp"
 #include "panels/place_panel.hpp"
 #include "panels/point_labels.hpp"
 #include "panels/progress_panel.hpp"
@@ -17,7 +18,7 @@ namespace window {
 
 void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
                  const PanelActions& actions) {
-  draw_menu_bar(state, actions.run);
+  draw_menu_bar(state, actions.run, actions.open_design);
   const float status_top = draw_status_line(state);
   const float messages_top = draw_messages(state, status_top, actions.open);
   const float animation_top = draw_animation(state, messages_top);
@@ -36,6 +37,8 @@ void draw_panels(State& state, const csgcore::View& view, float pixels_per_unit,
   draw_progress(state, actions.run);
   draw_help(state, status_top);
   draw_save_dialogue(state, actions.save);
+  draw_open_dialogue(state, actions.open_design);
+  mark_entered_panel();
 }
 
 }  // namespace window

@@ -4,6 +4,7 @@
 #include "csgcore/view.hpp"
 #include "panels/menu_bar.hpp"
 #include "panels/message_panel.hpp"
+#include "panels/open_dialogue.hpp"
 #include "panels/save_dialogue.hpp"
 #include "state.hpp"
 
@@ -14,6 +15,7 @@ struct PanelActions {
   RunCommand run;  // for commands that State::apply() does not do
   SavePicture save;
   OpenPlace open;
+  OpenDesign open_design{};
 };
 
 /// To be called within a frame of ImGui. `view` is that of the picture shown, in ImGui's units,

@@ -33,10 +33,18 @@ bool is_entered(ParameterEdit& edit, const std::string& id, bool is_changed, boo
   return !ImGui::IsItemActive() || (is_changed && is_live);
 }
 
+/// Returns what a key makes of a number that ImGui has moved a little: the next step, or with shift
+/// the tenth one.
+double stepped(double before, double after, double step) {
+  constexpr double kFast = 10;
+  return before + std::copysign(ImGui::GetIO().KeyShift ? kFast * step : step, after - before);
+}
+
 /// Draws a number, as wide as the next item is set to be.
 std::optional<double> number_control(const std::string& id, const NumberGrid& grid, double value,
                                      ParameterEdit& edit) {
-  double number = edit.id == id ? edit.number : value;
+  const double before = edit.id == id ? edit.number : value;
+  double number = before;
   const bool is_typed = edit.id == id && ImGui::GetIO().WantTextInput;
   const double shown = edit.id == id && !is_typed ? grid.snap(number) : number;
   // Without a %, ImGui shows the text, and does not round the number to it.
@@ -51,6 +59,8 @@ std::optional<double> number_control(const std::string& id, const NumberGrid& gr
                                    text.c_str());
   }
   const bool types = ImGui::GetIO().WantTextInput;
+  const bool drags = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+  if (is_changed && !types && !drags) number = stepped(before, number, grid.step());
   if (is_changed) edit = {id, number, types};
   if (!is_entered(edit, id, is_changed, !types)) return std::nullopt;
   const double entered = edit.is_typed ? grid.clamp(edit.number) : grid.snap(edit.number);

@@ -12,7 +12,6 @@ inline constexpr ImU32 kTextColor = IM_COL32(235, 235, 235, 255);
 /// A window of ImGui that lies over the picture, without a title and in a place of its own.
 inline constexpr ImGuiWindowFlags kOverlay =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-    ImGuiWindowFlags_AlwaysAutoResize;
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
 
 }  // namespace window

@@ -151,6 +151,20 @@ TEST(Options, File) {
   EXPECT_THAT(error_of({"-o", "x.png"}), HasSubstr("no file"));
   EXPECT_THAT(error_of({}), HasSubstr("no file"));
   EXPECT_THAT(error_of({"-o", "x.png", "a", "b"}), HasSubstr("more than one file"));
+  // Each gets a window of its own.
+  const Options windows = parse_options({"a", "--view=axes", "b", "c"});
+  EXPECT_EQ(windows.input, "a");
+  EXPECT_THAT(windows.further_inputs, ElementsAre("b", "c"));
+  EXPECT_THAT(error_of({"--stats=s", "a", "b"}), HasSubstr("--stats is for one file"));
+}
+
+TEST(Options, WhatIsRememberedOtherwise) {
+  const GivenLook none = parse_options({"a"}).given;
+  EXPECT_FALSE(none.scheme || none.view || none.projection || none.shading || none.samples);
+  const GivenLook all = parse_options({"--colorscheme=Metallic", "--view=axes", "--projection=o",
+                                       "--shading=phong", "--samples=4", "a"})
+                            .given;
+  EXPECT_TRUE(all.scheme && all.view && all.projection && all.shading && all.samples);
 }
 
 TEST(Options, ImageSize) {

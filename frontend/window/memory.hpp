@@ -1,0 +1,65 @@
+// What the window remembers from run to run, in a file of the user's XDG state.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace window {
+
+/// Nothing fails: what cannot be read is not remembered, and what cannot be written is forgotten.
+/// Several windows may share the file: each writes what its user has changed.
+class Memory {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Values = std::map<std::string, std::string>;
+
+  /// Reads the file at `path`; empty: there is none. Holds a lock as long as it lives if no other
+  /// window has it.
+  explicit Memory(std::string path);
+  ~Memory();
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  /// Returns a value as it was remembered when the window opened; null if it was not.
+  const std::string* find(const std::string& name) const;
+  /// Returns the designs that were opened last, the newest first, by their absolute paths.
+  const std::vector<std::string>& recent() const { return recent_; }
+  /// Returns whether no other window was open when this one was opened.
+  bool is_only_window() const { return is_only_window_; }
+
+  /// Puts a design's absolute path first among the recent ones.
+  void note_design(const std::string& path, Clock::time_point now);
+  /// Notes the values as they are. Those that differ from the ones noted before are remembered
+  /// from now on; those that are noted first are what the window has begun with.
+  void note(const Values& values, Clock::time_point now);
+  /// Notes that something may have changed which is noted when it is written.
+  void touch(Clock::time_point now);
+
+  /// Returns when to write what has changed: some time after the change, since more may follow.
+  std::optional<Clock::time_point> due() const { return due_; }
+  /// Writes what has changed.
+  void write();
+
+ private:
+  bool take_lock();
+  void make_folder();
+
+  const std::string path_;
+  Values values_;  // when the window opened
+  Values noted_;
+  Values changed_;  // to be written
+  std::vector<std::string> recent_;
+  std::vector<std::string> opened_;  // by this window, the newest first
+  std::optional<Clock::time_point> due_;
+  int lock_ = -1;  // a descriptor
+  bool is_only_window_ = true;
+};
+
+/// Returns the file's path: scadray/window in $XDG_STATE_HOME, or else in ~/.local/state. Empty
+/// without $HOME.
+std::string memory_path();
+
+}  // namespace window

@@ -1,0 +1,25 @@
+#include "panels/text_line.hpp"
+
+#include <algorithm>
+
+namespace window {
+
+bool text_line(ImU32 color, const std::string& text, bool has_place) {
+  const float room = std::max(ImGui::GetContentRegionAvail().x, 1.0f);
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const ImVec2 size = ImGui::CalcTextSize(begin, end, false, room);
+  const bool is_chosen =
+      ImGui::InvisibleButton("##line", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, color, begin, end, room);
+  if (has_place && ImGui::IsItemHovered()) list.AddLine({from.x, to.y}, to, color);
+  if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible) {
+    list.AddRect({from.x - 2, from.y - 1}, {to.x + 2, to.y + 1},
+                 ImGui::GetColorU32(ImGuiCol_NavHighlight));
+  }
+  return is_chosen && has_place;
+}
+
+}  // namespace window
