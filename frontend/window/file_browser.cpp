@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 constexpr const char* kUp = "..";
 
 /// The suffixes of files that are shown. Any other file can be opened by its name.
-constexpr std::array kSuffixes{".scad", ".csg", ".stl", ".off", ".amf", ".3mf", ".dxf", ".svg"};
+constexpr std::array kSuffixes{".scad", ".csg",  ".stl", ".off", ".amf",
+                               ".3mf",  ".nef3", ".dxf", ".svg"};
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
