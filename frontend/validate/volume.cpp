@@ -35,11 +35,11 @@ Chord chord_at(const csgcore::Subdivision& subdivision, double x, double y) {
   view.forward = Vec3(0, 0, 1);
   view.eye = Vec3(x, y, box.min.z - box.diagonal());
   Chord chord;
-  // A ray enters and leaves each primitive at most once.
-  const uint64_t most_crossings = 2 * subdivision.solid().primitives().size();
-  while (chord.crossings < most_crossings) {
+  // A ray sees nothing that is nearer than the thickness tolerance, so that it gets on with each
+  // crossing, unless its place is so far from the origin that rounding swallows the step.
+  for (;;) {
     const Seen seen = traced_ray(subdivision, view);
-    if (!seen.hit()) break;
+    if (!seen.hit() || !(view.eye.z + seen.s > view.eye.z)) break;
     ++chord.crossings;
     if (glm::dot(seen.normal, view.forward) > 0) chord.length += seen.s;
     view.eye.z += seen.s;

@@ -9,6 +9,7 @@
 #include "csgcore/polyhedron.hpp"
 #include "frontend/error.hpp"
 #include "report.hpp"
+#include "support/test_meshes.hpp"
 #include "volume.hpp"
 
 namespace validation {
@@ -117,6 +118,14 @@ TEST(Volume, OfABox) {
                 Op::kUnion, 10000);
   EXPECT_NEAR(estimate.volume, 6, 1e-12);
   EXPECT_GT(estimate.bound, 0);
+}
+
+// A mesh is one primitive, but a ray meets it in any number of pieces.
+TEST(Volume, OfAMeshThatRaysMeetInThreePieces) {
+  const auto floor = [](double z) { return test_support::box_parts({0, 0, z}, {4, 4, z + 1}); };
+  const auto mesh = test_support::joined({floor(0), floor(2), floor(4)}).mesh();
+  const VolumeEstimate estimate = volume_of({csgcore::make_mesh(mesh)}, Op::kUnion, 1000);
+  EXPECT_NEAR(estimate.volume, 3 * 16, 1e-12);
 }
 
 TEST(Volume, MoreRaysMakeABetterBound) {
