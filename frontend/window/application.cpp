@@ -214,11 +214,11 @@ std::optional<double> Application::seconds_to_next_look() const {
 
 /// Returns whether the display of the reading has to change.
 bool Application::watch_reading() {
-  using State = frontend::DesignFollower::State;
-  const State now = follower_.state();
-  const bool was_reading = std::exchange(is_reading_, now == State::kReading);
+  using Reading = frontend::DesignFollower::State;
+  const Reading now = follower_.state();
+  const bool was_reading = std::exchange(is_reading_, now == Reading::kReading);
   if (is_reading_ && !was_reading) reading_since_ = Clock::now();
-  state_.is_stopped = now == State::kStopped || is_picture_stopped_;
+  state_.is_stopped = now == Reading::kStopped || is_picture_stopped_;
   const bool is_long = is_reading_ && Clock::now() - reading_since_ >= kShortReading;
   return std::exchange(state_.is_reading, is_long) != is_long;
 }
