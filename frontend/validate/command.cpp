@@ -3,14 +3,21 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <optional>
+#include <utility>
 
+#include "csg/evaluated_tree.hpp"
+#include "extrusion_judge.hpp"
 #include "frontend/design_file.hpp"
 #include "frontend/error.hpp"
 #include "frontend/files.hpp"
+#include "frontend/parser.hpp"
 #include "frontend/progress.hpp"
 #include "frontend/terminal.hpp"
+#include "language/evaluation.hpp"
 #include "options.hpp"
 #include "render/scene_scale.hpp"
 #include "report.hpp"
@@ -34,10 +41,8 @@ class Run {
     // The scene is scaled as for a picture: floats, and products of three, cannot hold every size.
     const int exponent = frontend::scale_exponent(design);
     const csgcore::Scene scene = exponent == 0 ? design : frontend::scaled(design, exponent);
-    Result result =
-        validate(scene, options_.settings, [this](const std::string& stage, double fraction) {
-          progress_.update(stage.c_str(), fraction);
-        });
+    Result result = validate(scene, options_.settings, show_progress_);
+    judge_extrusions_alone(result);
     progress_.clear();
     if (exponent != 0) {
       result.notes.push_back("the design was scaled by 2^" + std::to_string(exponent) +
@@ -65,15 +70,33 @@ class Run {
       if (!options_.quiet || line.starts_with("ERROR")) say(line);
     };
     reading.progress = [this](const char* stage) { progress_.update(stage, -1); };
+    reading.wants_text = true;
     frontend::DesignFile file = frontend::read_design(options_.input, reading);
     name_ = file.name;
     frontend::ImportedDesign design = frontend::import_design(file);
+    text_ = std::move(file.text);
     for (const frontend::Warning& warning : design.warnings) {
       if (!options_.quiet) say(warning.text);
     }
     note_what_is_not_judged(design);
     design.scene.layers.clear();
     return std::move(design.scene);
+  }
+
+  /// Compares the extrusions that turn, each for itself.
+  void judge_extrusions_alone(Result& result) {
+    frontend::SyntaxTree tree =
+        text_.evaluation
+            ? frontend::tree_of(*text_.evaluation->tree, *text_.evaluation->files, text_.name)
+            : frontend::parse(text_.csg.view(), text_.name);
+    const auto time =
+        std::chrono::duration<double>(kExtrusionShare * options_.settings.time_limit_s);
+    Result extrusions = judge_extrusions(
+        std::move(tree), frontend::beside(options_.input, text_, options_.import),
+        options_.settings, Clock::now() + std::chrono::duration_cast<Clock::duration>(time),
+        show_progress_);
+    std::ranges::move(extrusions.checks, std::back_inserter(result.checks));
+    std::ranges::move(extrusions.notes, std::back_inserter(result.notes));
   }
 
   void note_what_is_not_judged(const frontend::ImportedDesign& design) {
@@ -102,10 +125,17 @@ class Run {
     frontend::write_outputs({&output, 1});
   }
 
+  /// The extrusions get so much of the time limit besides.
+  static constexpr double kExtrusionShare = 0.25;
+
   const Options& options_;
   std::string name_;
+  frontend::DesignText text_;
   std::vector<std::string> not_judged_;
   frontend::ProgressLine progress_;
+  const Progress show_progress_ = [this](const std::string& stage, double fraction) {
+    progress_.update(stage.c_str(), fraction);
+  };
 };
 
 ExitCode run(const std::vector<std::string>& arguments) {

@@ -44,6 +44,7 @@ struct DesignFile {
   double export_ms = 0;              // time that the evaluation of a .scad took
   double read_ms = 0;
   double parse_ms = 0;
+  DesignText text{};  // that it was parsed from, without `files`; empty unless wanted
 };
 
 /// Returns whether the path has the suffix of a .scad, which has to be evaluated.

@@ -29,6 +29,7 @@ struct DesignFileOptions {
   bool wants_files = false;
   /// A syntax error in a used file ends the own evaluator's reading, too.
   bool needs_all_files = false;
+  bool wants_text = false;  // DesignFile::text
   /// Called with each message of the evaluation; an echoed string can give it several lines.
   DesignMessageSink message;
   /// Called with the name of the current stage; during a .scad's export, many times.

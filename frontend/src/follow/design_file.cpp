@@ -68,6 +68,7 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   design.read_ms = text.read_ms;
   design.file_bytes = text.csg.view().size();
   if (text.evaluation) design.camera = camera_of(*text.evaluation);
+  if (options.wants_text) design.text = std::move(text);
   return design;
 }
 

@@ -61,9 +61,10 @@ class RenderText {
         options_(options),
         fragments_(render_fragments(tree, root, options)) {}
 
-  void write(bool is_plane) {
+  /// Solids are scaled by kRenderScale if `is_scaled`.
+  void write(bool is_scaled) {
     const uint32_t end = tree_.nodes[root_].subtree_end;
-    if (is_plane) unscaled_until_ = end;
+    if (!is_scaled) unscaled_until_ = end;
     std::vector<uint32_t> open;
     for (uint32_t i = root_; i < end;) {
       for (; !open.empty() && open.back() <= i; open.pop_back()) text_ += '}';
@@ -254,7 +255,7 @@ bool may_be_rendered(const SyntaxTree& tree, uint32_t root) {
 RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plane,
                              const ImportOptions& options, const std::vector<std::string>& fonts) {
   RenderText body(tree, root, options);
-  body.write(is_plane);
+  body.write(!is_plane);
   RenderRequest request;
   if (body.has_text()) request.text = font_lines(fonts);
   // What is subtracted changes nothing, but makes openscad compute with exact numbers.
@@ -264,6 +265,13 @@ RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plan
   request.inputs = body.take_inputs();
   request.line = tree.nodes[root].location.line;
   return request;
+}
+
+std::string subtree_text(const SyntaxTree& tree, uint32_t root, const ImportOptions& options,
+                         const std::vector<std::string>& fonts) {
+  RenderText body(tree, root, options);
+  body.write(false);
+  return (body.has_text() ? font_lines(fonts) : "") + body.take_text();
 }
 
 }  // namespace frontend

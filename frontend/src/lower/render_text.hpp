@@ -26,4 +26,9 @@ bool may_be_rendered(const SyntaxTree& tree, uint32_t root);
 RenderRequest render_request(const SyntaxTree& tree, uint32_t root, bool is_plane,
                              const ImportOptions& options, const std::vector<std::string>& fonts);
 
+/// Returns the subtree, a solid whose root stands in its own coordinates, as a design for openscad
+/// that is nothing but it, unscaled.
+std::string subtree_text(const SyntaxTree& tree, uint32_t root, const ImportOptions& options,
+                         const std::vector<std::string>& fonts);
+
 }  // namespace frontend

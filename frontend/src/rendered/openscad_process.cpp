@@ -9,10 +9,12 @@
 #include <cstring>
 #include <span>
 #include <system_error>
+#include <utility>
 
 #include "base/growing_text.hpp"
 #include "frontend/stop.hpp"
 #include "meshes/nef_text.hpp"
+#include "meshes/read_solid_file.hpp"
 #include "process/child_process.hpp"
 #include "process/memory_file.hpp"
 #include "process/openscad_program.hpp"
@@ -95,11 +97,27 @@ std::string first_error(std::string_view messages) {
   return std::string(line.substr(kError.size()));
 }
 
-OpenScadResult result_of(std::string_view output, std::string_view messages, int exit_code) {
+std::optional<RingedFaces> faces_of(std::string_view output, OpenScadFormat format) {
+  if (format == OpenScadFormat::kNef3) return read_nef_text(output);
+  SolidFile file = read_off(output, "openscad's output");
+  if (!file.problem.empty()) return std::nullopt;
+  RingedFaces faces;
+  for (size_t i = 0; i < file.faces.face_count(); ++i) {
+    const std::span<const uint32_t> face = file.faces.face(i);
+    faces.corners.insert(faces.corners.end(), face.begin(), face.end());
+    faces.end_ring();
+    faces.end_face();
+  }
+  faces.points = std::move(file.faces.points);
+  return faces;
+}
+
+OpenScadResult result_of(std::string_view output, OpenScadFormat format, std::string_view messages,
+                         int exit_code) {
   constexpr std::string_view kEmpty = "Current top level object is empty";
   const std::string error = first_error(messages);
   if (exit_code == 0) {
-    if (std::optional<RingedFaces> faces = read_nef_text(output)) return {std::move(faces), {}};
+    if (std::optional<RingedFaces> faces = faces_of(output, format)) return {std::move(faces), {}};
   } else if (error.empty() && messages.find(kEmpty) != std::string_view::npos) {
     return {RingedFaces{}, {}};
   }
@@ -116,14 +134,17 @@ std::string cannot_run(const std::string& program, int error_number) {
 
 }  // namespace
 
-OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_background,
-                                    Clock::time_point deadline, const std::stop_token& stop) {
+OpenScadResult evaluate_by_openscad(std::string_view design, OpenScadFormat format,
+                                    bool is_in_background, Clock::time_point deadline,
+                                    const std::stop_token& stop) {
   throw_if_stopped(stop);  // before another one is started
   const MemoryFile input(design);
   Pipe out, err;
   std::optional<ChildProcess> openscad;
   const ChildSetup setup{
-      {openscad_program(), "-o", "-", "--export-format=nef3", "--", input.path()},
+      {openscad_program(), "-o", "-",
+       format == OpenScadFormat::kNef3 ? "--export-format=nef3" : "--export-format=off", "--",
+       input.path()},
       out.write_end(),
       err.write_end(),
       input.descriptor(),
@@ -141,7 +162,7 @@ OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_backgrou
                                                   : "openscad has not finished in time: give it "
                                                     "more by --openscad-timeout"};
   }
-  return result_of(listener.output(), listener.messages(), openscad->wait());
+  return result_of(listener.output(), format, listener.messages(), openscad->wait());
 }
 
 }  // namespace frontend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -17,11 +18,17 @@ struct OpenScadResult {
   std::string problem;  // empty if there are faces
 };
 
-/// Runs openscad on the text of a design of solids, and returns its boundary without a loss of
-/// digits. Where the design is empty, there are no faces in it. Throws Stopped (stop.hpp) as soon
-/// as `stop` is requested. In every case openscad and everything that it has started have ended
-/// when this returns or throws; they also end if this program is killed.
-OpenScadResult evaluate_by_openscad(std::string_view design, bool is_in_background,
+enum class OpenScadFormat : uint8_t {
+  kNef3,  // no digits are lost, and faces in a plane are one; no solid may cross itself
+  kOff,   // the triangles that OpenSCAD shows, by six digits, whatever they enclose
+};
+
+/// Runs openscad on the text of a design of solids, and returns its boundary. Where the design is
+/// empty, there are no faces in it. Throws Stopped (stop.hpp) as soon as `stop` is requested. In
+/// every case openscad and everything that it has started have ended when this returns or throws;
+/// they also end if this program is killed.
+OpenScadResult evaluate_by_openscad(std::string_view design, OpenScadFormat format,
+                                    bool is_in_background,
                                     std::chrono::steady_clock::time_point deadline,
                                     const std::stop_token& stop);
 

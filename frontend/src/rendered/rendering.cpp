@@ -96,7 +96,8 @@ class RenderThreads {
   Rendering render(const RenderRequest& request, bool is_in_background,
                    const std::stop_token& stop) const {
     try {
-      OpenScadResult result = evaluate_by_openscad(request.text, is_in_background, deadline_, stop);
+      OpenScadResult result = evaluate_by_openscad(request.text, OpenScadFormat::kNef3,
+                                                   is_in_background, deadline_, stop);
       if (!result.faces) return {nullptr, std::move(result.problem)};
       cache_.keep(key_of(request), *result.faces);
       return {std::make_shared<const RingedFaces>(std::move(*result.faces)), {}};
