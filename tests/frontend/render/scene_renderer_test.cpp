@@ -222,16 +222,16 @@ TEST(SceneRenderer, PicksWhatAPixelShows) {
     Hits hits;
     csgcore::TraceStats stats;
     csgcore::trace(solid, view, {}, hits, stats);
+    const Hits picked = renderer.look(view);
+    ASSERT_EQ(picked.primitive.size(), hits.primitive.size());
     for (uint32_t y = 0; y < view.height_px; y += 5) {
       for (uint32_t x = 0; x < view.width_px; x += 5) {
         const std::size_t i = std::size_t{y} * view.width_px + x;
-        const Hits picked = renderer.pick(view, x + 0.5, y + 0.5);
-        ASSERT_EQ(picked.primitive.size(), 1u);
-        EXPECT_EQ(picked.primitive[0], hits.primitive[i]);
+        EXPECT_EQ(picked.primitive[i], hits.primitive[i]);
         if (hits.primitive[i] == Hits::kMiss) continue;
         ++found;
-        EXPECT_LE(glm::length(picked.position[0] - hits.position[i]), 1e-11);
-        EXPECT_LE(glm::length(picked.normal[0] - hits.normal[i]), 1e-11);
+        EXPECT_LE(glm::length(picked.position[i] - hits.position[i]), 1e-11);
+        EXPECT_LE(glm::length(picked.normal[i] - hits.normal[i]), 1e-11);
       }
     }
   }
@@ -245,12 +245,14 @@ TEST(SceneRenderer, PicksInScenesOfAnySize) {
     plain.load(lattice());
     renderer.load(scene);
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-      const Hits wanted = plain.pick(view_of(25, projection), 61.5, 45.5);
-      const Hits picked = renderer.pick(view_of(25, projection, size), 61.5, 45.5);
-      ASSERT_NE(wanted.primitive[0], Hits::kMiss);
-      EXPECT_EQ(picked.primitive[0], wanted.primitive[0]);
-      EXPECT_LE(glm::length(picked.position[0] / size - wanted.position[0]), 1e-11);
-      EXPECT_LE(glm::length(picked.normal[0] - wanted.normal[0]), 1e-11);
+      const csgcore::View view = view_of(25, projection);
+      const Hits wanted = plain.look(view);
+      const Hits picked = renderer.look(view_of(25, projection, size));
+      const std::size_t i = std::size_t{45} * view.width_px + 61;
+      ASSERT_NE(wanted.primitive[i], Hits::kMiss);
+      EXPECT_EQ(picked.primitive[i], wanted.primitive[i]);
+      EXPECT_LE(glm::length(picked.position[i] / size - wanted.position[i]), 1e-11);
+      EXPECT_LE(glm::length(picked.normal[i] - wanted.normal[i]), 1e-11);
     }
   }
 }

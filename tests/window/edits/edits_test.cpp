@@ -181,7 +181,11 @@ class Look {
   }
 
   void change(window_test::RandomStatements& random, const csgcore::Box& view_box) {
-    if (!has_seen_all_ || random.chance(15)) order_.navigation.view_all(view_box);
+    if (!has_seen_all_ || random.chance(15)) {
+      const frontend::CameraOptions all;
+      order_.navigation =
+          Navigation(frontend::choose_camera(all, view_box), order_.navigation.projection());
+    }
     has_seen_all_ = true;
     if (random.chance(12)) order_.navigation.turn(20, 7, false);
     if (random.chance(10)) order_.section.is_on = !order_.section.is_on;
@@ -291,8 +295,8 @@ class Edits {
       return Probe{1,
                    Probe::Purpose::kMeasure,
                    look_.order(version, Technique::kTiles),
-                   24.5,
-                   18.5,
+                   {24.5, 18.5},
+                   0,
                    version.texts};
     };
     expect_same_finding(tiles_, probe(kept), probe(fresh));
