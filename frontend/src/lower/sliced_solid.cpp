@@ -1,6 +1,7 @@
 #include "lower/sliced_solid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -56,16 +57,18 @@ class SlicedMesh {
       for (uint32_t layer = 0; layer < slices_; ++layer) {
         for (size_t i = 0; i < loop.points.size(); ++i) {
           const Side side = side_of(loop, layer, i);
-          std::vector<Vec3> corners;
-          for (const size_t place : {side.p1, side.q1, side.p2, side.q2}) {
-            corners.push_back(vertices_[vertex_[place]]);
-          }
-          // Both triangles face the same way, or they would cancel out.
           const bool takes_p1_q2 = is_p1_q2(side, loop.is_hole);
-          std::vector<csgcore::TriangleMesh::Triangle> triangles{{0, 1, takes_p1_q2 ? 3u : 2u}};
-          triangles.push_back({takes_p1_q2 ? 0u : 1u, 2, 3});
-          result.push_back(csgcore::make_mesh(
-              std::make_shared<csgcore::TriangleMesh>(std::move(corners), std::move(triangles))));
+          const size_t last_of_first = takes_p1_q2 ? side.q2 : side.p2;
+          const size_t first_of_second = takes_p1_q2 ? side.p1 : side.q1;
+          // Each triangle is a mesh of its own: in one they would be turned to agree across the
+          // edge that they share, and cancel out where they overlap.
+          for (const auto& triangle : {std::array{side.p1, side.q1, last_of_first},
+                                       std::array{first_of_second, side.q2, side.p2}}) {
+            std::vector<Vec3> corners;
+            for (const size_t place : triangle) corners.push_back(vertices_[vertex_[place]]);
+            result.push_back(csgcore::make_mesh(std::make_shared<csgcore::TriangleMesh>(
+                std::move(corners), std::vector<csgcore::TriangleMesh::Triangle>{{0, 1, 2}})));
+          }
         }
       }
     }

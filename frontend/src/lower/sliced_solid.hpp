@@ -12,9 +12,9 @@ namespace frontend {
 /// that OpenSCAD takes. The polygons of the outline do not cross.
 csgcore::Primitive sliced_mesh(const TwistedLayers& layers, const Slicing& slicing);
 
-/// Returns the sides that a slice folds flat, each as an open mesh: where a slice turns by exactly
-/// half a turn, and both its ends are scaled alike, each side lies in one plane and crosses itself,
-/// so that it encloses nothing, while OpenSCAD shows its two triangles.
+/// Returns the sides that a slice folds flat, each as two open meshes, its triangles: where a slice
+/// turns by exactly half a turn, and both its ends are scaled alike, each side lies in one plane
+/// and crosses itself, so that it encloses nothing, while OpenSCAD shows its two triangles.
 std::vector<csgcore::Primitive> folded_sides(const TwistedLayers& layers, const Slicing& slicing);
 
 /// Returns the box of the corners of all layers.

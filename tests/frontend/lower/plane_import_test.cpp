@@ -153,9 +153,9 @@ TEST(LinearExtrude, ShowsTheSidesThatAHalfTurnFolds) {
       return primitive.mesh && !primitive.mesh->is_closed();
     });
   };
-  EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1"), 4);
-  EXPECT_EQ(sheets("height = 6, twist = -360, slices = 2"), 8);
-  EXPECT_EQ(sheets("height = 6, twist = 540, slices = 1, scale = 2"), 4);
+  EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1"), 8);
+  EXPECT_EQ(sheets("height = 6, twist = -360, slices = 2"), 16);
+  EXPECT_EQ(sheets("height = 6, twist = 540, slices = 1, scale = 2"), 8);
   EXPECT_EQ(sheets("height = 6, twist = 179, slices = 1"), 0);
   EXPECT_EQ(sheets("height = 6, twist = 360, slices = 1"), 0);
   EXPECT_EQ(sheets("height = 6, twist = 180, slices = 1, scale = [1, 2]"), 0);
