@@ -233,7 +233,7 @@ TEST_F(Bench, EvaluatesAScadAndShowsItsWarningsUnlessQuiet) {
   const Outcome outcome = run_few({"--evaluator=openscad", "-D", "a=1", file});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("WARNING: so"));
-  EXPECT_THAT(outcome.out, HasSubstr("1 primitives"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 primitive"), Not(HasSubstr("1 primitives"))));
   EXPECT_THAT(run_few({file}).err, HasSubstr("'nope'"));
   EXPECT_EQ(run_few({"-q", file}).err, "");
 }

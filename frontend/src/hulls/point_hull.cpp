@@ -268,25 +268,27 @@ Simplex flattened(const std::vector<GridPoint>& points, const Simplex& solid,
   for (const GridPoint& point : points) box.merge(place_of(point));
   const Vec3 size = box.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto [least, most] = std::minmax_element(points.begin(), points.end(),
-                                                 [axis](const GridPoint& a, const GridPoint& b) {
-                                                   return place_of(a)[axis] < place_of(b)[axis];
-                                                 });
+  const auto ends = std::minmax_element(points.begin(), points.end(),
+                                        [axis](const GridPoint& a, const GridPoint& b) {
+                                          return place_of(a)[axis] < place_of(b)[axis];
+                                        });
+  const GridPoint& least = *ends.first;
+  const GridPoint& most = *ends.second;
   Simplex flat;
   const auto add = [&](uint32_t point) { flat.points[static_cast<size_t>(flat.count++)] = point; };
-  add(static_cast<uint32_t>(least - points.begin()));
-  add(static_cast<uint32_t>(most - points.begin()));
-  const Vec3 line = glm::normalize(vector_of(*least, *most));
+  add(static_cast<uint32_t>(ends.first - points.begin()));
+  add(static_cast<uint32_t>(ends.second - points.begin()));
+  const Vec3 line = glm::normalize(vector_of(least, most));
   const auto from_line = [&](uint32_t i) {
-    return glm::length(glm::cross(line, vector_of(*least, points[i])));
+    return glm::length(glm::cross(line, vector_of(least, points[i])));
   };
   const double thickness = flat_thickness * size[axis];
   const auto third = furthest(points.size(), from_line);
   if (!third || from_line(*third) <= thickness) return flat;
   add(*third);
-  const Vec3 normal = glm::normalize(normal_of(*least, *most, points[*third]));
+  const Vec3 normal = glm::normalize(normal_of(least, most, points[*third]));
   const auto from_plane = [&](uint32_t i) {
-    return std::abs(glm::dot(normal, vector_of(*least, points[i])));
+    return std::abs(glm::dot(normal, vector_of(least, points[i])));
   };
   const auto fourth = furthest(points.size(), from_plane);
   return !fourth || from_plane(*fourth) <= thickness ? flat : solid;
