@@ -256,8 +256,7 @@ TEST(SolidHull, ShowsThePartsInsideInTheirOwnColors) {
   ASSERT_THAT(design.scene.primitives, SizeIs(4));
   EXPECT_EQ(design.scene.primitives[1].color, (csgcore::Color{1, 0, 0, 1}));
   EXPECT_EQ(design.scene.primitives[2].color, (csgcore::Color{0, 0, 1, 1}));
-  EXPECT_EQ(design.scene.primitives[3].color->a,
-            import_text("%cube(1);").scene.primitives[0].color->a);
+  EXPECT_EQ(design.scene.primitives[3].color, import_text("%cube(1);").scene.primitives[0].color);
 }
 
 TEST(SolidHull, KeepsTheOrderOfTheFile) {
