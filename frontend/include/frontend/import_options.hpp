@@ -49,8 +49,8 @@ struct ImportOptions {
   /// In place of the $fn of every round primitive in the file.
   std::optional<double> fn{};
   PictureKind picture = PictureKind::kPreview;
-  /// Find the boxes of compound leaves for the view box (csgcore/tight_bounds.hpp); otherwise it may
-  /// be too large there, or too small where a leaf's frame is turned.
+  /// Find the boxes of compound leaves for the view box (csgcore/tight_bounds.hpp); otherwise it
+  /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;
   /// Fill ImportedDesign::places. For TextImport alone, and trees that have offsets.
   bool keeps_places = false;

@@ -33,8 +33,8 @@ LibrarySearch::LibrarySearch(std::vector<std::string>& lookups) : lookups_(looku
   std::error_code error;
   const char* home = std::getenv("HOME");
   const fs::path share = fs::path(home ? home : "") / ".local/share";
-  library_folders_.push_back(
-      fs::exists(share, error) ? (share / "OpenSCAD/libraries").string() : kNoFolder);
+  library_folders_.push_back(fs::exists(share, error) ? (share / "OpenSCAD/libraries").string()
+                                                      : kNoFolder);
   library_folders_.push_back("/usr/share/openscad/libraries");
 }
 
@@ -59,7 +59,8 @@ std::string LibrarySearch::find(std::string_view name, const std::string& folder
 bool LibrarySearch::is_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) lookups_.push_back(fs::path(absolute(path.string())).lexically_normal().string());
+  if (!fs::exists(status))
+    lookups_.push_back(fs::path(absolute(path.string())).lexically_normal().string());
   return fs::exists(status) && !fs::is_directory(status);
 }
 
