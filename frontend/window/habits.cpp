@@ -81,7 +81,7 @@ void restore_habits(const Memory& memory, const GivenLook& given, State& state) 
     if (*value == kOn && !state.is_checked(row.on)) state.apply(row.on);
     if (*value == kOff && state.is_checked(row.on)) state.apply(row.off);
   }
-  state.notice.clear();  // nobody has asked for anything yet
+  state.notice.clear();  // it answers commands, and there was none yet
   const std::string* const scheme = memory.find(kScheme);
   if (scheme != nullptr && !given.scheme) {
     if (const auto* known = frontend::find_color_scheme(*scheme)) state.look.scheme = *known;

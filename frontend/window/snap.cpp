@@ -58,7 +58,10 @@ Vec3 nearest_on_line(const Vec3& origin, const Vec3& direction, const csgcore::R
   const Vec3 between = origin - ray.origin;
   const double cosine = glm::dot(direction, ray.direction);
   const double sine2 = 1 - cosine * cosine;
-  if (sine2 < 1e-12) return origin;  // the line is seen end-on: all of its points are as near
+  // A line is seen end-on if it deviates from the ray by less than a millionth: all of its points
+  // are as near, and the quotient below would be rounding.
+  constexpr double kEndOnSine2 = 1e-12;
+  if (sine2 < kEndOnSine2) return origin;
   const double along = cosine * glm::dot(between, ray.direction) - glm::dot(between, direction);
   return origin + (along / sine2) * direction;
 }
@@ -66,6 +69,8 @@ Vec3 nearest_on_line(const Vec3& origin, const Vec3& direction, const csgcore::R
 Vec3 nearest_on_circle(const View& view, const Surface& circle, const PicturePoint& click) {
   constexpr int kSteps = 64;
   constexpr double kGolden = 0.6180339887498949;
+  // In radians: far below a pixel, and above what the distance's own rounding can tell apart.
+  constexpr double kAngleAccuracy = 1e-9;
   const auto point_at = [&](double angle) {
     return circle.origin + circle.radius * direction_across(circle.direction, angle);
   };
@@ -76,7 +81,7 @@ Vec3 nearest_on_circle(const View& view, const Surface& circle, const PicturePoi
     if (distance(i * step) < distance(best * step)) best = i;
   }
   double low = (best - 1) * step, high = (best + 1) * step;
-  while (high - low > 1e-9) {
+  while (high - low > kAngleAccuracy) {
     const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
     (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
   }

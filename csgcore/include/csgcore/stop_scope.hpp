@@ -1,4 +1,4 @@
-// Ends long work early: the work passes stop points, and whoever lets it run sets a token.
+// Ends long work early: the work passes stop points, and its caller sets a token.
 #pragma once
 
 #include <stop_token>

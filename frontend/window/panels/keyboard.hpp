@@ -1,4 +1,4 @@
-// Says who has the keys: the picture, or a panel, a menu or a dialogue of Dear ImGui's.
+// Tells which part has the keys: the picture, or a panel, a menu or a dialogue of Dear ImGui's.
 #pragma once
 
 namespace window {
