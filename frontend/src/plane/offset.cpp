@@ -149,7 +149,7 @@ Polygon sum_of_convex(const Polygon& first, const Polygon& second) {
 }
 
 /// More corners of parts than this would have too many crossings anyway.
-constexpr size_t kMostParts = 1 << 18;
+constexpr size_t kMostPairs = 1 << 18;
 
 Figure filled(SimplePolygons polygons) {
   return outline_of(std::move(polygons), FillRule::kNonZero);
@@ -159,7 +159,7 @@ Figure filled(SimplePolygons polygons) {
 /// of both span: a point of the sum that none of the former holds is where one boundary passes the
 /// other.
 std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolygons& b) {
-  if (edge_count(a) * edge_count(b) > kMostParts) return std::nullopt;
+  if (edge_count(a) * edge_count(b) > kMostPairs) return std::nullopt;
   std::vector<Figure> parts;
   for (const Polygon& loop : b) parts.push_back(filled(moved(a, loop.front())));
   for (const Polygon& loop : a) parts.push_back(filled(moved(b, loop.front())));
@@ -177,7 +177,7 @@ std::optional<Figure> sum_of_polygons(const SimplePolygons& a, const SimplePolyg
 /// The polygons moved to a corner of the convex one, and what the convex one covers along each
 /// edge.
 std::optional<Figure> sum_with_convex(const SimplePolygons& polygons, const Polygon& convex) {
-  if (edge_count(polygons) * convex.size() > kMostParts) return std::nullopt;
+  if (edge_count(polygons) * convex.size() > kMostPairs) return std::nullopt;
   std::vector<Figure> parts{filled(moved(polygons, convex.front()))};
   visit_edges(polygons, [&](const Vec2& start, const Vec2& end) {
     std::vector<Disc> points;
