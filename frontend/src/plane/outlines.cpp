@@ -89,7 +89,7 @@ struct Segment {
 /// Returns whether more than `most` pairs of segments have boxes that overlap, an upper bound of
 /// the crossings, or whether that takes too long to tell.
 bool overlap_more_than(std::vector<Segment> segments, uint64_t most) {
-  constexpr uint64_t kMostSteps = 1 << 30;  // about a second
+  constexpr uint64_t kMostComparisons = 1 << 30;  // about a second
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return a.min.x < b.min.x; });
   uint64_t count = 0;
@@ -101,7 +101,7 @@ bool overlap_more_than(std::vector<Segment> segments, uint64_t most) {
       count += other->min.y <= segment.max.y && segment.min.y <= other->max.y;
     }
     steps += open.size();
-    if (count > most || steps > kMostSteps) return true;
+    if (count > most || steps > kMostComparisons) return true;
     open.push_back(&segment);
   }
   return false;
