@@ -49,8 +49,8 @@ void import_carved_cylinder(benchmark::State& state) {
   const int spheres = static_cast<int>(state.range(0));
   const std::string text = carved_cylinder(spheres);
   for (auto _ : state) {
-    frontend::TextImport import(text, "carved.csg");
-    const frontend::ImportedDesign design = import.finish();
+    const frontend::ImportedDesign design =
+        frontend::import_design(frontend::parse(text, "carved.csg"));
     if (design.primitive_nodes != 1 + static_cast<uint32_t>(spheres)) {
       state.SkipWithError("wrong number of primitives");
     }

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "csgcore/scene_edit.hpp"
 #include "frontend/error.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
@@ -77,24 +76,13 @@ Outcome outcome_of(Import import) {
   }
 }
 
-std::string difference_of(const Outcome& by_tree, const Outcome& by_text) {
-  if (by_tree.error != by_text.error) {
-    return "the tree says \"" + by_tree.error + "\", the text \"" + by_text.error + '"';
-  }
-  if (by_tree.design.primitive_nodes != by_text.design.primitive_nodes ||
-      by_tree.design.warnings.size() != by_text.design.warnings.size() ||
-      !csgcore::compare(by_tree.design.scene, by_text.design.scene).nothing()) {
-    return "the text is imported otherwise than its tree";
-  }
-  return "";
-}
-
 /// Returns what is wrong, or nothing. If a start of the text is beyond repair, the text must fail,
 /// at the start's place.
 std::string fault_of_starts(std::string_view text) {
   const auto place_of = [](std::string_view part) {
-    const std::string error =
-        outcome_of([&] { return frontend::TextImport(part, "fuzz.csg").finish(); }).error;
+    const std::string error = outcome_of([&] {
+                                return frontend::import_design(frontend::parse(part, "fuzz.csg"));
+                              }).error;
     return error.substr(0, error.find(": error: "));
   };
   constexpr size_t kParts = 4;
@@ -115,21 +103,18 @@ std::string fault_of(std::string_view text) {
   std::optional<SyntaxTree> tree;
   // The files that the corpus imports.
   const frontend::ImportOptions options{.folder = SCADRAY_FUZZ_FILES};
-  const Outcome by_tree = outcome_of([&] {
+  const Outcome outcome = outcome_of([&] {
     tree = frontend::parse(text, "fuzz.csg");
     return frontend::import_design(*tree, options);
   });
-  const Outcome by_text =
-      outcome_of([&] { return frontend::TextImport(text, "fuzz.csg", options).finish(); });
   if (tree) {
     const std::string fault = fault_of(*tree);
     if (!fault.empty()) return fault;
   }
-  if (const std::string fault = difference_of(by_tree, by_text); !fault.empty()) return fault;
   if (std::string fault = fault_of_starts(text); !fault.empty()) return fault;
-  const std::string& message = by_tree.error;
+  const std::string& message = outcome.error;
   if (tree && !message.empty()) return "a text without an error of its own is refused: " + message;
-  for (const frontend::Warning& warning : by_tree.design.warnings) {
+  for (const frontend::Warning& warning : outcome.design.warnings) {
     if (!warning.text.starts_with("fuzz.csg:"))
       return "a warning without its place: " + warning.text;
   }

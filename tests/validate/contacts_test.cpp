@@ -10,6 +10,7 @@
 #include "contact_designs.hpp"
 #include "exact_cells.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
 #include "nef_judge.hpp"
 #include "openscad_mesh.hpp"
 #include "support/full_run.hpp"
@@ -32,7 +33,7 @@ const char* length() { return test_support::full_run() ? "full run" : "sample"; 
 /// Nothing is round: cylinders of 8 fragments or fewer are imported as prisms.
 constexpr int kAnyFragments = 3;
 Scene scene_of(const std::string& csg) {
-  return frontend::TextImport(csg, "contacts.csg").finish().scene;
+  return frontend::import_design(frontend::parse(csg, "contacts.csg")).scene;
 }
 
 std::vector<FacetedSolid> polyhedra_of(const Scene& scene) {

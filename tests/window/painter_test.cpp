@@ -15,7 +15,9 @@
 #include "designs.hpp"
 #include "follow/followed.hpp"
 #include "frontend/channel_picture.hpp"
+#include "frontend/importer.hpp"
 #include "frontend/overlays.hpp"
+#include "frontend/parser.hpp"
 #include "frontend/render.hpp"
 #include "support/models.hpp"
 #include "temporary_folder.hpp"
@@ -41,7 +43,8 @@ constexpr double kNoTime_ms = 1e-6;
 std::shared_ptr<const ImportedDesign> design_of(const std::string& text) {
   frontend::ImportOptions options;
   options.keeps_places = true;
-  return std::make_shared<ImportedDesign>(frontend::TextImport(text, "", options).finish());
+  return std::make_shared<ImportedDesign>(
+      frontend::import_design(frontend::parse(text, ""), options));
 }
 
 std::shared_ptr<const ImportedDesign> design_of(csgcore::Scene scene) {

@@ -37,7 +37,9 @@ struct DesignText {
 struct DesignFile {
   std::string name{};                // as messages show it
   std::size_t file_bytes = 0;        // size of the .csg text that was parsed
-  TextImport import;                 // import_design() finishes it
+  SyntaxTree tree;                   // import_design() takes it
+  ImportOptions import{};            // and these
+  std::size_t nodes = 0;             // of the tree
   DesignCamera camera{};             // that the design asks for
   bool is_exported = false;          // it was made from a .scad, by scadray or openscad
   std::vector<std::string> files{};  // files it was read from, the design last; empty unless wanted
@@ -85,16 +87,14 @@ std::vector<NamedPath> design_inputs(const std::string& path,
 /// openscad does not name them, and if memory runs out.
 DesignFile read_design(const std::string& path, const DesignFileOptions& options);
 
-/// Starts the import of what was read. Throws what TextImport throws.
-TextImport start_import(const DesignText& text, const ImportOptions& options,
-                        const std::stop_token& stop = {});
+/// Returns the tree of what was read. Throws what parse() throws (parser.hpp).
+SyntaxTree parse_design(const DesignText& text, const std::stop_token& stop = {});
 /// The same of the parts of a DesignText; the text of `csg` counts if `evaluation` is null.
-TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
-                        const std::string& name, const ImportOptions& options,
-                        const std::stop_token& stop = {});
+SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const std::stop_token& stop = {});
 
-/// Finishes `file.import`; may be called once. Throws what TextImport throws, and Error if memory
-/// runs out.
+/// Imports `file.tree`; may be called once. Throws what import_design() throws (importer.hpp), and
+/// Error if memory runs out.
 ImportedDesign import_design(DesignFile& file);
 
 // The two steps of read_design(). Both throw Stopped (stop.hpp) once `stop` is requested.

@@ -52,7 +52,7 @@ struct ImportOptions {
   /// Find the boxes of compound leaves for the view box (csgcore/tight_bounds.hpp); otherwise it
   /// may be too large there, or too small where a leaf's frame is turned.
   bool measures_leaves = true;
-  /// Fill ImportedDesign::places. For TextImport alone, and trees that have offsets.
+  /// Fill ImportedDesign::places.
   bool keeps_places = false;
   /// How openscad is asked for what scadray does not draw itself; by default it is not.
   RenderingOptions rendering{};

@@ -1,11 +1,7 @@
-// Syntax tree, or text, → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
+// Syntax tree → csgcore::Scene (frontend/OPENSCAD.md, "What nodes mean").
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <stop_token>
-#include <string>
-#include <string_view>
 
 #include "frontend/import_options.hpp"
 #include "frontend/imported_design.hpp"
@@ -20,29 +16,8 @@ namespace frontend {
 /// `stop` asks for it.
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options = {},
                              const std::stop_token& stop = {});
-
-/// import_design(parse(text)) in one pass over the text. Of a node's arguments nothing is kept but
-/// what is drawn, so that large designs take a fraction of the time and the memory.
-class TextImport {
- public:
-  /// Throws what parse() throws (parser.hpp).
-  TextImport(std::string_view text, std::string file_name, const ImportOptions& options = {},
-             const std::stop_token& stop = {});
-  /// Takes a tree instead of a text.
-  explicit TextImport(SyntaxTree tree, const ImportOptions& options = {},
-                      const std::stop_token& stop = {});
-  TextImport(TextImport&&) noexcept;
-  TextImport& operator=(TextImport&&) noexcept;
-  ~TextImport();
-
-  /// In the file, of all kinds.
-  std::size_t nodes() const;
-  /// The rest, which needs the text no more. Throws what import_design() throws. To be called once.
-  ImportedDesign finish(const std::stop_token& stop = {});
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// The same; the tree loses its arguments as soon as they are read, which takes less memory.
+ImportedDesign import_design(SyntaxTree&& tree, const ImportOptions& options = {},
+                             const std::stop_token& stop = {});
 
 }  // namespace frontend

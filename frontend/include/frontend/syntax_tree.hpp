@@ -112,7 +112,7 @@ struct SyntaxTree {
   /// Whether the numbers are the design's own doubles. Those of a .csg have six digits.
   bool has_all_digits = false;
   std::vector<SyntaxNode> nodes;
-  /// Where the nodes' names begin in their files, in bytes, if that is kept: by node, or empty.
+  /// Where the nodes' names begin in their files, in bytes: by node.
   std::vector<uint32_t> offsets;
   std::vector<Argument> arguments;
   std::vector<Value> values;
@@ -130,6 +130,13 @@ struct SyntaxTree {
   }
   std::string_view text_of(const Value& string) const {
     return {strings.data() + string.first, string.count};
+  }
+  /// Leaves the nodes without arguments, which take most of the memory.
+  void free_arguments() {
+    arguments = {};
+    values = {};
+    strings = {};
+    for (SyntaxNode& node : nodes) node.argument_count = 0;
   }
 };
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/name_table.hpp"
-#include "csg/node_sink.hpp"
 #include "language/call_modifier.hpp"
 
 namespace frontend {

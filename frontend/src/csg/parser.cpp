@@ -5,7 +5,6 @@
 
 #include "base/name_table.hpp"
 #include "csg/lexer.hpp"
-#include "csg/node_sink.hpp"
 #include "frontend/stop.hpp"
 
 namespace frontend {
@@ -82,8 +81,8 @@ bool constant(std::string_view word, Value& value) {
 /// an open list is its parent's index in lists_.
 class Parser {
  public:
-  /// `tree` has a file name and nothing else. Without a sink the tree keeps all arguments.
-  Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink);
+  /// `tree` has a file name and nothing else.
+  Parser(std::string_view text, SyntaxTree& tree);
   void run(const std::stop_token& stop);
   /// Ends after the first node.
   void run_one_node();
@@ -104,7 +103,6 @@ class Parser {
   bool list_of_numbers(Value& list);
   Value string();
   Value store(std::string_view text);
-  void hand_over(uint32_t offset);
   void give_names();
   uint32_t open_list(uint32_t parent);
   uint32_t close_list(uint32_t list);
@@ -113,7 +111,6 @@ class Parser {
   [[noreturn]] void fail_word(const char* start, std::string_view word) const;
 
   SyntaxTree& tree_;
-  NodeSink* const sink_;
   const char* const text_;
   Lexer lexer_;
   struct OpenNode {
@@ -129,13 +126,13 @@ class Parser {
   std::vector<StoredName> names_;  // names in tree_.strings, which still moves
 };
 
-Parser::Parser(std::string_view text, SyntaxTree& tree, NodeSink* sink)
-    : tree_(tree), sink_(sink), text_(text.data()), lexer_(text, tree.file_name) {
+Parser::Parser(std::string_view text, SyntaxTree& tree)
+    : tree_(tree), text_(text.data()), lexer_(text, tree.file_name) {
   // These are about the averages of OpenSCAD's files, so that the vectors of most files never move.
   // A vector that is not used in full costs addresses, not memory.
   constexpr size_t kBytesPerNode = 48, kBytesPerArgument = 20, kBytesPerValue = 6;
   tree_.nodes.reserve(text.size() / kBytesPerNode);
-  if (sink != nullptr) return;
+  tree_.offsets.reserve(text.size() / kBytesPerNode);
   tree_.arguments.reserve(text.size() / kBytesPerArgument);
   tree_.values.reserve(text.size() / kBytesPerValue);
 }
@@ -181,17 +178,6 @@ void Parser::give_names() {
   names_.clear();
 }
 
-/// Gives the last node to the sink. Its arguments are not needed after that.
-void Parser::hand_over(uint32_t offset) {
-  give_names();
-  SyntaxNode& node = tree_.nodes.back();
-  sink_->take(static_cast<uint32_t>(tree_.nodes.size() - 1), offset);
-  node.first_argument = node.argument_count = 0;
-  tree_.arguments.clear();
-  tree_.values.clear();
-  tree_.strings.clear();
-}
-
 uint8_t Parser::modifiers() {
   uint8_t found = 0;
   for (lexer_.skip_space(); is_modifier(lexer_.peek()); lexer_.skip_space()) {
@@ -203,19 +189,17 @@ uint8_t Parser::modifiers() {
 
 void Parser::node(uint8_t modifiers) {
   SyntaxNode node;
-  const auto offset = static_cast<uint32_t>(lexer_.position() - text_);
+  tree_.offsets.push_back(static_cast<uint32_t>(lexer_.position() - text_));
   node.location = lexer_.location();
   node.kind = node_kind();
   node.modifiers = modifiers;
   node.first_argument = static_cast<uint32_t>(tree_.arguments.size());
   arguments(node.kind);
   node.argument_count = static_cast<uint32_t>(tree_.arguments.size()) - node.first_argument;
-  node.subtree_end = kOpenSubtree;
   lexer_.skip_space();
   const bool single = !is_leaf(node.kind) && (lexer_.at_word() || is_modifier(lexer_.peek()));
   open_.push_back({static_cast<uint32_t>(tree_.nodes.size()), single});
   tree_.nodes.push_back(node);
-  if (sink_ != nullptr) hand_over(offset);
   if (lexer_.take(';')) {
     close_node();
   } else if (!single && !lexer_.take('{')) {
@@ -442,12 +426,6 @@ void Parser::fail_word(const char* start, std::string_view word) const {
   lexer_.fail(start, "no value is called " + quoted(word), kValueHint);
 }
 
-/// A sink for checking a text alone.
-class NoSink : public NodeSink {
- public:
-  void take(uint32_t, uint32_t) override {}
-};
-
 void check_size(std::string_view text, const std::string& file_name) {
   if (text.size() <= kMaxTextBytes) return;
   throw Error(file_name, {}, "the file has " + std::to_string(text.size()) + " bytes",
@@ -460,14 +438,13 @@ SyntaxTree parse(std::string_view text, std::string file_name, const std::stop_t
   SyntaxTree tree;
   tree.file_name = std::move(file_name);
   check_size(text, tree.file_name);
-  Parser(text, tree, nullptr).run(stop);
+  Parser(text, tree).run(stop);
   return tree;
 }
 
 bool is_beyond_repair(std::string_view start, const std::stop_token& stop) {
   SyntaxTree tree;
-  NoSink sink;
-  Parser parser(start, tree, &sink);
+  Parser parser(start, tree);
   try {
     parser.run(stop);
   } catch (const Error&) {
@@ -476,15 +453,9 @@ bool is_beyond_repair(std::string_view start, const std::stop_token& stop) {
   return false;
 }
 
-void parse_nodes(std::string_view text, SyntaxTree& tree, NodeSink& sink,
-                 const std::stop_token& stop) {
-  check_size(text, tree.file_name);
-  Parser(text, tree, &sink).run(stop);
-}
-
 SyntaxTree parse_subtree(std::string_view text, uint32_t offset) {
   SyntaxTree tree;
-  Parser(text.substr(offset), tree, nullptr).run_one_node();
+  Parser(text.substr(offset), tree).run_one_node();
   return tree;
 }
 

@@ -38,16 +38,16 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
 }
 
 /// Parses a text that may turn out to be a .scad's.
-TextImport parse_either(const std::string& path, const DesignFileOptions& options,
+SyntaxTree parse_either(const std::string& path, const DesignFileOptions& options,
                         DesignText& text) {
   try {
-    return start_import(text, beside(path, text, options.import));
+    return parse_design(text);
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
   }
   export_design_text(path, options, text);
   options.progress("parsing");
-  return start_import(text, beside(path, text, options.import));
+  return parse_design(text);
 }
 
 DesignFile read_and_parse(const std::string& path, const DesignFileOptions& options) {
@@ -55,13 +55,15 @@ DesignFile read_and_parse(const std::string& path, const DesignFileOptions& opti
   options.progress("parsing");
   const double export_before_ms = text.export_ms;
   const Clock::time_point parse_start = Clock::now();
-  DesignFile design{.import = parse_either(path, options, text)};
+  DesignFile design{.tree = parse_either(path, options, text)};
   design.name = input_name(path);
   design.parse_ms = ms_since(parse_start) - (text.export_ms - export_before_ms);
   if (text.is_exported && options.wants_files && text.files.empty()) {
     throw Error(path, {}, "openscad does not say which files it reads",
                 "leave out -d, or check $OPENSCAD");
   }
+  design.import = beside(path, text, options.import);
+  design.nodes = design.tree.nodes.size();
   design.is_exported = text.is_exported;
   design.files = std::move(text.files);
   design.export_ms = text.export_ms;
@@ -271,20 +273,18 @@ DesignFile read_design(const std::string& path, const DesignFileOptions& options
   return within_memory(path, [&] { return read_and_parse(path, options); });
 }
 
-TextImport start_import(const DesignText& text, const ImportOptions& options,
-                        const std::stop_token& stop) {
-  return start_import(text.csg, text.evaluation.get(), text.name, options, stop);
+SyntaxTree parse_design(const DesignText& text, const std::stop_token& stop) {
+  return parse_design(text.csg, text.evaluation.get(), text.name, stop);
 }
 
-TextImport start_import(const FileText& csg, const language::Evaluation* evaluation,
-                        const std::string& name, const ImportOptions& options,
-                        const std::stop_token& stop) {
-  if (evaluation == nullptr) return TextImport(csg.view(), name, options, stop);
-  return TextImport(tree_of(*evaluation->tree, *evaluation->files, name), options, stop);
+SyntaxTree parse_design(const FileText& csg, const language::Evaluation* evaluation,
+                        const std::string& name, const std::stop_token& stop) {
+  if (evaluation == nullptr) return parse(csg.view(), name, stop);
+  return tree_of(*evaluation->tree, *evaluation->files, name);
 }
 
 ImportedDesign import_design(DesignFile& file) {
-  return within_memory(file.name, [&] { return file.import.finish(); });
+  return within_memory(file.name, [&] { return import_design(std::move(file.tree), file.import); });
 }
 
 }  // namespace frontend

@@ -45,8 +45,8 @@ bool is_same(const DesignTexts& before, const DesignText& now) {
 
 /// Returns nothing if the text is that of the version before, and neither names files nor has text,
 /// whose fonts may have changed.
-std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions& options,
-                                     DesignReading& reading, const std::stop_token& stop) {
+std::optional<SyntaxTree> parse_text(const DesignText& text, DesignReading& reading,
+                                     const std::stop_token& stop) {
   const ImportedDesign* const before = reading.good.design.get();
   reading.version.unchanged = before != nullptr && before->files.empty() && !before->has_text &&
                               before->lines_to_render.empty() && is_same(reading.good.texts, text);
@@ -55,9 +55,9 @@ std::optional<TextImport> parse_text(const DesignText& text, const ImportOptions
     return std::nullopt;
   }
   const Clock::time_point start = Clock::now();
-  TextImport import = start_import(text, options, stop);
+  SyntaxTree tree = parse_design(text, stop);
   reading.version.parse_ms = ms_since(start);
-  return import;
+  return tree;
 }
 
 /// Returns the path of the file that a text was read from, unless a program has made the text.
@@ -68,16 +68,18 @@ std::string csg_path(const std::string& path, const DesignText& text) {
   return failed ? std::string() : absolute.lexically_normal().string();
 }
 
-void finish_import(TextImport& import, const std::string& path, DesignText& text,
-                   DesignReading& reading, const std::stop_token& stop) {
+void import_into(DesignReading& reading, SyntaxTree tree, const std::string& path,
+                 const ImportOptions& options, DesignText& text, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
-  auto design = std::make_shared<const ImportedDesign>(import.finish(stop));
+  const std::size_t nodes = tree.nodes.size();
+  auto design =
+      std::make_shared<const ImportedDesign>(import_design(std::move(tree), options, stop));
   reading.version.import_ms = ms_since(start) - design->rendering_ms;
   GoodVersion& good = reading.good;
   good.texts = {std::make_shared<const FileText>(std::move(text.csg)), csg_path(path, text),
                 text.evaluation};
   good.design = std::move(design);
-  good.nodes = import.nodes();
+  good.nodes = nodes;
   good.text_name = text.name;
   good.is_exported = text.is_exported;
 }
@@ -98,19 +100,22 @@ void read_into(DesignReading& reading, const std::string& path, const DesignFile
   }
   reading.is_scad = is_evaluated(path, file_options) && !is_importable(path);
   DesignText text = read_design_text(path, file_options, stop);
-  std::optional<TextImport> import;
+  std::optional<SyntaxTree> tree;
   try {
-    import = parse_text(text, beside(path, text, file_options.import), reading, stop);
+    tree = parse_text(text, reading, stop);
   } catch (const Error&) {
     if (text.is_exported || !may_be_scad(path)) throw;
     reading.is_scad = true;
   }
   if (reading.is_scad && !text.is_exported) {
     export_design_text(path, file_options, text, stop);
-    import = parse_text(text, beside(path, text, file_options.import), reading, stop);
+    tree = parse_text(text, reading, stop);
   }
   file_options.progress("importing");
-  if (import) finish_import(*import, path, text, reading, stop);
+  if (tree) {
+    import_into(reading, std::move(*tree), path, beside(path, text, file_options.import), text,
+                stop);
+  }
   reading.good.lacks_files = text.evaluation && text.evaluation->has_unparsed_files;
   if (text.evaluation) version.camera = camera_of(*text.evaluation);
   version.export_ms = text.export_ms;
@@ -170,9 +175,10 @@ void render_into(DesignReading& reading, const std::string& path, const DesignFi
   ImportOptions import_options = beside(path, text, options.import);
   import_options.rendering.is_in_background = true;
   const GoodVersion& good = reading.good;
-  TextImport import = start_import(*good.texts.csg, good.texts.evaluation.get(), good.text_name,
-                                   import_options, stop);
-  reading.good.design = std::make_shared<const ImportedDesign>(import.finish(stop));
+  SyntaxTree tree =
+      parse_design(*good.texts.csg, good.texts.evaluation.get(), good.text_name, stop);
+  reading.good.design =
+      std::make_shared<const ImportedDesign>(import_design(std::move(tree), import_options, stop));
   version.design = reading.good.design;
   version.unchanged = false;
   for (const Warning& warning : version.design->warnings) {

@@ -8,7 +8,7 @@
 #include "csg/evaluated_tree.hpp"
 #include "csg/node_label.hpp"
 #include "csg/node_path.hpp"
-#include "csg/node_sink.hpp"
+#include "frontend/parser.hpp"
 #include "language/evaluation.hpp"
 
 namespace frontend {

@@ -7,6 +7,7 @@
 #include "base/elapsed.hpp"
 #include "base/primitive_size.hpp"
 #include "base/primitive_traits.hpp"
+#include "frontend/stop.hpp"
 #include "hulls/point_hull.hpp"
 #include "lower/faceted_box.hpp"
 #include "lower/file_matrix.hpp"
@@ -116,71 +117,63 @@ void note_mixing(const SyntaxNode& node, int dimension, NodeProblems& problems) 
 
 }  // namespace
 
-Collector::Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text)
+Collector::Collector(const SyntaxTree& tree, const ImportOptions& options)
     : polyhedra(options.keeps_meshes, options.picture == PictureKind::kThrownTogether),
       files(options.folder, polyhedra),
       fonts(options.font_files),
       tree_(tree),
       options_(options),
-      text_(text),
       hulls_(options.hulls ? options.hulls : std::make_shared<HullPool>()) {
   contexts_.push_back({0, 0, std::nullopt, std::nullopt, false, false});
 }
 
-void Collector::reserve(size_t nodes, size_t solids, size_t matrices) {
-  primitive_of.reserve(nodes);
+void Collector::collect(const std::stop_token& stop) {
+  survey();
+  for (uint32_t i = selected.begin; i < selected.end;) {
+    throw_if_stopped(stop);
+    const SyntaxNode& node = tree_.nodes[i];
+    while (contexts_.size() > 1 && !is_within(i, contexts_.back().node)) contexts_.pop_back();
+    const bool goes_on = (node.modifiers & kDisable) == 0 && visit(i);
+    i = goes_on ? i + 1 : node.subtree_end;
+  }
+}
+
+/// Counts the nodes and makes room for them, since growing by doubling would copy, and touch, twice
+/// the memory; and finds the subtree that `!` selects.
+void Collector::survey() {
+  const auto count = static_cast<uint32_t>(tree_.nodes.size());
+  ids_.reserve(count);
+  size_t solids = 0, matrices = 0;
+  std::optional<uint32_t> root;
+  uint32_t disabled_end = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const SyntaxNode& node = tree_.nodes[i];
+    ids_.push_back(primitive_nodes);
+    if (has_place(tree_, node)) {
+      ++primitive_nodes;
+      if (options_.keeps_places) places.push_back(place_of(i));
+    }
+    solids += role_of(node.kind) == Role::kSolid;
+    matrices += node.kind == NodeKind::kMultmatrix;
+    if (i >= disabled_end && (node.modifiers & kDisable) != 0) disabled_end = node.subtree_end;
+    if (i >= disabled_end && !root && (node.modifiers & kRoot) != 0) root = i;
+  }
+  selected = root ? NodeRange{*root, tree_.nodes[*root].subtree_end} : NodeRange{0, count};
+  for (uint32_t i = selected.begin; i < selected.end && !any_modifiers; ++i) {
+    any_modifiers = tree_.nodes[i].modifiers != 0;
+  }
+  primitive_of.assign(count, kNoPrimitive);
   primitives.reserve(solids);
   frame_of.reserve(solids);
   boxes.reserve(solids);
   fragments.reserve(solids);
-  if (options_.keeps_places) places.reserve(solids);
   frames.reserve(matrices);
-}
-
-void Collector::take(uint32_t index, uint32_t offset) {
-  const SyntaxNode& node = tree_.nodes[index];
-  if (plane_ && !is_within(index, plane_->root())) leave_plane();
-  if (candidate_ && !is_within(index, candidate_->subtree.root())) leave_candidate();
-  primitive_of.push_back(kNoPrimitive);
-  const uint32_t id = primitive_nodes;
-  if (has_place(tree_, node)) {
-    ++primitive_nodes;
-    if (options_.keeps_places) places.push_back(place_of(index, offset));
-  }
-  if (root_ && !is_within(index, *root_)) return;
-  if (disabled_ && is_within(index, *disabled_)) return;
-  const bool is_disabled = (node.modifiers & kDisable) != 0;
-  if (is_disabled) disabled_ = index;
-  if (!root_ && !is_disabled && (node.modifiers & kRoot) != 0) select(index);
-  if (skipped_ && is_within(index, *skipped_)) return;
-  any_modifiers = any_modifiers || node.modifiers != 0;
-  while (contexts_.size() > 1 && !is_within(index, contexts_.back().node)) contexts_.pop_back();
-  if (is_disabled || !visit(index, id, offset)) skipped_ = index;
-}
-
-void Collector::end_of_nodes() {
-  if (plane_) leave_plane();
-  if (candidate_) leave_candidate();
 }
 
 void Collector::finish(const std::stop_token& stop) {
   add_pending(stop);
   std::sort(plane_leaves.begin(), plane_leaves.end(),
             [](const PlaneLeaf& a, const PlaneLeaf& b) { return a.node < b.node; });
-  const auto count = static_cast<uint32_t>(tree_.nodes.size());
-  selected = root_ ? NodeRange{*root_, tree_.nodes[*root_].subtree_end} : NodeRange{0, count};
-  for (const LeftOut& out : maybe_left_out_) {
-    const SyntaxNode& node = tree_.nodes[out.node];
-    if (out.unless_empty && node.subtree_end == out.node + 1) continue;
-    left_out.push_back(out.node);
-    problems.add(node, {" is left out", std::string(out.why)});
-  }
-  maybe_left_out_ = {};
-  for (const uint32_t node : solid_fills_) {
-    if (tree_.nodes[node].subtree_end == node + 1) continue;
-    problems.add(tree_.nodes[node],
-                 {": fill() not yet implemented for 3D", "it is drawn as a union"});
-  }
 }
 
 const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
@@ -190,64 +183,37 @@ const Collector::PlaneLeaf* Collector::plane_leaf(uint32_t node) const {
   return found != plane_leaves.end() && found->node == node ? &*found : nullptr;
 }
 
-/// Nothing counts but the subtree, and that as if it stood alone.
-void Collector::select(uint32_t root) {
-  root_ = root;
-  std::fill(primitive_of.begin(), primitive_of.end(), kNoPrimitive);
-  primitives.clear();
-  frame_of.clear();
-  boxes.clear();
-  fragments.clear();
-  frames = {};
-  problems.clear();
-  compound_leaves.clear();
-  plane_leaves.clear();
-  pending_.clear();
-  pending_contexts_.clear();
-  plane_.reset();
-  candidate_.reset();
-  top_node_.reset();
-  rendered_dimension_ = 0;
-  any_modifiers = false;
-  contexts_.resize(1);
-  skipped_.reset();
-  maybe_left_out_.clear();
-  solid_fills_.clear();
-}
-
-/// False: the children do not matter.
-bool Collector::visit(uint32_t index, uint32_t id, uint32_t offset) {
+/// False: the children do not matter, or are taken already.
+bool Collector::visit(uint32_t index) {
   const SyntaxNode& node = tree_.nodes[index];
-  if (!candidate_ && may_be_plane(index)) enter_candidate(index, offset);
-  if (candidate_) take_into_candidate(index, id);
-  if (plane_) {
-    plane_->take(index, id, options_, {fonts, files}, problems);
-    return true;
-  }
+  if (is_of_either_dimension(index) && add_if_plane(index)) return false;
   if (contexts_.back().in_leaf && (node.modifiers & kBackground) != 0) leave_leaf(index);
   switch (names_drawing(tree_, node) ? Role::kPlane : role_of(node.kind)) {
     case Role::kSolid:
-      add_solid(index, id);
+      add_solid(index);
       return false;
     case Role::kOperation:
       if (node.kind == NodeKind::kMultmatrix) enter_matrix(index);
       if (node.kind == NodeKind::kColor) enter_color(index);
       if (is_compound_leaf(node.kind, options_.picture)) enter_leaf(index);
-      if (node.kind == NodeKind::kFill) solid_fills_.push_back(index);
+      if (node.kind == NodeKind::kFill && has_children(index)) {
+        problems.add(node, {": fill() not yet implemented for 3D", "it is drawn as a union"});
+      }
       return true;
     case Role::kPlane:
-      enter_plane(index, offset);
-      plane_->take(index, id, options_, {fonts, files}, problems);
-      return true;
+      add_plane(index);
+      return false;
     case Role::kUnsupportedOperation:
       break;
   }
-  leave_out(index, kBecauseUnknown, true);
+  // Without children it makes nothing, and nothing is missing.
+  if (has_children(index)) leave_out(index, std::string(kBecauseUnknown));
   return false;
 }
 
-void Collector::leave_out(uint32_t node, std::string_view why, bool unless_empty) {
-  maybe_left_out_.push_back({node, unless_empty, why});
+void Collector::leave_out(uint32_t node, const std::string& why) {
+  left_out.push_back(node);
+  problems.add(tree_.nodes[node], {" is left out", why});
 }
 
 void Collector::enter_matrix(uint32_t node) {
@@ -313,7 +279,7 @@ bool Collector::read_solid(uint32_t index, Primitive& primitive, csgcore::FacetS
   if (solid == nullptr) return false;
   if (solid->is_empty()) {
     // Next to the largest coordinate the others are nothing.
-    if (solid->exponent > kLargestExponent) leave_out(index, kBecauseTooLarge);
+    if (solid->exponent > kLargestExponent) leave_out(index, std::string(kBecauseTooLarge));
     return false;
   }
   primitive = solid->sheet ? solid->under(solid->sheet, to_world) : solid->under(to_world);
@@ -351,12 +317,12 @@ const SolidOfFaces* Collector::read_file(uint32_t index, std::string& name) {
   return file.solid;
 }
 
-PrimitivePlace Collector::place_of(uint32_t node, uint32_t offset) const {
+PrimitivePlace Collector::place_of(uint32_t node) const {
   const Location location = tree_.nodes[node].location;
-  return {node, location.line, offset, location.file};
+  return {node, location.line, tree_.offsets[node], location.file};
 }
 
-void Collector::add_solid(uint32_t index, uint32_t id) {
+void Collector::add_solid(uint32_t index) {
   const Context& context = contexts_.back();
   Primitive primitive;
   csgcore::FacetSettings facets;
@@ -368,7 +334,7 @@ void Collector::add_solid(uint32_t index, uint32_t id) {
     faces = nullptr;
     frame = 0;
   }
-  primitive.id = id;
+  primitive.id = ids_[index];
   if (faces != nullptr && faces->inner_faces && !context.in_leaf) {
     return add_sides(index, primitive, *faces, context);
   }
@@ -433,10 +399,10 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
     case Fit::kFits:
       break;
     case Fit::kTooLarge:
-      leave_out(node, kBecauseTooLarge);
+      leave_out(node, std::string(kBecauseTooLarge));
       return kNoPrimitive;
     case Fit::kTooSmall:
-      leave_out(node, kBecauseTooSmall);
+      leave_out(node, std::string(kBecauseTooSmall));
       return kNoPrimitive;
     case Fit::kFlat:
       if (primitive.local_to_world.linear != csgcore::Mat3(0.0)) {
@@ -452,17 +418,29 @@ uint32_t Collector::add_primitive(Primitive primitive, uint32_t node, const Cont
   return static_cast<uint32_t>(primitives.size()) - 1;
 }
 
-void Collector::enter_plane(uint32_t node, uint32_t offset) {
-  plane_.emplace(tree_, node);
-  plane_context_ = contexts_.back();
-  plane_place_ = {node, offset};
+PlaneSubtree Collector::read_plane(uint32_t root) {
+  PlaneSubtree subtree(tree_, root);
+  for (uint32_t i = root; i < tree_.nodes[root].subtree_end;) {
+    const bool is_disabled = i != root && (tree_.nodes[i].modifiers & kDisable) != 0;
+    if (!is_disabled) subtree.take(i, ids_[i], options_, {fonts, files}, problems);
+    i = is_disabled ? tree_.nodes[i].subtree_end : i + 1;
+  }
+  // The leaf's primitives have the id of its first primitive node.
+  const uint32_t id = ids_[root];
+  const bool has_id = tree_.nodes[root].subtree_end < ids_.size()
+                          ? ids_[tree_.nodes[root].subtree_end] > id
+                          : primitive_nodes > id;
+  if (options_.keeps_places && has_id) places[id] = place_of(root);
+  return subtree;
 }
 
-/// After the last node of the subtree.
-void Collector::leave_plane() {
-  plane_context_.frame = typed_frame(plane_->root(), plane_context_.frame);
-  add_plane_leaf(*plane_, plane_place_, plane_context_, problems);
-  // A plane figure among solids is ignored; what stands at the top is a candidate, too.
+/// Adds a subtree of 2D nodes, or of an operation on solids, as one leaf.
+void Collector::add_plane(uint32_t root) {
+  const PlaneSubtree subtree = read_plane(root);
+  Context context = contexts_.back();
+  context.frame = typed_frame(root, context.frame);
+  add_plane_leaf(subtree, context, problems);
+  // Among solids a final render ignores a plane figure.
   PlaneLeaf& leaf = plane_leaves.back();
   if (options_.picture == PictureKind::kRendered && leaf.is_plate) {
     leaf.presence = Presence::kEmpty;
@@ -473,68 +451,50 @@ void Collector::leave_plane() {
       pending_contexts_.pop_back();
     }
   }
-  if (any_modifiers) add_inner_parts(*plane_, plane_place_, plane_context_);
-  plane_.reset();
+  if (any_modifiers) add_inner_parts(subtree, context);
 }
 
 /// OpenSCAD's render() and fill() nodes, and in its final render all that stands at the top, is a
 /// plane figure if its first child is one.
-bool Collector::may_be_plane(uint32_t node) {
+bool Collector::is_of_either_dimension(uint32_t node) {
   if (options_.picture != PictureKind::kRendered) {
-    return is_leaf_of_either(tree_.nodes[node].kind) && !contexts_.back().in_leaf && !plane_;
+    return is_leaf_of_either(tree_.nodes[node].kind) && !contexts_.back().in_leaf;
   }
-  if (top_node_ && is_within(node, *top_node_)) return false;
-  top_node_ = node;
+  if (node < top_node_end_) return false;
+  top_node_end_ = tree_.nodes[node].subtree_end;
   return true;
 }
 
-void Collector::enter_candidate(uint32_t node, uint32_t offset) {
-  candidate_.emplace(Candidate{PlaneSubtree(tree_, node),
-                               {node, offset},
-                               contexts_.back(),
-                               {},
-                               primitives.size(),
-                               plane_leaves.size(),
-                               compound_leaves.size(),
-                               maybe_left_out_.size(),
-                               solid_fills_.size(),
-                               pending_.size(),
-                               false});
-}
-
-void Collector::take_into_candidate(uint32_t node, uint32_t id) {
-  const NodeKind kind = tree_.nodes[node].kind;
-  const bool is_drawing = names_drawing(tree_, tree_.nodes[node]);
-  std::optional<uint32_t>& background = candidate_->background;
-  const bool is_in_background = background && is_within(node, *background);
-  const bool is_part = !is_in_background && (tree_.nodes[node].modifiers & kBackground) == 0;
-  if (!is_part && !is_in_background) background = node;
-  const bool is_solid = is_extrusion(kind) || (role_of(kind) == Role::kSolid && !is_drawing);
-  const bool is_figure = is_plane_primitive(kind) || kind == NodeKind::kProjection ||
-                         (is_drawing && !is_extrusion(kind));
-  if (candidate_->is_plane || !is_part || !is_solid) {
-    candidate_->is_plane = candidate_->is_plane || (is_part && is_figure);
-    candidate_->subtree.take(node, id, options_, {fonts, files}, candidate_->problems);
-    return;
+int Collector::dimension_of(uint32_t root) const {
+  for (uint32_t i = root; i < tree_.nodes[root].subtree_end;) {
+    const SyntaxNode& node = tree_.nodes[i];
+    const bool is_drawing = names_drawing(tree_, node);
+    const bool is_known = role_of(node.kind) != Role::kUnsupportedOperation;
+    if ((node.modifiers & (kDisable | kBackground)) != 0 || !is_known) {
+      i = node.subtree_end;
+      continue;
+    }
+    if (is_extrusion(node.kind)) return 3;
+    if (role_of(node.kind) == Role::kSolid) return is_drawing ? 2 : 3;
+    if (is_plane_primitive(node.kind) || node.kind == NodeKind::kProjection) return 2;
+    ++i;
   }
-  // It is a solid, and all that it would need is collected.
-  take_rendered_dimension(candidate_->subtree.root(), 3);
-  candidate_.reset();
+  return 0;
 }
 
-void Collector::leave_candidate() {
-  const Candidate candidate = std::move(*candidate_);
-  candidate_.reset();
-  if (!candidate.is_plane) return;
-  forget_since(candidate);
-  NodeProblems told;  // again
-  if (!take_rendered_dimension(candidate.subtree.root(), 2)) return;
-  Context context = candidate.context;
-  context.frame = typed_frame(candidate.subtree.root(), context.frame);
-  add_plane_leaf(candidate.subtree, candidate.place, context, told);
+/// Returns true, with no node left to visit, if the subtree is a plane figure, which is added as
+/// one leaf, or is not kept.
+bool Collector::add_if_plane(uint32_t root) {
+  const int dimension = dimension_of(root);
+  if (dimension != 0 && !keeps_dimension(root, dimension)) return true;
+  if (dimension != 2) return false;
+  Context context = contexts_.back();
+  context.frame = typed_frame(root, context.frame);
+  add_plane_leaf(read_plane(root), context, problems);
+  return true;
 }
 
-bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
+bool Collector::keeps_dimension(uint32_t root, int dimension) {
   if (options_.picture != PictureKind::kRendered) return true;
   if (rendered_dimension_ == 0) rendered_dimension_ = dimension;
   if (rendered_dimension_ == dimension) return true;
@@ -543,45 +503,23 @@ bool Collector::take_rendered_dimension(uint32_t root, int dimension) {
   return false;
 }
 
-void Collector::forget_since(const Candidate& candidate) {
-  const auto shorten = [](auto& list, size_t size) {
-    list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
-  };
-  shorten(primitives, candidate.primitives);
-  shorten(frame_of, candidate.primitives);
-  shorten(boxes, candidate.primitives);
-  shorten(fragments, candidate.primitives);
-  shorten(plane_leaves, candidate.plane_leaves);
-  shorten(compound_leaves, candidate.compound_leaves);
-  shorten(maybe_left_out_, candidate.left_out);
-  shorten(solid_fills_, candidate.solid_fills);
-  shorten(pending_, candidate.pending);
-  shorten(pending_contexts_, candidate.pending);
-  std::fill(primitive_of.begin() + candidate.subtree.root(), primitive_of.end(), kNoPrimitive);
-}
-
-void Collector::add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place,
-                               const Context& context, NodeProblems& told) {
+void Collector::add_plane_leaf(const PlaneSubtree& subtree, const Context& context,
+                               NodeProblems& told) {
   PlaneLeaf leaf{subtree.root(), context.frame, Presence::kEmpty, {}, {}, false};
-  // Its primitives have the id of its first primitive node. A part inside keeps its own place.
-  const uint32_t id = subtree.first_id(subtree.root());
-  if (id < places.size() && place.node == leaf.node) places[id] = place_of(leaf.node, place.offset);
   Missing missing;
   leaf.presence = lower_plane(subtree, context, told, leaf, missing);
   if (!missing.nodes.empty() && !context.flattened && asks_for(subtree)) {
     leaf.figures.clear();
     leaf.is_plate = missing.is_of_plane;
-    leaf.presence =
-        ask_for(subtree, place, missing.is_of_plane, missing.nodes.front().why, context);
+    leaf.presence = ask_for(leaf.node, missing.is_of_plane, missing.nodes.front().why, context);
   } else {
-    for (const Missing::Node& node : missing.nodes) leave_out(node.node, node.why);
+    for (const Missing::Node& node : missing.nodes) leave_out(node.node, std::string(node.why));
   }
   plane_leaves.push_back(std::move(leaf));
 }
 
 /// Gives each part inside that is drawn by itself a leaf of its own.
-void Collector::add_inner_parts(const PlaneSubtree& subtree, const TextPlace& place,
-                                const Context& context) {
+void Collector::add_inner_parts(const PlaneSubtree& subtree, const Context& context) {
   if (context.in_leaf || options_.picture == PictureKind::kRendered) return;
   NodeProblems told;  // already
   for (const InnerPart& part : inner_parts(subtree)) {
@@ -595,7 +533,7 @@ void Collector::add_inner_parts(const PlaneSubtree& subtree, const TextPlace& pl
       inner.flattened = inner.flattened || !is_affine(file);
       if (!inner.flattened) inner.frame = frames.add(inner.frame, heal(file));
     }
-    add_plane_leaf(subtree.part(part.node), place, inner, told);
+    add_plane_leaf(subtree.part(part.node), inner, told);
     plane_leaves.back().inner_modifiers = part.modifiers;
   }
 }
@@ -643,7 +581,7 @@ Presence Collector::evaluate_solids(const PlaneSubtree& subtree, const PlaneEval
     return Presence::kLeftOut;
   }
   if (value->is_empty()) return Presence::kEmpty;
-  pending_.push_back({root, context.frame, frames[context.frame].to_world, subtree.first_id(root),
+  pending_.push_back({root, context.frame, frames[context.frame].to_world, subtree.id(root),
                       primitives.size(), std::move(*value)});
   pending_contexts_.push_back(context);
   return Presence::kSolid;
@@ -654,30 +592,18 @@ bool Collector::asks_for(const PlaneSubtree& subtree) const {
 }
 
 /// Puts off the subtree until openscad has rendered it.
-Presence Collector::ask_for(const PlaneSubtree& subtree, const TextPlace& place, bool is_plane,
-                            std::string_view why, const Context& context) {
-  const uint32_t root = subtree.root();
+Presence Collector::ask_for(uint32_t root, bool is_plane, std::string_view why,
+                            const Context& context) {
+  RenderRequest request = render_request(tree_, root, is_plane, options_, fonts.files());
   pending_.push_back({root,
                       context.frame,
                       frames[context.frame].to_world,
-                      subtree.first_id(root),
+                      ids_[root],
                       primitives.size(),
                       {},
-                      PendingRendering{request_for(root, place, is_plane), is_plane, why}});
+                      PendingRendering{std::move(request), is_plane, why}});
   pending_contexts_.push_back(context);
   return Presence::kSolid;
-}
-
-RenderRequest Collector::request_for(uint32_t node, const TextPlace& place, bool is_plane) const {
-  RenderRequest request;
-  if (text_.empty()) {
-    request = render_request(tree_, node, is_plane, options_, fonts.files());
-  } else {
-    const SyntaxTree part = parse_subtree(text_, place.offset);
-    request = render_request(part, node - place.node, is_plane, options_, fonts.files());
-  }
-  request.line = tree_.nodes[node].location.line;
-  return request;
 }
 
 /// Makes the solids that were put off, and puts their primitives where their nodes stand among the
@@ -755,8 +681,7 @@ Presence Collector::take_rendering(const PendingSolid& pending, const Rendering&
     return Presence::kLeftOut;
   }
   if (!rendering.faces) {
-    leave_out(pending.node, explanations_.emplace_back(std::string(pending.rendering->why) + "; " +
-                                                       rendering.problem));
+    leave_out(pending.node, std::string(pending.rendering->why) + "; " + rendering.problem);
     return Presence::kLeftOut;
   }
   leaf.is_rendered = true;

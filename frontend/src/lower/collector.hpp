@@ -1,9 +1,8 @@
-// From the nodes of a file to primitives in their frames.
+// From the nodes of a tree to primitives in their frames.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -11,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "csg/node_sink.hpp"
 #include "csgcore/geometry.hpp"
 #include "csgcore/primitive.hpp"
 #include "fonts/design_fonts.hpp"
@@ -32,20 +30,15 @@
 
 namespace frontend {
 
-/// Takes the nodes in the tree's order, while they are parsed or from a finished tree. What a later
-/// node decides is put right when it comes: `!` makes all before it void.
-class Collector final : public NodeSink {
+class Collector {
  public:
-  /// `text`, which must live until end_of_nodes(), is what the nodes are parsed from; if it is
-  /// empty, the tree keeps all arguments.
-  Collector(const SyntaxTree& tree, const ImportOptions& options, std::string_view text = {});
+  /// Keeps references to both arguments.
+  Collector(const SyntaxTree& tree, const ImportOptions& options);
 
-  /// Makes room: growing by doubling would copy, and touch, twice the memory.
-  void reserve(size_t nodes, size_t solids, size_t matrices);
-  void take(uint32_t node, uint32_t offset) override;
-  /// After the last node.
-  void end_of_nodes();
-  /// After end_of_nodes(). Throws if it is stopped (throw_if_stopped).
+  /// Takes all nodes, whose arguments are not looked at after that. Throws if it is stopped
+  /// (throw_if_stopped).
+  void collect(const std::stop_token& stop);
+  /// Makes the solids that collect() has put off. Throws if it is stopped (throw_if_stopped).
   void finish(const std::stop_token& stop);
 
   static constexpr uint32_t kNoPrimitive = 0xFFFFFFFFu;
@@ -88,8 +81,8 @@ class Collector final : public NodeSink {
   std::vector<PlaneLeaf> plane_leaves;  // in file order
   /// The one whose root is the node, or null.
   const PlaneLeaf* plane_leaf(uint32_t node) const;
+  NodeRange selected;  // what `!` leaves
   // After finish():
-  NodeRange selected;
   /// Nodes that are missing: those among the problems, and those that openscad has still to render.
   std::vector<uint32_t> left_out;
   std::vector<uint32_t> lines_to_render;
@@ -105,49 +98,39 @@ class Collector final : public NodeSink {
     bool flattened;  // a matrix with inf or nan on the way: nothing is left
     bool in_leaf;    // a compound one, whose nodes have no colours of their own
   };
-  struct LeftOut {
-    uint32_t node;
-    bool unless_empty;  // without children it makes nothing, and nothing is missing
-    std::string_view why;
-  };
 
   bool is_within(uint32_t node, uint32_t ancestor) const {
     return node < tree_.nodes[ancestor].subtree_end;
   }
-  void select(uint32_t root);
-  bool visit(uint32_t node, uint32_t id, uint32_t offset);
-  void leave_out(uint32_t node, std::string_view why, bool unless_empty = false);
+  bool has_children(uint32_t node) const { return tree_.nodes[node].subtree_end > node + 1; }
+  void survey();
+  bool visit(uint32_t node);
+  void leave_out(uint32_t node, const std::string& why);
   void enter_matrix(uint32_t node);
   void enter_color(uint32_t node);
   void enter_leaf(uint32_t node);
   void leave_leaf(uint32_t node);
-  void add_solid(uint32_t node, uint32_t id);
+  void add_solid(uint32_t node);
   bool flatten(uint32_t node, const csgcore::FacetSettings& facets, csgcore::Primitive& primitive);
   uint32_t typed_frame(uint32_t node, uint32_t frame);
   /// Returns the primitive's index, or kNoPrimitive: it is flat, or left out.
   uint32_t add_primitive(csgcore::Primitive primitive, uint32_t node, const Context& context,
                          uint32_t frame, const csgcore::Box& box, int fragments);
-  PrimitivePlace place_of(uint32_t node, uint32_t offset) const;
+  PrimitivePlace place_of(uint32_t node) const;
   bool read_solid(uint32_t node, csgcore::Primitive& primitive, csgcore::FacetSettings& facets,
                   const SolidOfFaces*& faces);
   void add_sides(uint32_t node, const csgcore::Primitive& solid, const SolidOfFaces& faces,
                  const Context& context);
-  void enter_plane(uint32_t node, uint32_t offset);
-  void leave_plane();
-  bool may_be_plane(uint32_t node);
-  void enter_candidate(uint32_t node, uint32_t offset);
-  void take_into_candidate(uint32_t node, uint32_t id);
-  void leave_candidate();
-  /// Returns whether a final render keeps a part of that dimension; one that it does not is empty,
-  /// and told of.
-  bool take_rendered_dimension(uint32_t root, int dimension);
-  /// Where an ancestor of a 2D subtree, or its root, is in the text.
-  struct TextPlace {
-    uint32_t node;
-    uint32_t offset;
-  };
-  void add_plane_leaf(const PlaneSubtree& subtree, const TextPlace& place, const Context& context,
-                      NodeProblems& told);
+  PlaneSubtree read_plane(uint32_t root);
+  void add_plane(uint32_t root);
+  bool is_of_either_dimension(uint32_t node);
+  /// The dimension of the first geometry of a subtree: 2, 3, or 0 if it has none.
+  int dimension_of(uint32_t root) const;
+  bool add_if_plane(uint32_t root);
+  /// Returns whether a final render keeps a part of that dimension. One that it does not keep is
+  /// empty, with a warning.
+  bool keeps_dimension(uint32_t root, int dimension);
+  void add_plane_leaf(const PlaneSubtree& subtree, const Context& context, NodeProblems& told);
   /// The nodes of a 2D subtree that are not lowered.
   struct Missing {
     struct Node {
@@ -159,11 +142,9 @@ class Collector final : public NodeSink {
   };
   Presence lower_plane(const PlaneSubtree& subtree, const Context& context, NodeProblems& told,
                        PlaneLeaf& leaf, Missing& missing);
-  Presence ask_for(const PlaneSubtree& subtree, const TextPlace& place, bool is_plane,
-                   std::string_view why, const Context& context);
-  RenderRequest request_for(uint32_t node, const TextPlace& place, bool is_plane) const;
+  Presence ask_for(uint32_t root, bool is_plane, std::string_view why, const Context& context);
   bool asks_for(const PlaneSubtree& subtree) const;
-  void add_inner_parts(const PlaneSubtree& subtree, const TextPlace& place, const Context& context);
+  void add_inner_parts(const PlaneSubtree& subtree, const Context& context);
   Presence evaluate_solids(const PlaneSubtree& subtree, const PlaneEvaluation& evaluation,
                            const Context& context, NodeProblems& told, Missing& missing);
   void add_pending(const std::stop_token& stop);
@@ -177,40 +158,18 @@ class Collector final : public NodeSink {
 
   const SyntaxTree& tree_;
   const ImportOptions& options_;
-  const std::string_view text_;
   std::vector<Context> contexts_;
-  /// The 2D subtree that is being taken, and what its root is handed down.
-  std::optional<PlaneSubtree> plane_;
-  Context plane_context_{};
-  TextPlace plane_place_{};
-  /// A subtree of operations that is one plane figure if its first child is one: it is collected as
-  /// a solid's until its end.
-  struct Candidate {
-    PlaneSubtree subtree;
-    TextPlace place;
-    Context context;
-    NodeProblems problems;  // those of the nodes are told already
-    size_t primitives, plane_leaves, compound_leaves, left_out, solid_fills, pending;  // before it
-    bool is_plane;                         // its first geometry is a plane figure's
-    std::optional<uint32_t> background{};  // the last `%` node that stands in no other one
-  };
-  void forget_since(const Candidate& candidate);
-  std::optional<Candidate> candidate_;
-  /// The node at the top that was entered last, and the dimension of the first one that has any,
-  /// which all others must have (0: there was none). Only final renders keep them.
-  std::optional<uint32_t> top_node_;
+  /// By node: how many primitive nodes stand before it.
+  std::vector<uint32_t> ids_;
+  /// The end of the node at the top that was entered last, and the dimension of the first one that
+  /// has any, which all others must have (0: there was none). Only final renders keep them.
+  uint32_t top_node_end_ = 0;
   int rendered_dimension_ = 0;
   FigureSolids figure_solids_;
   const std::shared_ptr<HullPool> hulls_;
-  std::optional<uint32_t> root_;      // the node with `!`
-  std::optional<uint32_t> disabled_;  // the last node with `*`
-  std::optional<uint32_t> skipped_;   // the last node whose descendants do not matter
-  std::vector<LeftOut> maybe_left_out_;
-  std::vector<uint32_t> solid_fills_;  // fill nodes that are not of plane figures, as far as known
   /// Hulls of solids, in file order, and what their roots are handed down.
   std::vector<PendingSolid> pending_;
   std::vector<Context> pending_contexts_;
-  std::deque<std::string> explanations_;  // of nodes that are left out
 };
 
 }  // namespace frontend

@@ -120,7 +120,7 @@ class FigureTreeWriter {
   void add(const Figure& figure, uint32_t node, int fragments) {
     builder_.primitive(static_cast<uint32_t>(figures_.size()));
     figures_.push_back({std::make_shared<const Figure>(figure), open_.back().map,
-                        open_.back().frame, subtree_.first_id(node), fragments});
+                        open_.back().frame, subtree_.id(node), fragments});
   }
 
   void add(const PlacedGlyph& letter, uint32_t node) {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "csg/node_sink.hpp"
 #include "frontend/stop.hpp"
 #include "heal/healing.hpp"
 #include "lower/collector.hpp"
@@ -303,12 +302,10 @@ void count_leaves(const Design& trees, const Leaves& leaves, ImportedDesign& des
   for (const LeafTree& part : trees.highlight) count(part);
 }
 
-/// What comes after the last node was taken. Frees what the collector holds as soon as it can: of a
-/// large design each part of it has hundreds of MB.
+/// Makes the design of what the collector holds, which it frees as soon as it can: of a large
+/// design each part of it has hundreds of MB.
 ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
                              const ImportOptions& options, const std::stop_token& stop) {
-  const csgcore::StopScope scope(&stop);
-  collected.finish(stop);
   ImportedDesign design;
   design.warnings = collected.problems.warnings(tree);
   design.primitive_nodes = collected.primitive_nodes;
@@ -363,72 +360,28 @@ ImportedDesign finish_import(const SyntaxTree& tree, Collector& collected,
   return design;
 }
 
-/// Takes all nodes of a finished tree.
-void collect(const SyntaxTree& tree, Collector& collected, const std::stop_token& stop) {
+/// Calls `is_collected` when the nodes' arguments are needed no more.
+template <typename Callback>
+ImportedDesign import_and_tell(const SyntaxTree& tree, const ImportOptions& options,
+                               const std::stop_token& stop, const Callback& is_collected) {
   const csgcore::StopScope scope(&stop);
-  size_t solids = 0;
-  size_t matrices = 0;
-  for (const SyntaxNode& node : tree.nodes) {
-    solids += role_of(node.kind) == Role::kSolid;
-    matrices += node.kind == NodeKind::kMultmatrix;
-  }
-  collected.reserve(tree.nodes.size(), solids, matrices);
-  for (uint32_t i = 0; i < tree.nodes.size(); ++i) {
-    throw_if_stopped(stop);
-    collected.take(i, tree.offsets.empty() ? 0 : tree.offsets[i]);
-  }
-  collected.end_of_nodes();
+  Collector collected(tree, options);
+  collected.collect(stop);
+  is_collected();
+  collected.finish(stop);
+  return finish_import(tree, collected, options, stop);
 }
 
 }  // namespace
 
 ImportedDesign import_design(const SyntaxTree& tree, const ImportOptions& options,
                              const std::stop_token& stop) {
-  ImportOptions with_known_places = options;
-  with_known_places.keeps_places = options.keeps_places && !tree.offsets.empty();
-  Collector collected(tree, with_known_places);
-  collect(tree, collected, stop);
-  return finish_import(tree, collected, options, stop);
+  return import_and_tell(tree, options, stop, [] {});
 }
 
-struct TextImport::Impl {
-  Impl(std::string_view text, std::string file_name, const ImportOptions& import_options)
-      : options(import_options), collector(tree, options, text) {
-    tree.file_name = std::move(file_name);
-  }
-  Impl(SyntaxTree whole, const ImportOptions& import_options)
-      : options(import_options), tree(std::move(whole)), collector(tree, options) {}
-
-  const ImportOptions options;
-  SyntaxTree tree;
-  Collector collector;
-};
-
-TextImport::TextImport(std::string_view text, std::string file_name, const ImportOptions& options,
-                       const std::stop_token& stop)
-    : impl_(std::make_unique<Impl>(text, std::move(file_name), options)) {
-  const csgcore::StopScope scope(&stop);
-  // About what OpenSCAD's files have, as the parser's own: growing copies.
-  constexpr size_t kBytesPerNode = 48, kBytesPerLeaf = 128;
-  const size_t leaves = text.size() / kBytesPerLeaf;
-  impl_->collector.reserve(text.size() / kBytesPerNode, leaves, leaves);
-  parse_nodes(text, impl_->tree, impl_->collector, stop);
-  impl_->collector.end_of_nodes();
-}
-
-TextImport::TextImport(SyntaxTree tree, const ImportOptions& options, const std::stop_token& stop)
-    : impl_(std::make_unique<Impl>(std::move(tree), options)) {
-  collect(impl_->tree, impl_->collector, stop);
-}
-
-TextImport::TextImport(TextImport&&) noexcept = default;
-TextImport& TextImport::operator=(TextImport&&) noexcept = default;
-TextImport::~TextImport() = default;
-
-size_t TextImport::nodes() const { return impl_->tree.nodes.size(); }
-
-ImportedDesign TextImport::finish(const std::stop_token& stop) {
-  return finish_import(impl_->tree, impl_->collector, impl_->options, stop);
+ImportedDesign import_design(SyntaxTree&& tree, const ImportOptions& options,
+                             const std::stop_token& stop) {
+  return import_and_tell(tree, options, stop, [&] { tree.free_arguments(); });
 }
 
 }  // namespace frontend

@@ -162,11 +162,6 @@ PlaneSubtree PlaneSubtree::part(uint32_t node) const {
   return result;
 }
 
-uint32_t PlaneSubtree::first_id(uint32_t node) const {
-  while (node + 1 < end_of(node) && !has_place(tree_, syntax(node))) ++node;
-  return id(node);
-}
-
 uint32_t PlaneSubtree::end_of(uint32_t node) const {
   return std::min(tree_.nodes[node].subtree_end, end());
 }

@@ -81,11 +81,10 @@ class PlaneSubtree {
   /// Descendants of a disabled node are not taken.
   bool is_taken(uint32_t node) const { return nodes_[node - root_].is_taken; }
   const SyntaxNode& syntax(uint32_t node) const { return tree_.nodes[node]; }
+  /// Returns the id of the primitives of the node, which is that of its first primitive node.
   uint32_t id(uint32_t node) const { return nodes_[node - root_].id; }
   /// Returns the drawing that the node names; null if it names none.
   const ImportedDrawing* drawing(uint32_t node) const { return nodes_[node - root_].drawing; }
-  /// That of the first primitive node from this one on.
-  uint32_t first_id(uint32_t node) const;
   template <typename Data>
   const Data& data(uint32_t node) const {
     return std::get<Data>(nodes_[node - root_].data);

@@ -71,8 +71,7 @@ HealedMatrix typed_numbers(const SyntaxTree& tree, uint32_t node) {
   HealedMatrix errors;
   errors.map.linear = csgcore::Mat3(1.0);
   errors.map.translation = csgcore::Vec3(0.0);
-  const auto end = std::min<size_t>(tree.nodes[node].subtree_end, tree.nodes.size());
-  for (size_t i = node; i < end; ++i) {
+  for (uint32_t i = node; i < tree.nodes[node].subtree_end; ++i) {
     for (const Argument& argument : tree.arguments_of(tree.nodes[i])) {
       add_argument(tree, tree.nodes[i].kind, argument, errors);
     }

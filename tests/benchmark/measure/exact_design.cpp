@@ -59,7 +59,8 @@ frontend::ImportedDesign read_csg(const std::filesystem::path& csg,
   reading.message = [](const std::string&) {};
   reading.progress = [](const char*) {};
   reading.import = options;
-  return frontend::read_design(csg, reading).import.finish();
+  frontend::DesignFile file = frontend::read_design(csg, reading);
+  return frontend::import_design(file);
 }
 
 csgcore::Image draw(const Scene& scene, const View& view, const RenderSettings& settings) {

@@ -22,7 +22,7 @@ SyntaxTree evaluated(std::string_view scad) {
 }
 
 ImportedDesign imported(std::string_view scad, const ImportOptions& options = {}) {
-  return TextImport(evaluated(scad), options).finish();
+  return import_design(evaluated(scad), options);
 }
 
 /// Returns the middle of the first face of the primitive along x, in the world.

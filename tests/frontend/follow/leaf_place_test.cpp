@@ -26,8 +26,7 @@ class LeafPlaceTest : public testing::Test {
     auto evaluation = std::make_shared<const language::Evaluation>(
         language::evaluate(path, {}, [](std::string_view) {}));
     const ImportedDesign design =
-        TextImport(tree_of(*evaluation->tree, *evaluation->files, path), {.keeps_places = true})
-            .finish();
+        import_design(tree_of(*evaluation->tree, *evaluation->files, path), {.keeps_places = true});
     DesignTexts texts;
     texts.evaluation = std::move(evaluation);
     return leaf_place(texts, design.places.at(design.scene.primitives.at(primitive).id));

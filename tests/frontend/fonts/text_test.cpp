@@ -12,6 +12,7 @@
 #include "csgcore/solid.hpp"
 #include "fonts/design_fonts.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -40,7 +41,7 @@ class Text : public testing::Test {
 
 ImportedDesign import_with_fonts(const std::string& csg, ImportOptions options = {}) {
   options.font_files = [] { return std::vector<std::string>{kLiberation, kSymbols}; };
-  return TextImport(csg, "a.csg", options).finish();
+  return import_design(parse(csg, "a.csg"), options);
 }
 
 /// A text of Liberation Sans.
@@ -70,13 +71,13 @@ TEST_F(Text, AloneLoadsTheFontLibraries) {
     are_asked_for = true;
     return std::vector<std::string>{};
   };
-  const ImportedDesign without = TextImport("circle(2); cube(1);", "a.csg", options).finish();
+  const ImportedDesign without = import_design(parse("circle(2); cube(1);", "a.csg"), options);
   EXPECT_FALSE(without.has_text);
   EXPECT_FALSE(are_asked_for);
   if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) {
     for (const char* library : kLibraries) EXPECT_FALSE(is_loaded(library)) << library;
   }
-  EXPECT_TRUE(TextImport("text(\"a\");", "a.csg", options).finish().has_text);
+  EXPECT_TRUE(import_design(parse("text(\"a\");", "a.csg"), options).has_text);
   EXPECT_TRUE(are_asked_for);
   for (const char* library : kLibraries) EXPECT_TRUE(is_loaded(library)) << library;
 }
@@ -190,14 +191,14 @@ TEST_F(Text, TakesFontsThatTheDesignBringsAlong) {
   const ImportedDesign design = import_with_fonts(text("a"));
   EXPECT_THAT(design.files, ElementsAre(kLiberation, kSymbols));
   // The next import does without them.
-  const ImportedDesign next = TextImport("text(\"a\", font = \"MarVoSym\");", "a.csg").finish();
+  const ImportedDesign next = import_design(parse("text(\"a\", font = \"MarVoSym\");", "a.csg"));
   EXPECT_THAT(texts_of(next.warnings), ElementsAre(HasSubstr("'MarVoSym' is not installed")));
   EXPECT_THAT(next.files, IsEmpty());
 }
 
 TEST_F(Text, TakesFontsOfTheFolderInTheEnvironment) {
   const Environment folder("OPENSCAD_FONT_PATH", "/nowhere:" + kFolder);
-  EXPECT_THAT(TextImport("text(\"a\", font = \"MarVoSym\");", "a.csg").finish().warnings,
+  EXPECT_THAT(import_design(parse("text(\"a\", font = \"MarVoSym\");", "a.csg")).warnings,
               IsEmpty());
 }
 
@@ -207,8 +208,7 @@ TEST_F(Text, NoticesThatAFontHasChanged) {
   ImportOptions options;
   options.font_files = [&] { return std::vector<std::string>{file}; };
   const auto notes = [&] {
-    return TextImport("text(\"a\", font = \"MarVoSym\");", "a.csg", options)
-        .finish()
+    return import_design(parse("text(\"a\", font = \"MarVoSym\");", "a.csg"), options)
         .warnings.size();
   };
   EXPECT_EQ(notes(), 1u) << "it is missing";
@@ -228,7 +228,7 @@ TEST_F(Text, IgnoresFilesThatAreNoFonts) {
     return std::vector<std::string>{picture, folder.path(), folder / "missing.ttf", kSymbols};
   };
   const ImportedDesign design =
-      TextImport("text(\"a\", font = \"MarVoSym\");", "a.csg", options).finish();
+      import_design(parse("text(\"a\", font = \"MarVoSym\");", "a.csg"), options);
   EXPECT_THAT(design.warnings, IsEmpty());
   EXPECT_THAT(design.scene.primitives, SizeIs(1));
 }

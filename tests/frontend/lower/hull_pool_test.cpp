@@ -8,6 +8,7 @@
 
 #include "csgcore/scene_edit.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
 
 namespace frontend {
 namespace {
@@ -23,8 +24,8 @@ size_t made_for(const std::string& text, const std::shared_ptr<HullPool>& pool) 
   const size_t before = pool->made();
   ImportOptions options;
   options.hulls = pool;
-  const ImportedDesign design = TextImport(text, "a.csg", options).finish();
-  const ImportedDesign anew = TextImport(text, "a.csg", {}).finish();
+  const ImportedDesign design = import_design(parse(text, "a.csg"), options);
+  const ImportedDesign anew = import_design(parse(text, "a.csg"));
   EXPECT_TRUE(csgcore::compare(design.scene, anew.scene).nothing()) << text;
   return pool->made() - before;
 }

@@ -3,10 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "csgcore/polyhedron.hpp"
-#include "csgcore/scene_edit.hpp"
 #include "frontend/parser.hpp"
 
 namespace frontend {
@@ -16,38 +13,8 @@ using csgcore::Shape;
 using csgcore::Vec3;
 using ::testing::SizeIs;
 
-namespace {
-
-void expect_same(const ImportedDesign& a, const ImportedDesign& b, const std::string& text) {
-  EXPECT_TRUE(csgcore::compare(a.scene, b.scene).nothing()) << text;
-  EXPECT_EQ(a.view_box.min, b.view_box.min) << text;
-  EXPECT_EQ(a.view_box.max, b.view_box.max) << text;
-  EXPECT_EQ(a.primitive_nodes, b.primitive_nodes) << text;
-  ASSERT_EQ(a.warnings.size(), b.warnings.size()) << text;
-  for (size_t i = 0; i < a.warnings.size(); ++i) {
-    EXPECT_EQ(a.warnings[i].text, b.warnings[i].text) << text;
-  }
-}
-
-}  // namespace
-
 ImportedDesign import_text(const std::string& text, ImportOptions options) {
-  std::optional<ImportedDesign> in_one_pass;
-  std::string error;
-  try {
-    in_one_pass = TextImport(text, "a.csg", options).finish();
-  } catch (const Error& e) {
-    error = e.what();
-  }
-  try {
-    ImportedDesign design = import_design(parse(text, "a.csg"), options);
-    EXPECT_EQ(error, "") << text;
-    if (in_one_pass) expect_same(*in_one_pass, design, text);
-    return design;
-  } catch (const Error& e) {
-    EXPECT_EQ(error, e.what()) << text;
-    throw;
-  }
+  return import_design(parse(text, "a.csg"), options);
 }
 
 std::string error_of(const std::string& text) {

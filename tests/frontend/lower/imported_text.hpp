@@ -13,7 +13,6 @@
 
 namespace frontend {
 
-/// Imports in one pass, and by the tree; both must give the same.
 ImportedDesign import_text(const std::string& text, ImportOptions options = {});
 
 /// Returns the message that import_text() throws; "no error" if nothing.

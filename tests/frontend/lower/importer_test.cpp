@@ -152,10 +152,10 @@ TEST(ImporterUnsupported, TakesADifferenceWithItThatItIsTheBodyOf) {
       "2");
 }
 
-// --- A text, while it is parsed -------------------------------------------------------------
+// --- What `!` selects, and where primitives stand -------------------------------------------
 
 /// `!` voids the problems of everything that it does not select.
-TEST(TextImport, TellsWhatIsWrongWithWhatItSelects) {
+TEST(Importer, TellsWhatIsWrongWithWhatItSelects) {
   const std::string wrong = "sphere(r = \"1\");";
   EXPECT_THAT(
       warnings_of(wrong + "cube(size = true);"),
@@ -169,7 +169,7 @@ TEST(TextImport, TellsWhatIsWrongWithWhatItSelects) {
                             "first of 2")));
 }
 
-TEST(TextImport, SelectsWhateverCameBefore) {
+TEST(Importer, SelectsWhateverCameBefore) {
   const std::string before =
       "color(\"nothing\") cube(); square(); *sphere(); multmatrix([[1,0,0,0.1]]) { #cube();";
   const std::string root = "hull() { %group() { !color([1,0,0]) { sphere(); } } } ";
@@ -181,15 +181,15 @@ TEST(TextImport, SelectsWhateverCameBefore) {
   EXPECT_EQ(design.primitive_nodes, 7u);
 }
 
-TEST(TextImport, KeepsThePlacesOfAllPrimitiveNodes) {
+TEST(Importer, KeepsThePlacesOfAllPrimitiveNodes) {
   const std::string text =
       "\xEF\xBB\xBF/* sphere();\r\n */ sphere();  cube();\r\n\n"
       "*group() {\n\tcircle(); }\n!union() { color(\"x\") cylinder(); }\n%text(text = "
       "\"\n\");cube();";
-  EXPECT_THAT(TextImport(text, "a.csg").finish().places, IsEmpty());
+  EXPECT_THAT(import_design(parse(text, "a.csg")).places, IsEmpty());
   ImportOptions options;
   options.keeps_places = true;
-  const ImportedDesign design = TextImport(text, "a.csg", options).finish();
+  const ImportedDesign design = import_design(parse(text, "a.csg"), options);
   const std::string_view names[] = {"sphere", "cube", "circle", "cylinder", "text", "cube"};
   ASSERT_EQ(design.primitive_nodes, std::size(names));
   ASSERT_THAT(design.places, SizeIs(std::size(names)));
@@ -202,20 +202,14 @@ TEST(TextImport, KeepsThePlacesOfAllPrimitiveNodes) {
   EXPECT_EQ(design.scene.primitives[0].id, 3u);
 }
 
-TEST(TextImport, StopsWhenAsked) {
-  std::stop_source stop;
-  TextImport import("sphere(r = 1);", "x.csg", {}, stop.get_token());
-  stop.request_stop();
-  EXPECT_THROW(TextImport("sphere(r = 1);", "x.csg", {}, stop.get_token()), Stopped);
-  EXPECT_THROW(import.finish(stop.get_token()), Stopped);
-}
-
 TEST(Importer, StopsWhenAsked) {
-  const SyntaxTree tree = parse("sphere(r = 1);", "x.csg");
   std::stop_source stop;
-  EXPECT_EQ(import_design(tree, {}, stop.get_token()).primitive_nodes, 1u);
+  const auto import = [&] {
+    return import_design(parse("sphere(r = 1);", "x.csg"), {}, stop.get_token());
+  };
+  EXPECT_EQ(import().primitive_nodes, 1u);
   stop.request_stop();
-  EXPECT_THROW(import_design(tree, {}, stop.get_token()), Stopped);
+  EXPECT_THROW(import(), Stopped);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "frontend/parser.hpp"
 #include "lower/imported_text.hpp"
 
 namespace frontend {
@@ -507,7 +508,7 @@ TEST(PlaneImport, APlaceIsThatOfTheNodeThatMakesTheSurface) {
   const std::string text =
       "circle(1);\nlinear_extrude(height = 1) { hull() { square(1); } }\n"
       "render() { hull() { circle(2); } }\nrender() { cube(); hull() { %sphere(); cube(); } }";
-  const ImportedDesign design = TextImport(text, "a.csg", {.keeps_places = true}).finish();
+  const ImportedDesign design = import_design(parse(text, "a.csg"), {.keeps_places = true});
   ASSERT_THAT(design.places, SizeIs(6));
   EXPECT_EQ(design.places[0].offset, 0u);
   EXPECT_EQ(design.places[0].node, 0u);

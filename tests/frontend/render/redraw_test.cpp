@@ -8,6 +8,7 @@
 #include "frontend/color_scheme.hpp"
 #include "frontend/error.hpp"
 #include "frontend/importer.hpp"
+#include "frontend/parser.hpp"
 #include "frontend/render.hpp"
 #include "frontend/scene_renderer.hpp"
 #include "support/models.hpp"
@@ -130,7 +131,7 @@ TEST_P(Redrawn, AnEditedHullEqualsThePictureDrawnAnew) {
     const std::string text = "difference() { hull() { sphere(3); cube([8, 2, 2]); sphere(" +
                              radius + "); } cylinder(h = 9, r = 1); } minkowski() { cube([" + size +
                              ", 9, 1]); sphere(0.5); }";
-    return TextImport(text, "a.csg", {}).finish().scene;
+    return import_design(parse(text, "a.csg")).scene;
   };
   load(scene_of("4", "1"));
   const csgcore::View view = view_of(*scene_, csgcore::Projection::kPerspective);

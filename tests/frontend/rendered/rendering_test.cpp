@@ -56,7 +56,7 @@ class FakeRenderer : public testing::Test {
     folder_.script("openscad", "echo >>'" + folder_.path() + "/starts'\n" + body);
   }
   ImportedDesign import(const std::string& text, const std::stop_token& stop = {}) {
-    return TextImport(text, "a.csg", options_, stop).finish(stop);
+    return import_design(parse(text, "a.csg"), options_, stop);
   }
   size_t starts() const { return folder_.read("starts").size(); }
   /// Waits until the program has run so often. A program that is ended at once may have made the
@@ -466,14 +466,13 @@ TEST(InstalledRenderer, LeavesNoGap) {
       "multmatrix([[0.866025,-0.5,0,0.1],[0.5,0.866025,0,0.7],[0,0,1,0.3]]) { minkowski() { "
       "difference() { cube([2.1,2.2,2.3]); sphere(0.5); } "
       "difference() { cube(1); sphere(0.1); } } }";
-  const ImportedDesign all = TextImport(design, "a.csg", options).finish();
+  const ImportedDesign all = import_design(parse(design, "a.csg"), options);
   options.rendering = {};
   const ImportedDesign exact =
-      TextImport(
-          "multmatrix([[0.866025,-0.5,0,0.1],[0.5,0.866025,0,0.7],[0,0,1,0.3]]) "
-          "{ cube([3.1, 3.2, 3.3]); }",
-          "a.csg", options)
-          .finish();
+      import_design(parse("multmatrix([[0.866025,-0.5,0,0.1],[0.5,0.866025,0,0.7],[0,0,1,0.3]]) "
+                          "{ cube([3.1, 3.2, 3.3]); }",
+                          "a.csg"),
+                    options);
   EXPECT_THAT(all.warnings, IsEmpty());
   EXPECT_EQ(all.rendered_leaves, 1u);
   for (int axis = 0; axis < 3; ++axis) {
