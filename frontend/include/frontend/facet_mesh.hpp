@@ -15,14 +15,10 @@ namespace frontend {
 
 /// A mesh and its edges, in the local coordinates of the polyhedron that is drawn for it.
 struct FacetMesh {
-  static constexpr uint32_t kNoVertex = 0xFFFFFFFFu;
-  /// An edge between two vertices of the mesh.
+  /// An edge between two vertices of the mesh, or the diagonal of a quadrilateral that OpenSCAD
+  /// cuts into two triangles: the mesh has the quadrilateral as one face.
   struct Edge {
     uint32_t from, to;
-    /// If the edge is the diagonal of a quadrilateral that OpenSCAD cuts into two triangles: the
-    /// other two corners. The mesh has the quadrilateral as one face. Otherwise kNoVertex.
-    uint32_t left = kNoVertex, right = kNoVertex;
-    bool is_diagonal() const { return left != kNoVertex; }
   };
   csgcore::Mesh mesh;
   std::vector<Edge> edges;  // each once

@@ -16,16 +16,15 @@ struct Overlays {
   bool edges = false;       // the edges of OpenSCAD's meshes; of what is smooth, its creases and
                             // outlines
   bool scales = false;      // marks and numbers on the axes; no effect without `axes`
-  bool wireframe = false;   // the edges and vertices of the whole solid in place of its surface
 
-  bool any() const { return axes || crosshairs || edges || scales || wireframe; }
+  bool any() const { return axes || crosshairs || edges || scales; }
   bool operator==(const Overlays&) const = default;
 };
 
-/// Draws the overlays, but for the wireframe (wireframe.hpp), in the scheme's colours, 1 px wide
-/// except for edges, where the model is not in front. The edges are drawn over what the image shows
-/// of `design`: a primitive of which it keeps no mesh counts as smooth. Precondition: the image has
-/// the view's size and, if any overlay is drawn, its measured channels.
+/// Draws the overlays in the scheme's colours, 1 px wide except for edges, where the model is not
+/// in front. The edges are drawn over what the image shows of `design`: a primitive of which it
+/// keeps no mesh counts as smooth. Precondition: the image has the view's size and, if any overlay
+/// is drawn, its measured channels.
 void draw_overlays(csgcore::Image& image, const csgcore::View& view, const Camera& camera,
                    const Overlays& overlays, const ColorScheme& scheme,
                    const ImportedDesign& design);

@@ -32,14 +32,13 @@ struct Rgb {
 struct ColorScheme {
   const char* name;
   Rgb background, front, back, axes, crosshair;
-  Rgb edge{}, cut_edge{};        // of a wireframe
   Rgb flat_face{}, flat_edge{};  // of a final render of a plane figure
 };
 
 /// Every setting of a picture but the camera's. The defaults are the command's.
 struct RenderSettings {
-  ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c}, {0x9d, 0xcb, 0x51},
-                     {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00}, {0xff, 0xec, 0x5e}, {0xab, 0xd8, 0x56},
+  ColorScheme scheme{"Cornfield",        {0xff, 0xff, 0xe5}, {0xf9, 0xd7, 0x2c},
+                     {0x9d, 0xcb, 0x51}, {0x00, 0x00, 0x00}, {0x80, 0x00, 0x00},
                      {0x00, 0xbf, 0x99}, {0xff, 0x00, 0x00}};
   /// The colour of faces that are seen from within the solid; none: they have that of the outside.
   std::optional<Rgb> from_within;

@@ -20,9 +20,7 @@ FacetMesh facet_mesh(RevolvedFaces faces) {
       pairs.push_back({std::min(last, vertex), std::max(last, vertex)});
       last = vertex;
     }
-    if (faces.is_cut(face)) {
-      result.edges.push_back({face[3], face[1], face[0], face[2]});
-    }
+    if (faces.is_cut(face)) result.edges.push_back({face[3], face[1]});
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -24,7 +24,6 @@
 #include "frontend/statistics.hpp"
 #include "frontend/subcommand.hpp"
 #include "frontend/terminal.hpp"
-#include "frontend/wireframe.hpp"
 #include "picture/flat_figure.hpp"
 
 namespace frontend {
@@ -228,8 +227,7 @@ class Run {
     };
     const Clock::time_point start = Clock::now();
     Image image;
-    if ((scene.model.empty() && scene.layers.empty()) || sees_nothing ||
-        options_.overlays.wireframe) {
+    if ((scene.model.empty() && scene.layers.empty()) || sees_nothing) {
       // A picture without surfaces needs no renderer.
       image = background_picture(view, settings.scheme.background, settings.measured_channels);
       stats_.render.renderer = "none";
@@ -251,7 +249,6 @@ class Run {
     const Clock::time_point start = Clock::now();
     const ColorScheme& scheme = options_.render.scheme;
     show_channel(image, options_.render.show, scheme.background);
-    if (options_.overlays.wireframe) add_wireframe(image, view, camera);
     if (options_.render.show == Show::kSurface && !sees_nothing(camera, view.projection)) {
       draw_flat_outlines(image, view, camera, design_, scheme);
     }
@@ -263,22 +260,6 @@ class Run {
     stats_.height_px = image.height_px;
     stats_.encode_ms = ms_since(start);
     stats_.total_ms = ms_since(start_) - stats_.render.measuring_ms;
-  }
-
-  void add_wireframe(Image& image, const csgcore::View& view, const Camera& camera) {
-    show_progress("finding edges", -1);
-    const SolidEdges edges = solid_edges(design_);
-    const auto meshes = std::ranges::count(design_.scene.primitives, csgcore::Shape::kMesh,
-                                           &csgcore::Primitive::shape);
-    if (meshes > 0) {
-      say("warning: --view=wireframe does not show the edges of " + std::to_string(meshes) +
-          (meshes == 1 ? " mesh" : " meshes") + " (polyhedra that are not convex, imported files)");
-    }
-    if (!edges.is_complete) {
-      say("warning: --view=wireframe shows a part of the edges: the design has too many faces that "
-          "may cross (give a smaller $fn)");
-    }
-    draw_wireframe(image, view, camera, edges, options_.render.scheme);
   }
 
   const Options& options_;

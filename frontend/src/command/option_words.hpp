@@ -32,12 +32,12 @@ constexpr Word<csgcore::Projection> kProjections[] = {
     {"orthogonal", csgcore::Projection::kOrthographic},
     {"p", csgcore::Projection::kPerspective},
     {"perspective", csgcore::Projection::kPerspective}};
-/// Each with what it draws.
+/// Each with what it draws; of a wireframe these are the edges that are seen.
 constexpr Word<bool Overlays::*> kViews[] = {{"axes", &Overlays::axes},
                                              {"crosshairs", &Overlays::crosshairs},
                                              {"edges", &Overlays::edges},
                                              {"scales", &Overlays::scales},
-                                             {"wireframe", &Overlays::wireframe}};
+                                             {"wireframe", &Overlays::edges}};
 constexpr Word<Facets> kFacets[] = {{"all", Facets::kAll}, {"none", Facets::kNone}};
 constexpr Word<Shading> kShadings[] = {{"openscad", Shading::kOpenScad},
                                        {"phong", Shading::kPhong}};

@@ -125,24 +125,6 @@ void read_picture_kind(const Arguments& arguments, Options& options) {
   }
 }
 
-/// OpenSCAD says that it ignores a view it does not know, and goes on.
-void read_view(const Arguments& arguments, Options& options) {
-  if (!arguments.has("view")) return;
-  for (const std::string_view name : split_at_commas(arguments.text("view"))) {
-    bool Overlays::*const* overlay = find_word(kViews, name);
-    if (overlay) {
-      options.overlays.*(*overlay) = true;
-    } else {
-      options.warnings.push_back("--view=" + std::string(name) +
-                                 " is not known and ignored (give axes, crosshairs, edges, "
-                                 "scales or wireframe)");
-    }
-  }
-  if (options.overlays.scales && !options.overlays.axes) {
-    options.warnings.push_back("--view=scales has no effect without axes, as in OpenSCAD");
-  }
-}
-
 }  // namespace
 
 namespace {
@@ -227,25 +209,46 @@ void check_inputs(const Options& options) {
   }
 }
 
+/// OpenSCAD draws a wireframe of a final solid's mesh, and in no window. Returns whether scadray
+/// draws the edges of the mesh that are seen for it, and warns that these are not all.
+bool has_edges_for_wireframe(Options& options) {
+  const char* const fault = options.outputs.empty() ? "has no effect in a window"
+                            : options.import.picture != PictureKind::kRendered
+                                ? "has no effect without --render, as in OpenSCAD"
+                                : nullptr;
+  options.warnings.push_back(std::string("--view=wireframe ") +
+                             (fault ? fault : "draws the solid with the edges that are seen"));
+  return !fault;
+}
+
+/// OpenSCAD says that it ignores a view it does not know, and goes on.
+void read_view(const Arguments& arguments, Options& options) {
+  if (!arguments.has("view")) return;
+  for (const std::string_view name : split_at_commas(arguments.text("view"))) {
+    bool Overlays::*const* overlay = find_word(kViews, name);
+    if (!overlay) {
+      options.warnings.push_back("--view=" + std::string(name) +
+                                 " is not known and ignored (give axes, crosshairs, edges, "
+                                 "scales or wireframe)");
+    } else if (name != "wireframe") {
+      options.overlays.*(*overlay) = true;
+    } else if (has_edges_for_wireframe(options)) {
+      options.overlays.*(*overlay) = true;
+      options.import.facets = Facets::kAll;
+    }
+  }
+  options.import.keeps_meshes = options.overlays.edges;
+  if (options.overlays.scales && !options.overlays.axes) {
+    options.warnings.push_back("--view=scales has no effect without axes, as in OpenSCAD");
+  }
+}
+
 /// OpenSCAD's pictures show crosshairs with --render alone, its window always does.
 void leave_out_crosshairs(Options& options) {
   const bool is_shown = options.outputs.empty() || options.import.picture == PictureKind::kRendered;
   if (is_shown || !options.overlays.crosshairs) return;
   options.overlays.crosshairs = false;
   options.warnings.push_back("--view=crosshairs has no effect without --render, as in OpenSCAD");
-}
-
-/// A wireframe is drawn of the final solid's mesh, also where the picture would be smooth.
-void settle_edges(Options& options) {
-  if (options.overlays.wireframe && options.outputs.empty()) {
-    options.overlays.wireframe = false;
-    options.warnings.push_back("--view=wireframe has no effect in a window");
-  } else if (options.overlays.wireframe && options.import.picture != PictureKind::kRendered) {
-    options.overlays.wireframe = false;
-    options.warnings.push_back("--view=wireframe has no effect without --render, as in OpenSCAD");
-  }
-  if (options.overlays.wireframe) options.import.facets = Facets::kAll;
-  options.import.keeps_meshes = options.overlays.edges || options.overlays.wireframe;
 }
 
 void warn_of_what_is_ignored(const Arguments& arguments, Options& options) {
@@ -334,12 +337,11 @@ Options parse_options(const std::vector<std::string>& words) {
   read_facets(arguments, options.import);
   options.import.rendering.timeout_s = read_openscad_timeout(arguments);
   read_render(arguments, options.render);
-  read_view(arguments, options);
   read_outputs(arguments, options);
+  read_view(arguments, options);
   if (options.outputs.empty() && options.texts.empty()) options.action = Action::kOpenWindow;
   check_inputs(options);
   leave_out_crosshairs(options);
-  settle_edges(options);
   options.openscad_arguments = openscad_arguments_of(arguments);
   options.evaluator = choice(arguments, "evaluator", kEvaluators, kDefaultEvaluator);
   options.has_hard_warnings = arguments.has("hardwarnings");

@@ -234,24 +234,6 @@ TEST_F(Command, AxesAreDrawn) {
   EXPECT_NE(std::find(picture.pixels.begin(), picture.pixels.end(), red), picture.pixels.end());
 }
 
-TEST_F(Command, AWireframeNeedsNoRenderer) {
-  const std::string cube = folder_.write("cube.csg", "cube(size = 2, center = true);");
-  run({"-o", png_, "--imgsize=100,100", "--render=1", "--view=wireframe", "--camera=0,0,0,0,0,0,20",
-       cube});
-  EXPECT_EQ(drawings_, 0);
-  const Picture picture = decode(folder_.read("x.png"));
-  EXPECT_EQ(picture.pixels[50 * 100 + 50], (Pixel{0xff, 0xff, 0xe5})) << "no face";
-  const Pixel edge{0xff, 0xec, 0x5e};
-  EXPECT_EQ(std::count(picture.pixels.begin(), picture.pixels.end(), edge) > 200, true);
-}
-
-TEST_F(Command, AWireframeLeavesOutMeshes) {
-  const std::string sheet = folder_.write(
-      "mesh.csg", "cube(2); polyhedron([[0,0,0],[1,0,0],[0,1,0],[9,9,9]], [[0,1,2],[2,1,0]]);");
-  EXPECT_THAT(run({"-o", png_, "--render=1", "--view=wireframe", sheet}).err,
-              HasSubstr("warning: --view=wireframe does not show the edges of 1 mesh ("));
-}
-
 TEST_F(Command, TheFinalRenderIsViewedAsTheOperationsLeaveIt) {
   const std::string cut =
       folder_.write("cut.csg",

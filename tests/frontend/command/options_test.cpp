@@ -254,17 +254,17 @@ TEST(Options, View) {
   EXPECT_THAT(parse_drawing({"--view=bogus"}).warnings, ElementsAre(HasSubstr("bogus")));
 }
 
-TEST(Options, AWireframeIsOfTheRenderedMesh) {
+TEST(Options, AWireframeIsTheEdgesOfTheRenderedMeshThatAreSeen) {
   const Options preview = parse_drawing({"--view=wireframe"});
   EXPECT_THAT(preview.warnings, ElementsAre(HasSubstr("--view=wireframe")));
-  EXPECT_FALSE(preview.overlays.wireframe || preview.import.facets == Facets::kAll);
+  EXPECT_FALSE(preview.overlays.edges || preview.import.facets == Facets::kAll);
   const Options rendered = parse_drawing({"--render", "--view=wireframe"});
-  EXPECT_THAT(rendered.warnings, IsEmpty());
-  EXPECT_TRUE(rendered.overlays.wireframe && rendered.import.keeps_meshes);
+  EXPECT_THAT(rendered.warnings, ElementsAre(HasSubstr("edges that are seen")));
+  EXPECT_TRUE(rendered.overlays.edges && rendered.import.keeps_meshes);
   EXPECT_EQ(rendered.import.facets, Facets::kAll);
   const Options window = parse_options({"--render=1", "--view=wireframe", "a.csg"});
-  EXPECT_THAT(window.warnings, ElementsAre(HasSubstr("--view=wireframe")));
-  EXPECT_FALSE(window.overlays.wireframe);
+  EXPECT_THAT(window.warnings, ElementsAre(HasSubstr("in a window")));
+  EXPECT_FALSE(window.overlays.edges);
 }
 
 TEST(Options, APreviewsPictureHasNoCrosshairsButTheWindowHas) {
