@@ -72,7 +72,9 @@ double Subject::subdivide_ms() const {
   return subdivide_ms_;
 }
 
-TraceStats Subject::draw(const Drawing& drawing, const TraceOptions& options, Image& image) const {
+TraceStats Subject::draw(const Drawing& drawing, Image& image) const {
+  TraceOptions options;
+  options.threads = drawing.threads;
   static const FrameSettings settings = cornfield();
   TraceStats stats;
   if (drawing.method == Method::kTiles) {
@@ -81,20 +83,6 @@ TraceStats Subject::draw(const Drawing& drawing, const TraceOptions& options, Im
     csgcore::draw(subdivision(), view_, settings, options, image, stats);
   }
   return stats;
-}
-
-TraceStats Subject::draw(const Drawing& drawing, Image& image) const {
-  TraceOptions options;
-  options.threads = drawing.threads;
-  return draw(drawing, options, image);
-}
-
-TraceStats Subject::count_skipped(const Drawing& drawing) const {
-  TraceOptions options;
-  options.threads = drawing.threads;
-  options.count_skipped = true;
-  Image image;
-  return draw(drawing, options, image);
 }
 
 Hits Subject::hits() const {

@@ -47,14 +47,9 @@ class Subject {
   double subdivide_ms() const;
 
   csgcore::TraceStats draw(const Drawing& drawing, csgcore::Image& image) const;
-  /// Draws a frame that also finds out what was skipped.
-  csgcore::TraceStats count_skipped(const Drawing& drawing) const;
   csgcore::Hits hits() const;
 
  private:
-  csgcore::TraceStats draw(const Drawing& drawing, const csgcore::TraceOptions& options,
-                           csgcore::Image& image) const;
-
   csgcore::Scene scene_;
   csgcore::View view_;
   csgcore::Solid solid_;

@@ -54,15 +54,6 @@ Checked& scene_of(const GrowthScene& growth, uint32_t unseen) {
   return *scene;
 }
 
-void report_skipped(const TraceStats& stats, benchmark::State& state) {
-  state.counters["intersected"] = static_cast<double>(stats.intersected);
-  state.counters["off_screen"] = static_cast<double>(stats.skipped.off_screen);
-  state.counters["sub_pixel"] = static_cast<double>(stats.skipped.sub_pixel);
-  state.counters["cancelled"] = static_cast<double>(stats.skipped.cancelled);
-  state.counters["inside"] = static_cast<double>(stats.skipped.inside);
-  state.counters["hidden"] = static_cast<double>(stats.skipped.hidden);
-}
-
 void grow(benchmark::State& state, const GrowthScene& growth, uint32_t unseen,
           const Drawing& drawing) {
   Checked* scenes[] = {&scene_of(growth, 0), &scene_of(growth, unseen)};
@@ -77,7 +68,6 @@ void grow(benchmark::State& state, const GrowthScene& growth, uint32_t unseen,
     }
   }
   frame_benchmark::report(stats[1], state);
-  report_skipped(scenes[1]->subject.count_skipped(drawing), state);
   state.counters["median_ms"] = times[1].median();
   state.counters["alone_ms"] = times[0].median();
   state.counters["ratio"] = times[1].median() / times[0].median();

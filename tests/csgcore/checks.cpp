@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "support/evaluate_tree.hpp"
 #include "support/models.hpp"
@@ -37,6 +36,12 @@ bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point) 
   return evaluate(subdivision.tests_of(leaf), [&](uint32_t primitive) {
     return contains(subdivision.solid().primitives()[primitive], point);
   });
+}
+
+std::set<uint32_t> named_by(const Solid& solid) {
+  std::set<uint32_t> primitives;
+  for (const BlistTest& test : solid.list().tests) primitives.insert(test.primitive);
+  return primitives;
 }
 
 View view_of(const Box& box, const Vec3& direction, double distance) {

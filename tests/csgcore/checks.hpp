@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <set>
 
 #include "csgcore/scene.hpp"
 #include "csgcore/subdivision.hpp"
@@ -27,6 +28,9 @@ bool holds(const Scene& scene, const Vec3& point_world);
 
 /// Returns the value of a leaf's Blist at a point.
 bool holds(const Subdivision& subdivision, const Leaf& leaf, const Vec3& point_world);
+
+/// Returns the primitives that the solid's list names.
+std::set<uint32_t> named_by(const Solid& solid);
 
 using test_support::scene_of;
 

@@ -46,10 +46,6 @@ class Solid {
   /// The whole tree as a list that is valid everywhere, without redundant operands, which change
   /// nothing (redundant_operands.hpp).
   const Blist& list() const { return list_; }
-  /// The primitives that only redundant operands name: those that lie within others, and those that
-  /// equal others. Ascending.
-  std::span<const uint32_t> inner() const;
-  std::span<const uint32_t> equal() const;
   /// list() in the form that is restricted to cells and tiles; null if the tree is empty.
   const CellList* cell_list() const { return cell_list_.get(); }
   /// list() with its operands in a BVH (operand_groups.hpp).

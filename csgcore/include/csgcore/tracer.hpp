@@ -44,27 +44,12 @@ struct TraceOptions {
   /// another renderer with that tolerance. World units, > 0, at most 2⁻²⁰ of the size of the
   /// bounds.
   std::optional<double> thickness_tolerance;
-  /// Fills TraceStats::skipped, which costs little. With an `area`, primitives that only other
-  /// parts of the picture show are counted as cancelled.
-  bool count_skipped = false;
   /// A stop request ends the frame early, and leaves undefined pixels.
   std::stop_token stop{};
 };
 
-/// Counts the primitives of the solid that were never intersected with any ray, by the reason.
-struct SkippedPrimitives {
-  uint64_t off_screen = 0;  // their bounds miss the picture
-  uint64_t sub_pixel = 0;   // they fall between the samples
-  uint64_t cancelled = 0;   // other operands make them irrelevant, or a later one equals them
-  uint64_t inside = 0;      // they lie within the solid
-  uint64_t hidden = 0;      // they lie behind visible surfaces
-};
-
 /// Statistics of one frame.
 struct TraceStats {
-  uint64_t primitives = 0;  // named by the tree; counted with count_skipped only, like the next two
-  uint64_t intersected = 0;    // of these, those that some ray was intersected with
-  SkippedPrimitives skipped;   // the rest
   uint64_t tiles = 0;          // traced; 0 with a Subdivision
   uint64_t rays = 0;           // rays that had primitives to be intersected with
   uint64_t intersections = 0;  // of one ray with one primitive each

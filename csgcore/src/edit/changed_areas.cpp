@@ -99,7 +99,7 @@ class Screen {
     find_screen_extents(extents.data(), {indices, count}, frame_, {false}, on_screen);
     std::optional<PixelArea> area = whole_picture(view_);
     for (const Extent& extent : std::span<const Extent>(on_screen, count)) {
-      if (cull_reason_on_screen(extent) == ScreenCullReason::kOffScreen) return std::nullopt;
+      if (!is_visible(extent)) return std::nullopt;
       const Range x = pixels(extent, 0, view_.width_px), y = pixels(extent, 1, view_.height_px);
       const uint32_t left = std::max(area->x, x.first), top = std::max(area->y, y.first);
       const uint32_t right = std::min(area->x + area->width, x.end);

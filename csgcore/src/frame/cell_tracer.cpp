@@ -196,10 +196,6 @@ class CellTracer::Traversal {
     decided.lanes = hits.hits & ~hits.undecided;
     hits.hits = decided.lanes;
     if (decided.lanes != 0) owner_.sink_.store(decided, rays_, list, hits);
-    if (!owner_.cull_reasons_.wanted()) return;
-    for (const uint32_t entry : workspace_.list.primitives()) {
-      owner_.cull_reasons_.note(entry & kPrimitiveBits, CullReason::kIntersected);
-    }
   }
 
   CellTracer& owner_;
@@ -215,12 +211,8 @@ class CellTracer::Traversal {
 };
 
 CellTracer::CellTracer(const Subdivision& subdivision, const FrameRays& frame,
-                       const TraceParameters& parameters, HitSink& sink, CullReasons& cull_reasons)
-    : subdivision_(subdivision),
-      frame_(frame),
-      parameters_(parameters),
-      sink_(sink),
-      cull_reasons_(cull_reasons) {}
+                       const TraceParameters& parameters, HitSink& sink)
+    : subdivision_(subdivision), frame_(frame), parameters_(parameters), sink_(sink) {}
 
 CellTracer::~CellTracer() = default;
 
@@ -264,8 +256,8 @@ void CellTracer::trace_by_tile(const Tile& tile, std::span<const LaneMask> undec
 
 TileTracer& CellTracer::tile_tracer() {
   std::call_once(tile_tracer_made_, [&] {
-    tile_tracer_ = std::make_unique<TileTracer>(subdivision_.solid(), frame_, parameters_,
-                                                TileRules{}, cull_reasons_);
+    tile_tracer_ =
+        std::make_unique<TileTracer>(subdivision_.solid(), frame_, parameters_, TileRules{});
   });
   return *tile_tracer_;
 }

@@ -16,7 +16,7 @@ class CellTracer {
  public:
   /// Keeps references to all arguments but the parameters.
   CellTracer(const Subdivision& subdivision, const FrameRays& frame,
-             const TraceParameters& parameters, HitSink& sink, CullReasons& cull_reasons);
+             const TraceParameters& parameters, HitSink& sink);
   ~CellTracer();
 
   /// Traces the area's pixels through their centres, in parallel.
@@ -36,7 +36,6 @@ class CellTracer {
   const FrameRays& frame_;
   const TraceParameters parameters_;
   HitSink& sink_;
-  CullReasons& cull_reasons_;
   mutable std::mutex mutex_;
   TileTracer::Counts counts_;
   std::once_flag tile_tracer_made_;

@@ -55,39 +55,6 @@ class PixelVisitor final : public TileVisitor {
   HitSink& sink_;
 };
 
-void count_cull_reasons(const Solid& solid, const CullReasons& cull_reasons, TraceStats& stats) {
-  stats.skipped.cancelled = solid.equal().size();
-  stats.skipped.inside = solid.inner().size();
-  stats.primitives = solid.equal().size() + solid.inner().size();
-  std::vector<bool> seen(solid.primitives().size());
-  for (const BlistTest& test : solid.list().tests) {
-    if (seen[test.primitive]) continue;
-    seen[test.primitive] = true;
-    ++stats.primitives;
-    switch (static_cast<CullReason>(cull_reasons.all()[test.primitive])) {
-      case CullReason::kIntersected:
-        ++stats.intersected;
-        break;
-      case CullReason::kOffScreen:
-        ++stats.skipped.off_screen;
-        break;
-      case CullReason::kSubPixel:
-        ++stats.skipped.sub_pixel;
-        break;
-      case CullReason::kHidden:
-        ++stats.skipped.hidden;
-        break;
-      case CullReason::kInside:
-        ++stats.skipped.inside;
-        break;
-      case CullReason::kUnknown:
-      case CullReason::kCancelled:
-        ++stats.skipped.cancelled;
-        break;
-    }
-  }
-}
-
 /// Draws one frame of a solid.
 class Frame {
  public:
@@ -100,7 +67,6 @@ class Frame {
         parameters_(parameters_of(solid, options)) {
     stats = {};
     assert(area_.x + area_.width <= view.width_px && area_.y + area_.height <= view.height_px);
-    if (options.count_skipped) cull_reasons_.resize(solid.primitives().size());
   }
 
   const FrameRays& rays() const { return rays_; }
@@ -125,32 +91,22 @@ class Frame {
     kept.restore_around(sampled, image);
   }
 
-  /// Counts the skipped primitives, if wanted.
-  void finish() {
-    if (cull_reasons_.wanted()) count_cull_reasons(solid_, cull_reasons_, stats_);
-  }
-
  private:
   void trace(const Subdivision* subdivision, const PixelArea& area, HitSink& sink) {
     if (area.empty()) return;
     with_threads(options_.threads, [&] {
       Stopwatch watch;
       if (subdivision) {
-        CellTracer tracer(*subdivision, rays_, parameters_, sink, cull_reasons_);
+        CellTracer tracer(*subdivision, rays_, parameters_, sink);
         tracer.trace(area);
         add(tracer.counts());
         stats_.tiles = 0;
-        // A primitive that some cell names, and that was not intersected, lies behind visible ones.
-        for (const BlistTest& test : subdivision->tests()) {
-          cull_reasons_.note(test.primitive, CullReason::kHidden);
-        }
       } else {
-        TileTracer tracer(solid_, rays_, parameters_, TileRules{}, cull_reasons_);
+        TileTracer tracer(solid_, rays_, parameters_, TileRules{});
         stats_.cull_ms = watch.lap_ms();
         PixelVisitor visitor(rays_, sink);
         tracer.visit(area, visitor);
         add(tracer.counts());
-        if (cull_reasons_.wanted()) tracer.note_screen_cull_reasons();
       }
       stats_.trace_ms += watch.lap_ms();
     });
@@ -161,8 +117,7 @@ class Frame {
       Stopwatch watch;
       const EdgeMap edges(image, area);
       stats_.edge_pixels = edges.count();
-      TileTracer tracer(solid_, rays_, parameters_, TileRules{.centers_only = false},
-                        cull_reasons_);
+      TileTracer tracer(solid_, rays_, parameters_, TileRules{.centers_only = false});
       EdgeVisitor visitor(edges, options_.samples, rays_, sink, image);
       tracer.visit(area, visitor);
       add(tracer.counts());
@@ -183,7 +138,6 @@ class Frame {
   const PixelArea area_;
   const FrameRays rays_;
   const TraceParameters parameters_;
-  CullReasons cull_reasons_;
 };
 
 void draw_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
@@ -191,7 +145,6 @@ void draw_frame(const Solid& solid, const Subdivision* subdivision, const View& 
                 TraceStats& stats) {
   Frame frame(solid, view, options, stats);
   frame.draw(subdivision, settings, image);
-  frame.finish();
 }
 
 void trace_frame(const Solid& solid, const Subdivision* subdivision, const View& view,
@@ -199,7 +152,6 @@ void trace_frame(const Solid& solid, const Subdivision* subdivision, const View&
   Frame frame(solid, view, options, stats);
   MemorySink sink(frame.rays(), hits);
   frame.trace(subdivision, sink);
-  frame.finish();
 }
 
 }  // namespace

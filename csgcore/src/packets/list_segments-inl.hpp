@@ -106,7 +106,6 @@ class ListSegments {
         open_windows(index, missing, computed == 0);
       }
       computed |= missing;
-      if (!workspace_.was_computed.empty()) workspace_.was_computed[index] = 1;
       workspace_.intersections += static_cast<uint64_t>(std::popcount(missing));
     }
     return segments;

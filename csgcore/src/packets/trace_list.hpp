@@ -47,8 +47,6 @@ struct PacketWorkspace {
   std::vector<LaneMask> apart;            // lanes known to be separated from the primitive
   std::vector<LaneMask> program_counter;  // by a test's number: the lanes whose program counter it
                                           // is (ListSegments::program_counter)
-  std::vector<uint8_t> was_computed;      // by index: intersected for any packet of the list; empty
-                                          // if not wanted
   SegmentStore segment_store;  // of primitives that are not convex; must be cleared before
                                // other rays are traced
   uint64_t rays = 0;           // those traced along their whole length

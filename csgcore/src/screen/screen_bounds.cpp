@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -22,7 +21,7 @@ constexpr double kSlablessHalf_px = 4;
 constexpr uint32_t kMembersAtOnce = 64;
 
 bool meets(const Extent& screen, const Box& cell) {
-  return cull_reason_on_screen(screen) == ScreenCullReason::kVisible && overlaps(screen, cell);
+  return is_visible(screen) && overlaps(screen, cell);
 }
 
 void prefetch(const void* object, size_t bytes) {
@@ -59,14 +58,6 @@ ScreenBounds::ScreenBounds(std::span<const CanonicalPrimitive> primitives,
   });
 }
 
-void ScreenBounds::open_wholly(uint32_t group) {
-  const OperandGroups::Members members = groups_.members(group);
-  const auto count = static_cast<uint32_t>(members.primitive.size());
-  for (uint32_t first = 0; first < count; first += kMembersAtOnce) {
-    bound_members(members, first, first_bits(std::min(count - first, kMembersAtOnce)));
-  }
-}
-
 /// Narrows a group's extent to the rectangles of its members, which its box in the world exceeds.
 void ScreenBounds::narrow_to_members(uint32_t group) const {
   const OperandGroups::Members members = groups_.members(group);
@@ -101,12 +92,6 @@ void ScreenBounds::bound_members(const OperandGroups::Members& members, uint32_t
   bound(indices);
   for (const uint32_t i : indices) bounded_[i].store(1, std::memory_order_release);
   state.store(kFree, std::memory_order_release);
-}
-
-void ScreenBounds::bound_all() {
-  std::vector<uint32_t> indices(groups_.first_group());
-  std::iota(indices.begin(), indices.end(), 0u);
-  bound(indices);
 }
 
 OpenClassifier::Answers ScreenBounds::classify(const uint32_t* primitives, uint64_t open,
@@ -154,12 +139,11 @@ void ScreenBounds::bound(std::span<const uint32_t> indices) const {
   find_screen_extents(groups_.extents().data(), indices, frame_, options_, screen_.get());
   for (const uint32_t i : indices) {
     if (!groups_.is_group(i)) continue;
-    if (cull_reason_on_screen(screen_[i]) == ScreenCullReason::kVisible) narrow_to_members(i);
+    if (is_visible(screen_[i])) narrow_to_members(i);
   }
   const auto needs_slab = [&](uint32_t i) {
     const Extent& extent = screen_[i];
-    if (groups_.is_group(i) || cull_reason_on_screen(extent) != ScreenCullReason::kVisible)
-      return false;
+    if (groups_.is_group(i) || !is_visible(extent)) return false;
     const auto [least, most] = std::minmax(extent.half[0], extent.half[1]);
     return extent.inside2 < 0 ? most >= kSlablessHalf_px : least >= kCorneredHalf_px;
   };

@@ -28,11 +28,6 @@ class ScreenBounds final : public OpenClassifier {
   /// The slabs by index, for extents with inside2 < 0.
   const ScreenSlab* slabs() const { return slabs_.get(); }
 
-  /// Bounds all members of the group. Any thread may call it, and repeatedly.
-  void open_wholly(uint32_t group);
-  /// Bounds all primitives, used or not. Must not be called while other threads trace.
-  void bound_all();
-
   /// Classifies by slabs and k-DOPs in screen space.
   Answers classify(const uint32_t* primitives, uint64_t open, const Box& cell) const override;
   /// Tests members of a group that is bounded. Bounds those that are not outside.

@@ -15,7 +15,7 @@ namespace csgcore {
 /// In screen space, x and y are in pixels as pixel_ray counts them (whole numbers are pixels'
 /// centres), and z is the ray parameter t. Bounds are conservative: no ray meets the primitive
 /// outside of its box.
-/// A primitive that no ray can meet lies outside of every cell (cull_reason_on_screen).
+/// A primitive that no ray can meet lies outside of every cell (is_visible).
 /// An extent with inside2 < 0 has a slab, and possibly a k-DOP (screen_slab.hpp), which may find
 /// its primitive outside of a tile that its box meets.
 struct ScreenOptions {
@@ -43,16 +43,14 @@ Rectangle find_rectangles(const BallRows& balls, uint32_t count, const Vec3& cen
                           const FrameRays& frame, const ScreenOptions& options,
                           float* const (&rows)[4]);
 
-/// Sets the extent's x and y, and its cull reason, to those of a rectangle.
+/// Sets the extent's x and y, and whether it is visible, to those of a rectangle.
 void set_rectangle(const Rectangle& pixels, const View& view, Extent& screen);
 /// Does the same with the intersection of the rectangle and the extent's own.
 void narrow(const Rectangle& to, const View& view, Extent& screen);
 
-enum class ScreenCullReason : uint8_t { kVisible, kOffScreen, kSubPixel };
-inline ScreenCullReason cull_reason_on_screen(const Extent& screen) {
-  if (screen.half[0] == -std::numeric_limits<double>::infinity())
-    return ScreenCullReason::kOffScreen;
-  return screen.outside2 < 0 ? ScreenCullReason::kSubPixel : ScreenCullReason::kVisible;
+/// Returns false if no ray can meet the primitive: it is beside the picture, or between the rays.
+inline bool is_visible(const Extent& screen) {
+  return screen.half[0] != -std::numeric_limits<double>::infinity() && screen.outside2 >= 0;
 }
 
 /// Returns whether the extent's rectangle meets an area of the screen, whose z is ignored.

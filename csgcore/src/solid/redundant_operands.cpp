@@ -353,27 +353,9 @@ std::optional<LeanTree> leave_out_redundant(const CsgTree& tree,
   if (lean.grounds.empty()) return std::nullopt;
   std::ranges::sort(lean.grounds);
   lean.grounds.erase(std::unique(lean.grounds.begin(), lean.grounds.end()), lean.grounds.end());
-  std::vector<uint32_t> inner_primitives;
-  for (size_t i = 0; i < inner.size(); ++i) {
-    if (inner[i]) inner_primitives.push_back(tree.tokens()[i].value);
-  }
   Merger merger(tree.tokens(), std::move(classes), std::move(is_shared), std::move(inner));
   if (!merger.find()) return std::nullopt;
   lean.tree = merger.tree();
-  std::vector<uint8_t> uses(primitives.size());
-  const auto mark = [&uses](const CsgTree& in, uint8_t use) {
-    for (const CsgToken& token : in.tokens()) {
-      if (token.is_primitive) uses[token.value] = use;
-    }
-  };
-  constexpr uint8_t kEarlier = 1, kInner = 2, kNow = 3;
-  mark(tree, kEarlier);
-  for (const uint32_t primitive : inner_primitives) uses[primitive] = kInner;
-  mark(lean.tree, kNow);
-  for (uint32_t i = 0; i < uses.size(); ++i) {
-    if (uses[i] == kEarlier) lean.equal.push_back(i);
-    if (uses[i] == kInner) lean.inner.push_back(i);
-  }
   return lean;
 }
 

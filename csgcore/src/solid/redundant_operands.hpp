@@ -18,9 +18,6 @@ struct LeanTree {
   /// The primitives that the omissions depend on: if none of them changes, the tree stays right.
   /// Ascending.
   std::vector<uint32_t> grounds;
-  /// Primitives that the whole tree names and this one does not: those that lie within others, and
-  /// those that equal others. Ascending.
-  std::vector<uint32_t> inner, equal;
 };
 
 /// Leaves out the redundant operands of each operation:

@@ -133,14 +133,6 @@ Solid::Solid(std::shared_ptr<const CanonicalPrimitives> primitives, const CsgTre
 
 const CsgTree& Solid::used_of(const CsgTree& tree) const { return lean_ ? lean_->tree : tree; }
 
-std::span<const uint32_t> Solid::inner() const {
-  return lean_ ? std::span<const uint32_t>(lean_->inner) : std::span<const uint32_t>();
-}
-
-std::span<const uint32_t> Solid::equal() const {
-  return lean_ ? std::span<const uint32_t>(lean_->equal) : std::span<const uint32_t>();
-}
-
 std::span<const Extent> Solid::extents() const {
   return std::span(groups_->extents()).first(groups_->first_group());
 }

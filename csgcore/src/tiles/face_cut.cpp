@@ -155,7 +155,6 @@ bool TileCuller::cut_by_face(const Tile& tile, const CellList& list, Restrictor&
     const double limit = index < chosen.primitive ? in_plane : behind;
     if (!lies_behind(index, *plane, limit)) continue;
     dropped_[i] = Decision::kOutside;
-    note(index, CullReason::kHidden);
     drops = true;
   }
   if (!drops) return false;

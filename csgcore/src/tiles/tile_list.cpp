@@ -64,7 +64,7 @@ TileCuller::Outcome TileCuller::cull(const Tile& tile, const CellList& list, Res
   for (const Cover& cover : covers_) {
     if (!last_value_) break;
     const std::optional<double> depth = free_depth(list, cover.from_t, cover.to_t);
-    cuts = depth && all_end_before(list, restrictor, *depth) && drop_behind(list, *depth, cover);
+    cuts = depth && all_end_before(list, restrictor, *depth) && drop_behind(list, *depth);
     if (!cuts) continue;
     cut_t_ = *depth;
     break;
@@ -159,8 +159,6 @@ void TileCuller::drop_undecisive(const CellList& list, Restrictor& restrictor, c
   restrictor.restrict(indices_, decisions_, probe_);
   decides_.assign(list.count(), 0);
   for (const uint32_t index : probe_.primitives()) decides_[index] = 1;
-  const CullReason cull_reason =
-      probe_.root == CellList::kTrue ? CullReason::kInside : CullReason::kCancelled;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const uint32_t primitive = list.primitive[i] & kPrimitiveBits;
     if (dropped_[i] == Decision::kOutside || decides_[i] ||
@@ -168,7 +166,6 @@ void TileCuller::drop_undecisive(const CellList& list, Restrictor& restrictor, c
       continue;
     }
     dropped_[i] = Decision::kOutside;
-    note(primitive, cull_reason);
   }
 }
 
@@ -232,35 +229,15 @@ bool TileCuller::all_end_before(const CellList& list, Restrictor& restrictor, do
 }
 
 /// Drops primitives behind the depth. Returns whether there are any.
-bool TileCuller::drop_behind(const CellList& list, double depth, const Cover& cover) {
+bool TileCuller::drop_behind(const CellList& list, double depth) {
   bool drops = false;
   for (uint32_t i = 0; i < list.count(); ++i) {
     const Extent& extent = screen_[list.primitive[i] & kPrimitiveBits];
     if (dropped_[i] == Decision::kOutside || nearest_t(extent) <= depth) continue;
     dropped_[i] = Decision::kOutside;
-    const bool is_inside = lies_within(extent, cover.from_t, cover.to_t);
-    note(list.primitive[i] & kPrimitiveBits, is_inside ? CullReason::kInside : CullReason::kHidden);
     drops = true;
   }
   return drops;
-}
-
-/// Notes the reason for a primitive, or for all primitives of a group, that the screen would show.
-void TileCuller::note(uint32_t index, CullReason cull_reason) {
-  if (!cull_reasons_.wanted()) return;
-  noted_.assign(1, index);
-  while (!noted_.empty()) {
-    const uint32_t next = noted_.back() & kPrimitiveBits;
-    noted_.pop_back();
-    if (cull_reason_on_screen(screen_[next]) != ScreenCullReason::kVisible) continue;
-    if (!groups_.is_group(next)) {
-      cull_reasons_.note(next, cull_reason);
-      continue;
-    }
-    bounds_.open_wholly(next);
-    const std::span<const uint32_t> members = groups_.members(next).primitive;
-    noted_.insert(noted_.end(), members.begin(), members.end());
-  }
 }
 
 }  // namespace csgcore

@@ -1,7 +1,6 @@
 // Culling: drops primitives that a tile's rays cannot see from the tile's list.
 #pragma once
 
-#include <atomic>
 #include <limits>
 #include <optional>
 #include <span>
@@ -11,7 +10,7 @@
 #include "rays/frame_rays.hpp"
 #include "rays/make_rays.hpp"
 #include "rays/packet_blocks.hpp"
-#include "screen/screen_bounds.hpp"
+#include "solid/operand_groups.hpp"
 #include "solid/restriction.hpp"
 
 namespace csgcore {
@@ -30,36 +29,6 @@ inline Box box_of(const Tile& tile, bool centers_only) {
 /// Returns the positions of rays through the corners of such a box, in the first four lanes.
 PacketLaterals laterals_of_corners(const FrameRays& frame, const Box& box);
 
-/// The reason why a primitive was not intersected. If tiles have different reasons for it, the
-/// largest counts.
-enum class CullReason : uint8_t {
-  kUnknown,
-  kOffScreen,
-  kSubPixel,
-  kCancelled,
-  kInside,
-  kHidden,
-  kIntersected
-};
-/// The cull reasons of all primitives, which all threads write. It is empty if they are not wanted.
-class CullReasons {
- public:
-  void resize(size_t primitives) { cull_reasons_ = std::vector<uint8_t>(primitives); }
-  bool wanted() const { return !cull_reasons_.empty(); }
-  void note(uint32_t primitive, CullReason cull_reason) {
-    if (!wanted()) return;
-    std::atomic_ref<uint8_t> entry(cull_reasons_[primitive]);
-    const uint8_t value = static_cast<uint8_t>(cull_reason);
-    uint8_t old = entry.load(std::memory_order_relaxed);
-    while (old < value && !entry.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
-    }
-  }
-  std::span<const uint8_t> all() const { return cull_reasons_; }
-
- private:
-  std::vector<uint8_t> cull_reasons_;
-};
-
 /// Drops primitives from the list of a tile that decide nothing although the tile's rays may meet
 /// them. An *occluder* is a primitive that contains the tile's whole cross-section over a stretch
 /// of depth. Within the stretch it is known to hold, which may settle the list:
@@ -74,19 +43,16 @@ class TileCuller {
   /// `last_value`: a ray ends as soon as the solid has this value; none: rays do not end.
   /// `cover_share`: a stretch counts only if it is longer than this share of its primitive's depth.
   TileCuller(std::span<const CanonicalPrimitive> primitives, const OperandGroups& groups,
-             ScreenBounds& bounds, const FrameRays& frame, bool centers_only,
-             std::optional<bool> last_value, double cover_share, double thickness_tolerance,
-             CullReasons& cull_reasons)
+             std::span<const Extent> screen, const FrameRays& frame, bool centers_only,
+             std::optional<bool> last_value, double cover_share, double thickness_tolerance)
       : primitives_(primitives),
         groups_(groups),
-        bounds_(bounds),
-        screen_(bounds.extents()),
+        screen_(screen),
         frame_(frame),
         centers_only_(centers_only),
         last_value_(last_value),
         cover_share_(cover_share),
-        thickness_tolerance_(thickness_tolerance),
-        cull_reasons_(cull_reasons) {}
+        thickness_tolerance_(thickness_tolerance) {}
 
   enum class Outcome : uint8_t {
     kNothing,     // no primitive can be dropped
@@ -137,21 +103,18 @@ class TileCuller {
   void decide_within(const CellList& list, double from_t, double to_t);
   void drop_undecisive(const CellList& list, Restrictor& restrictor, const Cover& cover);
   bool all_end_before(const CellList& list, Restrictor& restrictor, double depth);
-  bool drop_behind(const CellList& list, double depth, const Cover& cover);
+  bool drop_behind(const CellList& list, double depth);
   bool covers_at(uint32_t primitive, double from_t, double to_t) const;
   std::optional<double> free_depth(const CellList& list, double from_t, double to_t);
-  void note(uint32_t index, CullReason cull_reason);
 
   std::span<const CanonicalPrimitive> primitives_;
   const OperandGroups& groups_;
-  ScreenBounds& bounds_;
   std::span<const Extent> screen_;
   const FrameRays& frame_;
   bool centers_only_;
   std::optional<bool> last_value_;
   double cover_share_;
   double thickness_tolerance_;
-  CullReasons& cull_reasons_;
 
   using Decision = Restrictor::Decision;
   std::vector<Cover> covers_;
@@ -165,7 +128,6 @@ class TileCuller {
   CellList indices_;  // the list, with indices in place of primitives
   CellList probe_;
   std::vector<uint8_t> decides_;
-  std::vector<uint32_t> noted_;
   std::vector<FaceCandidate> face_candidates_;
 };
 

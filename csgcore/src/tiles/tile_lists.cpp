@@ -95,8 +95,7 @@ bool list_tiles(const Solid& solid, const View& view, const TileListOptions& opt
     rules.packet_list = options.longest_list;
     rules.cover_share = kCoverShare;
     rules.cuts_by_faces = false;
-    CullReasons cull_reasons;
-    TileTracer tracer(solid, rays, parameters, rules, cull_reasons);
+    TileTracer tracer(solid, rays, parameters, rules);
     ListVisitor visitor(rays.base_s, options.longest_list, stop);
     tracer.visit({0, 0, view.width_px, view.height_px}, visitor);
     if (!stop.stop_requested()) visitor.collect(lists);

@@ -97,9 +97,9 @@ struct TileTracer::Level {
 struct TileTracer::Workspace {
   explicit Workspace(TileTracer& owner)
       : restrictor(owner.bounds_.extents(), owner.bounds_),
-        culler(owner.solid_.primitives(), owner.groups_, owner.bounds_, owner.frame_,
+        culler(owner.solid_.primitives(), owner.groups_, owner.bounds_.extents(), owner.frame_,
                owner.rules_.centers_only, owner.last_value_, owner.rules_.cover_share,
-               owner.parameters_.thickness_tolerance, owner.cull_reasons_) {}
+               owner.parameters_.thickness_tolerance) {}
   Level& level(size_t index) {
     while (levels.size() <= index) levels.push_back(std::make_unique<Level>());
     return *levels[index];
@@ -186,14 +186,12 @@ std::optional<bool> find_last_value(const Solid& solid, const FrameRays& frame,
 }  // namespace
 
 TileTracer::TileTracer(const Solid& solid, const FrameRays& frame,
-                       const TraceParameters& parameters, const TileRules& rules,
-                       CullReasons& cull_reasons)
+                       const TraceParameters& parameters, const TileRules& rules)
     : solid_(solid),
       groups_(solid.groups()),
       frame_(frame),
       parameters_(parameters),
       rules_(rules),
-      cull_reasons_(cull_reasons),
       last_value_(find_last_value(solid, frame, parameters)),
       bounds_(solid.primitives(), groups_, frame, rules.centers_only) {}
 
@@ -388,7 +386,6 @@ class TileTracer::LeafRays final : public TileRays {
     if (!cut_.fallback || is_certain || (lanes & lanes_that_go_on(hits)) == 0) {
       return workspace_.list.trace_list();
     }
-    workspace_.packets.was_computed.clear();
     if (!has_fallback_) assign_fallback();
     const TraceList& fallback = workspace_.fallback_list.trace_list();
     if (fallback.list->is_constant()) return workspace_.list.trace_list();
@@ -416,16 +413,8 @@ class TileTracer::LeafRays final : public TileRays {
 void TileTracer::visit_leaf(const Tile& tile, const CellList& list, const Cut& cut,
                             Workspace& workspace, TileVisitor& visitor) {
   ++workspace.tiles;
-  workspace.packets.was_computed.assign(cull_reasons_.wanted() ? list.count() : 0, 0);
   LeafRays rays(*this, tile, list, cut, workspace);
   visitor.visit(tile, rays);
-  if (!cull_reasons_.wanted()) return;
-  const std::vector<uint8_t>& was_computed = workspace.packets.was_computed;
-  for (uint32_t i = 0; i < list.count(); ++i) {
-    const bool intersected = was_computed.empty() || was_computed[i];
-    cull_reasons_.note(list.primitive[i] & kPrimitiveBits,
-                       intersected ? CullReason::kIntersected : CullReason::kHidden);
-  }
 }
 
 TileTracer::Counts TileTracer::counts() const {
@@ -437,17 +426,6 @@ TileTracer::Counts TileTracer::counts() const {
     sum.resolved_rays += workspace->packets.resolved_rays;
   }
   return sum;
-}
-
-void TileTracer::note_screen_cull_reasons() {
-  bounds_.bound_all();
-  for (uint32_t primitive = 0; primitive < groups_.first_group(); ++primitive) {
-    const ScreenCullReason cull_reason = cull_reason_on_screen(bounds_.extents()[primitive]);
-    if (cull_reason == ScreenCullReason::kOffScreen)
-      cull_reasons_.note(primitive, CullReason::kOffScreen);
-    if (cull_reason == ScreenCullReason::kSubPixel)
-      cull_reasons_.note(primitive, CullReason::kSubPixel);
-  }
 }
 
 }  // namespace csgcore

@@ -98,17 +98,15 @@ class TileTracer {
     uint64_t resolved_rays = 0;
   };
 
-  /// Keeps references to solid, frame and cull_reasons.
+  /// Keeps references to solid and frame.
   TileTracer(const Solid& solid, const FrameRays& frame, const TraceParameters& parameters,
-             const TileRules& rules, CullReasons& cull_reasons);
+             const TileRules& rules);
   ~TileTracer();
 
   /// Visits all tiles of `area`, in parallel unless they are few.
   void visit(const Tile& area, TileVisitor& visitor);
 
   Counts counts() const;
-  /// Adds the reasons that follow from the primitives' bounds on the screen to the cull reasons.
-  void note_screen_cull_reasons();
 
  private:
   struct Level;
@@ -141,7 +139,6 @@ class TileTracer {
   const FrameRays& frame_;
   const TraceParameters parameters_;
   const TileRules rules_;
-  CullReasons& cull_reasons_;
   const std::optional<bool> last_value_;
   ScreenBounds bounds_;
   mutable std::mutex mutex_;

@@ -52,7 +52,7 @@ struct RenderSettings {
   unsigned threads = 0;            // 0: as many as the machine has
   bool measured_channels = false;  // also fill Image's z, normal, position and id
   /// Also fill those RenderStats that take extra work: T_S, T_R and S_R, for which OpenGL draws
-  /// again, and the reasons why primitives were skipped.
+  /// again.
   bool all_stats = false;
   /// Once requested, the CPU's pictures end early, unfinished.
   std::stop_token stop;

@@ -38,8 +38,7 @@ struct RenderStats {
   uint64_t draw_calls = 0;
   uint64_t cells_drawn = 0;
 
-  /// The CPU counts all solids that it draws, translucent ones twice; but `primitives`,
-  /// `intersected` and `skipped` count the model alone. OpenGL fills only `tiles`.
+  /// The CPU counts all solids that it draws, translucent ones twice. OpenGL fills only `tiles`.
   csgcore::TraceStats trace;
 
   double prepare_ms = 0;    // canonical primitives, and lists for the trees

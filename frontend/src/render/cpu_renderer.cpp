@@ -108,15 +108,10 @@ class CpuRenderer final : public SolidRenderer {
                         Image& image) {
     csgcore::TraceOptions options = trace_options(request.settings, Boundary::kFirst);
     options.samples = samples_of(request.settings);
-    options.count_skipped = request.settings.all_stats;
     options.area = area;
     TraceStats frame_stats;
     csgcore::draw(traced, request.view, frame, options, image, frame_stats);
-    RenderStats& stats = request.stats;
-    add(frame_stats, stats);
-    stats.trace.primitives = frame_stats.primitives;
-    stats.trace.intersected = frame_stats.intersected;
-    stats.trace.skipped = frame_stats.skipped;
+    add(frame_stats, request.stats);
   }
 
   const Subdivision& subdivide_model(const Solid& solid, const PictureRequest& request) {

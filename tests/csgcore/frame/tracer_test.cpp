@@ -115,7 +115,6 @@ TEST_P(PicturesOf, ThreadsAndInstructionSetsDoNotMatter) {
     if (view.name == "CloseUp" || view.name == "FromFarAway" || view.name == "Sideways") continue;
     SCOPED_TRACE(view.name);
     options.threads = 1;
-    options.count_skipped = false;
     const std::vector<Image> expected = draw_all(solid_, subdivision, view.view, options);
     const auto expect_same = [&](const char* what) {
       const std::vector<Image> images = draw_all(solid_, subdivision, view.view, options);
@@ -124,8 +123,6 @@ TEST_P(PicturesOf, ThreadsAndInstructionSetsDoNotMatter) {
         EXPECT_TRUE(same_bits(images[i], images[i / 2 * 2])) << what << ", cells, not tiles";
       }
     };
-    options.count_skipped = true;
-    expect_same("counting");
     for (const unsigned threads : {2u, 4u, 0u}) {
       options.threads = threads;
       expect_same("threads");

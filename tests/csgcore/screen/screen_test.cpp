@@ -57,10 +57,7 @@ struct Screen {
   }
 
   /// Returns whether the primitive fills its box badly.
-  bool has_slab(size_t i) const {
-    return extents[i].inside2 < 0 &&
-           cull_reason_on_screen(extents[i]) == ScreenCullReason::kVisible;
-  }
+  bool has_slab(size_t i) const { return extents[i].inside2 < 0 && is_visible(extents[i]); }
 
   bool is_cornered(size_t i) const { return has_slab(i) && extents[i].inside2 == kCornered; }
 
@@ -190,14 +187,14 @@ TEST_P(ScreenExtents, HoldWhatRaysMeet) {
     const Screen screen(primitives, rays_of(view), centers_only);
     for (size_t i = 0; i < primitives.size(); ++i) {
       const Extent& extent = screen.extents[i];
-      unseen += cull_reason_on_screen(extent) != ScreenCullReason::kVisible;
+      unseen += !is_visible(extent);
       const auto points = points_at(screen, primitives[i], random, centers_only);
       const PacketSegments segments =
           segments_of(screen.frame, screen.rays_through(points), screen.primitives[i]);
       for (uint32_t lane = 0; lane < kPacketRays; ++lane) {
         if (!is_seen(screen.frame, segments, lane)) continue;
         ++seen;
-        ASSERT_EQ(cull_reason_on_screen(extent), ScreenCullReason::kVisible);
+        ASSERT_TRUE(is_visible(extent));
         ASSERT_LE(std::abs(points[lane].x - extent.center[0]), extent.half[0]);
         ASSERT_LE(std::abs(points[lane].y - extent.center[1]), extent.half[1]);
         ASSERT_FALSE(screen.is_beyond_line(i, points[lane]));
@@ -227,7 +224,7 @@ TEST(ScreenExtents, AreTight) {
     for (size_t i = 0; i < primitives.size(); ++i) {
       const Extent& extent = screen.extents[i];
       const bool is_perspective = view.projection == Projection::kPerspective;
-      if (cull_reason_on_screen(extent) != ScreenCullReason::kVisible) continue;
+      if (!is_visible(extent)) continue;
       if (is_perspective && nearest_t(extent) < screen.frame.first_t + 1) continue;
       // What encloses it is shown in its place.
       if (!test_support::test_kind_of(primitives[i].shape).is_told_tightly()) continue;

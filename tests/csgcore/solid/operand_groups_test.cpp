@@ -205,7 +205,7 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
       find_screen_extents(groups_.extents().data(), indices, frame, {false}, screen.data());
       for (uint32_t i = 0; i < count; ++i) {
         const Extent& exact = screen[indices[i]];
-        if (cull_reason_on_screen(exact) != ScreenCullReason::kVisible) continue;
+        if (!is_visible(exact)) continue;
         ++visible;
         EXPECT_LE(all.low_x, rows[0][i]);
         EXPECT_GE(all.high_x, rows[1][i]);
@@ -227,12 +227,30 @@ TEST_P(GroupsOf, RandomTreeHaveRectanglesThatHoldTheirMembers) {
   }
 }
 
+/// Returns the members of a group that do not lie outside of the cell; the bounds have their
+/// extents then.
+std::vector<uint32_t> members_in(const OperandGroups& groups, const ScreenBounds& bounds,
+                                 uint32_t group, const Box& cell) {
+  std::vector<uint32_t> result;
+  const OperandGroups::Members members = groups.members(group);
+  const auto count = static_cast<uint32_t>(members.primitive.size());
+  for (uint32_t first = 0; first < count; first += 64) {
+    const uint32_t some = std::min(count - first, 64u);
+    const uint64_t outside = bounds.members_outside(members, first, some, cell).value();
+    for (uint32_t i = 0; i < some; ++i) {
+      if ((outside >> i & 1) == 0) result.push_back(members.primitive[first + i]);
+    }
+  }
+  return result;
+}
+
 /// On the screen a group reaches as far as its members, and not as far as its box.
 TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
   for (const auto& [name, view] : checks::trace_views(kSpace, 640, 480)) {
     SCOPED_TRACE(name);
     const FrameRays frame = frame_rays(view, solid_.bounds());
-    ScreenBounds bounds(solid_.primitives(), groups_, frame, true);
+    const ScreenBounds bounds(solid_.primitives(), groups_, frame, true);
+    const Box picture{Vec3(0, 0, -1e9), Vec3(view.width_px - 1, view.height_px - 1, 1e9)};
     Extents boxes(groups_.count());
     double area = 0, box_area = 0;
     std::vector<uint32_t> left;
@@ -248,18 +266,17 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
       find_screen_extents(groups_.extents().data(), std::span(&group, 1), frame, {true},
                           boxes.data());
       const Extent& box = boxes[group];
-      bounds.open_wholly(group);
-      const std::span<const uint32_t> members = groups_.members(group).primitive;
-      if (cull_reason_on_screen(box) != ScreenCullReason::kVisible) continue;
+      if (!is_visible(box)) continue;
+      const std::vector<uint32_t> members = members_in(groups_, bounds, group, picture);
       add_groups(members);
-      if (cull_reason_on_screen(extent) == ScreenCullReason::kVisible) {
+      if (is_visible(extent)) {
         const bool is_on_screen = box.half[0] < 0.5 * view.width_px;
         area += is_on_screen ? extent.half[0] * extent.half[1] : 0;
         box_area += is_on_screen ? box.half[0] * box.half[1] : 0;
       }
       for (const uint32_t entry : members) {
         const Extent& member = bounds.extents()[entry & kPrimitiveBits];
-        if (cull_reason_on_screen(member) != ScreenCullReason::kVisible) continue;
+        if (!is_visible(member)) continue;
         // Only the part within the group's box and the picture counts.
         double low[2], high[2];
         for (const int axis : {0, 1}) {
@@ -270,7 +287,7 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
               {member.center[axis] + member.half[axis], box.center[axis] + box.half[axis], last});
         }
         if (low[0] > high[0] || low[1] > high[1]) continue;
-        ASSERT_EQ(cull_reason_on_screen(extent), ScreenCullReason::kVisible);
+        ASSERT_TRUE(is_visible(extent));
         for (const int axis : {0, 1}) {
           EXPECT_LE(extent.center[axis] - extent.half[axis], low[axis]);
           EXPECT_GE(extent.center[axis] + extent.half[axis], high[axis]);
@@ -285,28 +302,18 @@ TEST_P(GroupsOf, RandomTreeAreNoLargerThanTheirMembers) {
   }
 }
 
-/// Which members of the groups that the cell shows lie outside of it: 64 a word.
-std::vector<uint64_t> members_outside(const OperandGroups& groups, const ScreenBounds& bounds,
-                                      const Box& cell) {
-  std::vector<uint64_t> result;
+/// Returns the members that the cell shows, group by group.
+std::vector<uint32_t> all_members_in(const OperandGroups& groups, const ScreenBounds& bounds,
+                                     const Box& cell) {
   const std::span<const uint32_t> all = groups.list().primitives();
   std::vector<uint32_t> shown(all.begin(), all.end());
   for (size_t next = 0; next < shown.size(); ++next) {
     const uint32_t group = shown[next] & kPrimitiveBits;
-    if (!groups.is_group(group)) continue;
-    if (cull_reason_on_screen(bounds.extents()[group]) != ScreenCullReason::kVisible) continue;
-    const OperandGroups::Members members = groups.members(group);
-    const auto count = static_cast<uint32_t>(members.primitive.size());
-    for (uint32_t first = 0; first < count; first += 64) {
-      const uint32_t some = std::min(count - first, 64u);
-      const uint64_t outside = bounds.members_outside(members, first, some, cell).value();
-      result.push_back(outside);
-      for (uint32_t i = 0; i < some; ++i) {
-        if ((outside >> i & 1) == 0) shown.push_back(members.primitive[first + i]);
-      }
-    }
+    if (!groups.is_group(group) || !is_visible(bounds.extents()[group])) continue;
+    const std::vector<uint32_t> members = members_in(groups, bounds, group, cell);
+    shown.insert(shown.end(), members.begin(), members.end());
   }
-  return result;
+  return shown;
 }
 
 /// Threads that begin with the same groups bound the same members: ThreadSanitizer looks on.
@@ -317,21 +324,21 @@ TEST_P(GroupsOf, RandomTreeAreBoundedByThreadsAtOnce) {
   const FrameRays frame = frame_rays(view, solid_.bounds());
   const Box cell{Vec3(100, 100, -1e9), Vec3(500, 400, 1e9)};
   const ScreenBounds alone(solid_.primitives(), groups_, frame, true);
-  const std::vector<uint64_t> expected = members_outside(groups_, alone, cell);
-  ASSERT_FALSE(expected.empty());
+  const std::vector<uint32_t> expected = all_members_in(groups_, alone, cell);
+  ASSERT_GT(expected.size(), groups_.list().primitives().size());
   for (int round = 0; round < kRounds; ++round) {
     const ScreenBounds bounds(solid_.primitives(), groups_, frame, true);
-    std::vector<uint64_t> found[kThreads];
+    std::vector<uint32_t> found[kThreads];
     std::latch start(kThreads);
     std::vector<std::jthread> threads;
-    for (std::vector<uint64_t>& own : found) {
+    for (std::vector<uint32_t>& own : found) {
       threads.emplace_back([&] {
         start.arrive_and_wait();
-        own = members_outside(groups_, bounds, cell);
+        own = all_members_in(groups_, bounds, cell);
       });
     }
     threads.clear();  // joins them
-    for (const std::vector<uint64_t>& own : found) EXPECT_EQ(own, expected);
+    for (const std::vector<uint32_t>& own : found) EXPECT_EQ(own, expected);
   }
 }
 
@@ -368,11 +375,10 @@ TEST_P(GroupsOf, RandomTreeHaveNoRectanglesBetweenTheRays) {
     find_screen_extents(extents.data(), indices, frame, {true}, screen.data());
     uint32_t nowhere = 0, between = 0;
     for (uint32_t i = 0; i < kCount; ++i) {
-      const ScreenCullReason cull_reason = cull_reason_on_screen(screen[i]);
       const bool is_nowhere = rows[0][i] > rows[1][i];
       nowhere += is_nowhere;
-      between += cull_reason == ScreenCullReason::kSubPixel;
-      ASSERT_FALSE(is_nowhere && cull_reason == ScreenCullReason::kVisible);
+      between += screen[i].outside2 < 0;
+      ASSERT_FALSE(is_nowhere && is_visible(screen[i]));
     }
     EXPECT_GE(nowhere, between / 4);
   }

@@ -27,10 +27,8 @@ class Simplifying {
         whole_(solid_, view),
         bounds_(solid_.primitives(), solid_.groups(), whole_.frame(), true),
         restrictor_(bounds_.extents(), bounds_),
-        culler_(solid_.primitives(), solid_.groups(), bounds_, whole_.frame(), true, last_value,
-                0.0, thickness_tolerance(solid_.bounds()), cull_reasons_) {
-    bounds_.bound_all();
-  }
+        culler_(solid_.primitives(), solid_.groups(), bounds_.extents(), whole_.frame(), true,
+                last_value, 0.0, thickness_tolerance(solid_.bounds())) {}
 
   struct Outcome {
     uint32_t before = 0, after = 0;  // tests
@@ -66,10 +64,20 @@ class Simplifying {
   }
 
  private:
-  /// Returns false if the list is constant.
+  /// Makes the tile's list, with all groups expanded. Returns false if the list is constant.
   bool restrict_to(const Tile& tile, CellList& list) {
-    restrictor_.restrict(*solid_.cell_list(), box_of(tile, true), list);
-    return !list.is_constant();
+    const OperandGroups& groups = solid_.groups();
+    const Box box = box_of(tile, true);
+    restrictor_.restrict(groups.list(), box, list);
+    for (;;) {
+      std::vector<uint8_t> marked;
+      for (const uint32_t entry : list.primitives()) {
+        marked.push_back(groups.is_group(entry & kPrimitiveBits));
+      }
+      if (std::ranges::count(marked, 1) == 0) return !list.is_constant();
+      const CellList closed = list;
+      restrictor_.open(closed, groups, marked, box, list);
+    }
   }
 
   PacketHits trace(const CellList& list, const RayPacket& rays, LaneMask lanes, Boundary boundary) {
@@ -88,7 +96,6 @@ class Simplifying {
   checks::WholeList whole_;
   ScreenBounds bounds_;
   Restrictor restrictor_;
-  CullReasons cull_reasons_;
   TileCuller culler_;
   PacketWorkspace workspace_;
 };

@@ -59,7 +59,6 @@ class Command : public testing::Test {
     stats.reason = reason_;
     stats.measuring_ms = measuring_ms_;
     stats.trace.rays = 7;
-    stats.trace.skipped.hidden = 5;
     stats.cells = 12;
     stats.draw_calls = 3;
     stats.subdivide_ms = 1.5;
@@ -302,7 +301,6 @@ TEST_F(Command, Statistics) {
   EXPECT_EQ(json["cells"], 12);
   EXPECT_EQ(json["draw_calls"], 3);
   EXPECT_EQ(json["rays"], 7);
-  EXPECT_EQ(json["primitives_skipped"]["hidden"], 5);
   EXPECT_EQ(json["times_ms"]["subdivide"], 1.5);
   EXPECT_EQ(json["paper_ms"]["S"], 1.5);
   EXPECT_EQ(json["paper_ms"]["S_R"], 4.5);
@@ -328,17 +326,14 @@ TEST_F(Command, StatisticsHaveExactlyTheKeysOfTheReadme) {
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
   };
-  EXPECT_THAT(
-      keys(json),
-      ElementsAre("cells", "cells_drawn", "design_leaves", "draw_calls", "edge_pixels", "file",
-                  "file_bytes", "height_px", "intersections", "layers", "leaf_primitives", "leaves",
-                  "nodes", "paper_ms", "primitive_nodes", "primitives", "primitives_intersected",
-                  "primitives_skipped", "rays", "renderer", "resolved_rays", "subdivision_bytes",
-                  "technique", "tiles", "times_ms", "width_px"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("cells", "cells_drawn", "design_leaves", "draw_calls", "edge_pixels",
+                          "file", "file_bytes", "height_px", "intersections", "layers",
+                          "leaf_primitives", "leaves", "nodes", "paper_ms", "primitive_nodes",
+                          "primitives", "rays", "renderer", "resolved_rays", "subdivision_bytes",
+                          "technique", "tiles", "times_ms", "width_px"));
   EXPECT_THAT(keys(json["leaves"]), ElementsAre("dropped", "empty", "full", "general", "given_up",
                                                 "pair", "total", "union"));
-  EXPECT_THAT(keys(json["primitives_skipped"]),
-              ElementsAre("cancelled", "hidden", "inside", "off_screen", "sub_pixel"));
   EXPECT_THAT(keys(json["times_ms"]),
               ElementsAre("context", "cull", "encode", "export", "import", "openscad", "parse",
                           "prepare", "read", "render", "subdivide", "total", "trace", "traverse"));

@@ -290,40 +290,6 @@ TEST_F(Renderers, StatisticsOfTheCpu) {
   }
 }
 
-/// A ball, one behind it, one inside it, one beside the picture, and one that is subtracted where
-/// nothing is.
-TEST_F(Renderers, SkippedPrimitivesAreCountedByTheirReason) {
-  file_ = folder_.write("a.csg", R"(
-difference() {
-  group() {
-    sphere($fn = 0, r = 10);
-    sphere($fn = 0, r = 3);
-    multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,-30],[0,0,0,1]]) { sphere($fn = 0, r = 3); }
-    multmatrix([[1,0,0,99],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere($fn = 0, r = 3); }
-  }
-  multmatrix([[1,0,0,-20],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere($fn = 0, r = 3); }
-}
-)");
-  const std::string camera = "--camera=0,0,0,0,0,0,200";
-  for (const char* technique : {"--technique=tiles", "--technique=cells"}) {
-    SCOPED_TRACE(technique);
-    const Drawn drawn = cpu({technique, camera, "--projection=o", "--stats", folder_ / "s.json"});
-    const csgcore::TraceStats& trace = drawn.stats.trace;
-    const csgcore::SkippedPrimitives& skipped = trace.skipped;
-    EXPECT_EQ(trace.intersected + skipped.off_screen + skipped.sub_pixel + skipped.cancelled +
-                  skipped.inside + skipped.hidden,
-              5u);
-    EXPECT_GE(trace.intersected, 1u);
-    EXPECT_EQ(skipped.cancelled, 1u);
-    EXPECT_EQ(skipped.sub_pixel, 0u);
-    // A cell may contain what the picture does not show.
-    EXPECT_EQ(skipped.off_screen, drawn.stats.technique == "tiles" ? 1u : 0u);
-    const Drawn plain = cpu({technique, camera, "--projection=o"});
-    EXPECT_EQ(plain.stats.trace.skipped.cancelled, 0u) << "not asked for";
-    EXPECT_EQ(plain.image.rgb, drawn.image.rgb);
-  }
-}
-
 /// Nothing is left of the model: no cell has a surface, and no ray meets any of it.
 TEST_F(Renderers, AModelThatIsNowhereLeavesTranslucentPartsAlone) {
   struct Case {
