@@ -34,7 +34,6 @@ using csgcore::SceneEdit;
 using csgcore::Solid;
 using csgcore::Subdivision;
 using csgcore::SubdivisionOptions;
-using csgcore::SubdivisionUpdate;
 using csgcore::View;
 
 /// Pieces of the solid thinner than this, along the normal, do not exist in a GL picture
@@ -48,7 +47,7 @@ constexpr double kThicknessTolerance = 0x1p-21;
 /// edges, and at most 4 were seen in the examples. Only a wall has more of them.
 constexpr uint32_t kFewDoubtful = 16;
 
-/// The most updates of primitives in place, when tiles are drawn. Then all is uploaded anew, which
+/// The most updates of primitives in place. Then all is uploaded anew, which
 /// frees the faces of polyhedra and meshes that are gone.
 constexpr uint32_t kMostUpdates = 256;
 
@@ -92,28 +91,20 @@ class Renderer::Impl {
     buffers_.upload_tests(packed.tests);
     subdivision_ = &subdivision;
     first_test_ = std::move(packed.first_test);
-    tests_ = packed.tests.size();
   }
 
   void update(const Solid& solid, const SceneEdit& edit) {
-    follow(solid, edit, edit.keeps_indices() && updates_ < kMostUpdates);
     subdivision_ = nullptr;
-  }
-
-  void update(const Subdivision& subdivision, const SceneEdit& edit,
-              const SubdivisionUpdate& update) {
-    // Cells are made anew now and then. All is uploaded anew with them, which frees the faces of
-    // polyhedra and meshes that are gone.
-    const bool in_part = edit.keeps_indices() && !update.is_anew;
-    follow(subdivision.solid(), edit, in_part);
-    if (!in_part || subdivision_ != &subdivision) {
-      load(subdivision);
-      return;
+    solid_ = &solid;
+    tolerance_ = thickness_tolerance(solid);
+    if (edit.keeps_indices() && updates_ < kMostUpdates) {
+      buffers_.update(solid, edit, tolerance_);
+      ++updates_;
+    } else {
+      uploaded_before_ += buffers_.uploaded_bytes();
+      buffers_ = SolidBuffers(solid, tolerance_, most_texels_);
+      updates_ = 0;
     }
-    const PackedTests added = pack_tests(subdivision, update.first_new_leaf, tests_);
-    buffers_.add_tests(tests_, added.tests);
-    tests_ += added.tests.size();
-    first_test_.insert(first_test_.end(), added.first_test.begin(), added.first_test.end());
   }
 
   uint64_t uploaded_bytes() const { return uploaded_before_ + buffers_.uploaded_bytes(); }
@@ -214,20 +205,6 @@ class Renderer::Impl {
   }
 
  private:
-  /// Updates the primitives on the GPU.
-  void follow(const Solid& solid, const SceneEdit& edit, bool in_part) {
-    solid_ = &solid;
-    tolerance_ = thickness_tolerance(solid);
-    if (in_part) {
-      buffers_.update(solid, edit, tolerance_);
-      ++updates_;
-    } else {
-      uploaded_before_ += buffers_.uploaded_bytes();
-      buffers_ = SolidBuffers(solid, tolerance_, most_texels_);
-      updates_ = 0;
-    }
-  }
-
   /// The box to which the frame and its light are fitted.
   const csgcore::Box& scene_box(const FrameSettings& settings) const {
     return settings.scene_box.empty() ? solid_->bounds() : settings.scene_box;
@@ -465,7 +442,6 @@ class Renderer::Impl {
   std::optional<RenderTarget> target_;  // the last picture
   const Subdivision* subdivision_ = nullptr;
   std::vector<uint64_t> first_test_;  // by leaf of the subdivision, in the buffers
-  uint64_t tests_ = 0;                // tests that the buffers hold
   Doubts doubts_;                     // of the last picture, and of the front that it lies behind
   uint64_t uploaded_before_ = 0;      // bytes, to buffers that were replaced
   uint32_t updates_ = 0;              // number of updates in place since then
@@ -481,11 +457,6 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::load(const Subdivision& subdivision) { impl_->load(subdivision); }
 
 void Renderer::update(const Solid& solid, const SceneEdit& edit) { impl_->update(solid, edit); }
-
-void Renderer::update(const Subdivision& subdivision, const SceneEdit& edit,
-                      const SubdivisionUpdate& update) {
-  impl_->update(subdivision, edit, update);
-}
 
 uint64_t Renderer::uploaded_bytes() const { return impl_->uploaded_bytes(); }
 

@@ -255,8 +255,7 @@ void SolidBuffers::place(const Frame& frame) {
   placed_at_ = frame.focus;
 }
 
-std::vector<SolidBuffers::TestTexel> SolidBuffers::texels_of(
-    std::span<const BlistTest> tests) const {
+void SolidBuffers::upload_tests(std::span<const BlistTest> tests, ListsOf of) {
   std::vector<TestTexel> texels;
   texels.reserve(tests.size());
   for (const BlistTest& test : tests) {
@@ -264,18 +263,8 @@ std::vector<SolidBuffers::TestTexel> SolidBuffers::texels_of(
                       test.if_inside, test.if_outside,
                       static_cast<uint32_t>(solid_->primitives()[test.primitive].is_convex)});
   }
-  return texels;
-}
-
-void SolidBuffers::upload_tests(std::span<const BlistTest> tests, ListsOf of) {
-  const std::vector<TestTexel> texels = texels_of(tests);
   (of == ListsOf::kTiles ? tile_tests_ : tests_)
       .upload(texels.data(), texels.size() * sizeof(TestTexel));
-}
-
-void SolidBuffers::add_tests(uint64_t before, std::span<const BlistTest> tests) {
-  const std::vector<TestTexel> texels = texels_of(tests);
-  tests_.update(before * sizeof(TestTexel), texels.data(), texels.size() * sizeof(TestTexel));
 }
 
 uint64_t SolidBuffers::uploaded_bytes() const {

@@ -77,8 +77,6 @@ class SolidBuffers {
   void place(const Frame& frame);
   /// Replaces the Blists of the cells or of the tiles.
   void upload_tests(std::span<const csgcore::BlistTest> tests, ListsOf of = ListsOf::kCells);
-  /// Adds tests to the cells' Blists, after the `before` tests that are there.
-  void add_tests(uint64_t before, std::span<const csgcore::BlistTest> tests);
   /// Bytes uploaded so far, without the tiles' Blists.
   uint64_t uploaded_bytes() const;
   /// Binds the buffers and sets the samplers of the program in use.
@@ -100,7 +98,6 @@ class SolidBuffers {
   void take_in(const csgcore::CanonicalPrimitive& primitive);
   void note_kind(const csgcore::CanonicalPrimitive& primitive);
   using TestTexel = std::array<uint32_t, 4>;
-  std::vector<TestTexel> texels_of(std::span<const csgcore::BlistTest> tests) const;
   /// Uploads what is not there yet.
   template <typename Texels>
   static void add_texels(Texels& texels, TextureBuffer& buffer);

@@ -152,14 +152,12 @@ class Frustum {
 
 }  // namespace
 
-PackedTests pack_tests(const csgcore::Subdivision& subdivision, size_t first_leaf,
-                       uint64_t packed_before) {
+PackedTests pack_tests(const csgcore::Subdivision& subdivision) {
   PackedTests packed;
-  const std::span<const Leaf> leaves = subdivision.leaves().subspan(first_leaf);
-  packed.first_test.reserve(leaves.size());
-  if (first_leaf == 0) packed.tests.reserve(subdivision.tests().size());
-  for (const Leaf& leaf : leaves) {
-    packed.first_test.push_back(packed_before + packed.tests.size());
+  packed.first_test.reserve(subdivision.leaves().size());
+  packed.tests.reserve(subdivision.tests().size());
+  for (const Leaf& leaf : subdivision.leaves()) {
+    packed.first_test.push_back(packed.tests.size());
     if (!is_drawn(leaf)) continue;
     const std::span<const BlistTest> tests = subdivision.tests_of(leaf);
     packed.tests.insert(packed.tests.end(), tests.begin(), tests.end());

@@ -74,10 +74,7 @@ struct PackedTests {
   std::vector<uint64_t> first_test;  // by leaf: where its tests start
 };
 
-/// Packs the leaves from `first_leaf` on. Their tests will follow `packed_before` tests that are on
-/// the GPU already.
-PackedTests pack_tests(const csgcore::Subdivision& subdivision, size_t first_leaf = 0,
-                       uint64_t packed_before = 0);
+PackedTests pack_tests(const csgcore::Subdivision& subdivision);
 
 /// Calls `sorter.add` for every leaf that may be on the screen, nearest first. `first_test` is
 /// PackedTests::first_test.

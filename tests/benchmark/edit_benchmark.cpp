@@ -1,5 +1,5 @@
 // Measures the cost of an edit of one primitive, compared with making everything anew: from the
-// later scene to its picture, by screen tiles and by a kd-tree's cells, and for the kd-tree alone.
+// later scene to its picture, by screen tiles.
 // Each iteration edits another primitive of the same design, and draws it in both ways; their
 // pictures are compared before any time is taken. `ratio` and `least_ratio` are the edit's median
 // and minimum over those of the whole; the time that Google Benchmark prints is the edit's. (Issue
@@ -22,11 +22,9 @@ using csgcore::Primitive;
 using csgcore::Scene;
 using csgcore::SceneEdit;
 using csgcore::Solid;
-using csgcore::Subdivision;
 using csgcore::TraceOptions;
 using csgcore::TraceStats;
 using csgcore::View;
-using frame_benchmark::Method;
 using frame_benchmark::Times;
 
 enum class Kind { kMoved, kInserted, kRecolored };
@@ -49,18 +47,11 @@ struct Made {
   Solid solid;
 };
 
-csgcore::SubdivisionOptions with_threads() {
-  csgcore::SubdivisionOptions options;
-  options.threads = kThreads;
-  return options;
-}
-
 /// A design that is a difference, whose holes are edited.
 class Edits {
  public:
   Edits(Scene scene, Kind kind) : kind_(kind), earlier_(scene), scene_(std::move(scene)) {
     view_ = frame_benchmark::default_view(earlier_.solid.bounds());
-    subdivision_ = std::make_unique<Subdivision>(earlier_.solid, with_threads());
     whole_.threads = kThreads;
   }
 
@@ -92,41 +83,23 @@ class Edits {
   }
 
   /// Draws the later scene, with all of it made anew.
-  void draw_whole(Method method, Image& image) {
+  void draw_whole(Image& image) {
     made_ = std::make_unique<Made>(later_);
-    if (method == Method::kCells) {
-      const Subdivision subdivision(made_->solid, with_threads());
-      draw(&subdivision, whole_, image);
-    } else {
-      draw(nullptr, whole_, image);
-    }
+    draw(whole_, image);
   }
 
   /// Draws the later scene from what was made of the earlier one, whose picture `image` is.
-  void draw_edit(Method method, Subdivision& subdivision, Image& image) {
+  void draw_edit(Image& image) {
     const SceneEdit edit = csgcore::compare(earlier_.scene, later_);
     made_ = std::make_unique<Made>(later_, earlier_, edit);
-    if (method == Method::kCells) subdivision.update(made_->solid, edit, edit.model);
     TraceOptions options = whole_;
     const auto areas = csgcore::changed_areas(earlier_.solid, made_->solid, edit, edit.model, view_,
                                               FrameSettings{});
     for (const csgcore::PixelArea& area : areas) {
       options.area = area;
-      draw(method == Method::kCells ? &subdivision : nullptr, options, image);
+      draw(options, image);
     }
     pixels_traced_ = csgcore::count_pixels(areas);
-  }
-
-  void subdivide_whole() { const Subdivision subdivision(made_->solid, with_threads()); }
-
-  csgcore::SubdivisionUpdate subdivide_edit(Subdivision& subdivision) {
-    const SceneEdit edit = csgcore::compare(earlier_.scene, later_);
-    return subdivision.update(made_->solid, edit, edit.model);
-  }
-
-  /// Makes what subdivide_… starts from in both cases.
-  void make_later() {
-    made_ = std::make_unique<Made>(later_, earlier_, csgcore::compare(earlier_.scene, later_));
   }
 
   void draw_earlier(Image& image) {
@@ -134,24 +107,18 @@ class Edits {
     csgcore::draw(earlier_.solid, view_, FrameSettings{}, whole_, image, stats);
   }
 
-  const Subdivision& subdivision() const { return *subdivision_; }
   uint64_t pixels_traced() const { return pixels_traced_; }
 
  private:
-  void draw(const Subdivision* subdivision, const TraceOptions& options, Image& image) {
+  void draw(const TraceOptions& options, Image& image) {
     TraceStats stats;
-    if (subdivision) {
-      csgcore::draw(*subdivision, view_, FrameSettings{}, options, image, stats);
-    } else {
-      csgcore::draw(made_->solid, view_, FrameSettings{}, options, image, stats);
-    }
+    csgcore::draw(made_->solid, view_, FrameSettings{}, options, image, stats);
   }
 
   const Kind kind_;
   const Made earlier_;
   const Scene scene_;
   View view_;
-  std::unique_ptr<Subdivision> subdivision_;
   TraceOptions whole_;
   std::mt19937 random_{1};
   Scene later_;
@@ -168,46 +135,27 @@ void report(const Times& whole, const Times& edit, benchmark::State& state) {
   state.counters["least_ratio"] = edit.least() / whole.least();
 }
 
-void draw(benchmark::State& state, const Scene& scene, Kind kind, Method method) {
+void draw(benchmark::State& state, const Scene& scene, Kind kind) {
   Edits edits(scene, kind);
   Image earlier, whole_image, edit_image;
   edits.draw_earlier(earlier);
   for (int i = 0; i < 5; ++i) {
     edits.next();
-    edits.draw_whole(method, whole_image);
+    edits.draw_whole(whole_image);
     edit_image = earlier;
-    Subdivision subdivision = edits.subdivision();
-    edits.draw_edit(method, subdivision, edit_image);
+    edits.draw_edit(edit_image);
     if (whole_image.rgb != edit_image.rgb) frame_benchmark::give_up("an edit's other picture");
   }
   Times whole, edit;
   for (auto _ : state) {
     edits.next();
-    Subdivision subdivision = edits.subdivision();
     edit_image = earlier;
-    whole.measure([&] { edits.draw_whole(method, whole_image); });
-    edit.measure([&] { edits.draw_edit(method, subdivision, edit_image); });
+    whole.measure([&] { edits.draw_whole(whole_image); });
+    edit.measure([&] { edits.draw_edit(edit_image); });
     state.SetIterationTime(edit.last() / 1000);
   }
   report(whole, edit, state);
   state.counters["pixels"] = static_cast<double>(edits.pixels_traced());
-}
-
-void subdivide(benchmark::State& state, const Scene& scene, Kind kind) {
-  Edits edits(scene, kind);
-  Times whole, edit;
-  csgcore::SubdivisionUpdate update;
-  for (auto _ : state) {
-    edits.next();
-    edits.make_later();
-    Subdivision subdivision = edits.subdivision();
-    whole.measure([&] { edits.subdivide_whole(); });
-    edit.measure([&] { update = edits.subdivide_edit(subdivision); });
-    state.SetIterationTime(edit.last() / 1000);
-  }
-  report(whole, edit, state);
-  state.counters["cells_kept"] = static_cast<double>(update.leaves_kept);
-  state.counters["cells_made"] = static_cast<double>(update.leaves_made);
 }
 
 template <typename Run>
@@ -226,9 +174,7 @@ void add_all() {
       for (const auto& [what, kind] : kinds) {
         const std::string name = design + "/" + what;
         const Kind of = kind;
-        add(name + "/tiles", [=](benchmark::State& s) { draw(s, scene, of, Method::kTiles); });
-        add(name + "/cells", [=](benchmark::State& s) { draw(s, scene, of, Method::kCells); });
-        add(name + "/subdivision", [=](benchmark::State& s) { subdivide(s, scene, of); });
+        add(name + "/tiles", [=](benchmark::State& s) { draw(s, scene, of); });
       }
     }
   }

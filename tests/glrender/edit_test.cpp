@@ -53,17 +53,18 @@ class Followed {
 
   Image draw() { return renderer_.draw(view_, settings_, stats_); }
 
-  /// Returns the bytes that are uploaded. Fails unless the picture equals that of a renderer made
-  /// anew.
+  /// Returns the bytes that are uploaded, without those of cells. Fails unless the picture equals
+  /// that of a renderer made anew.
   uint64_t follow(const Scene& scene) {
-    const uint64_t before = renderer_.uploaded_bytes();
+    uint64_t before = renderer_.uploaded_bytes();
     const SceneEdit edit = csgcore::compare(made_->scene, scene);
     auto later = std::make_unique<Made>(scene, *made_, edit);
-    const auto update = subdivision_.update(later->solid, edit, edit.model);
+    renderer_.update(later->solid, edit);
     if (settings_.technique == Technique::kCells) {
-      renderer_.update(subdivision_, edit, update);
-    } else {
-      renderer_.update(later->solid, edit);
+      subdivision_ = Subdivision(later->solid, {});
+      const uint64_t updated = renderer_.uploaded_bytes();
+      renderer_.load(subdivision_);
+      before += renderer_.uploaded_bytes() - updated;
     }
     made_ = std::move(later);
     const Image image = draw();

@@ -48,7 +48,7 @@ enum class LeafKind : uint8_t {
           // lie so close that dividing repeats more than it separates. Evaluated in full.
   kDropped,   // case 4: below the threshold
   kGivenUp,   // More than K; not divided since the budget is used up. Evaluated in full.
-  kReplaced,  // no part of the tree any longer: other leaves stand in its place (refine, update)
+  kReplaced,  // no part of the tree any longer: other leaves stand in its place (refine)
 };
 constexpr size_t kLeafKinds = 8;
 

@@ -4,10 +4,9 @@
 //   const SceneEdit edit = compare(before, after);
 //   auto primitives = canonical_primitives(after, *earlier_primitives, edit);
 //   const Solid solid(primitives, after.model, earlier_solid, edit, edit.model);
-//   subdivision.update(solid, edit, edit.model);
 //   for (const PixelArea& area : changed_areas(…)) draw(…);
 //
-// See solid.hpp, subdivision.hpp, changed_areas.hpp and TraceOptions::area.
+// See solid.hpp, changed_areas.hpp and TraceOptions::area.
 #pragma once
 
 #include <cstdint>

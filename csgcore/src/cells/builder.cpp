@@ -218,15 +218,6 @@ void Builder::start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest>
   add_start(cell, list, costs_.most_division(list.count()), starts);
 }
 
-void Builder::start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts) {
-  Cell cell{leaf.box, depth};
-  cell.allowance = kTestsPerTest;
-  // A cell whose surfaces no division separated is divided again only if the first division now
-  // helps. Otherwise it would become hundreds of cells, and more with every edit.
-  if (leaf.kind == LeafKind::kFull) cell.stalled = kStalledDivisions - 1;
-  add_start(cell, list, costs_.most_division(list.count()), starts);
-}
-
 int64_t Builder::left_to(const Chunk& starts, uint64_t stored_bytes) const {
   return static_cast<int64_t>(budget_) - static_cast<int64_t>(stored_bytes + bytes_of(starts));
 }
@@ -237,25 +228,23 @@ bool Builder::can_divide(const Chunk& starts, uint64_t stored_bytes) const {
   return needed <= left_to(starts, stored_bytes);
 }
 
-bool Builder::finish(Chunk& starts, uint64_t stored_bytes) {
-  return resume_paused({&starts}, left_to(starts, stored_bytes));
+void Builder::finish(Chunk& starts, uint64_t stored_bytes) {
+  resume_paused({&starts}, left_to(starts, stored_bytes));
 }
 
 /// Resumes the paused cells of the chunks. `left` is the part of the budget that is left to the
 /// chunks, from which their own costs are subtracted first.
-bool Builder::resume_paused(const std::vector<Chunk*>& chunks, int64_t left) {
+void Builder::resume_paused(const std::vector<Chunk*>& chunks, int64_t left) {
   size_t paused = 0;
   for (const Chunk* chunk : chunks) {
     left -= chunk->cost;
     paused += chunk->paused.size();
   }
-  bool suffices = true;
-  if (paused == 0) return suffices;
-  run(paused >= kPausedForTasks, [&] { suffices = resume_in_rounds(chunks, left); });
-  return suffices;
+  if (paused == 0) return;
+  run(paused >= kPausedForTasks, [&] { resume_in_rounds(chunks, left); });
 }
 
-bool Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
+void Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
   while (true) {
     int64_t needed = 0;
     Deal deal{0, 0};
@@ -265,7 +254,7 @@ bool Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
         deal.tests += chunk->paused_leaf(i).test_count;
       }
     }
-    if (needed == 0) return true;
+    if (needed == 0) return;
     if (needed > left) break;
     deal.rest = static_cast<uint64_t>(left - needed);
     std::vector<Resumption> resumptions;
@@ -292,7 +281,6 @@ bool Builder::resume_in_rounds(std::vector<Chunk*> chunks, int64_t left) {
     }
   }
   for (Chunk* chunk : chunks) give_up(*chunk);
-  return false;
 }
 
 void Builder::resume(const Resumption& resumption, const Deal& deal) {

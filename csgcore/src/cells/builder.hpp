@@ -27,14 +27,11 @@ class Builder {
   /// Adds to `starts` a cell of an existing tree that is to be divided: a dropped leaf at this
   /// depth, with its tests.
   void start(const Leaf& leaf, uint32_t depth, std::span<const BlistTest> tests, Chunk& starts);
-  /// Does the same for a leaf whose function has become `list`, which is restricted to its cell.
-  void start(const Leaf& leaf, uint32_t depth, const CellList& list, Chunk& starts);
   /// Returns whether the budget, of which `stored_bytes` are used, suffices to divide each of the
   /// starts at least once.
   bool can_divide(const Chunk& starts, uint64_t stored_bytes) const;
-  /// Divides the starts: `starts` gets a subtree for each of them, in order. Returns whether the
-  /// budget sufficed.
-  bool finish(Chunk& starts, uint64_t stored_bytes);
+  /// Divides the starts: `starts` gets a subtree for each of them, in order.
+  void finish(Chunk& starts, uint64_t stored_bytes);
 
  private:
   /// The lists of one level of the recursion, reused by all cells of that level.
@@ -70,8 +67,8 @@ class Builder {
   void divide(const Cell& cell, const CellList& list, size_t level, Workspace& workspace,
               Chunk& chunk) const;
   int64_t left_to(const Chunk& starts, uint64_t stored_bytes) const;
-  bool resume_paused(const std::vector<Chunk*>& chunks, int64_t left);
-  bool resume_in_rounds(std::vector<Chunk*> chunks, int64_t left);
+  void resume_paused(const std::vector<Chunk*>& chunks, int64_t left);
+  void resume_in_rounds(std::vector<Chunk*> chunks, int64_t left);
   void resume(const Resumption& resumption, const Deal& deal);
   void give_up(Chunk& chunk);
   void deliver(std::span<const Leaf> leaves, const Chunk& chunk);

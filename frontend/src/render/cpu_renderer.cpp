@@ -60,6 +60,7 @@ class CpuRenderer final : public SolidRenderer {
                         const PictureRequest& request, std::span<const csgcore::PixelArea> areas,
                         Image& image) override {
     note_renderer(request);
+    if (areas.empty()) return;
     with_traced(solid, request, [&](const auto& traced) {
       for (const csgcore::PixelArea& area : areas) draw_area(traced, frame, request, area, image);
     });
@@ -78,10 +79,7 @@ class CpuRenderer final : public SolidRenderer {
     }
   }
 
-  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
-               csgcore::TreeEdit tree_edit) override {
-    subdivisions_.replace(before, after, edit, tree_edit);
-  }
+  void replace(const Solid&, const Solid&, const csgcore::SceneEdit&) override { forget(); }
 
   void forget() override { subdivisions_.forget(); }
 

@@ -69,23 +69,17 @@ class GlRenderer final : public SolidRenderer {
     });
   }
 
-  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit,
-               csgcore::TreeEdit tree_edit) override {
+  void replace(const Solid& before, const Solid& after, const csgcore::SceneEdit& edit) override {
     auto loaded = loaded_.extract(&before);
-    loaded_.clear();
-    const auto followed = subdivisions_.replace(before, after, edit, tree_edit);
+    forget();
     if (loaded.empty()) return;
     Loaded& kept = loaded.mapped();
     try {
-      if (followed && kept.has_cells) {
-        kept.renderer.update(followed->subdivision, edit, followed->update);
-      } else {
-        kept.renderer.update(after, edit);
-        kept.has_cells = false;
-      }
+      kept.renderer.update(after, edit);
     } catch (const glrender::GlError&) {
       return;  // the next picture loads all, and tells if that fails, too
     }
+    kept.has_cells = false;
     loaded.key() = &after;
     loaded_.insert(std::move(loaded));
   }

@@ -100,7 +100,7 @@ class SceneRenderer::Impl {
     csgcore::SceneEdit edit = compared(scene_->scene(), *scene);
     auto prepared = std::make_shared<const PreparedScene>(std::move(scene), *scene_, edit);
     prepare_ms_ = ms_since(start);
-    if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit, edit.model);
+    if (renderer_) renderer_->replace(scene_->model(), prepared->model(), edit);
     edited_ = {scene_, std::move(edit)};
     scene_ = std::move(prepared);
   }

@@ -1,7 +1,6 @@
 #include "render/scene_subdivision.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/elapsed.hpp"
 
@@ -65,39 +64,19 @@ SceneSubdivisions::Found SceneSubdivisions::of(const csgcore::Solid& solid,
   const Clock::time_point start = Clock::now();
   const csgcore::SubdivisionOptions options = subdivision_options(request.view, request.settings);
   const auto found = made_.find(&solid);
-  if (found != made_.end() && is_same_rule(found->second.subdivision.options(), options)) {
-    Made& made = found->second;
-    const bool was_updated = std::exchange(made.is_updated, false);
-    const bool was_refined = made.subdivision.refine(request.view);
-    request.stats.subdivide_ms += ms_since(start) + std::exchange(made.update_ms, 0.0);
-    if (was_updated) {
-      request.stats.edit.cells_kept += made.update.leaves_kept;
-      request.stats.edit.cells_made += made.update.leaves_made;
-    }
-    return {made.subdivision, was_refined};
+  if (found != made_.end() && is_same_rule(found->second.options(), options)) {
+    Subdivision& made = found->second;
+    const bool was_refined = made.refine(request.view);
+    request.stats.subdivide_ms += ms_since(start);
+    return {made, was_refined};
   }
   SubdivisionProgress progress(solid, request.settings);
-  const auto [made, is_new] = made_.insert_or_assign(
-      &solid, Made{Subdivision(solid, options, progress.sink()), {}, 0, false});
+  const auto [made, is_new] =
+      made_.insert_or_assign(&solid, Subdivision(solid, options, progress.sink()));
   request.stats.subdivide_ms += ms_since(start);
-  request.stats.edit.cells_made += made->second.subdivision.leaves().size();
+  request.stats.edit.cells_made += made->second.leaves().size();
   if (request.settings.progress) request.settings.progress("drawing", 0.0);
-  return {made->second.subdivision, true};
-}
-
-std::optional<SceneSubdivisions::Followed> SceneSubdivisions::replace(
-    const csgcore::Solid& before, const csgcore::Solid& after, const csgcore::SceneEdit& edit,
-    csgcore::TreeEdit tree_edit) {
-  const Clock::time_point start = Clock::now();
-  auto found = made_.extract(&before);
-  made_.clear();
-  if (found.empty()) return std::nullopt;
-  found.key() = &after;
-  Made& made = made_.insert(std::move(found)).position->second;
-  made.update = made.subdivision.update(after, edit, tree_edit);
-  made.update_ms += ms_since(start);
-  made.is_updated = true;
-  return Followed{made.subdivision, made.update};
+  return {made->second, true};
 }
 
 void count_cells(const Subdivision& subdivision, RenderStats& stats) {

@@ -68,10 +68,10 @@ class SolidRenderer {
   virtual void draw_sides(const csgcore::Solid& solid, const csgcore::FrameSettings& frame,
                           const PictureRequest& request, Wanted wanted, Sides& sides) = 0;
 
-  /// What was made of `before` follows the edit of its tree to `after`, before `before` ends; what
-  /// was made of other solids is forgotten.
+  /// What OpenGL holds of `before` follows the edit to `after`, before `before` ends; all else is
+  /// forgotten.
   virtual void replace(const csgcore::Solid& before, const csgcore::Solid& after,
-                       const csgcore::SceneEdit& edit, csgcore::TreeEdit tree_edit) = 0;
+                       const csgcore::SceneEdit& edit) = 0;
   /// All solids that were drawn.
   virtual void forget() = 0;
 };

@@ -37,15 +37,9 @@ class Renderer {
   /// The subdivision must be one of this renderer's solid, and outlive its draws.
   void load(const csgcore::Subdivision& subdivision);
 
-  /// Follows an edit of the solid, after Subdivision::update, whose result is `update`.
-  /// `subdivision` is the one that was loaded, or takes its place; from now on the renderer draws
-  /// its solid. Where primitives have kept their indices and cells were kept, only new primitives
-  /// and cells are uploaded, else all. Throws GlError.
-  void update(const csgcore::Subdivision& subdivision, const csgcore::SceneEdit& edit,
-              const csgcore::SubdivisionUpdate& update);
-
-  /// Follows an edit when tiles are drawn: from now on the renderer draws `solid`. Drawing cells
-  /// needs another load().
+  /// Follows an edit: from now on the renderer draws `solid`. Where primitives have kept their
+  /// indices, only new ones are uploaded, else all. Drawing cells needs another load(). Throws
+  /// GlError.
   void update(const csgcore::Solid& solid, const csgcore::SceneEdit& edit);
 
   /// Bytes of primitives and cells' Blists uploaded so far. What each frame sends besides, its
