@@ -157,20 +157,6 @@ Real RayOracle::error_of_end(const LongRay& ray, Real computed, Real expected) c
                   std::abs(gap(ray.at((computed + expected) / 2))));
 }
 
-std::vector<RayOracle::Segment> RayOracle::segments(const LongRay& ray) const {
-  if (kind_.is_convex()) {
-    const Segment own = segment(ray);
-    return own.exists() ? std::vector{own} : std::vector<Segment>{};
-  }
-  constexpr Real kNoSheets = 0;
-  std::vector<reference::Span> spans;
-  kind_.solid(primitive_)
-      ->add_spans({to_local(ray.origin), world_to_local_ * ray.direction}, kNoSheets, spans);
-  std::vector<Segment> segments;
-  for (const reference::Span& span : spans) segments.push_back({span.begin, span.end});
-  return segments;
-}
-
 double RayOracle::expect_segment(const LongRay& ray, double start, double end) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Segment expected = segment(ray);

@@ -40,9 +40,6 @@ class RayOracle {
   };
   /// Of a convex primitive.
   Segment segment(const LongRay& ray) const;
-  /// Returns the segments that exist, in order; those of a primitive that is not convex are by
-  /// formulas.
-  std::vector<Segment> segments(const LongRay& ray) const;
 
   /// Fails if [start, end) is not the ray's segment, or (+∞, −∞) if it has none, up to
   /// `error_bound`. Returns the error in units of that bound.

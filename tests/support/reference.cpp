@@ -150,10 +150,11 @@ class Probe {
     std::iota(slots_.begin(), slots_.end(), 0u);
   }
 
-  ReferenceHit operator()(double x_px, double y_px, const LongVec3& shift) {
+  ReferenceHit operator()(double x_px, double y_px, const LongVec3& shift,
+                          Boundary boundary = Boundary::kFirst) {
     reference::NearRay ray = reference::near_ray(setup_, x_px, y_px);
     ray.origin += shift;
-    return walk_.hit(ray, slots_);
+    return walk_.hit(ray, slots_, boundary);
   }
 
  private:
@@ -166,6 +167,10 @@ class Probe {
 
 ReferenceHit Reference::at(double x_px, double y_px, const LongVec3& shift) const {
   return Probe(impl_->setup())(x_px, y_px, shift);
+}
+
+ReferenceHit Reference::behind(double x_px, double y_px) const {
+  return Probe(impl_->setup())(x_px, y_px, LongVec3(0), Boundary::kBehind);
 }
 
 Real Reference::displacement() const { return impl_->setup().displacement; }

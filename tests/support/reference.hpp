@@ -67,6 +67,9 @@ class Reference {
   /// `shift`, which is in world units. It culls nothing, and so is for few rays.
   ReferenceHit at(double x_px, double y_px, const LongVec3& shift = LongVec3(0)) const;
 
+  /// Returns what lies behind that hit: where the pixel's ray leaves what it has entered there.
+  ReferenceHit behind(double x_px, double y_px) const;
+
   /// The diagonal of the model's box.
   double model_size() const;
 

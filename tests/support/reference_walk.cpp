@@ -49,16 +49,18 @@ NearRay near_ray(const RaySetup& setup, double x_px, double y_px) {
   return {exact_offset(origin, setup.pivot_s, direction, setup.pivot), LongVec3(direction)};
 }
 
-ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidates) {
+ReferenceHit RayWalk::hit(const NearRay& ray, std::span<const uint32_t> candidates,
+                          Boundary boundary) {
   ray_ = &ray;
   collect(candidates);
   passed_ = 0;
   while (passed_ < crossings_.size() && !(crossings_[passed_].t > setup_.first_t)) pass();
   ReferenceHit result;
+  int turns_before = boundary == Boundary::kFirst ? 0 : 1;
   size_t begin = passed_;
   for (size_t first = next_boundary(begin); first < crossings_.size();) {
     const Coincidence coincidence = cluster_of(begin, first);
-    if (coincidence.turns) {
+    if (coincidence.turns && turns_before-- == 0) {
       result = describe(shown(coincidence));
       break;
     }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "csgcore/hits.hpp"
 #include "csgcore/scene.hpp"
 #include "csgcore/view.hpp"
 #include "reference.hpp"
@@ -42,7 +43,8 @@ class RayWalk {
   std::span<const uint32_t> slots() const { return tree_.slots(); }
 
   /// `candidates` contains the slots of all primitives that the ray can meet.
-  ReferenceHit hit(const NearRay& ray, std::span<const uint32_t> candidates);
+  ReferenceHit hit(const NearRay& ray, std::span<const uint32_t> candidates,
+                   Boundary boundary = Boundary::kFirst);
 
  private:
   /// A crossing of the ray with a primitive's surface.
