@@ -176,12 +176,13 @@ bool ends_soon(pid_t pid) {
   const auto is_running = [pid] {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
     std::string number, name, state;
-    return stat >> number >> name >> state && state != "Z";
+    return stat >> number >> name >> state && state != "Z" && state != "X";  // dead, being reaped
   };
-  for (int i = 0; i < 1000 && is_running(); ++i) {
+  for (int i = 0; i < 1000; ++i) {
+    if (!is_running()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return !is_running();
+  return false;
 }
 
 /// Part of a script: starts a program that runs on, and writes its number to a file.
