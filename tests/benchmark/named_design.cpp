@@ -1,15 +1,11 @@
 #include "named_design.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "csgcore/solid.hpp"
 #include "frame.hpp"
-#include "frontend/importer.hpp"
-#include "frontend/parser.hpp"
 #include "support/models.hpp"
+#include "support/read_design.hpp"
 
 namespace frame_benchmark {
 namespace {
@@ -17,12 +13,7 @@ namespace {
 using csgcore::Scene;
 
 Design import_example(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(SCADRAY_EXAMPLES_DIR) / (name + ".csg");
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) give_up("cannot read " + path.string());
-  auto imported = frontend::import_design(frontend::parse(text.str(), path.string()));
+  auto imported = test_support::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + name + ".scad");
   return {std::move(imported.scene), imported.view_box};
 }
 

@@ -1,5 +1,5 @@
-// Tests the designs in examples/: their numbers of primitives, that each .csg is what OpenSCAD
-// makes of the .scad, and that the paper's models agree with the paper.
+// Tests the designs in examples/: their numbers of primitives, that each .csg which is kept is what
+// OpenSCAD makes of the .scad, and that the paper's models agree with the paper.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +15,7 @@
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
 #include "support/full_run.hpp"
+#include "support/read_design.hpp"
 #include "temporary_folder.hpp"
 
 namespace frontend {
@@ -26,17 +27,12 @@ using csgcore::Vec3;
 
 const std::filesystem::path kExamples = SCADRAY_EXAMPLES_DIR;
 
-/// .csg files of this size and more are not kept beside the design, but exported when needed.
-constexpr uintmax_t kLargestKeptBytes = 400000;
-
 // The paper's models.
 constexpr double kRadius = 10;
 constexpr double kHeight = 20;
 constexpr double kMaxTiltDeg = 40;
-/// A .csg has 6 significant digits: an error of up to 5e-5 in each coordinate of 10 and more, and
-/// as much again where a rotation's error of 5e-7 turns a cone's length. A cone's middle is
-/// computed from both.
-constexpr double kRounding = 2e-4;
+/// The error of coordinates that are computed from sines and roots of doubles.
+constexpr double kRounding = 1e-12;
 
 /// The number of primitive nodes of each design.
 const std::map<std::string, uint32_t> kPrimitives = {
@@ -82,20 +78,12 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-/// Returns the designs whose .csg is kept.
-std::vector<std::string> kept_names() {
-  std::vector<std::string> names = all_names();
-  std::erase(names, "cs10000");
-  return names;
-}
+std::filesystem::path scad_of(const std::string& name) { return kExamples / (name + ".scad"); }
 
-class Example : public testing::TestWithParam<std::string> {
- protected:
-  static std::filesystem::path csg() { return kExamples / (GetParam() + ".csg"); }
-};
+class Example : public testing::TestWithParam<std::string> {};
 
 TEST_P(Example, HasItsNumberOfPrimitives) {
-  const ImportedDesign design = import_file(csg());
+  const ImportedDesign design = test_support::read_design(scad_of(GetParam()));
   EXPECT_EQ(design.primitive_nodes, kPrimitives.at(GetParam()));
   if (!kWithFigures.contains(GetParam())) {
     EXPECT_EQ(design.scene.primitives.size(), design.primitive_nodes) << "none may be empty";
@@ -105,7 +93,7 @@ TEST_P(Example, HasItsNumberOfPrimitives) {
 }
 
 TEST_P(Example, IsRoundEnoughToCompareWithOpenScad) {
-  const SyntaxTree tree = parse(contents(csg()), GetParam());
+  const SyntaxTree tree = parse(test_support::csg_text(scad_of(GetParam())), GetParam());
   for (const SyntaxNode& node : tree.nodes) {
     for (const Argument& argument : tree.arguments_of(node)) {
       if (argument.name != "$fn") continue;
@@ -115,18 +103,16 @@ TEST_P(Example, IsRoundEnoughToCompareWithOpenScad) {
   }
 }
 
-TEST_P(Example, IsSmallEnoughToKeep) {
-  EXPECT_LT(std::filesystem::file_size(csg()), kLargestKeptBytes);
-}
+INSTANTIATE_TEST_SUITE_P(, Example, testing::ValuesIn(all_names()), name_of_instance);
 
-TEST_P(Example, IsWhatOpenScadExports) {
+TEST(Examples, KeptAreWhatOpenScadExports) {
   if (!openscad_installed()) GTEST_SKIP() << "openscad is not installed";
   const TemporaryFolder folder;
-  ASSERT_TRUE(export_into(folder.path(), GetParam()));
-  EXPECT_TRUE(contents(folder / (GetParam() + ".csg")) == contents(csg())) << "run examples/export";
+  ASSERT_TRUE(export_into(folder.path(), "cs100 nut_trap r9"));
+  for (const std::string file : {"cs100.csg", "nut_trap.csg", "r9.csg"}) {
+    EXPECT_TRUE(contents(folder / file) == contents(kExamples / file)) << "run examples/export";
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Kept, Example, testing::ValuesIn(kept_names()), name_of_instance);
 
 TEST(Examples, AreAllCounted) {
   std::set<std::string> found;
@@ -218,16 +204,16 @@ void expect_spheres(const ImportedDesign& design) {
 }
 
 TEST(PaperModels, SpheresAreUniformOnTheSurface) {
-  for (const char* name : {"cs100.csg", "cs1000.csg"}) {
+  for (const char* name : {"cs100", "cs1000", "cs10000"}) {
     SCOPED_TRACE(name);
-    expect_spheres(import_file(kExamples / name));
+    expect_spheres(test_support::read_design(scad_of(name)));
   }
 }
 
 TEST(PaperModels, ConesBiteThroughTheSurface) {
-  for (const char* name : {"cc100.csg", "cc200.csg", "cc500.csg", "cc1000.csg"}) {
+  for (const char* name : {"cc100", "cc200", "cc500", "cc1000"}) {
     SCOPED_TRACE(name);
-    const ImportedDesign design = import_file(kExamples / name);
+    const ImportedDesign design = test_support::read_design(scad_of(name));
     const double n = design.primitive_nodes - 1;
     std::vector<Bite> bites;
     std::vector<size_t> tilts(4, 0);
@@ -242,7 +228,7 @@ TEST(PaperModels, ConesBiteThroughTheSurface) {
       bites.push_back(bite_at(middle));
       const double cosine = glm::dot(glm::normalize(outwards), bites.back().normal);
       const double tilt_deg = std::acos(std::min(1.0, cosine)) * 180 / std::acos(-1.0);
-      EXPECT_LE(tilt_deg, kMaxTiltDeg + 0.01);  // 6 digits of a matrix
+      EXPECT_LE(tilt_deg, kMaxTiltDeg + kRounding);
       ++tilts[std::min<size_t>(3, size_t(tilt_deg / kMaxTiltDeg * 4))];
     }
     expect_uniform(bites);
@@ -253,11 +239,7 @@ TEST(PaperModels, ConesBiteThroughTheSurface) {
 TEST(PaperModels, AnyNumberIsExported) {
   if (!openscad_installed()) GTEST_SKIP() << "openscad is not installed";
   const TemporaryFolder folder;
-  ASSERT_TRUE(export_into(folder.path(), "cs10000 cc1 cc1234 cs2000"));
-  const ImportedDesign large = import_file(folder / "cs10000.csg");
-  EXPECT_EQ(large.primitive_nodes, kPrimitives.at("cs10000"));
-  EXPECT_GE(std::filesystem::file_size(folder / "cs10000.csg"), kLargestKeptBytes);
-  expect_spheres(large);
+  ASSERT_TRUE(export_into(folder.path(), "cc1 cc1234 cs2000"));
   EXPECT_EQ(import_file(folder / "cc1.csg").primitive_nodes, 2u);
   EXPECT_EQ(import_file(folder / "cc1234.csg").primitive_nodes, 1235u);
   EXPECT_EQ(import_file(folder / "cs2000.csg").primitive_nodes, 2001u);

@@ -36,8 +36,7 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.example; }
 class CpuAgreementTest : public testing::TestWithParam<std::tuple<Case, gl_test::Way>> {
  protected:
   CpuAgreementTest()
-      : design_(
-            gl_test::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + drawn().example + ".csg")),
+      : design_(gl_test::example(drawn().example)),
         view_(gl_test::default_view(design_, 320, 240)),
         loaded_(design_.scene, std::get<1>(GetParam())) {
     const csgcore::Box box = csgcore::reference_box(design_.scene);

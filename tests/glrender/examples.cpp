@@ -1,22 +1,12 @@
 #include "examples.hpp"
 
-#include <string>
-
 #include "frontend/camera.hpp"
-#include "frontend/files.hpp"
-#include "frontend/openscad_export.hpp"
-#include "frontend/parser.hpp"
+#include "support/read_design.hpp"
 
 namespace gl_test {
 
-frontend::ImportedDesign read_design(const std::filesystem::path& file) {
-  const auto ignore_message = [](const std::string&) {};
-  const frontend::FileText text =
-      file.extension() == ".scad"
-          ? frontend::export_with_openscad(file.string(), {}, false, ignore_message, [] {}).csg
-          : frontend::read_file(file.string());
-  return frontend::import_design(frontend::parse(text.view(), file.filename().string()),
-                                 {.folder = file.parent_path().string()});
+frontend::ImportedDesign example(const std::string& name) {
+  return test_support::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + name + ".scad");
 }
 
 csgcore::View default_view(const frontend::ImportedDesign& design, uint32_t width_px,

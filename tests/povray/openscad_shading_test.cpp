@@ -5,16 +5,14 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "csgcore/facets.hpp"
 #include "csgcore/polyhedron.hpp"
 #include "povray.hpp"
 #ifdef SCADRAY_HAS_RENDER
-#include "frontend/importer.hpp"
-#include "frontend/parser.hpp"
 #include "frontend/render.hpp"
+#include "support/read_design.hpp"
 #endif
 
 namespace povray {
@@ -85,10 +83,7 @@ TEST_F(PovRayScenes, HaveAColourForEachOfThousands) {
 #ifdef SCADRAY_HAS_RENDER
 /// Scenes with cubes, polyhedra, cylinders and colours.
 TEST_F(PovRayScenes, AreThoseThatScadrayDraws) {
-  const std::string path = SCADRAY_EXAMPLES_DIR "/bracket.csg";
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const Scene scene = frontend::import_design(frontend::parse(text, path)).scene;
+  const Scene scene = test_support::read_design(SCADRAY_EXAMPLES_DIR "/bracket.scad").scene;
   View view;
   view.eye = {-160, -180, 150};
   const Vec3 target(-25, -20, 15);

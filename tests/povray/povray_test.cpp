@@ -9,14 +9,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <iostream>
 #include <sstream>
 
-#include "frontend/importer.hpp"
-#include "frontend/parser.hpp"
 #include "support/full_run.hpp"
+#include "support/read_design.hpp"
 #ifdef SCADRAY_HAS_RENDER
 #include "frontend/render.hpp"
 #endif
@@ -45,15 +43,8 @@ constexpr double kWrongShare = 1e-4;
 const ReferenceColors kColors{
     .background = Vec3(0.0), .front = {0.98, 0.84, 0.17}, .back = {0.62, 0.8, 0.32}};
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 Scene example(const std::string& name) {
-  const std::string path = std::string(SCADRAY_EXAMPLES_DIR) + "/" + name + ".csg";
-  return frontend::import_design(frontend::parse(contents(path), path)).scene;
+  return test_support::read_design(std::string(SCADRAY_EXAMPLES_DIR "/") + name + ".scad").scene;
 }
 
 /// A camera at `distance` from the target, `azimuth_deg` from −y towards +x and `elevation_deg`

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "cpu_methods.hpp"
-#include "designs.hpp"
 #include "support/full_run.hpp"
+#include "support/read_design.hpp"
 
 namespace {
 
@@ -111,10 +111,11 @@ INSTANTIATE_TEST_SUITE_P(, CpuStressTest, testing::ValuesIn(stress::families()),
 // --- The examples ---
 
 std::vector<std::filesystem::path> example_files() {
-  std::vector<std::filesystem::path> files{std::filesystem::path(SCADRAY_EXAMPLES) /
-                                           "cs10000.scad"};
+  std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(SCADRAY_EXAMPLES)) {
-    if (entry.path().extension() == ".csg") files.push_back(entry.path());
+    const std::filesystem::path& file = entry.path();
+    // csN and ccN include cut_cylinder.
+    if (file.extension() == ".scad" && file.stem() != "cut_cylinder") files.push_back(file);
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -126,7 +127,7 @@ TEST(CpuExamplesTest, EqualTheOracle) {
     // The sample has one example of each kind, the full run all.
     const std::string name = file.stem().string();
     const bool is_large = name.size() > 5 && name.ends_with("00");
-    examples.cases.push_back({name, [file] { return stress::import_design_file(file); },
+    examples.cases.push_back({name, [file] { return test_support::read_design(file).scene; },
                               stress::default_cameras, is_large});
   }
   EXPECT_GE(stress::cases_to_run(examples).size(), 5u);

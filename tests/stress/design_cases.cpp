@@ -3,27 +3,26 @@
 #include <string>
 
 #include "cases.hpp"
-#include "designs.hpp"
-#include "frontend/files.hpp"
 #include "frontend/importer.hpp"
 #include "frontend/openscad_export.hpp"
 #include "frontend/parser.hpp"
 
 namespace stress {
+namespace {
 
-Scene import_design_file(const std::filesystem::path& file) {
+Scene import_scad(const std::string& file) {
   const auto ignore_message = [](const std::string&) {};
-  const frontend::FileText text =
-      file.extension() == ".scad"
-          ? frontend::export_with_openscad(file.string(), {}, false, ignore_message, [] {}).csg
-          : frontend::read_file(file.string());
-  return frontend::import_design(frontend::parse(text.view(), file.filename().string())).scene;
+  const frontend::FileText csg =
+      frontend::export_with_openscad(file, {}, false, ignore_message, [] {}).csg;
+  return frontend::import_design(frontend::parse(csg.view(), file)).scene;
 }
+
+}  // namespace
 
 std::vector<Family> design_families() {
   const auto add = [](Family& family, const char* name) {
-    const auto file = std::filesystem::path(SCADRAY_STRESS_DESIGNS) / (std::string(name) + ".scad");
-    family.cases.push_back({name, [file] { return import_design_file(file); }});
+    const std::string file = std::string(SCADRAY_STRESS_DESIGNS "/") + name + ".scad";
+    family.cases.push_back({name, [file] { return import_scad(file); }});
   };
   Family round{"openscad_designs", {}, true};
   for (const char* name : {"turned_plate", "nested_frames", "mirrored_halves", "chain_of_frames",

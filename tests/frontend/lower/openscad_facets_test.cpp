@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -21,6 +19,7 @@
 #include "oracle/nef_solid.hpp"
 #include "support/full_run.hpp"
 #include "support/openscad_mesh.hpp"
+#include "support/read_design.hpp"
 
 namespace frontend {
 namespace {
@@ -45,12 +44,6 @@ const std::string kMixed =
     "  multmatrix([[1,0,0.3,-9],[0,-1,0,0],[0,0,1,0]]) {"
     "    cylinder($fn = 5, h = 30, r1 = 0, r2 = 4, center = true); }"
     "}";
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Returns the first crossing of the ray with the mesh at s > 0; +∞ if there is none.
 double first_hit(const csgcore::Mesh& triangles, const csgcore::Ray& ray) {
@@ -169,7 +162,7 @@ TEST_P(FacetedExample, IsOpenScadsSolid) {
   if (name != "nut_trap" && !test_support::full_run()) {
     GTEST_SKIP() << "run with SCADRAY_TEST_FULL=1";
   }
-  expect_openscads_solid(name, contents(SCADRAY_EXAMPLES_DIR "/" + name + ".csg"));
+  expect_openscads_solid(name, test_support::csg_text(SCADRAY_EXAMPLES_DIR "/" + name + ".scad"));
 }
 
 // OpenSCAD meshes these in up to 20 s of processor time, and cc100 in 4 minutes. The knob, t1022,
