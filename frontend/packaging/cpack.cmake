@@ -1,11 +1,10 @@
-# `cpack` in the build folder makes three Debian packages (deb.cmake adds files that only packages have):
+# `cpack` in the build folder makes two Debian packages (deb.cmake adds files that only packages have):
 #   scadray           the program and everything that belongs to it
 #   scadray-validate  a package of its own, since it contains CGAL (GPL-3)
-#   libscadray-dev    static libraries, headers and the CMake package
 # The components, and so the packages, are named in the install commands; a command that names none
 # belongs to scadray.
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL scadray libscadray-dev)
+set(CPACK_COMPONENTS_ALL scadray)
 if(TARGET scadray-validate)
   list(APPEND CPACK_COMPONENTS_ALL scadray-validate)
 endif()
@@ -51,10 +50,4 @@ deb_package(scadray-validate graphics "compares what scadray draws with exact ar
 Holds what scadray makes of a design against CGAL's Nef polyhedra and against
 rays in exact arithmetic. `scadray validate` runs it."
   RECOMMENDS openscad DEPENDS "scadray (= ${PROJECT_VERSION})")
-deb_package(libscadray-dev libdevel "libraries that ray trace OpenSCAD designs
-Static libraries, headers and a CMake package: CSG trees, their subdivision and
-ray tracing, OpenGL rendering, and the import of OpenSCAD's .csg files."
-  DEPENDS libboost-program-options-dev libepoxy-dev libglm-dev libisal-dev
-          libopenexr-dev libpolyclipping-dev libpugixml-dev libspng-dev libtbb-dev
-          nlohmann-json3-dev pkg-config)
 include(CPack)
