@@ -48,9 +48,9 @@ constexpr OptionRow kOpenScadOptions[] = {
     {"animate", Takes::kText, "N",
      "N pictures of a .scad, $t from 0 to 1 - 1/N; a number is added to OUT's name; at most 4096 "
      "pictures in all"},
-    {"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"},
-    {"p,p", Takes::kText, "FILE", "customizer's parameter file, for a .scad", kAnyFile},
-    {"P,P", Takes::kText, "SET", "customizer's parameter set, for a .scad"},
+    kVariableOption,
+    kParameterFileOption,
+    kParameterSetOption,
     {"d,d", Takes::kText, "DEPS",
      "write a rule for make: the pictures, and all files that the design reads", kAnyFile},
     {"m,m", Takes::kText, "COMMAND", "make command for files that a .scad misses", kAnyCommand},
@@ -62,8 +62,8 @@ constexpr OptionRow kOpenScadOptions[] = {
     {"quiet,q", Takes::kNothing, "", "errors only"},
     {"info", Takes::kNothing, "",
      "log the renderer that is chosen; without FILE: describe this program"},
-    {"version,v", Takes::kNothing, "", "print the version"},
-    {"help,h", Takes::kNothing, "", "print this text"},
+    kVersionOption,
+    kHelpOption,
     {"render", Takes::kOptionalText, "HOW",
      "draw the solid alone: without color(), # and %; HOW has no effect"},
     {"preview", Takes::kOptionalText, "HOW",
@@ -88,8 +88,7 @@ constexpr OptionRow kOwnOptions[] = {
      "a cell is a leaf once at most K primitives' surfaces cross it; default 8"},
     {"threshold", Takes::kText, "PX",
      "cells that project below PX pixels are not subdivided; default 0: none"},
-    {"evaluator", Takes::kText, "WHO",
-     "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>},
+    kEvaluatorOption,
     {"facets", Takes::kText, "N",
      "what is round keeps OpenSCAD's facets where 0 < $fn <= N (default 8), all or none; the rest "
      "is exactly round",
@@ -108,11 +107,9 @@ constexpr OptionRow kOwnOptions[] = {
     {"stats", Takes::kText, "FILE", "counts and times as JSON; - is standard output", kAnyFile},
     {"echo", Takes::kNothing, "",
      "write what the design echoes to standard output; the window does after each save"},
-    {"openscad-timeout", Takes::kText, "SECONDS",
-     "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
-     "0: it is left out"},
-    {"skip-unsupported", Takes::kNothing, "", "without effect: what is not drawn is left out"},
-    {"threads", Takes::kText, "N", "worker threads; default: as many as there are processors"},
+    kTimeoutOption,
+    kSkipOption,
+    kThreadsOption,
 };
 
 }  // namespace

@@ -75,4 +75,24 @@ std::vector<std::string> names_of() {
 template <const auto& kWords>
 constexpr Completion kOneOf{Completion::Kind::kWord, names_of<kWords>};
 
+// Options that every program with a design has.
+constexpr OptionRow kVariableOption{"D,D", Takes::kTexts, "VAR=VALUE", "a variable of the .scad"};
+constexpr OptionRow kParameterFileOption{"p,p", Takes::kText, "FILE",
+                                         "customizer's parameter file, for a .scad", kAnyFile};
+constexpr OptionRow kParameterSetOption{"P,P", Takes::kText, "SET",
+                                        "customizer's parameter set, for a .scad"};
+constexpr OptionRow kEvaluatorOption{
+    "evaluator", Takes::kText, "WHO",
+    "what evaluates a .scad: own (scadray itself) or openscad; default own", kOneOf<kEvaluators>};
+constexpr OptionRow kTimeoutOption{
+    "openscad-timeout", Takes::kText, "SECONDS",
+    "what scadray does not draw itself is rendered by openscad, for at most so long; default 60; "
+    "0: it is left out"};
+constexpr OptionRow kSkipOption{"skip-unsupported", Takes::kNothing, "",
+                                "without effect: what is not drawn is left out"};
+constexpr OptionRow kThreadsOption{"threads", Takes::kText, "N",
+                                   "worker threads; default: as many as there are processors"};
+constexpr OptionRow kVersionOption{"version,v", Takes::kNothing, "", "print the version"};
+constexpr OptionRow kHelpOption{"help,h", Takes::kNothing, "", "print this text"};
+
 }  // namespace frontend

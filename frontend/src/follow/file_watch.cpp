@@ -92,7 +92,7 @@ void FileWatch::set_files(const std::vector<std::string>& paths, std::optional<i
   arm();
   for (File& file : files_) {
     if (before.contains(file.path)) continue;
-    file.signature = FileSignature(file.path);
+    file.signature = language::FileSignature(file.path);
     if (since && file.signature.changed_ns() >= *since - kFileClockTick_ns) {
       changed(file, kSettleOpen);
     }
@@ -136,7 +136,7 @@ bool FileWatch::update() {
 void FileWatch::look() {
   last_look_ = Clock::now();
   for (File& file : files_) {
-    if (FileSignature(file.path) == file.signature) continue;
+    if (language::FileSignature(file.path) == file.signature) continue;
     changed(file, kSettleOpen);
     outdated_ = true;
   }
@@ -144,7 +144,7 @@ void FileWatch::look() {
 
 void FileWatch::changed(File& file, Milliseconds settle) {
   const bool was_missing = !file.signature.exists();
-  file.signature = FileSignature(file.path);
+  file.signature = language::FileSignature(file.path);
   if (!file.signature.exists() && was_missing) return;
   if (!file.signature.exists() || file.signature.is_empty()) settle = kSettleMissing;
   file.settled_at = Clock::now() + settle;
@@ -226,7 +226,7 @@ void FileWatch::on_event(const inotify_event& event) {
       File& file = files_[i];
       if ((event.mask & (IN_MODIFY | IN_CLOSE_WRITE)) != 0) {
         changed(file, (event.mask & IN_CLOSE_WRITE) != 0 ? kSettleClosed : kSettleOpen);
-      } else if (FileSignature(file.path) != file.signature) {
+      } else if (language::FileSignature(file.path) != file.signature) {
         changed(file, kSettleClosed);
       }
     }

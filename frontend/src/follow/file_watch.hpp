@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/descriptor.hpp"
-#include "base/file_signature.hpp"
+#include "language/file_signature.hpp"
 
 struct inotify_event;
 
@@ -64,7 +64,7 @@ class FileWatch {
  private:
   struct File {
     std::string path;
-    FileSignature signature;
+    language::FileSignature signature;
     std::optional<Clock::time_point> settled_at;  // when its change counts as complete
   };
   /// A file that depends on a name in a folder. `is_last`: the name is the file's own.

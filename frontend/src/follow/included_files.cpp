@@ -71,7 +71,7 @@ std::vector<std::string> places_of(const std::string& name, const std::string& i
     places.push_back((folder / name).lexically_normal().string());
   }
   const auto found = std::find_if(places.begin(), places.end(), [](const std::string& path) {
-    return FileSignature(path).is_regular();
+    return language::FileSignature(path).is_regular();
   });
   if (found != places.end()) return {*found};
   return places;
@@ -125,22 +125,22 @@ std::vector<std::string> IncludedFiles::of(const std::string& scad_path) {
 std::vector<std::string> IncludedFiles::fonts_of(const std::string& scad_path) {
   std::vector<std::string> paths = of(scad_path);
   std::erase_if(paths, [](const std::string& path) {
-    return !is_font_name(path) || !FileSignature(path).is_regular();
+    return !is_font_name(path) || !language::FileSignature(path).is_regular();
   });
   return paths;
 }
 
 const std::vector<std::string>& IncludedFiles::names_in(const std::string& path) {
   Known& known = known_[path];
-  const FileSignature signature(path);
+  const language::FileSignature signature(path);
   if (signature == known.signature) return known.names;
   known = {signature, {}};
   if (!signature.is_regular() || is_font_name(path)) return known.names;
   try {
     known.names = included_names(read_file(path).view());
   } catch (const Error&) {
-    known.signature =
-        FileSignature();  // the file vanished, or may not be read: examine it again next time
+    known.signature = language::FileSignature();  // the file vanished, or may not be read: examine
+                                                  // it again next time
   }
   return known.names;
 }

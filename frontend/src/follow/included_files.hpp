@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file_signature.hpp"
+#include "language/file_signature.hpp"
 
 namespace frontend {
 
@@ -30,7 +30,7 @@ class IncludedFiles {
 
  private:
   struct Known {
-    FileSignature signature;
+    language::FileSignature signature;
     std::vector<std::string> names;
   };
   const std::vector<std::string>& names_in(const std::string& path);

@@ -128,7 +128,7 @@ void FontStock::use_files(const std::vector<std::string>& files) {
   sources_ = std::move(sources);
   found_.clear();
   std::erase_if(faces_, [](const auto& entry) {
-    return !(entry.second.signature == FileSignature(entry.first.first));
+    return !(entry.second.signature == language::FileSignature(entry.first.first));
   });
   load_list();
 }
@@ -192,7 +192,7 @@ std::shared_ptr<FontFace> FontStock::open(const std::string& path, int index) {
   if (freetype_ == nullptr) return nullptr;
   const auto [entry, is_new] = faces_.try_emplace({path, index});
   if (!is_new) return entry->second.face;
-  entry->second.signature = FileSignature(path);
+  entry->second.signature = language::FileSignature(path);
   try {
     entry->second.face = FontFace::open(libraries_, freetype_, read_regular_file(path), index);
   } catch (const Error&) {  // the file vanished: there is no face

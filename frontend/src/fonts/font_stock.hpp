@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/file_signature.hpp"
 #include "fonts/font_face.hpp"
 #include "fonts/font_libraries.hpp"
+#include "language/file_signature.hpp"
 
 namespace frontend {
 
@@ -55,11 +55,11 @@ class FontStock {
   struct Sources {
     std::vector<std::string> folders;
     std::vector<std::string> files;
-    std::vector<FileSignature> signatures;  // of the files
+    std::vector<language::FileSignature> signatures;  // of the files
     bool operator==(const Sources& other) const = default;
   };
   struct OpenFace {
-    FileSignature signature;
+    language::FileSignature signature;
     std::shared_ptr<FontFace> face;
   };
 

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 #include <optional>
 
 #include "base/angles.hpp"
+#include "language/degrees.hpp"
 
 namespace frontend {
 namespace {
@@ -372,8 +372,8 @@ std::optional<Recognised> recognise_axis_angle(const Mat3& file, const Mat3& hal
   for (int decimals = 0; decimals <= kMeantDecimals; ++decimals) {
     const std::optional<Vec3> rounded = rounded_angles(angle, decimals, slack_deg);
     if (!rounded) continue;
-    const double sine = sin_deg(rounded->x);
-    const double cosine = cos_deg(rounded->x);
+    const double sine = language::sine_of_degrees(rounded->x);
+    const double cosine = language::cosine_of_degrees(rounded->x);
     const Mat3 rotation =
         cosine * Mat3(1.0) + (1 - cosine) * projector(*axis) + sine * cross_product(*axis);
     if (prints_alike(rotation, file, half)) return Recognised{rotation, true};
@@ -488,28 +488,13 @@ double typed_error(double value) {
   return digits < kLeast ? 0 : 0.5 * power_of_ten(exponent + 1 - digits);
 }
 
-double sin_deg(double angle_deg) {
-  double angle = std::remainder(angle_deg, 360.0);
-  if (angle > 90) angle = 180 - angle;
-  if (angle < -90) angle = -180 - angle;
-  const double size = std::abs(angle);
-  double sine = std::sin(size * kDegree);
-  if (size == 0) sine = 0;
-  if (size == 30) sine = 0.5;
-  if (size == 45) sine = std::numbers::sqrt2 / 2;
-  if (size == 60) sine = std::numbers::sqrt3 / 2;
-  if (size == 90) sine = 1;
-  return angle < 0 ? -sine : sine;
-}
-
-double cos_deg(double angle_deg) {
-  return sin_deg(90 - std::abs(std::remainder(angle_deg, 360.0)));
-}
-
 Mat3 euler_rotation(const Vec3& angles_deg) {
-  const double sx = sin_deg(angles_deg.x), cx = cos_deg(angles_deg.x);
-  const double sy = sin_deg(angles_deg.y), cy = cos_deg(angles_deg.y);
-  const double sz = sin_deg(angles_deg.z), cz = cos_deg(angles_deg.z);
+  const double sx = language::sine_of_degrees(angles_deg.x),
+               cx = language::cosine_of_degrees(angles_deg.x);
+  const double sy = language::sine_of_degrees(angles_deg.y),
+               cy = language::cosine_of_degrees(angles_deg.y);
+  const double sz = language::sine_of_degrees(angles_deg.z),
+               cz = language::cosine_of_degrees(angles_deg.z);
   return Mat3(Vec3(cy * cz, cy * sz, -sy),
               Vec3(cz * sx * sy - cx * sz, cx * cz + sx * sy * sz, cy * sx),
               Vec3(cx * cz * sy + sx * sz, cx * sy * sz - cz * sx, cx * cy));

@@ -28,10 +28,6 @@ Digits digits_of(double value);
 /// meant so, and for longer ones, which are computed. Precondition: `value` is finite.
 double typed_error(double value);
 
-/// Sine and cosine of an angle in degrees, exact at multiples of 30 and 45 (as OpenSCAD's are).
-double sin_deg(double angle_deg);
-double cos_deg(double angle_deg);
-
 /// OpenSCAD's rotate([x, y, z]): Rz·Ry·Rx.
 csgcore::Mat3 euler_rotation(const csgcore::Vec3& angles_deg);
 

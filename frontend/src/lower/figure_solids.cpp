@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "heal/matrix_healing.hpp"
+#include "language/degrees.hpp"
 
 namespace frontend {
 namespace {
@@ -164,11 +164,12 @@ Primitive FigureSolids::wedge(double angle, double radius, double z_min, double 
   constexpr double kWidestSide = 45;
   const int sides = static_cast<int>(std::ceil(angle / kWidestSide));
   constexpr double kMargin = 1.5;
-  const double reach = kMargin * radius / cos_deg(kWidestSide / 2);
+  const double reach = kMargin * radius / language::cosine_of_degrees(kWidestSide / 2);
   Polygon corners{Vec2(0.0)};
   for (int i = 0; i <= sides; ++i) {
     const double azimuth = angle * i / sides;
-    corners.push_back(reach * Vec2(cos_deg(azimuth), sin_deg(azimuth)));
+    corners.push_back(
+        reach * Vec2(language::cosine_of_degrees(azimuth), language::sine_of_degrees(azimuth)));
   }
   // The axis is no corner of half a turn.
   if (angle == 180) corners.erase(corners.begin());

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "heal/matrix_healing.hpp"
+#include "language/degrees.hpp"
 #include "lower/faceted_box.hpp"
 #include "meshes/sheet_faces.hpp"
 
@@ -73,7 +74,8 @@ class Revolving {
     sections.count = std::min(sections.count, kMostSections);
     for (int ring = 0; ring <= sections.count; ++ring) {
       const double azimuth = sections.azimuth(ring);
-      const Vec2 direction(cos_deg(azimuth), sin_deg(azimuth));
+      const Vec2 direction(language::cosine_of_degrees(azimuth),
+                           language::sine_of_degrees(azimuth));
       box.merge(Vec3(reach.min.x * direction, reach.min.y));
       box.merge(Vec3(reach.max.x * direction, reach.max.y));
     }

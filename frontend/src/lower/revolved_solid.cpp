@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "csgcore/triangle_mesh.hpp"
-#include "heal/matrix_healing.hpp"
+#include "language/degrees.hpp"
 #include "meshes/triangulation.hpp"
 
 namespace frontend {
@@ -69,7 +69,8 @@ class RevolvedMesh {
           continue;
         }
         ring.push_back(static_cast<uint32_t>(vertices_.size()));
-        vertices_.emplace_back(at.x * cos_deg(azimuth), at.x * sin_deg(azimuth), at.y);
+        vertices_.emplace_back(at.x * language::cosine_of_degrees(azimuth),
+                               at.x * language::sine_of_degrees(azimuth), at.y);
       }
     }
   }

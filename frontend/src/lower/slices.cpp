@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "heal/matrix_healing.hpp"
+#include "language/degrees.hpp"
 
 namespace frontend {
 namespace {
@@ -93,8 +93,9 @@ double TwistedLayers::largest_scale() const { return std::max({1.0, top_scale.x,
 
 Vec2 TwistedLayers::point_at(double share, const Vec2& point) const {
   const double angle = -share * twist;
-  const Vec2 turned(cos_deg(angle) * point.x - sin_deg(angle) * point.y,
-                    sin_deg(angle) * point.x + cos_deg(angle) * point.y);
+  const Vec2 turned(
+      language::cosine_of_degrees(angle) * point.x - language::sine_of_degrees(angle) * point.y,
+      language::sine_of_degrees(angle) * point.x + language::cosine_of_degrees(angle) * point.y);
   return scale_at(share) * turned;
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/angles.hpp"
-#include "heal/matrix_healing.hpp"
+#include "language/degrees.hpp"
 
 namespace frontend {
 namespace {
@@ -289,7 +289,8 @@ Polygon circle_polygon(const Disc& disc, int fragments) {
   Polygon polygon;
   for (int i = 0; i < fragments; ++i) {
     const double angle = 360.0 * i / fragments;
-    polygon.push_back(disc.center + disc.radius * Vec2(cos_deg(angle), sin_deg(angle)));
+    polygon.push_back(disc.center + disc.radius * Vec2(language::cosine_of_degrees(angle),
+                                                       language::sine_of_degrees(angle)));
   }
   return polygon;
 }

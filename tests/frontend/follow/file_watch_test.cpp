@@ -116,7 +116,7 @@ TEST(FileWatch, TheLastFileToSettleCounts) {
 TEST(FileWatch, WhatWasReadBeforeItWasWatchedMayHaveChanged) {
   const TemporaryFolder folder;
   const std::string old = folder.write("old", "x");
-  const int64_t changed_ns = FileSignature(old).changed_ns();
+  const int64_t changed_ns = language::FileSignature(old).changed_ns();
   FileWatch watch(false, kNever);
   watch.set_files({old}, changed_ns + 1'000'000'000);
   EXPECT_FALSE(watch.update());

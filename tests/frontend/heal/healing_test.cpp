@@ -172,20 +172,6 @@ TEST(HealingDigits, BoundTheRoundingOfAnyNumber) {
   }
 }
 
-TEST(HealingAngles, AreExactWhereOpenScadsAre) {
-  EXPECT_EQ(sin_deg(30), 0.5);
-  EXPECT_EQ(cos_deg(60), 0.5);
-  EXPECT_EQ(sin_deg(-150), -0.5);
-  EXPECT_EQ(cos_deg(90), 0);
-  EXPECT_EQ(sin_deg(720), 0);
-  EXPECT_EQ(cos_deg(180), -1);
-  EXPECT_EQ(sin_deg(45), cos_deg(45));
-  for (int angle = -720; angle <= 720; ++angle) {
-    EXPECT_NEAR(sin_deg(angle), std::sin(angle * M_PI / 180), 1e-14) << angle;
-    EXPECT_NEAR(cos_deg(angle), std::cos(angle * M_PI / 180), 1e-14) << angle;
-  }
-}
-
 // --- Matrices -------------------------------------------------------------------------------
 
 Mat3 healed(const Mat3& design) { return heal_matrix(as_printed(Affine{design, {}})).map.linear; }

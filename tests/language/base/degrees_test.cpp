@@ -1,4 +1,4 @@
-#include "base/degrees.hpp"
+#include "language/degrees.hpp"
 
 #include <gtest/gtest.h>
 

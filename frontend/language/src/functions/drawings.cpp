@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
-#include "base/degrees.hpp"
 #include "base/number_text.hpp"
 #include "base/read_file.hpp"
 #include "functions/functions.hpp"
+#include "language/degrees.hpp"
 #include "language/dxf.hpp"
 #include "language/dxf_chains.hpp"
 #include "values/make.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/degrees.hpp"
 #include "functions/functions.hpp"
+#include "language/degrees.hpp"
 #include "values/operators.hpp"
 
 namespace language::functions {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/degrees.hpp"
+#include "language/degrees.hpp"
 #include "modules/makers.hpp"
 #include "modules/node_values.hpp"
 #include "values/make.hpp"

@@ -24,7 +24,7 @@ std::shared_ptr<KeptFile> KeptSources::open(
   if (is_new) files_.emplace_back();
   Entry& entry = files_[known->second];
   const FileSignature signature(path);
-  const bool is_same = entry.file && entry.signature.is_settled() && signature == entry.signature;
+  const bool is_same = entry.file && signature.has_bytes_of(entry.signature);
   if (!is_same) {
     auto bytes = read_regular_file(path);
     if (!bytes) return nullptr;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/file_signature.hpp"
 #include "base/name_table.hpp"
+#include "language/file_signature.hpp"
 #include "syntax/kept_file.hpp"
 
 namespace language {
