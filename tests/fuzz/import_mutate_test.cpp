@@ -1,33 +1,24 @@
-// Damages files that designs import, of every format, in ways that depend only on a seed. Each is
-// read, whatever it holds, or told of at its node. SCADRAY_FUZZ_ITERATIONS sets the length,
-// SCADRAY_FUZZ_SEED the first seed.
+// Damages files that designs import, of every format (mutator.hpp). Each is read, whatever it
+// holds, or told of at its node.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <random>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "frontend/importer.hpp"
 #include "frontend/parser.hpp"
+#include "mutator.hpp"
 
 namespace {
 
 constexpr uint64_t kSample = 150;  // of each format
 
-uint64_t setting(const char* name, uint64_t otherwise) {
-  const char* const text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 std::string content_of(const std::string& name) {
-  std::ifstream file(std::string(SCADRAY_FUZZ_FILES) + '/' + name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return fuzz::content_of(std::string(SCADRAY_FUZZ_FILES) + '/' + name);
 }
 
 /// What numbers, indices and lengths may be, and what stands around them.
@@ -82,58 +73,6 @@ constexpr std::string_view kWords[] = {
     "PK\x05\x06",
 };
 
-class Mutator {
- public:
-  explicit Mutator(uint64_t seed) : random_(seed) {}
-
-  std::string damaged(std::string text) {
-    for (size_t changes = 1 + below(5); changes > 0; --changes) change(text);
-    return text;
-  }
-
- private:
-  size_t below(size_t limit) { return limit == 0 ? 0 : random_() % limit; }
-
-  void change(std::string& text) {
-    constexpr size_t kLongest = 100;
-    const size_t at = below(text.size() + 1);
-    const size_t length = below(std::min(text.size() - at, kLongest) + 1);
-    const std::string_view word = kWords[below(std::size(kWords))];
-    switch (below(8)) {
-      case 0:
-        if (at < text.size()) text[at] = static_cast<char>(random_());
-        break;
-      case 1:
-        if (at < text.size()) text[at] ^= static_cast<char>(1u << below(8));
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(below(text.size() + 1), text.substr(at, length));
-        break;
-      case 4:
-        if (below(4) == 0) text.resize(at);
-        break;
-      case 5:
-        text.insert(at, word);
-        break;
-      default:
-        replace_number(at, word, text);
-    }
-  }
-
-  /// Puts the word in the place of the next number.
-  static void replace_number(size_t at, std::string_view word, std::string& text) {
-    const size_t begin = text.find_first_of("0123456789", at);
-    if (begin == std::string::npos) return;
-    const size_t end = std::min(text.find_first_not_of("0123456789.", begin), text.size());
-    text.replace(begin, end - begin, word);
-  }
-
-  std::mt19937_64 random_;
-};
-
 const std::string kSvg =
     "<svg width=\"40mm\" height=\"30\" viewBox=\"0 0 40 30\"><g transform=\"rotate(5 1 2) "
     "scale(2,1)\"><path d=\"M1,1 h5 v3 C9,9 8,3 4,1 A2,3 10 0 1 7,7 z m1 1 l2 2 q1 0 3 3 t1 1\"/>"
@@ -161,12 +100,9 @@ class MutatedImports : public testing::Test {
 
   /// Damages the file that a design reads under that name.
   void run(const std::string& name, const std::string& content, const std::string& design) {
-    const uint64_t first = setting("SCADRAY_FUZZ_SEED", 1);
-    const uint64_t count = setting("SCADRAY_FUZZ_ITERATIONS", kSample);
-    for (uint64_t seed = first; seed < first + count; ++seed) {
-      const std::string damaged = Mutator(seed).damaged(content);
+    SCOPED_TRACE(name);
+    fuzz::for_each_damaged(kWords, {&content, 1}, kSample, [&](const std::string& damaged) {
       std::ofstream(folder_ + '/' + name, std::ios::binary) << damaged;
-      SCOPED_TRACE("SCADRAY_FUZZ_SEED=" + std::to_string(seed) + " " + name);
       const std::clock_t start = std::clock();
       const frontend::SyntaxTree tree = frontend::parse(design, "fuzz.csg");
       const auto import = frontend::import_design(tree, {.folder = folder_});
@@ -175,7 +111,7 @@ class MutatedImports : public testing::Test {
       for (const frontend::Warning& warning : import.warnings) {
         ASSERT_TRUE(warning.text.starts_with("fuzz.csg:1:")) << warning.text;
       }
-    }
+    });
   }
 
  private:
