@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <random>
 #include <utility>
 
 #include "frontend/camera.hpp"
-#include "reference_check.hpp"
 #include "support/reference.hpp"
 
 namespace frame_benchmark {
@@ -18,7 +18,6 @@ namespace {
 using csgcore::FrameSettings;
 using csgcore::Hits;
 using csgcore::Image;
-using csgcore::Scene;
 using csgcore::Subdivision;
 using csgcore::TraceOptions;
 using csgcore::TraceStats;
@@ -37,6 +36,40 @@ double median_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+/// Returns pixels that show something, and seeded ones of any kind: most wrong pixels of a wrong
+/// answer are hits, but all of them may be missing.
+std::vector<size_t> sampled_pixels(const Hits& hits) {
+  constexpr size_t kHits = 80;
+  constexpr size_t kAny = 40;
+  std::vector<size_t> seen;
+  for (size_t i = 0; i < hits.primitive.size(); ++i) {
+    if (hits.primitive[i] != Hits::kMiss) seen.push_back(i);
+  }
+  std::mt19937 random(1);
+  std::vector<size_t> sample;
+  for (size_t i = 0; i < kHits && !seen.empty(); ++i) {
+    sample.push_back(seen[random() % seen.size()]);
+  }
+  for (size_t i = 0; i < kAny; ++i) sample.push_back(random() % hits.primitive.size());
+  return sample;
+}
+
+/// Returns whether some hundred pixels show what the reference does, unless that is undecided.
+bool agrees_with_reference(const csgcore::Scene& scene, const csgcore::View& view,
+                           const Hits& hits) {
+  const csgcore::Reference reference(scene, view);
+  const double far = csgcore::kReferencePositionError * reference.model_size();
+  for (const size_t pixel : sampled_pixels(hits)) {
+    const uint32_t x = static_cast<uint32_t>(pixel % hits.width_px);
+    const uint32_t y = static_cast<uint32_t>(pixel / hits.width_px);
+    const csgcore::ReferenceHit expected = reference.at(x, y);
+    const bool same = hits.primitive[pixel] == expected.primitive &&
+                      (!expected.hit() || std::abs(hits.s[pixel] - double(expected.s)) <= far);
+    if (!same && !reference.undecided(x, y)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -73,9 +106,9 @@ double Subject::subdivide_ms() const {
 }
 
 TraceStats Subject::draw(const Drawing& drawing, Image& image) const {
+  static const FrameSettings settings = cornfield();
   TraceOptions options;
   options.threads = drawing.threads;
-  static const FrameSettings settings = cornfield();
   TraceStats stats;
   if (drawing.method == Method::kTiles) {
     csgcore::draw(solid_, view_, settings, options, image, stats);
@@ -90,21 +123,6 @@ Hits Subject::hits() const {
   TraceStats stats;
   csgcore::trace(solid_, view_, TraceOptions{}, hits, stats);
   return hits;
-}
-
-bool sees_the_same(const Subject& alone, const Subject& grown) {
-  const csgcore::Reference reference(alone.scene(), alone.view());
-  const double far = csgcore::kReferencePositionError * reference.model_size();
-  const Hits a = alone.hits();
-  const Hits b = grown.hits();
-  for (size_t i = 0; i < a.primitive.size(); ++i) {
-    const bool same = a.primitive[i] == b.primitive[i] &&
-                      (a.primitive[i] == Hits::kMiss || std::abs(a.s[i] - b.s[i]) <= far);
-    const uint32_t x = static_cast<uint32_t>(i % a.width_px);
-    const uint32_t y = static_cast<uint32_t>(i / a.width_px);
-    if (!same && !reference.undecided(x, y)) return false;
-  }
-  return true;
 }
 
 void give_up(const std::string& what) {
@@ -153,43 +171,6 @@ void report(const Times& times, benchmark::State& state) {
   state.counters["median_ms"] = times.median();
   state.counters["least_ms"] = times.least();
   state.counters["cpu_ms"] = times.cpu();
-}
-
-void require_agreement(const Subject& subject) {
-  Image tiles, cells;
-  subject.draw({Method::kTiles, 2}, tiles);
-  subject.draw({Method::kCells, 2}, cells);
-  if (tiles.rgb != cells.rgb) give_up("tiles and cells disagree");
-}
-
-void time_first_pictures(benchmark::State& state, const View& view,
-                         const std::function<Scene()>& make) {
-  Times times;
-  for (auto _ : state) {
-    Image image;
-    times.measure([&] {
-      const Subject subject(make(), view);
-      subject.draw({Method::kTiles, 2}, image);
-    });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  report(times, state);
-}
-
-void time_frames(benchmark::State& state, const Subject& subject, const Drawing& drawing) {
-  Times times;
-  Image image;
-  TraceStats stats = subject.draw(drawing, image);
-  for (auto _ : state) {
-    times.measure([&] { stats = subject.draw(drawing, image); });
-    state.SetIterationTime(times.last() / 1000);
-  }
-  report(stats, state);
-  report(times, state);
-}
-
-void add(const std::string& name, const std::function<void(benchmark::State&)>& work) {
-  benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
 }
 
 }  // namespace frame_benchmark

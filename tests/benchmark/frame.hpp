@@ -57,10 +57,6 @@ class Subject {
   mutable double subdivide_ms_ = 0;
 };
 
-/// Returns whether both see the same primitives at the same places, except at silhouettes: the
-/// grown solid's larger box moves the rays' origins, and so changes their last bits.
-bool sees_the_same(const Subject& alone, const Subject& grown);
-
 /// Ends the program, so that nobody sees a time of a wrong answer.
 [[noreturn]] void give_up(const std::string& what);
 
@@ -98,17 +94,5 @@ double time_ms(const std::function<void()>& work);
 void report(const csgcore::TraceStats& stats, benchmark::State& state);
 /// Reports the times as median_ms, least_ms and cpu_ms.
 void report(const Times& times, benchmark::State& state);
-
-/// Gives up if the subject's pictures by tiles and by cells are not the same, bit for bit.
-void require_agreement(const Subject& subject);
-
-/// Times the way from a scene in memory, which `make` makes, to its first picture by two threads.
-void time_first_pictures(benchmark::State& state, const csgcore::View& view,
-                         const std::function<csgcore::Scene()>& make);
-/// Times further pictures of the subject.
-void time_frames(benchmark::State& state, const Subject& subject, const Drawing& drawing);
-
-/// Adds a benchmark that sets the times of its iterations itself.
-void add(const std::string& name, const std::function<void(benchmark::State&)>& work);
 
 }  // namespace frame_benchmark

@@ -12,7 +12,10 @@
 
 #include "base/simd.hpp"
 #include "frame.hpp"
-#include "named_design.hpp"
+#include "frontend/design_file.hpp"
+#include "frontend/evaluator.hpp"
+#include "frontend/importer.hpp"
+#include "support/models.hpp"
 
 namespace {
 
@@ -20,12 +23,38 @@ using csgcore::Image;
 using csgcore::Scene;
 using csgcore::SimdLevel;
 using csgcore::Solid;
-using frame_benchmark::Design;
 using frame_benchmark::Drawing;
 using frame_benchmark::Method;
 using frame_benchmark::PictureSize;
 using frame_benchmark::Subject;
 using frame_benchmark::Times;
+
+struct Design {
+  Scene scene;
+  csgcore::Box view_box;
+};
+
+Design read_example(const std::string& name) {
+  frontend::DesignFileOptions reading;
+  reading.evaluator = frontend::kDefaultEvaluator;
+  reading.message = [](const std::string& line) { frame_benchmark::give_up(line); };
+  reading.progress = [](const char*) {};
+  frontend::DesignFile file =
+      frontend::read_design(std::string(SCADRAY_EXAMPLES_DIR) + "/" + name + ".scad", reading);
+  frontend::ImportedDesign design = frontend::import_design(file);
+  return {std::move(design.scene), design.view_box};
+}
+
+/// Makes CSn or CCn in memory, or reads an example.
+Design make_design(const std::string& name) {
+  const std::string kind = name.substr(0, 2);
+  if (kind != "CS" && kind != "CC") return read_example(name);
+  const auto n = static_cast<uint32_t>(std::stoul(name.substr(2)));
+  Scene scene = kind == "CS" ? test_support::cylinder_minus_spheres(n)
+                             : test_support::cylinder_minus_cones(n);
+  const csgcore::Solid solid(csgcore::canonical_primitives(scene), scene.model);
+  return {std::move(scene), solid.bounds()};
+}
 
 struct Checked {
   Checked(Design design, const PictureSize& size)
@@ -39,7 +68,7 @@ struct Checked {
 Checked& design_of(const std::string& name, const PictureSize& size) {
   static std::map<std::pair<std::string, uint32_t>, std::unique_ptr<Checked>> designs;
   auto& design = designs[{name, size.width_px}];
-  if (!design) design = std::make_unique<Checked>(frame_benchmark::make_design(name), size);
+  if (!design) design = std::make_unique<Checked>(make_design(name), size);
   return *design;
 }
 
@@ -82,7 +111,7 @@ void draw_frames(benchmark::State& state, const Run& run) {
 
 /// Does what is done once per file, between the import and the first picture.
 void prepare(benchmark::State& state, const std::string& name) {
-  const Scene scene = frame_benchmark::make_design(name).scene;
+  const Scene scene = make_design(name).scene;
   Times times;
   for (auto _ : state) {
     std::unique_ptr<Solid> solid;
